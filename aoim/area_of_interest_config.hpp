@@ -46,12 +46,12 @@ struct AreaOfInterestConfig {
   std::function<Position(const pdu::WorldCoordinates&)> locate;
   /// Recipient tiers by distance; empty: all receivers get everything. See ReceiverChannels.
   std::vector<Channel> channels;
-  /// How far entities sense [m], >= 0. The part of a focus radius beyond it is added to the end of
-  /// each row of channels.
+  /// Sensing radius of entities [m], >= 0. The part of a focus radius beyond it is added to the end
+  /// of each row of channels.
   double radius = 0.0;
   /// Largest nimbus of any entity [m], >= 0. Cells are joined this much farther away.
   double farthest_nimbus = 0.0;
-  /// Kinds of the recipient tiers besides the cell's, see TierTable. Each cell has a group for each
+  /// Kinds of all recipient tiers except the cell's, see TierTable. Each cell has a group for each
   /// of them, and the pool's numbers are repeated for each. Equal for all peers of a scene, with
   /// equal channels. One tier that runs ahead for each inner row of `channels`, or none; the
   /// nearest of these rows has the thresholds of the scene. Excludes `interop`, groups that leaders

@@ -129,7 +129,7 @@ SubscriptionChange AreaOfInterestManager::listen_to_cells(std::span<const Focus>
     for (const GroupIndex group : change.leave) joins_.asks().leave(group);
   }
   if (leading_) return leading_->follow(change, now + utc_offset_, now);
-  // Whoever receives our start introduces everything.
+  // Each peer that receives our start introduces all its entities.
   for (const GroupIndex group : change.join)
     joins_.asks().join(group, subscriptions_.cells().cell(group), started_, now);
   return change;
@@ -151,8 +151,8 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (incoming.sequence && group.value <= cells_.groups()) joins_.asks().note_heard(group);
   }
 
-  // Presence is heard from everyone but ourselves: it is what changes a sender's standing, and it
-  // knows impostors from peers that have moved.
+  // Presence PDUs are read from all senders except ourselves: they change a sender's standing, and
+  // distinguish impostors from peers that have moved.
   const bool fresh = is_usable(incoming.verdict) ||
                      incoming.verdict == IncomingVerdict::other_scene ||
                      incoming.verdict == IncomingVerdict::former_life ||
@@ -162,7 +162,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
-  // It may have announced itself in this very datagram.
+  // The sender may have announced itself in this datagram.
   if (incoming.verdict == IncomingVerdict::use &&
       presence_.standing(trailer->epoch) != Standing::member) {
     incoming.verdict = IncomingVerdict::stranger;
@@ -174,8 +174,8 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   return incoming;
 }
 
-// One network carries many exercises: who is of another is neither a newcomer nor disputes an
-// address, whatever its datagram says besides.
+// A network may carry many exercises: a peer of another exercise is no newcomer and disputes no ID,
+// with any other content of its datagram.
 bool AreaOfInterestManager::is_of_exercise(
     GroupIndex group, std::span<const std::byte> datagram,
     const std::optional<pdu::DatagramTrailer>& trailer) const noexcept {
@@ -194,7 +194,7 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group, const So
   if (standing == Standing::impostor) return IncomingVerdict::impostor;
   if (!subscriptions_.hears(group)) return IncomingVerdict::not_joined;
   if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
-  // Until it has announced itself nobody knows whose numbers these are.
+  // Before its announcement, the owner of these sequence numbers is unknown.
   if (standing == Standing::unknown) return IncomingVerdict::use;
 
   incoming.sequence = sequences_.note(trailer.epoch, group, trailer.sequence);
@@ -225,8 +225,7 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
   conclude(now);
 }
 
-// Who joins a cell has not heard its entities yet. What is asked again of us is known by its
-// instant.
+// A peer that joins a cell lacks its entities. The time of a request identifies a repetition.
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
                                             const SourceAddress& from) {
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
@@ -247,12 +246,13 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   }
 }
 
-// Draws the consequences of what presence found out, and keeps the events for the peer.
+// Applies the events of presence, and keeps them for the peer.
 void AreaOfInterestManager::conclude(nanoseconds now) {
   for (const PresenceEvent& event : presence_.take_events()) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
-        introduce_ = introduce_ || !leading_;  // it asks the leaders of its cells
+        introduce_ =
+            introduce_ || !leading_;  // with leaders, the newcomer asks the leaders of its cells
         break;
       case PresenceEventKind::renamed:
         introduce_ = true;
@@ -262,7 +262,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         if (leading_) leading_->role().forget(event.former_epoch, now);
         introduce_ = introduce_ || !leading_;
         break;
-      case PresenceEventKind::moved:  // what was counted of it may have been another's
+      case PresenceEventKind::moved:  // its counts may come from another sender
         sequences_.forget(event.announced.epoch);
         break;
       case PresenceEventKind::departed:
@@ -275,9 +275,10 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         introduce_ = true;
         break;
       case PresenceEventKind::settled:
-        // Until now somebody may have taken us for the rival of a former life, and dropped all.
+        // Until now a peer may have taken us for a rival of a former epoch, and dropped our
+        // entities.
         if (!presence_.peers().empty()) introductions_.begin(kBaseGroup, {}, now);
-        continue;  // no news for the peer
+        continue;  // not reported to the peer
       case PresenceEventKind::heard_late:
         if (!leading_) introductions_.begin(kBaseGroup, event.heard_for, now);
         continue;
@@ -314,7 +315,7 @@ void AreaOfInterestManager::announce(nanoseconds now) {
   conclude(now);
   for (const pdu::Presence& announced : outgoing) {
     const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
-    // Entities that came before we are known would be dropped.
+    // Peers would drop entities that arrive before our announcement.
     if (introduce_ && !leaves) introductions_.begin(kBaseGroup, {}, now);
     introduce_ = introduce_ && leaves;
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;

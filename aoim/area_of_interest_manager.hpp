@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The layer between a peer and the link. Four duties, and the control traffic they need:
-//   1 route      an entity's position -> the group its PDUs go to
+//   1 route an entity's position -> the group of its PDUs
 //   2 subscribe  my entities' foci -> groups to join and to leave
 //   3 filter     an incoming datagram, then each remote entity -> use or drop, with counts
 //   4 aggregate  PDUs -> datagrams per group, by size and deadline
@@ -80,8 +80,8 @@ class AreaOfInterestManager {
   };
   /// Whether this entity's Entity State must be sent to the tier now, besides thresholds and
   /// heartbeat. True if a newcomer of the tier may lack it, or if the entity has entered a cell
-  /// with another group than that of its last update. For the cell's tier, `last` is the last
-  /// complete update.
+  /// with another group since its last update. For the cell's tier, `last` is the last complete
+  /// update.
   [[nodiscard]] bool must_send(std::size_t tier, const pdu::EntityId& entity,
                                const Position& position, const LastSent& last,
                                std::chrono::nanoseconds now) const noexcept;
@@ -199,7 +199,7 @@ class AreaOfInterestManager {
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step
-  std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
+  std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< time of the last one
   PeersHeardEncoder peers_heard_;
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};

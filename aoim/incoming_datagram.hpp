@@ -18,14 +18,14 @@ enum class IncomingVerdict : std::uint8_t {
   use,             ///< from a member: same scene, present epoch
   plain,           ///< without trailer: plain DIS from a guest, use it
   own,             ///< our own, looped back
-  not_joined,      ///< of a group that was left or never joined
-  other_scene,     ///< of a peer with another scene, which was reported and not joined
-  former_life,     ///< of a former epoch of the sender
+  not_joined,      ///< in a group that was left or never joined
+  other_scene,     ///< from a peer with another scene, which was reported and not joined
+  former_life,     ///< from a former epoch of the sender
   duplicate,       ///< received before
   too_old,         ///< so stale that it may be a duplicate
   other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
   impostor,        ///< its trailer names a peer that has another address
-  /// Of a sender that has not announced itself and may have another scene. After its announcement
+  /// From a sender that has not announced itself and may have another scene. After its announcement
   /// it introduces its entities to us.
   stranger,
 };
@@ -36,12 +36,12 @@ inline constexpr std::size_t kIncomingVerdicts = 11;
   return verdict == IncomingVerdict::use || verdict == IncomingVerdict::plain;
 }
 
-/// Answer to one incoming datagram.
+/// Result for one incoming datagram.
 struct Incoming {
   IncomingVerdict verdict = IncomingVerdict::plain;
   /// Valid unless the verdict is `plain`: sequence, epoch and send time of the sender.
   pdu::DatagramTrailer trailer;
-  /// What the sequence number shows, for a datagram of a known peer in a joined group.
+  /// Result of the sequence number, for a datagram of a known peer in a joined group.
   std::optional<SequenceVerdict> sequence;
 };
 

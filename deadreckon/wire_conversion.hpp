@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Conversion of wire records to models and back. All values that could upset the mathematics are
-// refused here, with a reason that is counted.
+// Conversion of wire records to models and back. All values for which the formulas would fail are
+// rejected here, with a reason for counters.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace reckon::deadreckon {
 
-/// Why a record was refused.
+/// Reason for the rejection of a record.
 enum class ConversionError : std::uint8_t {
   none,
   not_finite,          ///< A NaN or an infinity.
   location_range,      ///< Farther than kLargestLocation from the earth's centre.
   speed_range,         ///< Velocity, acceleration or angular velocity past its limit.
   kind_unknown,        ///< A force model of a kind or order that is not evaluated here.
-  negative_stiffness,  ///< k1 or k3 below zero: a spring that pushes itself.
+  negative_stiffness,  ///< k1 or k3 below zero: a spring that amplifies its deflection.
   negative_damping,    ///< Damping below zero.
   negative_mass,       ///< Mass below zero.
   stiffness_range,     ///< k1, k3, damping or mass past its limit.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Bundles: several whole PDUs in one datagram. The writer keeps the order that older receivers
-// tolerate. The reader steps by length fields and never loses a good PDU because of a bad neighbour
-// with a credible length.
+// tolerate. The reader steps by length fields. A damaged PDU with a credible length does not hide
+// the PDUs after it.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace reckon::pdu {
 
 /// Place of a PDU type in a bundle: Entity State 0, other standard types 1, Attribute 2,
-/// experimental 3, datagram trailer 4; a unicast frame precedes all. Ranks never fall within a
+/// experimental 3, datagram trailer 4; a unicast frame precedes all. Ranks never decrease within a
 /// bundle.
 [[nodiscard]] constexpr std::uint8_t bundle_rank(PduType type) noexcept {
   if (type == PduType::entity_state || type == PduType::unicast_frame) return 0;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// All fields that PDUs may have, of each type an example, and where among them a path leads.
+// Lists all fields that PDUs may have, from an example of each type, and finds the fields that a
+// path names.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 
 namespace reckon::pdu {
 
-/// The records around the field that is visited, from the PDU on.
+/// The records that enclose the visited field, from the PDU inwards.
 class FieldPlace {
  public:
   [[nodiscard]] bool is_full() const { return depth_ == parts_.size(); }
@@ -33,7 +34,7 @@ class FieldPlace {
   std::size_t depth_ = 0;
 };
 
-/// The path of the fields that are sought, without a bit field.
+/// The path of the wanted fields, without a bit field.
 struct FieldGoal {
   std::span<const FieldPath::Part> parts;
   bool whole = false;  ///< the path begins at the PDU
@@ -49,7 +50,7 @@ struct FieldGoal {
                       around.end() - static_cast<std::ptrdiff_t>(outer.size()),
                       [](const auto& wanted, const auto& there) { return is_same(there, wanted); });
   }
-  /// Whether it may be inside a record at this place.
+  /// Whether a wanted field may be inside a record at this place.
   [[nodiscard]] bool may_be_in(const FieldPlace& place, const FieldPath::Part& record) const {
     if (!whole) return true;
     const std::size_t depth = place.parts().size();
@@ -63,7 +64,7 @@ struct FieldGoal {
   }
 };
 
-/// Records that are one value.
+/// Records that count as one value.
 template <typename T>
 concept OneId =
     std::same_as<T, EntityId> || std::same_as<T, LiveEntityId> || std::same_as<T, EventId> ||
@@ -88,7 +89,7 @@ class FieldList {
   static constexpr bool kExamples = true;
   FieldList(void* context, Report callback) : context_(context), report_(callback) {}
 
-  /// The fields that follow are those of PDUs of this type.
+  /// The fields reported from now on belong to PDUs of this type.
   void begin(PduType type) { type_ = type; }
   template <typename Record>
   bool enter(std::string_view name, std::size_t index, const Record&) {
@@ -132,7 +133,7 @@ class FieldList {
   PduType type_ = PduType::other;
 };
 
-/// Reports the fields of each type, or of one. A type without a field table has a header.
+/// Reports the fields of each type, or of one. A type without a field table has only a header.
 void list_fields(FieldList& list, std::optional<PduType> only);
 
 }  // namespace reckon::pdu

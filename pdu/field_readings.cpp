@@ -26,7 +26,7 @@ void put_digits(TextSink& sink, std::uint64_t value, unsigned digits) {
   sink.number(value);
 }
 
-/// "01:15.999999" of a part of an hour.
+/// Writes a time past the hour as "01:15.999999", in minutes and seconds.
 void put_minutes(TextSink& sink, std::chrono::nanoseconds past_hour) {
   const auto micros =
       static_cast<std::uint64_t>(std::chrono::duration_cast<microseconds>(past_hour).count());
@@ -37,7 +37,8 @@ void put_minutes(TextSink& sink, std::chrono::nanoseconds past_hour) {
   put_digits(sink, micros % 1'000'000, 6);
 }
 
-/// A pose: where an orientation against the horizon is known, that, else the angles in degrees.
+/// Reads an orientation: heading, pitch and roll against the horizon if the location is a place on
+/// earth, else the angles of the PDU in degrees.
 void read_orientation(const EulerAngles& orientation, const WorldCoordinates& location,
                       FieldReadings& out) noexcept {
   const auto place = geodetic_from(location);
@@ -49,7 +50,8 @@ void read_orientation(const EulerAngles& orientation, const WorldCoordinates& lo
   out.number("roll", "deg", attitude->roll_deg, 3);
 }
 
-// Parameters of the system types that have modes: Mark X, XII and ATCRBS, and their successors.
+// Whether the parameters of this system type are modes: Mark X, XII and ATCRBS, and their
+// successors.
 bool has_modes(std::uint16_t system_type) {
   constexpr std::array<std::uint16_t, 8> kTypes{1, 2, 6, 7, 8, 9, 10, 11};
   return std::ranges::find(kTypes, system_type) != kTypes.end();
@@ -74,7 +76,8 @@ void read_code(std::string_view key, unsigned parameter, std::size_t digits, Fie
   out.text(key, std::string_view(code.data(), digits));
 }
 
-/// Mode C: hundreds of feet in 11 bits, with a sign below; all ones: no altitude.
+/// Mode C: hundreds of feet in bits 1 to 11, their sign in bit 0; all ones in bits 1 to 11: no
+/// altitude.
 void read_altitude(unsigned parameter, FieldReadings& out) {
   const unsigned hundreds = (parameter >> 1) & 0x7FFU;
   if (hundreds == 0x7FFU) return out.text("mode_c", "no altitude");
@@ -99,7 +102,7 @@ void FieldReadings::number(std::string_view key, std::string_view unit, double v
   part.unit = unit;
   if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;  // never "-0.000"
   char* begin = part.text.data();
-  // A number too long for its place is written by its magnitude.
+  // A number too long for the text is written with an exponent.
   auto end =
       std::to_chars(begin, begin + part.text.size(), value, std::chars_format::fixed, decimals);
   if (end.ec != std::errc{})
@@ -132,8 +135,8 @@ void read_value(const ClockTime& value, FieldReadings& out) noexcept {
   using namespace std::chrono;
   std::array<char, 40> buffer{};
   TextSink sink(buffer);
-  // Hours of a relative clock count from an origin of their own; hours beyond the year 9999 are no
-  // clock's.
+  // Hours of a relative clock count from any origin, so that small ones are no date; nor are hours
+  // beyond the year 9999.
   constexpr int kHoursOfADate = 24 * sys_days{year{10000} / January / 1}.time_since_epoch().count();
   if (value.hour >= 24 * 365 && value.hour < kHoursOfADate) {
     const year_month_day date{sys_days{days{value.hour / 24}}};

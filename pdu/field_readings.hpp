@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What people read in a field beside its name and number: a position in degrees, a timestamp in
-// minutes and seconds, the code of an IFF mode. A further reading is one overload here.
+// Readings: the value of a field in a form for people, printed beside its name and number.
+// Examples: a position in degrees, a timestamp in minutes and seconds, the code of an IFF mode. A
+// further reading is one overload here.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ namespace reckon::pdu {
 struct FieldReading {
   std::string_view key;       ///< "latitude"
   std::string_view unit;      ///< "deg"; empty for a text
-  std::array<char, 32> text;  ///< so many of these octets as size says
+  std::array<char, 32> text;  ///< the first `size` octets
   std::size_t size = 0;
 
   [[nodiscard]] std::string_view view() const noexcept { return {text.data(), size}; }
@@ -28,7 +29,7 @@ struct FieldReading {
 /// The parts of one field's reading. No heap.
 class FieldReadings {
  public:
-  /// A finite number, to so many decimals.
+  /// Adds a finite number with `decimals` decimals.
   void number(std::string_view key, std::string_view unit, double value, int decimals) noexcept;
   void text(std::string_view key, std::string_view value) noexcept;
   void clear() noexcept { size_ = 0; }
@@ -42,7 +43,7 @@ class FieldReadings {
   std::size_t size_ = 0;
 };
 
-/// Readings of a record by itself; most have none.
+/// Readings of a record from its own value; most records have none.
 void read_value(const WorldCoordinates& value, FieldReadings& out) noexcept;
 void read_value(const EulerAngles& value, FieldReadings& out) noexcept;
 void read_value(const ClockTime& value, FieldReadings& out) noexcept;
@@ -58,8 +59,8 @@ void read_field(const Iff& record, std::string_view field, FieldReadings& out) n
 /// "41:15.999999": minutes and seconds past the hour of a DIS timestamp.
 void put_past_the_hour(TextSink& sink, std::uint32_t timestamp);
 
-/// The characters of octets that are text: printable ASCII, tabs and line ends, up to trailing
-/// NULs; empty if they are none.
+/// The octets as text if all are printable ASCII, tabs or line ends, without trailing NULs; else
+/// empty.
 [[nodiscard]] std::string_view text_in(std::span<const std::byte> octets) noexcept;
 
 }  // namespace reckon::pdu

@@ -59,7 +59,7 @@ FieldValue value_of(const std::array<T, n>& array) {
   return value;
 }
 
-/// Handler of a walk: asks the test about each value at the goal until it holds.
+/// Handler of a walk: applies the test to each value at the goal until it holds.
 class Search {
  public:
   static constexpr bool kExamples = false;
@@ -132,7 +132,7 @@ bool is_bit_field(std::string_view name) {
 
 }  // namespace
 
-/// The parts of a path as text, valid as long as the path stays where it is.
+/// The parts of a path as text. They point into the path, which must not move meanwhile.
 class FieldPathParts {
  public:
   explicit FieldPathParts(const FieldPath& path, FieldPath::Target target)
@@ -151,7 +151,7 @@ class FieldPathParts {
     return {std::span(parts_).first(count_), whole};
   }
   [[nodiscard]] std::string_view bit() const { return bit_; }
-  /// Whether the endings that this target needs are there.
+  /// Whether the path has the ending that this target needs.
   [[nodiscard]] bool may_be() const {
     return (target_ != FieldPath::Target::name || dropped_) &&
            (target_ != FieldPath::Target::bit || is_bit_field(bit_));
@@ -230,7 +230,8 @@ void each_name_in(SisoTable table, Names f) {
   for (std::size_t i = 0; i < siso_size(table); ++i) f(siso_entry(table, i).name);
 }
 
-/// Of a bit field of this name in any word.
+/// Calls `f` with the names of the values of a bit field, in any word that has a field of this
+/// name.
 void each_bit_name(std::string_view bit, Names f) {
   for (unsigned set = 1; set < static_cast<unsigned>(SisoBits::end_); ++set) {
     for (std::size_t i = 0; i < siso_size(static_cast<SisoBits>(set)); ++i) {
@@ -240,7 +241,8 @@ void each_bit_name(std::string_view bit, Names f) {
   }
 }
 
-/// Of a field whose table depends on the record that it is in: by every table that it may have.
+/// For a field whose table depends on its record: calls `f` with the names of every table that it
+/// may have.
 void each_dependent_name(std::string_view field, Names f) {
   constexpr unsigned kKinds = 10, kDomains = 6;
   for (auto detail = static_cast<unsigned>(SisoTable::amplitude_detail);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds fields of any PDU by the names that JSON has for them. The field tables are the list of
-// names.
+// Finds fields of any PDU by their names in JSON. The field tables are the list of names.
 #pragma once
 
 #include <array>
@@ -26,13 +25,13 @@ struct FieldValue {
   long double number = 0;
   std::string_view text;              ///< text: the characters before the first NUL
   std::span<const std::byte> octets;  ///< octets
-  std::string_view name;              ///< whole: what the number is called; empty without a name
+  std::string_view name;              ///< whole: the name of the number; empty without a name
   std::string_view code;              ///< whole: the code of a country, "USA"; empty without one
   std::array<std::uint16_t, 3> id{};  ///< id: site, application and number
-  std::size_t id_parts = 0;           ///< id: how many of these it has, 2 or 3
+  std::size_t id_parts = 0;           ///< id: the used elements of `id`, 2 or 3
 };
 
-/// A question about a value, without an owner: the context outlives it.
+/// A predicate about a value. It does not own the context, which must outlive it.
 struct FieldTest {
   const void* context = nullptr;
   bool (*holds)(const void* context, const FieldValue& value) = nullptr;
@@ -58,32 +57,32 @@ class PduTypeSet {
 };
 
 /// A field as written: "entity_location.x", "systems[0].beams.frequency". The end of the path is
-/// enough, as "psi" or "munition_type.kind"; in a type that has the path as a whole, only that
-/// field is meant. Without an index any element of a list is meant. A bit field is written behind
-/// its word or alone: "entity_appearance.damage". Endings of JSON are taken too: "country_name",
-/// "entity_appearance_bits.damage". An ID of an entity, event or simulation is one value.
+/// enough, as "psi" or "munition_type.kind". In a PDU type that has a field with exactly this whole
+/// path, the path means only that field. Without an index it means any element of a list. A bit
+/// field is written behind its word or alone: "entity_appearance.damage". Endings from JSON are
+/// accepted too: "country_name", "entity_appearance_bits.damage". An ID of an entity, event or
+/// simulation is one value.
 class FieldPath {
  public:
   static constexpr std::size_t kDeepest = 10;  ///< parts of a path
 
-  /// Nothing if the text has an empty part, a malformed index or too many parts, or if no PDU type
+  /// No value if the text has an empty part, a malformed index or too many parts, or if no PDU type
   /// has such a field.
   /// @param whole the path begins at the PDU
   [[nodiscard]] static std::optional<FieldPath> find(std::string_view text, bool whole = false);
 
-  /// Whether PDUs of this type may have it.
+  /// Whether PDUs of this type may have the field.
   [[nodiscard]] bool is_in(PduType type) const noexcept {
     return whole_.has(type) || end_.has(type);
   }
-  /// Whether a value may be a number, may have a name, may be anything else.
+  /// Whether a value of the field may be a number, may have a name, may be something else.
   [[nodiscard]] bool has_numbers() const noexcept { return has_numbers_; }
   [[nodiscard]] bool has_names() const noexcept { return has_names_; }
   [[nodiscard]] bool has_others() const noexcept { return has_others_; }
 
-  /// Calls `f` with each name that a value of the field may have, in whatever PDU; some come more
-  /// than once.
+  /// Calls `f` with each name that a value of the field may have in any PDU; names may repeat.
   void each_name(const std::function<void(std::string_view)>& f) const;
-  /// Whether its value is the name of another field's value: "country_name".
+  /// Whether the path means the name of a field's value: "country_name".
   [[nodiscard]] bool is_name() const noexcept { return target_ == Target::name; }
 
   /// One part of a path.
@@ -119,12 +118,12 @@ class FieldPath {
 };
 
 /// Whether the test holds for a value of the field in this PDU; false for a type that lacks it, and
-/// for octets that cannot be decoded. The header of a PDU is there whatever its type.
+/// for octets that cannot be decoded. The header can be searched in a PDU of any type.
 [[nodiscard]] bool any_value(const FieldPath& path, std::span<const std::byte> pdu,
                              const PduHeader& header, FieldTest test);
 
 /// Calls `f` with the path of each field that PDUs of this type may have, in wire order, as
-/// "systems.beams.frequency"; some come more than once. The text is valid during the call.
+/// "systems.beams.frequency"; paths may repeat. The text is valid during the call.
 void each_field_path(PduType type, const std::function<void(std::string_view)>& f);
 
 }  // namespace reckon::pdu

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs of one type that together have every field which a PDU of that type may have, for walks
-// through examples (field_walk.hpp).
+// Example PDUs of one type. Together they have every field that a PDU of this type may have, for
+// walks through examples (field_walk.hpp).
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct AllFlags : FixedFields {
   }
 };
 
-/// Calls `f` with PDUs of this type that differ in the fields they have.
+/// Calls `f` with PDUs of this type that have different fields.
 template <typename Pdu, typename F>
 void each_variant(F&& f) {
   static constexpr std::array<std::byte, 128> kZeros{};
@@ -51,12 +51,12 @@ void each_variant(F&& f) {
       f(std::as_const(*pdu));
     }
   } else if constexpr (std::same_as<Pdu, GriddedData>) {
-    pdu->number_of_grid_axes = 1;  // more than there are: octets
+    pdu->number_of_grid_axes = 1;  // more than present, so that the part stays octets
     f(std::as_const(*pdu));
   } else if constexpr (std::same_as<Pdu, AggregateState>) {
     pdu->silent_systems_and_variable_datums.bytes = std::span(kZeros).first(8);
     f(std::as_const(*pdu));
-    pdu->number_of_silent_entity_systems = 1;  // more than there are: octets
+    pdu->number_of_silent_entity_systems = 1;  // more than present, so that the part stays octets
     pdu->silent_systems_and_variable_datums.bytes = {};
     f(std::as_const(*pdu));
   }

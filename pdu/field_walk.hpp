@@ -31,7 +31,7 @@ namespace reckon::pdu {
 /// The index of a record that is no element of a list.
 inline constexpr std::size_t kNoIndex = static_cast<std::size_t>(-1);
 
-/// Calls `f(head, body)` for each layout that the body of such a record may have.
+/// Calls `f(head, body)` for each layout that the body of a record with this kind of head may have.
 template <typename Head, typename F>
 void each_layout(const Head& head, F&& f) {
   static constexpr std::array<std::byte, 64> kZeros{};
@@ -40,7 +40,7 @@ void each_layout(const Head& head, F&& f) {
     for (const auto& [layer, size] :
          {std::pair<std::uint8_t, std::size_t>{2, 24}, {3, 24}, {4, 0}, {4, 32}, {5, 12}})
       f(IffLayer{layer}, zeros.first(size));
-    // Mode S of a transponder, which has an aircraft.
+    // Mode S of a transponder: it identifies an aircraft.
     static constexpr std::array<std::byte, 32> kTransponder = [] {
       std::array<std::byte, 32> octets{};
       octets[8] = std::byte{'A'};
@@ -183,7 +183,7 @@ class FieldWalk {
     inner("variable_datum_id", item.datum_id);
     inner("variable_datum_length", item.length_bits);
     handler_.octets("variable_datum_value", item.value);
-    // The padding, which the last one may lack.
+    // Includes the padding, which the last datum may lack.
     const std::size_t left = static_cast<std::size_t>(all.data() + all.size() - item.value.data());
     extent(2 * sizeof(std::uint32_t),
            {item.value.data(), std::min(padded_to(item.value.size(), 8), left)});

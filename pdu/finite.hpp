@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Search for NaN and infinity in a decoded PDU. Decoding keeps such values, because an inspector
-// must show them. Code that computes with a received PDU checks it here first.
+// must show them. Code that computes with a received PDU must check it here first.
 #pragma once
 
 #include <cmath>

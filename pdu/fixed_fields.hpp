@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Base of visitors of field tables that look at the fixed fields of a PDU alone.
+// Base of visitors of field tables that use only the fixed fields of a PDU.
 #pragma once
 
 namespace reckon::pdu {
 
-/// Skips the counts and lists of records and whatever else has a variable size. A visitor that
-/// derives from it has operator() for fixed fields, see codec/field_table.hpp.
+/// Skips the counts and lists of records and all other parts of variable size. A derived visitor
+/// adds operator() for fixed fields, see codec/field_table.hpp.
 struct FixedFields {
   template <typename... Any>
   void count(Any&&...) {}

@@ -39,8 +39,8 @@ std::optional<Geodetic> geodetic_from(const WorldCoordinates& location) noexcept
   const double radius = std::sqrt(x * x + y * y + z * z);
   if (!std::isfinite(radius) || radius < kLeastRadius) return std::nullopt;
 
-  // Bowring's formula, begun with the parametric latitude and repeated twice. Sines and cosines are
-  // those of the triangle that the formula gives.
+  // Bowring's formula, begun with the parametric latitude and repeated twice. The formula gives two
+  // sides of a right triangle; their ratios to the third side are sine and cosine.
   const double p = std::sqrt(x * x + y * y);
   double opposite = kSemiMajor * z;
   double adjacent = kSemiMinor * p;

@@ -18,8 +18,8 @@ struct Geodetic {
 };
 
 /// From geocentric coordinates, within 1e-9 degrees and 1 mm up to 10,000 km above the ground. No
-/// value for numbers that are not finite, and nearer than 1000 km to the earth's centre, where
-/// only a made-up position can be.
+/// value for numbers that are not finite, or for a position nearer than 1000 km to the earth's
+/// centre, which cannot be a real one.
 [[nodiscard]] std::optional<Geodetic> geodetic_from(const WorldCoordinates& location) noexcept;
 
 /// An orientation against the horizon.

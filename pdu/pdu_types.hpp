@@ -183,7 +183,8 @@ template <typename... T>
 }
 
 /// Decodes `bytes` (one PDU or longer) as the type in its header and calls `f(const T&)`. On any
-/// error `f` is not called. unknown_type: not in the list, and the caller may keep the octets.
+/// error `f` is not called. unknown_type: the type is not in the list, and the caller may keep the
+/// octets.
 template <typename F, typename... T>
 [[nodiscard]] DecodeError visit(std::span<const std::byte> bytes, const PduHeader& header, F&& f,
                                 TypeList<T...>) {

@@ -34,8 +34,9 @@ void raw_fields(Print& print, const RawPdu& raw) {
   print.hex("body", raw.body);
 }
 
-// Visitor: reads a damaged PDU and prints each field, up to the first that its octets do not hold,
-// or up to its records, among which the fault is. What follows is "rest".
+// Visitor: reads a damaged PDU and prints its fields. It stops at the first field beyond the end of
+// the octets, or at the first variable part, because the fault is then in it. The remaining octets
+// are printed as "rest".
 template <typename Print>
 class FieldsUpToFault {
  public:
@@ -88,7 +89,7 @@ bool fields_up_to_fault(Print& print, std::span<const std::byte> octets, PduType
   return (attempt(std::type_identity<T>{}) || ...);
 }
 
-// A PDU that cannot be decoded: as many fields as can be told, and the rest as octets.
+// Prints a PDU that cannot be decoded: its readable fields, and the rest as octets.
 template <typename Print>
 void damaged_fields(Print& print, std::span<const std::byte> octets, DecodeError error) {
   const RawPdu raw = raw_pdu(octets);
@@ -105,7 +106,7 @@ DecodeError print_octets(std::span<const std::byte> octets, Print&& print) {
   return error != DecodeError::none ? error : visit(octets, header, print);
 }
 
-/// Calls `f(field, its value)` for the bit fields to be shown.
+/// Calls `f(field, value)` for each bit field to be shown.
 template <typename F>
 void each_bit_field(SisoBits set, std::uint32_t word, F&& f) {
   for (std::size_t i = 0; i < siso_size(set); ++i) {

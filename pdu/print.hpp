@@ -71,13 +71,13 @@ void put_json_array(TextSink& sink, const std::array<T, n>& value) {
 /// if they have no name. A country or category of 0 (other) is left out.
 void put_type_in_words(TextSink& sink, const EntityType& type);
 
-/// Whether people read more in a record of this type.
+/// Whether records of this type have readings (field_readings.hpp).
 template <typename T>
 inline constexpr bool kIsRead = requires(const T& value, FieldReadings& out) {
   read_value(value, out);
 };
 
-/// What people read in a record by itself.
+/// The readings of a record from its own value.
 template <typename T>
 [[nodiscard]] FieldReadings reading_of(const T& value) noexcept {
   FieldReadings readings;
@@ -165,7 +165,7 @@ class JsonFields {
   }
   void bits(std::string_view field, SisoBits set, std::uint32_t word);
   void member(std::string_view field, std::string_view ending, std::string_view text);
-  /// What people read in the field, from its record or else from the value alone.
+  /// Prints the readings of the field, from its record or else from its value alone.
   void readings(std::string_view field, const FieldReadings& of_value);
   template <typename Range, typename Print>
   void list(const Range& range, Print&& print) {
@@ -242,7 +242,8 @@ consteval bool is_flat() {
   return check.flat();
 }
 
-/// Visitor: one line a field, two spaces deeper for each level; flat records stay on their line.
+/// Visitor: prints one line a field, indented by two spaces for each level; a flat record stays on
+/// one line.
 class TreeFields {
  public:
   TreeFields(TextSink& sink, std::size_t depth, bool inline_fields,
@@ -344,11 +345,10 @@ void print_json(const T& value, TextSink& sink) {
   JsonFields(sink).object(value);
 }
 
-/// The same with names. A value with a name is followed by it,
-/// `"country":225,"country_name":"United States"`. A word of bit fields is followed by their names,
-/// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`. A field in which
-/// people read more is followed by that, with units:
-/// `"entity_location_read":{"latitude_deg":47.1,...}`.
+/// The same with names. Each value with a name is followed by the name,
+/// `"country":225,"country_name":"United States"`. The bit fields of a word follow the word,
+/// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`. The readings of a
+/// field follow the field, with units: `"entity_location_read":{"latitude_deg":47.1,...}`.
 template <typename T>
 void print_named_json(const T& value, TextSink& sink) {
   JsonFields(sink, FieldMeanings(value)).object(value);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of PDU types: those of the standard as in SISO's list, ours as in their headers.
+// Names of PDU types: for types of the standard the names in SISO's list, for ours the names in
+// their headers.
 #pragma once
 
 #include <string_view>

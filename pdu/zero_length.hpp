@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs whose sender left the length field at 0: taken as the rest of their datagram.
+// PDUs whose sender left the length field at 0. Such a PDU extends to the end of its datagram.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace reckon::pdu {
 
-/// The offset of the PDU with a length field of 0, if the datagram has one; it is the last then. A
-/// PDU has a header of a supported version, and at most 65,535 octets.
+/// Offset of the PDU with a length field of 0, if the datagram has one; it is the last PDU. It must
+/// have a header of a supported version, and at most 65,535 octets.
 [[nodiscard]] std::optional<std::size_t> find_zero_length(
     std::span<const std::byte> datagram) noexcept;
 
-/// Writes the length field of the PDU at `offset`, which has a header.
+/// Writes the length field of the PDU at `offset`, which must have a header.
 void set_length(std::span<std::byte> datagram, std::size_t offset, std::uint16_t length) noexcept;
 
 }  // namespace reckon::pdu

@@ -138,9 +138,9 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity, 
   return append_item(group, {entity.key(), entity, place}, state, records, terms, found.entry);
 }
 
-// The pending update of this entity, or the index entry for it. A short queue is searched. Of a
+// The pending update of this entity, or the index entry for it. A short queue is searched. For a
 // long one the index has each item, and some that have been sent: such an ordinal is before the
-// first one, or by now that of another entity.
+// first one, or belongs to another entity by now.
 Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
   Lane& lane = lanes_[group.value];
   const std::uint64_t key = entity.key();

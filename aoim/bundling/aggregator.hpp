@@ -108,8 +108,8 @@ class Aggregator {
   AddResult add(GroupIndex group, const pdu::EntityState& state, std::span<const std::byte> records,
                 const BundleTerms& terms);
 
-  /// Queues an Entity State in a compressed form, as written by pdu::store_compressed(). `form` of
-  /// its body is the same for all of a group between two flushes (compact may be mixed with any). A
+  /// Queues an Entity State in a compressed form, as written by pdu::store_compressed(). All states
+  /// of a group between two flushes have the same `form` of body (compact may be mixed with any). A
   /// state that depends on a pending key state would replace it, so send key states at once. The
   /// bundle holds the compressed states in one Compressed States PDU, at most kMostCompressed.
   AddResult add_compressed(GroupIndex group, const pdu::EntityId& entity, pdu::CompressedForm form,
@@ -144,7 +144,7 @@ class Aggregator {
   void set_sender(PeerId sender) noexcept { config_.sender = sender; }
 
   [[nodiscard]] const AggregatorCounts& counts() const noexcept { return counts_; }
-  /// Octets that a bundle's PDUs may take in this group, trailer already subtracted.
+  /// Octets available for a bundle's PDUs in this group, without the trailer.
   [[nodiscard]] std::size_t room(GroupIndex group) const noexcept;
 
  private:

@@ -14,7 +14,7 @@
 namespace reckon::aoim {
 
 /// Ordinals by group and entity: open addressing, at most half full. Sent updates are not erased:
-/// the aggregator detects that the ordinal is no longer that of the entity, and the next one takes
+/// the aggregator detects that the ordinal no longer belongs to the entity, and the next one takes
 /// the entry. One thread; allocates only if reset makes it larger.
 ///
 ///   Entry& entry = index.entry(group, entity);   // used or not
@@ -35,7 +35,7 @@ class WaitingIndex {
     const std::uint64_t key = key_of(group, entity);
     const std::size_t mask = entries_.size() - 1;
     std::size_t slot = slot_of(key);
-    // Entities are often sent in turn: this fetches the memory of those that come soon.
+    // Entities are often sent in turn: this prefetches the entries of the next ones.
     if (slot % 4 == 0) __builtin_prefetch(&entries_[slot_of(key + kSoon)], 1);
     while (entries_[slot].used && entries_[slot].key != key) slot = (slot + 1) & mask;
     return entries_[slot];
@@ -50,8 +50,8 @@ class WaitingIndex {
     entry = {key_of(group, entity), ordinal, true};
   }
 
-  /// Removes everything and makes room for four times `live` entries. Pending updates are then to
-  /// be put again.
+  /// Removes everything and makes room for four times `live` entries. The caller then puts the
+  /// pending updates again.
   void reset(std::size_t live);
 
  private:

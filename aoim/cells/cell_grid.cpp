@@ -64,7 +64,7 @@ double square_distance(double x, double y) noexcept {
   return std::hypot(std::max(std::abs(x) - 0.5, 0.0), std::max(std::abs(y) - 0.5, 0.0));
 }
 
-// The tile with most cells and both sides >= 2; of equal ones the one nearest to a square.
+// The tile with most cells and both sides >= 2; among equal ones, the one nearest to a square.
 void choose_tile(std::size_t pool, std::size_t& columns, std::size_t& rows) noexcept {
   columns = rows = 1;
   for (std::size_t a = 2; a * a <= pool; ++a) {
@@ -115,7 +115,7 @@ Neighbours CellGrid::neighbours(CellId cell) const noexcept {
   Neighbours result;
   for (std::int32_t dr = -1; dr <= 1; ++dr) {
     for (std::int32_t dq = -1; dq <= 1; ++dq) {
-      // A hexagon has only six of the eight neighbours: those not on the diagonal dq = dr.
+      // A hexagon has only six of the eight neighbours: the ones off the diagonal dq = dr.
       const bool corner = config_.scheme == CellScheme::hexagonal && dq == dr;
       if ((dq == 0 && dr == 0) || corner) continue;
       result.push({cell.q + dq, cell.r + dr});
@@ -144,7 +144,7 @@ CellGrid::Rows CellGrid::rows_within(const Position& position, double radius) co
     return {to_index(std::floor((position.y - radius) / size)),
             to_index(std::floor((position.y + radius) / size))};
   }
-  // A hexagon's corners lie 1/sqrt(3) above and below its centre.
+  // A hexagon's corners are 1/sqrt(3) above and below its centre.
   const double reach = radius + kInverseRoot3 * size;
   return {to_index(std::ceil((position.y - reach) / (kRow * size))),
           to_index(std::floor((position.y + reach) / (kRow * size)))};

@@ -111,9 +111,9 @@ class CellGrid {
   /// refusing a radius.
   [[nodiscard]] double cells_bound(double radius) const noexcept;
 
-  /// Most groups that a disc of this radius can reach, at any position: at most those of a radius
-  /// larger by a ninth of a cell, and all of the tile if the radius is that large. For set-up: up
-  /// to 0.1 s.
+  /// Most groups that a disc of this radius can reach, at any position: at most as many as with a
+  /// radius larger by a ninth of a cell, and all of the tile for a large radius. For set-up: up to
+  /// 0.1 s.
   [[nodiscard]] std::size_t groups_bound(double radius) const;
 
   [[nodiscard]] const GridConfig& config() const noexcept { return config_; }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All schemes of cutting the plane into cells behind one interface: equal squares and hexagons, a
 // quad-tree, locales. A new scheme is a class with the members called here and an entry in the list
-// of alternatives. The choice is made once a call, so loops over cells are those of the scheme
-// itself.
+// of alternatives. The choice is made once a call, so loops over cells run in the scheme itself.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@
 
 namespace reckon::aoim {
 
-/// Immutable except by assignment. Cost: that of the scheme, and a branch.
+/// Immutable except by assignment. Cost: the scheme's, plus a branch.
 class CellPartition {
  public:
   CellPartition(CellGrid grid) : scheme_(std::move(grid)) {}         // NOLINT: meant to convert
@@ -54,7 +53,7 @@ class CellPartition {
   [[nodiscard]] std::size_t groups() const noexcept {
     return visit([](const auto& scheme) { return scheme.groups(); });
   }
-  /// Of these, those that cells have now.
+  /// Number of groups that cells have now.
   [[nodiscard]] std::size_t groups_in_use() const noexcept {
     return visit([](const auto& scheme) { return scheme.groups_in_use(); });
   }

@@ -26,8 +26,8 @@ struct Locale {
   double half_z = std::numeric_limits<double>::infinity();
 };
 
-/// Immutable, hence safe from any thread. If locales overlap, the first one has the place; a place
-/// in none belongs to the nearest.
+/// Immutable, hence safe from any thread. If locales overlap, the first one counts; a point in none
+/// belongs to the nearest.
 class LocaleMap {
  public:
   /// @throws std::invalid_argument with the locale and the remedy: none or more than 1,000, a size
@@ -61,8 +61,8 @@ class LocaleMap {
     return static_cast<double>(locales_.size());
   }
 
-  /// A point of S in a locale's frame, and back. Another locale changes the numbers, not the place:
-  /// to_scene(a, to_locale(a, p)) is p for each a.
+  /// A point of S in a locale's frame, and back. Another locale changes the coordinates, not the
+  /// point: to_scene(a, to_locale(a, p)) is p for each a.
   [[nodiscard]] Position to_locale(CellId cell, const Position& position) const noexcept;
   [[nodiscard]] Position to_scene(CellId cell, const Position& local) const noexcept;
 
@@ -80,7 +80,7 @@ class LocaleMap {
     return cell.q >= 0 && index < locales_.size() ? index : 0;
   }
 
-  // The same from a home locale other than that of the point.
+  // The same from a home locale that need not contain the point.
   template <typename Visit>
   void for_each_reached(std::size_t home, const Position& position, double radius,
                         Visit&& visit) const {
@@ -106,7 +106,7 @@ class LocaleMap {
     double cosine, sine;
   };
   std::vector<Locale> locales_;
-  std::vector<Turn> turns_;  // of their x axes
+  std::vector<Turn> turns_;  // rotations of their x axes
 };
 
 }  // namespace reckon::aoim

@@ -199,7 +199,7 @@ GroupIndex QuadTree::group(const Position& position) const noexcept {
 
 GroupIndex QuadTree::group(CellId cell) const noexcept { return nodes_[node_of(cell)].group; }
 
-// For a cell that this tree lacks, the leaf that stands for it.
+// For a cell that this tree lacks, the leaf that represents it.
 std::size_t QuadTree::node_of(CellId cell) const noexcept {
   const int depth = std::clamp(cell.r, 0, kDeepest);
   std::size_t node = 0;

@@ -4,7 +4,7 @@
 // cell has its own group, numbered along the Z-order curve. All peers of a scene need the same
 // tree. Equal demands or cells give the same tree on every machine, because it uses whole numbers
 // and the four operations and square roots of IEEE 754 in one order. Its epoch orders successive
-// trees: one of a higher epoch replaces the tree before.
+// trees: a tree with a higher epoch replaces the one before.
 #pragma once
 
 #include <cstddef>

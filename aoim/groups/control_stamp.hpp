@@ -10,7 +10,7 @@
 
 namespace reckon::aoim {
 
-/// The sender of a control PDU, and when it was made.
+/// The sender of a control PDU, and its creation time.
 struct ControlStamp {
   std::uint8_t exercise = 0;
   PeerId simulation;

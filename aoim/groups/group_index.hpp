@@ -11,7 +11,7 @@
 namespace reckon::aoim {
 
 /// 0 is the base group (presence, and everything in an interop scene); 1 .. G are the pool of
-/// cells. Behind them, with G each, are those of the other recipient tiers that the scene has.
+/// cells. After them follow the groups of the scene's other recipient tiers, G each.
 struct GroupIndex {
   std::uint16_t value = 0;
   auto operator<=>(const GroupIndex&) const = default;
@@ -20,7 +20,7 @@ struct GroupIndex {
 /// The group that every peer of a scene joins.
 inline constexpr GroupIndex kBaseGroup{0};
 
-/// Cell groups of a scene unless its file says otherwise.
+/// Default number of cell groups of a scene.
 inline constexpr std::size_t kDefaultPool = 256;
 
 /// Most cell groups a scene may ask for: switches of a LAN keep about 1,000 groups before they

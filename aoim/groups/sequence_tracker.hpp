@@ -29,13 +29,13 @@ enum class SequenceVerdict : std::uint8_t {
   return verdict != SequenceVerdict::duplicate && verdict != SequenceVerdict::too_old;
 }
 
-/// Sums since the start. `lost` counts what is missing by now, so it falls when a late datagram
-/// arrives.
+/// Sums since the start. `lost` counts the presently missing numbers, so it falls when a late
+/// datagram arrives.
 struct SequenceCounts {
   std::uint64_t received = 0;    ///< datagrams, duplicates included
   std::uint64_t lost = 0;        ///< gaps not filled (yet)
   std::uint64_t duplicated = 0;  ///< copies of one already received
-  std::uint64_t reordered = 0;   ///< arrived after a later one
+  std::uint64_t reordered = 0;   ///< arrived after a newer one
   std::uint64_t too_old = 0;     ///< behind the window
   std::uint64_t leaps = 0;       ///< too far from all before to be believed alone
   /// Pairs dropped to make room. Losses between their last datagram and their next are not in

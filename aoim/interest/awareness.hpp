@@ -40,7 +40,8 @@ struct Observer {
   /// Radius of the aura around `focus.position` [m]. Where two auras do not meet, there is no
   /// awareness, whatever the focus. Default: unbounded.
   double aura = std::numeric_limits<double>::infinity();
-  std::uint32_t kinds = 0xFFFFFFFFU;  ///< bit k: wants entities of IEEE 1278.1 kind k, 0 .. 31
+  std::uint32_t kinds =
+      0xFFFFFFFFU;  ///< bit k: subscribes to entities of IEEE 1278.1 kind k, 0 .. 31
   std::uint32_t roles = 0xFFFFFFFFU;  ///< an entity must share one of these bits
 };
 
@@ -50,7 +51,7 @@ struct Subject {
   double nimbus = 0.0;  ///< radius in which it can be observed [m], >= 0
   double aura = std::numeric_limits<double>::infinity();  ///< radius [m]
   std::uint32_t roles = 0xFFFFFFFFU;
-  std::uint8_t kind = 0;  ///< IEEE 1278.1; every observer wants 32 and above
+  std::uint8_t kind = 0;  ///< IEEE 1278.1; every observer subscribes to kinds 32 and above
 };
 
 /// Solid boxes along the axes of S that hide what is behind them.

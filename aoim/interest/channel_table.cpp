@@ -103,7 +103,7 @@ ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients, double o
     budget.stretch = passage.stretch;
     budget.octets_per_second -= passage.saved;
   }
-  // Summed anew, without the rounding errors of the subtractions.
+  // Summed again, without the rounding errors of the subtractions.
   budget.octets_per_second = 0.0;
   for (const ChannelClient& client : clients) {
     budget.octets_per_second += rate(client, budget.stretch);

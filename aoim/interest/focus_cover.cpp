@@ -67,9 +67,9 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   return {foci_.data(), count_};
 }
 
-// Gathers at the finest level that has room for all, and returns it. The squares of a level lie
-// within those of the next, so the number of occupied ones falls. With locales the last level has
-// one square for each, which may be more than the limit.
+// Gathers at the finest level that has room for all, and returns it. The squares of a level are
+// within the squares of the next, so the number of occupied ones falls. With locales the last level
+// has one square for each, which may be more than the limit.
 int FocusCover::settle(std::span<const Focus> entities) noexcept {
   room_ = kMostFoci;
   if (gather(entities, 0)) return 0;

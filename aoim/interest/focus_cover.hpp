@@ -22,9 +22,9 @@ namespace reckon::aoim {
 ///   FocusCover cover(manager.cells());
 ///   manager.listen(kCellTier, cover.cover(foci_of_my_entities), now);
 ///
-/// With locales, only entities of one locale share a focus. It lies where one of them is, so that
-/// it reaches no farther than the paths from there. If entities are in more than kMostFoci locales,
-/// each of these has one focus. One thread; allocates nothing after construction.
+/// With locales, only entities of one locale share a focus. It is at one of them, so it reaches no
+/// farther than the paths from there. If entities are in more than kMostFoci locales, each of these
+/// has one focus. One thread; allocates nothing after construction.
 class FocusCover {
  public:
   static constexpr std::size_t kMostFoci = 64;
@@ -36,11 +36,11 @@ class FocusCover {
   explicit FocusCover(const CellPartition& cells)
       : FocusCover(cells.finest(), cells.as<LocaleMap>()) {}
 
-  /// At most most(cells) foci. Each entity's ball lies in one of theirs, cut or whole, and a focus
-  /// is as fast as its fastest entity. An entity that is alone in its square is its own focus,
-  /// unchanged. Entities that are not finite or have no radius >= 0 are skipped; an invalid speed
-  /// counts as 0 in a shared focus. Foci are in the order of their first entities; valid until the
-  /// next call. Cost: up to nine passes over the entities, each some ns an entity.
+  /// At most most(cells) foci. Each entity's ball is within one of theirs, cut or whole, and a
+  /// focus is as fast as its fastest entity. An entity that is alone in its square is its own
+  /// focus, unchanged. Entities that are not finite or have no radius >= 0 are skipped; an invalid
+  /// speed counts as 0 in a shared focus. Foci are in the order of their first entities; valid
+  /// until the next call. Cost: up to nine passes over the entities, each some ns an entity.
   [[nodiscard]] std::span<const Focus> cover(std::span<const Focus> entities) noexcept;
 
   /// Most foci of these cells: kMostFoci, or the number of locales if that is larger.

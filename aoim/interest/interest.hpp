@@ -101,8 +101,8 @@ class Interest {
   static constexpr double kHiddenGap = 0.1;
 
   [[nodiscard]] const InterestCounts& counts() const noexcept { return counts_; }
-  /// Smallest distance [m] from a focus, less the nimbus, of the entities judged `outside` since
-  /// the last call; infinite if there were none.
+  /// Smallest distance [m] from a focus, minus the nimbus, of the entities judged `outside` since
+  /// the last call; infinite: none.
   [[nodiscard]] double take_nearest_outside() noexcept;
 
  private:

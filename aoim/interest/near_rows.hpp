@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which near groups a peer joins. Each row of the table of channels whose updates have a recipient
-// tier of their own is a near row: in each cell it has a multicast group, its near group, for the
-// peers whose entities are closer than the row's distance.
+// Selects the near groups that a peer joins. A row of the channel table with its own recipient tier
+// is a near row. In each cell it has a multicast group, its near group, for the peers whose
+// entities are closer than the row's distance.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,25 @@
 namespace reckon::aoim {
 
 /// A near group is joined this long [s] before an entity of this peer can be within the row's
-/// distance of the group's cell: a join takes up to 0.03 s, and owners send the states of what is
-/// there within 0.1 s after that.
+/// distance of the group's cell: a join takes up to 0.03 s, and owners send the states of their
+/// entities there within 0.1 s after that.
 inline constexpr double kNearAhead = 0.3;
 /// It is left when the cell is farther away than this factor times the row's distance.
 inline constexpr double kNearLeave = 1.1;
 
-/// Settings of the subscription to near groups: those for cells, with the two values above
+/// Settings of the subscription to near groups: the settings for cells, with the two values above
 /// and without a cap on the groups.
 [[nodiscard]] SubscriptionConfig near_subscription(SubscriptionConfig cells) noexcept;
 
-/// The ball around an own entity that decides which near groups of one row are joined: those of the
-/// cells that it reaches. Its radius is the distance at which the row ends, divided by the stretch,
-/// and at most the sensing radius. Rows that are kept (Channel::kept) have no near groups: their
-/// updates go to those of the first row that is not kept. So the radius is at least the distance at
-/// which the kept rows end, which no stretch shortens.
+/// The ball around an own entity that decides which near groups of one row are joined: the groups
+/// of the cells that it reaches. Its radius is the distance at which the row ends, divided by the
+/// stretch, and at most the sensing radius. Rows that are kept (Channel::kept) have no near groups:
+/// their updates go to the near groups of the first row that is not kept. So the radius is at least
+/// the distance at which the kept rows end, which no stretch shortens.
 /// @param row number of the near row: 0 is the first row that is not kept
-/// @param focus by which cell groups are subscribed to. Its radius is the sensing radius, or more
-/// if it stands for several entities: the excess is added to the row's. If less, it is the limit.
+/// @param focus focus of the subscription to cell groups. Its radius is the sensing radius, or more
+/// if it represents several entities: the excess is added to the row's radius. A smaller radius is
+/// the limit.
 /// @param radius at which an entity senses others [m]
 /// @param stretch factor on distances that meets the receiver's budget, see ChannelTable::fit
 [[nodiscard]] Focus near_focus(const ChannelTable& table, std::size_t row, const Focus& focus,

@@ -14,12 +14,12 @@ using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
 constexpr nanoseconds kStretch = 2s;
-// Groups are kept for 2 s at least, and new ones begin with the states of all that is there.
+// Groups are kept for at least 2 s, and new ones start with the states of all entities there.
 constexpr nanoseconds kSettle = 3s;
 constexpr nanoseconds kShortestHold = 20s, kLongestHold = 160s;
-constexpr double kRoom = 0.8;     // of the budget, below which more is let in
-constexpr double kFarOver = 1.5;  // of the budget, after a step outwards
-constexpr double kFilled = 0.9;   // of the budget, that a step outwards is to fill
+constexpr double kRoom = 0.8;     // share of the budget below which more cells are let in
+constexpr double kFarOver = 1.5;  // share of the budget that ends a step outwards at once
+constexpr double kFilled = 0.9;   // share of the budget that a step outwards aims at
 constexpr double kOutwards = 1.25;
 constexpr double kMostAtOnce = 0.4, kLeastAtOnce = 0.9;
 

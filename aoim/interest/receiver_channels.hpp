@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sending rate and content by the channel table: one multicast stream an entity, as rich as its
-// most demanding known receiver asks.
+// Sending rate and content by the channel table: one multicast stream for each entity, as rich as
+// its most demanding known receiver needs.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reckon::aoim {
 
-/// Positions of the receivers. Set all of them anew some times a second:
+/// Positions of the receivers. Set all of them again several times a second:
 ///
 ///   channels.clear();
 ///   for (const Seen& seen : entities_of_others) channels.add(seen.position, seen.stretch);
@@ -33,12 +33,12 @@ class ReceiverChannels {
   void add(const Position& position, double stretch = 1.0, double speed = 0.0);
   [[nodiscard]] std::size_t size() const noexcept { return receivers_.size(); }
 
-  /// The richest row that any receiver asks for of an entity here; the last row if no receiver is
-  /// known, and null if all are beyond the last row. 2 ns a receiver.
+  /// The richest row that any receiver needs of an entity here; the last row if no receiver is
+  /// known; null if all are beyond the last row. 2 ns a receiver.
   [[nodiscard]] const Channel* of(const Position& position) const noexcept;
-  /// Number of the nearest row (of those that are not kept, from 0) with a possible listener that
-  /// receives an entity here, now or within kNearAhead; the last one if no receiver is known. If
-  /// the inner rows have tiers, nothing needs to be sent to those before it. 4 ns a receiver.
+  /// Number of the nearest row (without the kept ones, from 0) with a possible listener to an
+  /// entity here, now or within kNearAhead; the last one if no receiver is known. If the inner rows
+  /// have tiers, the ones before it need no updates. 4 ns a receiver.
   /// @param speed of the entity [m/s], >= 0
   /// @param slack [m] by which the two may be closer than the positions show; >= 0
   [[nodiscard]] std::size_t served_row(const Position& position, double speed,

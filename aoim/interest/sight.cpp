@@ -10,8 +10,8 @@ namespace {
 // A shown entity stays shown within this share of a cell beyond the followed cell. When the beacon
 // crosses a border, it is received in the next cell before the map has it there.
 constexpr double kLingers = 0.5;
-// An entity on a border is in one of its cells for its owner, and perhaps in the other one as it is
-// predicted: by the rounding of the wire, and within the threshold of its owner.
+// An entity on a border is in one cell for its owner, and may be predicted in the other: by the
+// rounding of the wire format, and within its owner's threshold.
 constexpr double kBorder = 0.05;
 
 }  // namespace
@@ -30,7 +30,7 @@ bool Sight::is_in_followed_cell(const Position& position, bool shown) const noex
   });
 }
 
-// Beyond the wall of a locale is another place, however near.
+// A position beyond the wall of a locale is another locale, at any distance.
 bool Sight::is_unheard(const Position& position) const noexcept {
   if (!is_finite(position)) return false;
   if (cells_.as<LocaleMap>() != nullptr) return !subscription_.is_joined(cells_.group(position));

@@ -61,15 +61,15 @@ class Sight {
 
   /// Sets the places where this peer senses.
   void set_foci(std::span<const Focus> foci) noexcept { interest_.set_foci(foci); }
-  /// Records that a cell was left: where cells hide entities, the shown ones are judged anew.
+  /// Records that a cell was left: where cells hide entities, the shown ones are judged again.
   void leave_cell() noexcept {
     if (hides_unheard()) leap();
   }
   /// Distance from our entities beyond which cells are not joined [m], >= 0, see Focus::cut;
-  /// infinite at first. What is in them is hidden.
+  /// infinite at first. Entities in them are hidden.
   void set_cut(double metres) noexcept { cut_ = metres; }
   [[nodiscard]] double cut() const noexcept { return cut_; }
-  /// Whether the cut hides what is here: its cell is not joined.
+  /// Whether the cut hides this position: its cell is not joined.
   [[nodiscard]] bool is_cut_off(const Position& position) const noexcept {
     return cut_ < std::numeric_limits<double>::infinity() && is_unheard(position);
   }

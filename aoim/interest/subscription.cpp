@@ -37,7 +37,7 @@ Subscription::Subscription(const CellPartition& cells, const SubscriptionConfig&
   leave_.reserve(entries_.size());
 }
 
-// Until a focus reaches a cell of a group, any of its cells stands for it.
+// Until a focus reaches a cell of a group, any of its cells represents it.
 void Subscription::name_cells() {
   for (std::size_t i = 0; i < cells_.groups(); ++i) {
     entries_[i].cell = cells_.cell_of({static_cast<std::uint16_t>(i + 1)});

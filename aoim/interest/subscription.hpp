@@ -74,7 +74,7 @@ class Subscription {
  private:
   struct Entry {
     CellId cell;
-    double reach = 0.0;  ///< distance of the nearest cell of this group over R, less the lookahead
+    double reach = 0.0;  ///< distance of the nearest cell of this group over R, minus the lookahead
     double cover = 0.0;  ///< the same without the lookahead
     std::chrono::nanoseconds since{};
     bool joined = false;

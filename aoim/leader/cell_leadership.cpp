@@ -67,7 +67,7 @@ void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, na
   const bool leads = (role.flags & pdu::kRoleLeads) != 0;
   if ((role.flags & pdu::kRoleLeaves) != 0) {
     cell->other_led |= leads;
-    // A leader may leave as we enter. Its farewell can then arrive before we have received its
+    // A leader may leave as we enter. Its leave message can then arrive before we have received its
     // claim.
     const bool led = cell->leader.epoch == sender || (leads && cell->leader.epoch == 0);
     return hear_farewell(*cell, sender, led, role.successor, now);
@@ -111,12 +111,12 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
     cell.entered = std::max(cell.entered, leader.entered + 1);
     cell.next_say = now;
   }
-  if (led) cell.next_say = now;  // it may know neither us nor our rank
+  if (led) cell.next_say = now;  // it may not have received our role and rank
   if (is_new) tell(cell, led);
 }
 
-// The successor leads at once. The others wait for its claim as long as for that of a leader just
-// received.
+// The successor leads at once. The others wait for its claim as long as for the claim of a leader
+// that was just received.
 void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
                                    std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One leader for each cell, without a vote. The peer that entered first leads until it leaves or
 // becomes silent; then the successor that it named leads. Of two leaders, as after a partition, the
-// one that entered first remains. A newcomer never replaces a leader: it ranks behind it, whatever
-// its clock shows.
+// one that entered first remains. A newcomer never replaces a leader: it ranks behind the leader,
+// whatever time its clock shows.
 #pragma once
 
 #include <chrono>
@@ -35,7 +35,7 @@ class CellLeadership {
   /// @param utc our time since 1970, which ranks us. Returns false and does nothing if we are
   /// already in the maximum number of cells.
   bool enter(CellId cell, std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
-  /// Leaves the cell, and sends that three times.
+  /// Leaves the cell, and sends a role with kRoleLeaves three times.
   void leave(CellId cell, std::chrono::nanoseconds now);
 
   /// Takes the role of a known peer in one cell.  @param sender its epoch, from its datagram

@@ -41,7 +41,8 @@ class GroupDirectory {
   /// Group of a cell, as long as the lease runs.
   [[nodiscard]] std::optional<GroupIndex> group(CellId cell,
                                                 std::chrono::nanoseconds now) const noexcept;
-  /// The same, if the cell has had it for `settle`, so that all listeners know it too.
+  /// The same, if the cell has had it for `settle`, so that all listeners have received the
+  /// assignment.
   [[nodiscard]] std::optional<GroupIndex> settled_group(
       CellId cell, std::chrono::nanoseconds settle, std::chrono::nanoseconds now) const noexcept;
   /// The same without regard to the lease: others may still send there.

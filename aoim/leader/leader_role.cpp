@@ -18,7 +18,8 @@ constexpr std::size_t kRolesPerPdu = 25, kRoleSize = pdu::kFixedSize<pdu::CellRo
 constexpr std::size_t kMostPopulated = 4096;
 constexpr std::size_t kMostTold = 65'536;
 // A former leader of the scene sends its map this many times more. The new leader merges it. One
-// copy is not enough after a partition: it may be lost, or arrive before the new leader knows us.
+// copy is not enough after a partition: it may be lost, or arrive before the new leader has
+// accepted us.
 constexpr int kLastMaps = 3;
 
 }  // namespace

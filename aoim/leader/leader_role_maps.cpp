@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The part of who leads the scene: groups for cells in which somebody is, and the map that tells of
-// them and of beacons.
+// The scene leader's part of LeaderRole: assigns groups to occupied cells, and publishes the map of
+// groups and beacons.
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A map by which others send is said again so often, a heartbeat apart, before it is used.
+// A new map is repeated so often, a heartbeat apart, before it is used for sending.
 constexpr int kMoreMaps = 3;
 
 }  // namespace
@@ -25,7 +25,7 @@ void LeaderRole::note_own_cells(nanoseconds now) {
   }
 }
 
-// Cells in which somebody is get groups, those that are long empty give theirs back.
+// Assigns groups to occupied cells, and takes back the groups of cells that have long been empty.
 void LeaderRole::hand_out(nanoseconds now) {
   if (now < next_hand_out_) return;
   next_hand_out_ = now + kMapGap;
@@ -48,8 +48,8 @@ void LeaderRole::hand_out(nanoseconds now) {
   }
 }
 
-// Cells with their groups, and beacons: the first one of a cell in its row, others, and those of
-// cells without a group, in rows of group 0.
+// Rows of cells with their groups, and of beacons: the first beacon of a cell is in its row;
+// others, and beacons of cells without a group, have rows with group 0.
 std::vector<pdu::CellGroup> LeaderRole::map_rows(nanoseconds now) const {
   std::vector<pdu::CellGroup> rows;
   std::map<CellId, std::size_t> places;
@@ -57,7 +57,7 @@ std::vector<pdu::CellGroup> LeaderRole::map_rows(nanoseconds now) const {
     places[cell] = rows.size();
     rows.push_back({cell.q, cell.r, 0, group.value, 0});
   });
-  // Who leads now has to keep its hands off what ours may still use.
+  // The new leader must not reuse groups that our map may still use.
   if (!leads(kWholeScene)) {
     pool_.for_each_resting(now, [&](GroupIndex group) { rows.push_back(resting_row(group)); });
     return rows;

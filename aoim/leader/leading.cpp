@@ -78,9 +78,9 @@ SubscriptionChange Leading::follow(const SubscriptionChange& cells, nanoseconds 
   return {join_, leave_, cells.uncovered, cells.covered_share};
 }
 
-// A peer without a map cannot receive the answers of its cells' leaders. If no peer has a map, as
-// far as a heartbeat of the scene's leader shows, the leaders are asked all the same. A leader that
-// does not know us yet would answer in vain.
+// A peer without a map cannot receive the answers of its cells' leaders. If no peer has announced a
+// map within a heartbeat of the scene's leader, requests are sent to the leaders without a map. The
+// answer of a leader that has not accepted us yet would be useless.
 void Leading::read_cells(nanoseconds now) {
   if (!started_ || role_.lacks_map(now)) return;
   const bool alone = now - begun_ > config_.heartbeat + config_.stagger;
@@ -115,7 +115,7 @@ void Leading::note_attribute(std::span<const std::byte> octets, std::uint32_t se
   }
 }
 
-// The number under which a state received in `group` is kept: that of its cell, or the base group
+// The number under which a state received in `group` is kept: its cell's number, or the base group
 // if the cell is not ours.
 GroupIndex Leading::kept_as(GroupIndex group, const pdu::EntityState& state) const {
   if (!hands_out()) return group;

@@ -27,8 +27,8 @@ struct PlacedBeacon {
   Position position;      ///< [m], in S
 };
 
-/// Connects LeaderRole, which knows cells and epochs, with the groups of this peer. One thread;
-/// allocates when cells, members and entities are new.
+/// Connects LeaderRole, which works with cells and epochs, with the groups of this peer. One
+/// thread; allocates when cells, members and entities are new.
 class Leading {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -41,7 +41,7 @@ class Leading {
           const Subscription& subscription, const Presence& presence, Locate locate);
 
   void start(Nanoseconds utc, Nanoseconds now);
-  /// Makes the next step send a farewell.
+  /// Makes the next step leave all cells.
   void stop() noexcept { leaves_cells_ = true; }
   /// Advances our elections, maps and snapshots.  @param send as for LeaderRole::step
   void step(Nanoseconds now, std::uint32_t timestamp, const LeaderRole::Send& send);
@@ -71,7 +71,7 @@ class Leading {
   /// Takes a datagram of this epoch, from a known peer at its own address.
   void receive(GroupIndex group, std::span<const std::byte> datagram, std::uint32_t sender,
                Nanoseconds now, Nanoseconds came);
-  /// Takes the Entity States that leaders relayed to us as a newcomer, except those of owners that
+  /// Takes the Entity States that leaders relayed to us as a newcomer, except states of owners that
   /// are not known yet. The caller drops a state that is older than one from the owner itself.
   [[nodiscard]] std::vector<RelayedState> take_relayed(Nanoseconds now);
   /// Whether take_relayed() has anything to examine.
@@ -106,7 +106,8 @@ class Leading {
     bool joined = false;
   };
   std::vector<HandedOut> handed_out_;  // by group index - 1
-  std::vector<bool> unread_;  // whether a cell's leader is still to be asked, by cell number - 1
+  std::vector<bool>
+      unread_;  // whether the request to a cell's leader is still to be sent, by cell number - 1
   std::vector<GroupIndex> join_, leave_;
   std::vector<CarriedBeacon> carried_;                         // of ours
   std::vector<std::pair<Nanoseconds, RelayedState>> relayed_;  // with the time of arrival

@@ -19,7 +19,7 @@ class SnapshotReader {
  public:
   explicit SnapshotReader(const LeaderConfig& config) : config_(config) {}
 
-  /// Starts a cell that we have joined and of which we know nothing.
+  /// Starts to read a cell that we have joined and of which we have no states.
   void begin(CellId cell, std::chrono::nanoseconds now);
   /// Drops a cell that we have left or that we lead, so that no other peer could answer.
   void drop(CellId cell);
@@ -30,7 +30,7 @@ class SnapshotReader {
   /// are to be used.  @param leader epoch that sent it
   bool receive(const pdu::CellSnapshot& part, std::uint32_t leader, std::chrono::nanoseconds now);
 
-  /// Calls say(CellId) for each cell whose leader is to be asked now.
+  /// Calls say(CellId) for each cell for which a request to the leader is due.
   template <typename Say>
   void for_each_due(std::chrono::nanoseconds now, Say&& say) const {
     for (const Reading& reading : readings_) {

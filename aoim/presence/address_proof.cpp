@@ -64,7 +64,7 @@ bool SlotClock::is_secret(std::uint32_t slot, nanoseconds now) const noexcept {
   return is_running(slot, now + kClockBound);
 }
 
-// Of one host only the last sender is kept.
+// Only the last sender of one host is kept.
 AddressProof::Pending* AddressProof::place_for(const SourceAddress& from,
                                                nanoseconds now) noexcept {
   const std::span others = std::span(pending_).subspan(1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Binds announcements to the address that they are sent from, as TESLA does. The link of an
-// announcement covers nothing, so somebody who receives it can send it again from elsewhere. Its
+// announcement does not cover its content, so a receiver can replay it from another address. Its
 // MAC covers address and content. The key of a slot is revealed in the next slot, so a MAC that
 // arrived before that is the sender's own.
 //
@@ -28,8 +28,8 @@ namespace reckon::aoim {
                                           const ChainLink& digest,
                                           const ProofFunctions& functions) noexcept;
 
-/// The clock of a sender, from announcements: its time at least, less the shortest transit of the
-/// last 8 to 16 s. A value type.
+/// Lower bound of a sender's clock, from its announcements: short by the shortest transit time of
+/// the last 8 to 16 s. A value type.
 class SlotClock {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -46,14 +46,15 @@ class SlotClock {
 
  private:
   static constexpr Nanoseconds kUnknown = Nanoseconds::min() / 2;
-  Nanoseconds latest_ = kUnknown, before_ = kUnknown;  // greatest sender's time less ours
-  Nanoseconds since_ = kUnknown;                       // of `latest_`
+  Nanoseconds latest_ = kUnknown,
+              before_ = kUnknown;  // greatest difference of the sender's time and ours
+  Nanoseconds since_ = kUnknown;   // of `latest_`
 };
 
-/// What a revealed key shows.
+/// Result of checking a revealed key.
 struct Disclosure {
   std::optional<SourceAddress> proven;  ///< the address of the last genuine announcement
-  SourceAddress refuted;                ///< an address that sent again what it had received
+  SourceAddress refuted;                ///< an address that replayed a received announcement
   bool is_source_refuted = false;       ///< also the address that the peer is bound to
 };
 

@@ -21,7 +21,7 @@ Admission::Admission(const PresenceConfig& config, const PeerTable& peers, const
   crowds_.reserve(kCrowds);
 }
 
-// Bounds the peers of one process, which has one ID, and those of one address.
+// Bounds the peers of one process, which has one ID, and the peers of one address.
 bool Admission::is_crowd(const SourceAddress& from, const pdu::Presence& own) {
   if (from.port == 0) return false;
   std::size_t of_process = 0, of_address = 0;

@@ -46,7 +46,7 @@ void AnnouncementPace::note_own_source(const SourceAddress& source, nanoseconds 
   announce_soon(now);
 }
 
-// Repeats our announcements, with growing gaps, until they are known to have been received.
+// Repeats our announcements, with growing gaps, until all received peers list us.
 bool AnnouncementPace::note_announced(nanoseconds now, bool acquainted) noexcept {
   const bool is_more = next_cause_ != Cause::heartbeat;
   last_ = now;
@@ -64,7 +64,7 @@ bool AnnouncementPace::note_announced(nanoseconds now, bool acquainted) noexcept
   return is_more;
 }
 
-// By less than 0.2 s, because a rival that is silent for 1.2 s wins no dispute.
+// Delays by less than 0.2 s, because a rival that is silent for 1.2 s wins no dispute.
 void AnnouncementPace::align(nanoseconds slot_time) noexcept {
   constexpr std::chrono::milliseconds kEarly{20}, kLatest{850};
   const nanoseconds at = (slot_time + next_ - *last_) % kSlot;

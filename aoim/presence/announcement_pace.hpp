@@ -25,7 +25,7 @@ class AnnouncementPace {
   void stop() noexcept { running_ = false; }
   [[nodiscard]] bool is_running() const noexcept { return running_; }
 
-  /// A peer may not know us: announces at once, and repeats for a while because of loss.
+  /// A peer may not have accepted us: announces at once, and repeats for a while because of loss.
   void announce_soon(std::chrono::nanoseconds now) noexcept;
   /// Others may have accepted another peer in our place: announces every `brisk_gap` during
   /// `brisk`, because no list shows when they accept us.
@@ -47,7 +47,7 @@ class AnnouncementPace {
   /// heartbeat
   bool note_announced(std::chrono::nanoseconds now, bool acquainted) noexcept;
 
-  /// Delays the next heartbeat, if it would come late in its slot, to the begin of the next slot: a
+  /// Delays the next heartbeat, if it would come late in its slot, to the start of the next slot: a
   /// MAC that arrives late proves nothing. Call it after note_announced().
   /// @param slot_time of the announcement that was just sent
   void align(std::chrono::nanoseconds slot_time) noexcept;
@@ -58,7 +58,7 @@ class AnnouncementPace {
   }
   /// All peers list us, so the next one is a heartbeat. Call it only if is_repeating().
   void end_repetition() noexcept;
-  /// Our ID has changed and no peer knows it, so no gap applies.
+  /// Our ID has changed and no peer has received it, so no gap applies.
   void forget_last() noexcept { last_.reset(); }
 
   /// When the last one with our present ID was sent.

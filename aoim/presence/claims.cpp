@@ -83,7 +83,7 @@ void Claims::note_slept(nanoseconds slept, nanoseconds now) noexcept {
   }
 }
 
-// When the claimant is believed to be a restart if the holder stays silent.
+// Time from which the claimant counts as a restart of the holder, if the holder remains silent.
 nanoseconds Claims::restart_at(const Claimant& claimant, const Peer& holder) const noexcept {
   if (claimant.last_heard < holder.last_heard) return nanoseconds::max();  // its turn to send
   // A process restarts on the same host; a claimant elsewhere waits longer.
@@ -150,7 +150,8 @@ nanoseconds Claims::next_step(PeerId own, nanoseconds looked) const noexcept {
     if (claimant.id() != own && holder < peers_.size()) {
       next = std::min(next, restart_at(claimant, peers_[holder]));
     }
-    // Not if it was silent for longer at the last look, because we were suspended ourselves.
+    // Skipped if the claimant had been silent for longer at the last check: then we were suspended
+    // ourselves.
     const nanoseconds reported = claimant.since + kLongDispute + nanoseconds(1);
     if (!claimant.reported && std::max(reported, looked) < claimant.last_heard + kLongDispute) {
       next = std::min(next, reported);

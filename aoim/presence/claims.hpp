@@ -51,8 +51,9 @@ class Claims {
   [[nodiscard]] const Claimant* find(std::uint32_t epoch) const noexcept;
   /// Whether anybody claims this id.
   [[nodiscard]] bool contains(PeerId id) const noexcept;
-  /// Whether announcements of this claimant are accepted from this source. One from the host of the
-  /// ID's holder, as of a restart, replaces the source of one that somebody sent again elsewhere.
+  /// Whether announcements of this claimant are accepted from this source. An announcement from the
+  /// host of the ID's holder, as after a restart, replaces the source of one that was replayed from
+  /// elsewhere.
   [[nodiscard]] bool may_speak_for(const Claimant& claimant,
                                    const SourceAddress& from) const noexcept;
   [[nodiscard]] bool is_full() const noexcept { return claimants_.size() == config_.claims; }

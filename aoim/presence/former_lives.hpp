@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Epochs of peers that have ended, as far as presence knows. They identify stale datagrams, and
-// peers that return.
+// Epochs of peers that presence has found to have ended. They identify stale datagrams, and peers
+// that return.
 #pragma once
 
 #include <chrono>
@@ -27,8 +27,8 @@ struct FormerLife {
   bool has_announced_end = false;
 };
 
-/// The last 64 ended epochs. Those that may return and were received for long are kept longest. One
-/// thread; allocates nothing after construction.
+/// The last 64 ended epochs. Epochs that may return and were received for long are kept longest.
+/// One thread; allocates nothing after construction.
 class FormerLives {
  public:
   static constexpr std::size_t kMost = 64;
@@ -46,7 +46,7 @@ class FormerLives {
                              std::chrono::nanoseconds pin) noexcept;
   /// Adds an ended epoch.
   void add(const FormerLife& life);
-  /// Removes an epoch. @return what was known of it
+  /// Removes an epoch. @return its stored data
   std::optional<FormerLife> take(std::uint32_t epoch) noexcept;
 
  private:

@@ -26,7 +26,7 @@ Introduction::Introduction(const IntroductionConfig& config)
 }
 
 void Introduction::set_owned(std::size_t count) noexcept {
-  constexpr double kLongest = 3600.0;  // [s]; larger owners are known by heartbeats before
+  constexpr double kLongest = 3600.0;  // [s]; heartbeats introduce larger owners before
   const double needed = std::min(static_cast<double>(count) / config_.pace, kLongest);
   spread_ = std::max(config_.spread, config_.settle + pdu::from_seconds(needed));
 }

@@ -21,7 +21,7 @@ namespace reckon::aoim {
 /// Our requests. One thread; allocates nothing after construction.
 class JoinAsks {
  public:
-  /// Most cells of one request.
+  /// Greatest number of cells in one request.
   static constexpr std::size_t kMostCells = 128;
   /// Peers that own entities there have answered by then: 130 ms plus slow steps at both ends.
   static constexpr std::chrono::milliseconds kAnswered{300};
@@ -47,8 +47,8 @@ class JoinAsks {
 
   /// Whether a new request is due.
   [[nodiscard]] bool has_new() const noexcept { return has_new_; }
-  /// The time of one more request at `utc` [ns], later than all others: peers know a request by it,
-  /// and there may be several at one instant, from several steps too.
+  /// The time of one more request at `utc` [ns], later than all others: it identifies a request,
+  /// and there may be several at one instant, even from several steps.
   [[nodiscard]] std::uint64_t take_time(std::uint64_t utc) noexcept;
   /// When an announcement must repeat a request; max if none must.
   [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept;

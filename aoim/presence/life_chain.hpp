@@ -62,7 +62,7 @@ class LifeChain {
   /// @param source address it is sent from; port 0: unknown, then it has no MAC
   void sign(pdu::Presence& announced, const SourceAddress& source,
             std::chrono::nanoseconds now) noexcept;
-  /// Time since the begin of the slot, when the last announcement was signed.
+  /// Time since the start of the slot, when the last announcement was signed.
   [[nodiscard]] std::chrono::nanoseconds slot_time() const noexcept { return time_ % kSlot; }
 
  private:

@@ -32,8 +32,8 @@ void Liveness::note_heard(Peer& peer, nanoseconds now) noexcept {
   look_ = look_ || peer.quiet;
 }
 
-// When this silent peer is to be reported as quiet, or is lost. A link that it revealed shows that
-// it is alive, even if somebody else sent it again.
+// Time at which this silent peer is reported as quiet, or is lost. A revealed link proves that the
+// peer is alive, even if another sender repeated it.
 nanoseconds Liveness::silence_due(const Peer& peer) const noexcept {
   const bool is_next_lost = peer.quiet || !peer.joined;
   const nanoseconds last = is_next_lost ? std::max(peer.last_heard, peer.opened) : peer.last_heard;

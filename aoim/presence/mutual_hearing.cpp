@@ -70,7 +70,7 @@ bool MutualHearing::is_unknown(std::uint32_t epoch) const noexcept {
   return epoch != own_.epoch() && !former_.contains(epoch);
 }
 
-// A peer that has not accepted us yet, or has forgotten us, loses our introduction.
+// A peer that has not accepted us yet, or has dropped us, loses our introduction.
 void MutualHearing::note_listing(Peer& peer, nanoseconds now) const {
   Hearing& hears = peer.hears;
   if (!pace_.is_running() || hears.us_at != now) return;

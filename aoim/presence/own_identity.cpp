@@ -19,7 +19,8 @@ constexpr std::chrono::milliseconds kBelieved{850};
 // take that one too, the dispute about the one after it lasts longer: somebody follows the peer.
 constexpr int kMostYields = 3;
 constexpr std::chrono::seconds kInPeace{10};
-// IDs to draw from, for each known peer: the losers of one race rarely collide again.
+// Number of IDs to draw from, for each known peer: peers that lost the same ID then rarely collide
+// again.
 constexpr std::size_t kSpread = 8;
 
 }  // namespace

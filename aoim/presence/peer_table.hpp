@@ -122,8 +122,8 @@ class PeerTable {
 
  private:
   std::vector<Peer> peers_;
-  std::vector<PeerId> ids_;            // of peers_, in the same order
-  std::vector<std::uint32_t> epochs_;  // likewise
+  std::vector<PeerId> ids_;            // IDs of peers_, in the same order
+  std::vector<std::uint32_t> epochs_;  // epochs of peers_, in the same order
   EpochIndex places_;                  // in peers_
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of peers that this one hears, as a PDU.
+// Encodes the list of received peers as a PDU.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace reckon::aoim {
 
-/// Room for one list. One thread; allocates nothing.
+/// A buffer for one list. One thread; allocates nothing.
 class PeersHeardEncoder {
  public:
-  /// Epochs of one list at most: it and its bundle stay below the payload limit.
+  /// Greatest number of epochs in one list, so that it and its bundle stay below the payload limit.
   static constexpr std::size_t kMostListed = 256;
 
-  /// @return a PeersHeard PDU of the first kMostListed epochs, until the next call
+  /// @return a PeersHeard PDU of the first kMostListed epochs, valid until the next call
   [[nodiscard]] std::span<const std::byte> encode(const HeardList& heard,
                                                   const ControlStamp& stamp) noexcept;
 

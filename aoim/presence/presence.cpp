@@ -344,7 +344,7 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now, nanoseconds utc,
   settle(now);
   if (own_.step(now)) {
     fill_free_ids(now);
-    settle(now);  // other claimants of the number that we gave up
+    settle(now);  // other claimants of the ID that we gave up
   }
   std::swap(outgoing_, farewells_);
   farewells_.clear();

@@ -66,7 +66,7 @@ struct PresenceConfig {
   std::size_t most_listed = 240, part = 192;
 
   /// @throws std::invalid_argument for a heartbeat or number of misses that is not positive, or
-  /// lists without room for one, parts of them for two.
+  /// lists without room for one epoch, or parts without room for two.
   void check() const;
   /// Silence after which a peer has timed out.
   [[nodiscard]] std::chrono::nanoseconds patience() const noexcept;

@@ -29,8 +29,8 @@ enum class PresenceEventKind : std::uint8_t {
                      ///< entities
   identity_changed,  ///< we lost a dispute: `announced` is ours with the new ID, `former` the old
                      ///< ID
-  settled,           ///< we hold our ID, and all that receive us accept it: introduce. Not reported
-                     ///< beyond the area-of-interest manager, see is_settled()
+  settled,      ///< we hold our ID, and all receivers accept it: introduce. Not reported beyond the
+                ///< area-of-interest manager, see is_settled()
   heard_late,   ///< it receives us, but did not when we introduced our entities: introduce again.
                 ///< Not reported beyond the area-of-interest manager
   disputed,     ///< two peers hold one ID and do not settle it: `announced` claims it from the

@@ -7,9 +7,9 @@
 namespace reckon::aoim {
 namespace {
 
-// Most calls of the function a second for wrong proofs from elsewhere, and after that also from the
-// source of the epoch, which somebody forges; proofs that are only a little ahead are checked
-// beyond that, too.
+// Greatest number of calls of the function per second for wrong proofs from other sources, and with
+// a forged source of the epoch. Proofs that are only a little ahead are checked even beyond these
+// limits.
 constexpr std::uint32_t kMostWrongSteps = 8192, kMostAtHome = 131'072, kAlways = 4 * kSlotLinks;
 
 }  // namespace

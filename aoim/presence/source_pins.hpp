@@ -16,8 +16,8 @@ namespace reckon::aoim {
 /// Moves and impostors. The rows of the peers hold the pending ones. One thread; allocates nothing.
 ///
 /// A peer moves when a revealed key proves its address (address_proof.hpp). A peer whose hand we
-/// touch moves before that if its old address falls silent, on approval: the old address gets it
-/// back if it speaks, or if the key refutes the new one.
+/// touch moves before that, provisionally, if its old address falls silent. The move is undone if
+/// the old address sends again, or if the key refutes the new one.
 class SourcePins {
  public:
   /// @param config, events outlive this

@@ -10,8 +10,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Validity of a rival's claim: one announcement period, so that a silent rival never wins. And that
-// of a witness's list: at 20 % loss all four lists of this time are lost once in 600 times.
+// Validity of a rival's claim: one announcement period, so that a silent rival never wins. And
+// validity of a witness's list: at 20 % loss all four lists of this time are lost once in 600
+// times.
 constexpr std::chrono::milliseconds kRecent{1200}, kRecentList{4000};
 // Gap between two counts of the witnesses in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
@@ -26,8 +27,8 @@ bool WitnessCount::is_against(const pdu::Presence& own, int excess, nanoseconds 
   });
 }
 
-// The rival's own statements, such as its start time, count only if the witnesses are equal, so
-// that a forger evicts nobody whom others receive.
+// The rival's own statements, such as its start time, count only if the witnesses are equal, so a
+// forger cannot evict a peer that others receive.
 bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, int excess,
                              nanoseconds now) const noexcept {
   const nanoseconds lasts = now - rival.since;

@@ -23,7 +23,7 @@ class WitnessCount {
       : config_(config), peers_(peers), claims_(claims) {}
 
   /// Whether we lose our ID to a rival; evaluated at most four times a second, false in between.
-  /// @param own our announcement  @param excess number of IDs lost in a row, less the number after
+  /// @param own our announcement @param excess number of IDs lost in a row, minus the number after
   /// which a dispute lasts longer
   [[nodiscard]] bool is_against(const pdu::Presence& own, int excess,
                                 std::chrono::nanoseconds now) noexcept;

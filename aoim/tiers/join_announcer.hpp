@@ -20,8 +20,8 @@
 
 namespace reckon::aoim {
 
-/// The tier in whose cells a peer begins to listen; none if it does not begin, or in a tier that
-/// the scene does not have.
+/// The tier in whose cells a peer begins to listen; std::nullopt: it does not begin, or the scene
+/// lacks the tier.
 [[nodiscard]] std::optional<std::size_t> joined_tier(const pdu::CellMembership& membership,
                                                      const TierTable& tiers) noexcept;
 
@@ -37,7 +37,7 @@ class JoinAnnouncer {
 
   /// Cells of the cell tier, which are requested until an owner answers; see JoinAsks.
   [[nodiscard]] JoinAsks& asks() noexcept { return asks_; }
-  /// Requests once, from the owners of the entities in this cell, the introduction for this tier.
+  /// Requests once the introduction for this tier from the owners of the entities in this cell.
   void ask_once(std::size_t tier, CellId cell);
   /// Whether the next step has anything to send.
   [[nodiscard]] bool is_pending() const noexcept;

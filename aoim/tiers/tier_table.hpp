@@ -21,15 +21,15 @@ inline constexpr std::size_t kEverybody = std::numeric_limits<std::size_t>::max(
 inline constexpr std::size_t kCellTier = 0;
 
 /// The tiers, each of a kind. A listener of a tier is in all outer tiers too, so an update for a
-/// tier reaches that tier and the inner ones. The innermost are the urgent tiers; then come those
-/// that run ahead, one for each row of channels, and then the cell.
+/// tier reaches that tier and the inner ones. The innermost are the urgent tiers; then follow the
+/// tiers that run ahead, one for each row of channels, and then the cell.
 ///
 /// Each tier has one group for each cell, with the numbers of the pool shifted by tier * pool.
 /// Immutable: any thread. Allocates at construction.
 class TierTable {
  public:
-  /// @param besides kinds of the tiers besides the cell's, in the order of their groups; of those
-  /// that run ahead, the innermost is first  @param pool groups of one tier, >= 1
+  /// @param besides kinds of all tiers except the cell's, in the order of their groups; of the
+  /// tiers that run ahead, the innermost is first @param pool groups of one tier, >= 1
   TierTable(std::span<const TierKind* const> besides, std::size_t pool);
 
   [[nodiscard]] std::size_t count() const noexcept { return kinds_.size(); }
@@ -37,8 +37,8 @@ class TierTable {
   /// The urgent tiers.
   [[nodiscard]] std::span<const std::size_t> urgent() const noexcept { return urgent_; }
 
-  /// Tier with this row of channels, of those that are not kept, the nearest being 0; the cell tier
-  /// from last_row() on.
+  /// Tier with this row of channels, counted without the kept rows from 0, the nearest; the cell
+  /// tier from last_row() on.
   [[nodiscard]] std::size_t of_row(std::size_t row) const noexcept {
     return row < ahead_.size() ? ahead_[row] : kCellTier;
   }

@@ -30,7 +30,7 @@ class AdaptiveOrder {
   explicit AdaptiveOrder(const AdaptiveSettings& settings = {}) noexcept;
 
   /// Takes an update, and first scores the prediction of each extrapolator for its time. False if
-  /// the history refuses it.
+  /// the history rejects it.
   bool add(const MotionSample& sample) noexcept;
   /// Takes an update. `sent` is the pose that the update before predicts for this time. Its error
   /// limits how far the choice may later depart from that prediction.
@@ -39,9 +39,10 @@ class AdaptiveOrder {
   [[nodiscard]] Pose predict(double tau) const noexcept;
   /// The same, limited to the neighbourhood of `sent`, the pose that the newest update predicts for
   /// this time. An owner that sends at a threshold crossing and is silent is within the threshold
-  /// of `sent`. So the choice is followed as far as that prediction was off at the last updates. It
-  /// is abandoned gradually in a silence much longer than theirs. |pose - sent| <= stray(tau); the
-  /// orientation follows the choice and returns in the same way.
+  /// of `sent`. So the choice is followed as far as the error of that prediction at the last
+  /// updates. It is abandoned gradually in a silence much longer than the recent intervals between
+  /// updates. |pose - sent| <= stray(tau); the orientation follows the choice and returns in the
+  /// same way.
   [[nodiscard]] Pose predict_near(const Pose& sent, double tau) const noexcept;
   /// Greatest distance of predict_near() from `sent` [m]: the recent error of the sent prediction,
   /// times the third power of time, like the error of a second order; 0 from kGivenUp intervals on.

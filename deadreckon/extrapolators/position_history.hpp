@@ -18,10 +18,11 @@ struct AccelerationCutoffs {
 };
 
 /// x' + v tau + a tau^2 / 2, with v and a of the parabola through the last three positions. The
-/// first order through the last two is used where |a| is minimal or substantial. (The thesis names
-/// only that case; the second order between the cut-offs is the method of its authors.) With fewer
-/// samples, short gaps or long silences as in first_order_two_step, which holds without a usable
-/// gap if no velocity is sent. Any thread, no allocation.
+/// first order through the last two is used where |a| is minimal or substantial. (The thesis
+/// describes only the first order; the second order between the cut-offs is from Singhal and
+/// Cheriton.) With fewer samples, short gaps or long silences it behaves as first_order_two_step,
+/// which holds the position if there is no usable gap and no sent velocity. Any thread, no
+/// allocation.
 [[nodiscard]] Pose position_history(const MotionHistory& history, double tau,
                                     const StepLimits& limits,
                                     const AccelerationCutoffs& cutoffs) noexcept;

@@ -38,8 +38,9 @@ Contact region_contact(const Vector3d& point, const Vector3d& normal, double rad
 }  // namespace
 
 // Depth is continuous everywhere, so that the spring has a potential and a sideways entry gains no
-// energy. It is also concave: it is (a + b) / 2 less a convex function of a - b, and the depth from
-// the side is less a convex function of the distance from the axis, which is blunt near the axis.
+// energy. It is also concave. With a and b the depths under the face and the side, it is (a + b) /
+// 2 minus a convex function of a - b. The depth from the side is a constant minus a convex function
+// of the distance from the axis, which is rounded near the axis.
 PegDepth peg_depth(double face, double reach, const Vector3d& normal,
                    const Vector3d& lateral) noexcept {
   const double width = std::min(kEdgeWidth, 0.5 * reach);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The predictor of force: a force model on a dead-reckoned entity, with a limited validity.
 //
-// The owner runs one with the model that it sent. So it knows the force that its peers compute, and
-// sends again if that differs from its true model by more than a threshold in newtons.
+// The owner runs one with the model that it sent, and so computes the force of its peers. It sends
+// again if this force differs from the force of its true model by more than a threshold in newtons.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,7 +47,7 @@ class ForcePredictor {
   [[nodiscard]] double error(const ForceModel& true_model, const Pose& true_entity,
                              std::span<const ProbeState> probes, double now) const noexcept;
 
-  /// Whether the peers' force is off by more than `threshold` [N] at any of the probes. A model
+  /// Whether the error of the peers' force exceeds `threshold` [N] at any of the probes. A model
   /// that was never sent, or has expired, counts as no force.
   [[nodiscard]] bool should_send(const ForceModel& true_model, const Pose& true_entity,
                                  std::span<const ProbeState> probes, double now,

@@ -8,7 +8,7 @@
 namespace reckon::deadreckon {
 namespace {
 
-// The state after `t` seconds, with this share of its acceleration from then on.
+// The state after `t` seconds, with its acceleration scaled by `share` from then on.
 KinematicState moved_on(const KinematicState& state, double t, double share) {
   const Pose pose = extrapolate(state, t);
   const bool body_axes = drm_terms(state.algorithm).body_axes;
@@ -44,7 +44,7 @@ Pose extrapolate_trusted(const KinematicState& state, double tau) noexcept {
   const KinematicState back = moved_on(state, trust, -1.0);
   if (!(after > trust)) return extrapolate(back, after);
   KinematicState steady = moved_on(back, trust, 0.0);
-  steady.velocity = state.velocity;  // without the rounding of what came and went
+  steady.velocity = state.velocity;  // removes the rounding errors of both phases
   return extrapolate(steady, after - trust);
 }
 

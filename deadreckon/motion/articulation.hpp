@@ -36,7 +36,7 @@ struct PartParameter {
   std::uint32_t part = 0;         ///< Class of the part, SISO UID 59, without the metric.
   std::uint16_t attached_to = 0;  ///< 0 = the entity itself, else a part.
   PartMetric metric = PartMetric::azimuth;
-  std::uint8_t change = 0;  ///< Wire's change indicator: number of changes; 1 follows 255.
+  std::uint8_t change = 0;  ///< Change indicator on the wire: number of changes; 1 follows 255.
   double value = 0;         ///< Unit according to the metric.
   double rate = 0;          ///< In this unit a second.
 };
@@ -83,9 +83,9 @@ struct PartReading {
 };
 
 /// Reads the parts in the variable parameter records of an Entity State into `out`, which is
-/// replaced. Records other than articulated parts are skipped, bad ones left out and counted. The
-/// last of two for the same place is used, and a value without a rate has the rate zero. `records`:
-/// 16 octets each, a remainder is ignored. Any octets; no allocation.
+/// replaced. Records other than articulated parts are skipped, invalid ones left out and counted.
+/// Of two records for the same part and metric the last is used, and a value without a rate has the
+/// rate zero. `records`: 16 octets each, a remainder is ignored. Any octets; no allocation.
 PartReading from_wire(std::span<const std::byte> records, PartState& out) noexcept;
 
 /// Octets that to_wire writes: one record for each value and one for each rate.
@@ -124,9 +124,9 @@ struct PartThresholds {
   double share = 0.05;
 };
 
-/// Whether peers that have `sent`, `since` seconds old, differ from `truth`: a part is off by more
-/// than its threshold, or was added, removed or attached elsewhere. `sent` is the state that peers
-/// decoded, `longest` the time for which they use rates.
+/// Whether the prediction of peers from `sent`, `since` seconds old, differs from `truth`: the
+/// error of a part is above its threshold, or a part was added, removed or attached elsewhere.
+/// `sent` is the state that peers decoded, `longest` the time for which they use rates.
 [[nodiscard]] bool should_send(const PartState& truth, const PartState& sent, double since,
                                const PartThresholds& thresholds = {},
                                double longest = kLongestPartMotion) noexcept;
@@ -143,9 +143,9 @@ class PartConvergence {
                            double longest = kLongestPartMotion) noexcept
       : settings_(settings), longest_(longest) {}
 
-  /// The update of the time `time` replaces the one before at `now`. New or reattached parts are
-  /// shown as received at once, and lengths off by more than the teleport distance. Parts that are
-  /// not in the update are removed.
+  /// The update of the time `time` replaces the one before at `now`. New or reattached parts, and
+  /// lengths with an error above the teleport distance, are at once shown as received. Parts that
+  /// are not in the update are removed.
   void update(const PartState& state, double time, double now) noexcept {
     update(state, time, now, longest_);
   }
@@ -170,7 +170,7 @@ class PartConvergence {
   double longest_;
   PartState state_;
   double time_ = 0;   // of the newest update
-  double start_ = 0;  // when it was taken
+  double start_ = 0;  // when it was stored
   std::array<Error, PartState::kCapacity> errors_{};
 };
 

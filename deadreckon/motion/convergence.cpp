@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Duration of an error, in intervals between updates.
+// Limit of the duration of an error, in intervals between updates.
 constexpr double kIntervals = 1.5;
 
 ConvergenceWeights linear_weights(double u, double duration) {
@@ -58,8 +58,8 @@ Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
 // Limits of the duration: an error decays before it could grow by this many H at its present rate,
 // and by its acceleration. With these limits the curves keep their near_bound.
 constexpr double kRegrowth = 2.0, kCarried = 3.0;
-// An update that moves the prediction by more thresholds comes from an owner that exceeds them, or
-// another was lost. The shown pose then follows without a step.
+// If an update moves the prediction by more thresholds than this, the owner exceeds its thresholds,
+// or another update was lost. The shown pose then follows without a step.
 constexpr double kKept = 2.0;
 
 // An error at an update, and its motion: position or rotation.
@@ -141,7 +141,7 @@ void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& s
   turn_ = logarithm(predicted.orientation.conjugate() * shown.orientation);
 
   // shown = predicted * exp(turn): the shown angular velocity is the predicted one in the shown
-  // axes, plus that of `turn`.
+  // axes, plus the angular velocity of `turn`.
   const Quaterniond turn = exponential(turn_);
   const Vector3d carried = turn.conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);

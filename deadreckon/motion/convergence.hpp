@@ -104,7 +104,7 @@ struct ConvergenceSettings {
 
 /// The shown error of one remote entity. Times are seconds of one steady clock of the caller.
 /// Updates may come at any rate: an update during a decay starts from the shown pose, and errors
-/// decay all the same.
+/// still decay.
 ///
 /// If a threshold is known, an error lasts at most for the time in which it would grow by 2 H at
 /// its present rate (H as in ConvergenceCurveRow). So a prediction that turns away from the shown

@@ -55,7 +55,7 @@ inline constexpr std::array<DrmTerms, 10> kDrmTerms = {{
   return row < kDrmTerms.size() ? kDrmTerms[row] : kDrmTerms[0];
 }
 
-/// Whether no term that the model of `state` uses moves it.
+/// Whether the pose stays constant: all terms that the model of `state` uses are zero.
 [[nodiscard]] bool stands_still(const KinematicState& state) noexcept;
 
 /// Pose `tau` seconds after the update, or before it if negative.

@@ -16,7 +16,7 @@ struct Euler {
   double phi = 0;
 };
 
-/// Unit quaternion, body to reference, of these angles. Any finite angles.
+/// Unit quaternion, body to reference, for these angles. Any finite angles.
 [[nodiscard]] Eigen::Quaterniond quaternion_from_euler(const Euler& euler) noexcept;
 
 /// Angles of unit q: psi and phi in (-pi, pi], theta in [-pi/2, pi/2]. Accurate near theta = +-pi/2

@@ -10,8 +10,8 @@
 
 namespace reckon::deadreckon {
 
-/// The motion in one update. All in reference axes except the angular velocity. A sender of
-/// positions alone leaves the rates at zero.
+/// The motion in one update. All in reference axes except the angular velocity. The rates are zero
+/// for a sender that sends only positions.
 struct MotionSample {
   double time = 0;                                     ///< Time of the state at the sender [s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
@@ -27,8 +27,8 @@ struct MotionSample {
 /// The state of an update as a sample: body-axis rates are converted to reference axes.
 [[nodiscard]] MotionSample motion_sample(const KinematicState& state, double time) noexcept;
 
-/// A motion as an update of this model states it; rates that the model does not use are zero. The
-/// inverse of motion_sample: body acceleration is the rate of the body components.
+/// A motion as the state of an update with this model; rates that the model does not use are zero.
+/// The inverse of motion_sample: body acceleration is the rate of the body components.
 [[nodiscard]] KinematicState kinematic_state(const MotionSample& sample,
                                              pdu::DeadReckoningAlgorithm algorithm) noexcept;
 
@@ -38,8 +38,8 @@ class MotionHistory {
   static constexpr std::size_t kLength = 3;
 
   /// Adds a sample that is newer than all others. A sample with the newest's time replaces it (a
-  /// correction). An older one, or one that is not finite, is refused with false: a late packet
-  /// must not reverse the history.
+  /// correction). False for an older sample or one that is not finite: a late packet must not
+  /// reverse the history.
   bool add(const MotionSample& sample) noexcept;
   /// Discards all samples, as after a jump on purpose.
   void clear() noexcept { size_ = 0; }

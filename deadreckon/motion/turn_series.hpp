@@ -41,7 +41,8 @@ inline constexpr Series kPositionTwice = series(4, 2, 3);  // (x^2/2 - cos x - x
 }
 
 // With u = |r|, r = w t: R1 v = t (f1 v + h1 r x v + g1 r (r.v)) and R2 a = t^2 (f2 a + h2 r x a +
-// g2 r (r.a)); q = exp(r/2). There is no division by |w|, so that zero rate is no special case.
+// g2 r (r.a)); q = exp(r/2). There is no division by |w|, so that a zero rate needs no special
+// case.
 struct TurnTerms {
   double f1, h1, g1;
   double f2, h2, g2;

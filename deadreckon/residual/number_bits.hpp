@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers by their lowest bits: how many bits are sent, and how the number is restored. Used by the
-// residual form. Pure functions, inline so that values stay in registers. Any thread.
+// Sends the lowest bits of numbers: chooses how many, and restores the number from a prediction.
+// Used by the residual form. Pure functions, inline so that values stay in registers. Any thread.
 #pragma once
 
 #include <array>
@@ -25,14 +25,14 @@ inline constexpr auto kCodeOf = [] {
   return code;
 }();
 
-/// Array of of(0), of(1), of(2). The array never lies in memory, which halves the work.
+/// Array of of(0), of(1), of(2). Keeps the array in registers, which halves the time.
 template <typename Of>
 [[gnu::always_inline]] inline auto each_axis(Of of) noexcept {
   return std::array{of(0U), of(1U), of(2U)};
 }
 
-/// Narrowest code whose numbers reach `distance` in both directions; above kHighest if there is
-/// none.
+/// Narrowest code that covers numbers within `distance` of the prediction in both directions; above
+/// kHighest if there is none.
 [[nodiscard]] inline unsigned code_for(double distance) noexcept {
   const double wanted = 2.0 * distance + 2.0;  // count of numbers
   if (!(wanted <= static_cast<double>(1U << kWidths.back()))) return kHighest + 1;
@@ -54,7 +54,8 @@ template <typename Number>
   return larger < c ? c : larger;
 }
 
-/// The number with these lowest bits that is nearest to `predicted`. Others wrap.
+/// The number with these lowest bits that is nearest to `predicted`. A number farther than half the
+/// range of `width` bits from it is restored wrongly.
 template <typename Number>
 [[gnu::always_inline]] inline Number restored(std::uint64_t bits, Number predicted,
                                               unsigned width) noexcept {

@@ -109,7 +109,7 @@ Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   return static_cast<unsigned>(hash_of(numbers, key) >> (64 - kCheckBits));
 }
 
-// Hash of all key data that later updates need.
+// Hash of all data of the key state that later updates need.
 std::uint64_t key_hash_of(const pdu::EntityState& key) noexcept {
   std::uint64_t hash = key.entity_id.key();
   const auto add = [&hash](std::uint64_t value) {

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The residual form of an Entity State. Of each number of its motion it has only the lowest bits,
+// The residual form of an Entity State. It has only the lowest bits of each number of the motion,
 // enough for the greatest error of a receiver's dead-reckoned prediction. Data that seldom change
-// stay in the key, a plain Entity State sent now and then. About 26 octets of 144.
+// are only in the key state, a plain Entity State that is sent from time to time. About 26 octets
+// instead of 144.
 //
-// The sender assumes that a receiver has any of about the last kWindow updates, and not the last
-// one: a loss of some has no further effect. A check of 16 bits over the whole state detects a
-// receiver that has none of them. It then waits for the next key.
+// The sender assumes that a receiver has at least one of about the last kWindow updates, not
+// necessarily the last one, so that a few lost updates do not affect later ones. A check of 16 bits
+// over the whole state lets a receiver that has none of them detect this. It then waits for the
+// next key state.
 #pragma once
 
 #include <array>
@@ -31,19 +33,20 @@ struct ResidualReference {
 /// The sending side of one entity in one group. One thread; no allocation; below 1 KiB.
 class ResidualEncoder {
  public:
-  /// Number of updates in a row that a receiver may certainly miss; twice as many at most.
+  /// Number of consecutive updates that a receiver may always miss; at most it may miss twice as
+  /// many.
   static constexpr unsigned kWindow = 8;
 
   explicit ResidualEncoder(const pdu::StateScale& scale = {}) noexcept : scale_(scale) {}
 
-  /// Stores `state`, which is sent plain, as the key of the following updates. False if its motion
-  /// cannot be stated in quanta: then all states are sent plain.
+  /// Stores `state`, which is sent plain, as the key state of the following updates. False if its
+  /// motion cannot be expressed in quanta: then all states are sent plain.
   bool note_key(const pdu::EntityState& state) noexcept;
 
-  /// Writes the body of `state`. Returns its octets, or 0 if the state must be sent plain, as a
-  /// key: there is no key yet, data besides the motion have changed, a number is out of range, or a
-  /// receiver with the last state would not restore the same numbers. Rounds to quanta; exact for a
-  /// state from pdu::quantise(). About 90 ns.
+  /// Writes the body of `state`. Returns its octets, or 0 if the state must be sent plain, as a key
+  /// state: there is no key state yet, data besides the motion have changed, a number is out of
+  /// range, or a receiver with the last state would not restore the same numbers. Rounds to quanta;
+  /// exact for a state from pdu::quantise(). About 90 ns.
   [[nodiscard]] std::size_t encode(const pdu::EntityState& state,
                                    std::span<std::byte, kMostResidual> out) noexcept;
 
@@ -80,7 +83,7 @@ class ResidualEncoder {
 /// Result of decoding a body.
 enum class ResidualVerdict : std::uint8_t {
   good,
-  no_key,     ///< no plain Entity State of this entity yet, or all too old: wait for the next
+  no_key,     ///< no key state yet, or the last state is too old: wait for the next key state
   malformed,  ///< not a body
 };
 
@@ -89,11 +92,12 @@ class ResidualDecoder {
  public:
   explicit ResidualDecoder(const pdu::StateScale& scale = {}) noexcept : scale_(scale) {}
 
-  /// Stores a received plain Entity State as the key, without its variable parameters.
+  /// Stores a received plain Entity State as the key state, without its variable parameters.
   void note_plain(const pdu::EntityState& state) noexcept;
 
-  /// Restores a state into `out`, which changes only if the verdict is good. `timestamp` is that of
-  /// the PDU around the body, at most 1.5 s after the state's. Any octets. About 50 ns.
+  /// Restores a state into `out`, which changes only if the verdict is good. `timestamp` is the
+  /// timestamp of the PDU that contains the body, at most 1.5 s after the state's. `body` may be
+  /// any octets. About 50 ns.
   [[nodiscard]] ResidualVerdict decode(std::span<const std::byte> body, std::uint32_t timestamp,
                                        pdu::EntityState& out) noexcept;
 

@@ -8,7 +8,7 @@
 namespace reckon::deadreckon {
 namespace {
 
-// Time constant [s] with which packets of rivals are forgotten.
+// Time constant [s] with which the packet counts of the models decay.
 constexpr double kMemory = 1.0;
 // The other model replaces the present one if it needs fewer packets by this factor, which prevents
 // alternation.

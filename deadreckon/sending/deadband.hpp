@@ -20,12 +20,12 @@ namespace reckon::deadreckon {
 struct Deadband {
   /// Share of the signal's size, 0 to 1. Default 0.1: people notice force changes of 7 to 10 %.
   double weber = 0.1;
-  /// Difference [unit of the signal] that is never sent, >= 0. Without it, noise around zero would
-  /// be sent whole. Default 0.05, for newtons.
+  /// Difference [unit of the signal] up to which nothing is sent, >= 0. Without it, all noise
+  /// around zero would be sent. Default 0.05, for newtons.
   double floor = 0.05;
 };
 
-/// The greatest difference that is not sent for this value.
+/// The greatest difference from this value for which nothing is sent.
 [[nodiscard]] double deadband_width(const Deadband& deadband,
                                     const Eigen::Vector3d& value) noexcept;
 
@@ -40,8 +40,8 @@ struct SignalUpdate {
   SignalModel model = SignalModel::hold;
 };
 
-/// Time [s] for which a line is followed. Then its last value holds, so that a lost update cannot
-/// run away.
+/// Time [s] for which a line is followed. Then its last value holds, which bounds the error if the
+/// next update is lost.
 inline constexpr double kLongestLine = 0.25;
 
 /// The signal at `time` [s] at every receiver. Before the update's time: its value.
@@ -51,7 +51,7 @@ inline constexpr double kLongestLine = 0.25;
 class DeadbandSender {
  public:
   explicit DeadbandSender(const Deadband& deadband = {}) noexcept : deadband_(deadband) {}
-  /// Always uses this model: for comparison.
+  /// Always uses this model; serves for comparison.
   DeadbandSender(const Deadband& deadband, SignalModel only) noexcept
       : deadband_(deadband), model_(only), chooses_(false) {}
 
@@ -63,8 +63,8 @@ class DeadbandSender {
   [[nodiscard]] SignalModel model() const noexcept { return model_; }
 
  private:
-  /// State of a sender with one model alone: its last update, and its packets over about the last
-  /// second.
+  /// State of a sender that uses only one model: its last update, and its packets over about the
+  /// last second.
   struct Rival {
     SignalUpdate update;
     double packets = 0;

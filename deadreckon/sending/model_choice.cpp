@@ -54,8 +54,8 @@ void ModelChoice::start(const MotionSample& truth, const Thresholds& thresholds)
   };
   chosen_ = 0;
   while (chosen_ + 1 < rivals_.size() && !is_alike(rivals_[chosen_])) ++chosen_;
-  // A motion without a rotation may rotate later. If its orientation counts, the stated rate is
-  // then that of its body and not derived from its path.
+  // A motion without a rotation may rotate later. If its orientation counts, RPB is used: it states
+  // the angular velocity of the body, which the path alone does not give.
   constexpr std::size_t kStraight = place_of(Model::fpw), kArc = place_of(Model::rpb);
   if (chosen_ == kStraight && thresholds.angle < std::numbers::pi) chosen_ = kArc;
   started_ = true;

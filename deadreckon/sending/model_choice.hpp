@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner's choice of dead-reckoning model for each entity: the one that would recently have
-// needed the fewest updates. Peers read it from each Entity State, according to the standard.
-// Thesis 4.4: the order follows from the nature of the data.
+// The owner's choice of dead-reckoning model for each entity: the model that would recently have
+// needed the fewest updates. Each Entity State names the model, according to the standard. Thesis
+// 4.4: the order follows from the nature of the data.
 #pragma once
 
 #include <array>
@@ -28,16 +28,16 @@ struct ModelChoiceSettings {
   double memory = 0.95;
   /// The present choice stays until another's count is below its own by this factor, 0 to 1...
   double better_by = 0.8;
-  /// ...and by this number of updates besides, >= 0. Default 2, because one update more or less of
-  /// the first few means little. A higher value is steadier, and costs that many updates at each
-  /// true change.
+  /// ...and also by this number of updates, >= 0. Default 2, because one update more or less of the
+  /// first few means little. A higher value is steadier, and costs that many updates at each true
+  /// change.
   double margin = 2;
 };
 
 /// Runs all of kChosenModels in parallel, each from the updates that it would have sent. The count
-/// so includes their delays and their price, as updates of all models have one size. A switch is
-/// free, because an update that is due anyway names the model. No allocation; not synchronised;
-/// some 0.3 us a call of note().
+/// therefore includes their delays and their traffic, because updates of all models have the same
+/// size. A switch costs no update, because the next update names the model. No allocation; not
+/// synchronised; some 0.3 us a call of note().
 class ModelChoice {
  public:
   explicit ModelChoice(const ModelChoiceSettings& settings = {}) noexcept : settings_(settings) {}
@@ -48,10 +48,10 @@ class ModelChoice {
             const SendRule& rule = kDefaultSendRule) noexcept;
 
   /// The model to send the latest sample with; FPW before the first. The first sample selects the
-  /// simplest model whose pose a second later is that of RVB, which uses all rates. If that is FPW,
-  /// RPB replaces it if orientations count (a threshold below half a turn), so that the first bend
-  /// is sent too. While the sample has no rotation, FPW is returned for RPB and RVW for RVB: the
-  /// same prediction in reference axes.
+  /// simplest model whose pose a second later is nearly the pose of RVB, which uses all rates. RPB
+  /// replaces FPW if orientations count (a threshold below half a turn), so that the start of a
+  /// turn is sent too. While the sample has no rotation, FPW is returned for RPB and RVW for RVB:
+  /// the same prediction in reference axes.
   [[nodiscard]] pdu::DeadReckoningAlgorithm chosen() const noexcept;
 
  private:

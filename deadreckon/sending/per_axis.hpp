@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The threshold on each axis separately, a cube, as in several other programs. Towards its corners
-// the error is up to 73 % above the threshold. Here for comparison.
+// the error is up to 73 % above the threshold. It serves for comparison.
 #pragma once
 
 #include <string_view>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The threshold according to the nearest viewer: at a distance, errors below the eye's resolution
-// do not count.
+// A larger threshold for a distant nearest viewer: errors below the eye's resolution do not count.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,8 @@
 
 namespace reckon::deadreckon {
 
-/// The threshold is `visual_angle` at `viewer_distance`, but at least that of position.
+/// The threshold is the length that covers `visual_angle` at `viewer_distance`, but at least the
+/// position threshold.
 struct SeenFrom {
   struct Parameters {
     double viewer_distance = 0;  ///< Of the nearest viewer [m], >= 0.

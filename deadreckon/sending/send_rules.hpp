@@ -53,8 +53,8 @@ struct Thresholds {
   double position = 1.0;  ///< True distance [m], a sphere; the standard's default. 1e-4 and up.
   double angle = 0.05235987755982989;  ///< True angle [rad]; the standard's default, 3 degrees.
   double force = 0.1;                  ///< [N], at touched places.
-  /// Share of the true force that may be off, 0 to 1: people notice 0.07 to 0.1. The larger of both
-  /// thresholds counts. Default 0: newtons alone.
+  /// Allowed force error as a share of the true force, 0 to 1: people notice 0.07 to 0.1. The
+  /// larger of both force thresholds counts. Default 0: only `force`.
   double weber = 0;
 
   /// Parameters of a rule besides `position`: of<SeenFrom>().viewer_distance.
@@ -78,7 +78,7 @@ inline constexpr double kFingertipResolution = 2.5e-3;
 struct SendRule {
   std::string_view name;
   std::string_view meaning;
-  /// The error over the allowed error: a value above 1, or NaN, is sent.
+  /// Error divided by the allowed error: an update is sent for a value above 1 or NaN.
   double (*share)(const PoseError&, const Thresholds&) noexcept;
 };
 

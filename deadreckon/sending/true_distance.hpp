@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The default rule: the prediction may be off by the threshold in any direction, a sphere.
+// The default rule: the position error may reach the threshold in any direction, a sphere.
 #pragma once
 
 #include <string_view>

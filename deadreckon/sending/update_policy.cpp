@@ -82,8 +82,8 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
   return now - sent_time_ >= wait_ ? SendReason::heartbeat : SendReason::none;
 }
 
-// The error of what a viewer sees, if it is above a threshold. Negated, so that a NaN prediction is
-// corrected too.
+// The kind of error that is above its threshold, between the shown and the true pose. Conditions
+// are negated, so that a NaN prediction is corrected too.
 SendReason UpdatePolicy::error_of(const Pose& seen, const Pose& truth) const noexcept {
   const PoseError error{truth.position - seen.position, truth.velocity};
   if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
@@ -91,7 +91,8 @@ SendReason UpdatePolicy::error_of(const Pose& seen, const Pose& truth) const noe
   return angle <= thresholds_.angle ? SendReason::none : SendReason::orientation;
 }
 
-// By how much the prediction of Reckon peers will then have left the standard's, which holds now.
+// Whether at time `next` the prediction of Reckon peers will differ from the standard's by more
+// than a threshold. The standard's prediction is within the thresholds now.
 SendReason UpdatePolicy::error_until(double next) const noexcept {
   if (!is_beyond_trust(sent_, next - sent_time_)) return SendReason::none;
   return error_of(predicted(next), extrapolate(sent_, next - sent_time_));
@@ -109,8 +110,8 @@ void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReaso
   event_ = false;
 }
 
-// Silence from now on until the last common moment before the heartbeat is due, less what rounding
-// may add.
+// Time from now until the last multiple of the step before the heartbeat is due, less a margin for
+// rounding.
 double UpdatePolicy::aligned(double now) const noexcept {
   constexpr double kRounding = 1e-6;  // [s]
   const double moment = std::floor((now + heartbeat_ - phase_) / step_) * step_ + phase_;

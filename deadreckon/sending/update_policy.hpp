@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When an owner has to send: the prediction of its peers, which it repeats, is off by more than a
-// threshold, an event occurred, or the heartbeat is due.
+// Decides when an owner sends: at a threshold crossing of the error of its peers' prediction, which
+// it computes too, after an event, or when the heartbeat is due.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ enum class SendReason : std::uint8_t {
 inline constexpr double kHapticHeartbeat = 5.0;
 
 /// Greatest time [s] until an event is repeated, if changes are repeated at all. A peer that missed
-/// its datagram does not see it until then.
+/// the datagram of the event does not show it until then.
 inline constexpr double kEventRepeat = 0.6;
 
 /// A peer times out after this number of heartbeats without a datagram.
@@ -49,8 +49,9 @@ inline constexpr double kTimeoutMultiplier = 2.4;
 /// together do not send together.
 [[nodiscard]] double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept;
 
-/// For UpdatePolicy::align_heartbeats(): a tenth of a heartbeat, the tolerance of IEEE 1278.1, and
-/// a moment within it that the entities of a peer share and other peers' do not.
+/// For UpdatePolicy::align_heartbeats(): a step of a tenth of a heartbeat, the tolerance of IEEE
+/// 1278.1, and a phase within it. All entities of a peer share the phase, which varies between
+/// peers.
 struct HeartbeatGrid {
   double step, phase;  ///< [s]
 };
@@ -62,15 +63,16 @@ struct HeartbeatGrid {
   return kTimeoutMultiplier * nominal;
 }
 
-/// The decision for one owned entity. The owner runs the predictor of its peers from the same
-/// numbers. Times are seconds of one steady clock of the caller. Not synchronised, no allocation.
+/// The send decision for one owned entity. The owner runs the same predictor as its peers, on the
+/// same numbers. Times are seconds of one steady clock of the caller. Not synchronised, no
+/// allocation.
 class UpdatePolicy {
  public:
   /// @param heartbeat [s] > 0, as from jittered_heartbeat
   /// @param first_heartbeat [s] > 0, silence after a change until it is repeated. Each repetition
-  /// waits twice as long as the one before, up to `heartbeat`. So a lost change is repaired soon,
-  /// for a few packets per change. Default: no such repetitions
-  /// @param rule decides when a position is off too far; outlives the policy
+  /// waits twice as long as the previous one, up to `heartbeat`. A lost change is thus repaired
+  /// soon, at the cost of a few packets per change. Default: no such repetitions
+  /// @param rule decides when a position error is too large; must outlive the policy
   /// @param event_repeat [s] > 0, replaces `first_heartbeat` after an event if it is shorter. The
   /// next repetition waits as long as after any change, so that events have no more repetitions
   UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat,
@@ -84,28 +86,28 @@ class UpdatePolicy {
   UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
       : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
 
-  /// Times of regular heartbeats, once the repetitions after a change are over: each is earlier by
-  /// up to `step` than it would be, at a multiple of `step` after `phase` [s, of the same clock].
-  /// So the heartbeats of many entities fit into few datagrams. 0: each at its own time.
+  /// Moves the regular heartbeats, after the repetitions of a change are over: each is sent up to
+  /// `step` earlier, at a multiple of `step` after `phase` [s, of the same clock]. The heartbeats
+  /// of many entities then fit into few datagrams. Step 0: each at its own time.
   /// @param step [s], at most half of the heartbeat
   void align_heartbeats(double step, double phase) noexcept {
     step_ = step;
     phase_ = phase;
   }
 
-  /// Where decide() is called seldom: the time until its next call [s], >= 0; default 0. It then
-  /// sends before an acceleration ceases to be trusted, if the prediction of Reckon peers would
-  /// have left the standard's by a threshold until then.
+  /// For infrequent calls of decide(): the time until its next call [s], >= 0; default 0. decide()
+  /// then sends an update in advance if before the next call the acceleration ceases to be trusted
+  /// and the prediction of Reckon peers differs from the standard's by more than a threshold.
   void look_again_after(double seconds) noexcept { next_look_ = seconds; }
 
-  /// An abrupt event (collision, new surface, appearance): the next decide() returns it.
+  /// An abrupt event (collision, new surface, appearance): the next decide() returns `event`.
   void event() noexcept { event_ = true; }
 
-  /// Whether to send at `now`. Both predictions have to be within the thresholds: that of Reckon
-  /// peers and, for viewers of other programs, that of the standard without a limit. `truth` is the
-  /// entity's actual pose, `force_error` the result of ForcePredictor::error [N], `true_force` the
-  /// size of the owner's own force [N], for Thresholds::weber. A truth that is not finite is never
-  /// sent: `none`.
+  /// Whether to send at `now`. Both predictions must be within the thresholds: the prediction of
+  /// Reckon peers and, for viewers of other programs, the prediction of the standard, which trusts
+  /// an acceleration without limit. `truth` is the entity's actual pose, `force_error` the result
+  /// of ForcePredictor::error [N], `true_force` the size of the owner's own force [N], for
+  /// Thresholds::weber. Returns `none` for a truth that is not finite, which is never sent.
   [[nodiscard]] SendReason decide(const Pose& truth, double now, double force_error = 0,
                                   double true_force = 0) const noexcept;
 

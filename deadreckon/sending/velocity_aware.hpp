@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A larger threshold for fast entities: over a delay of d a viewer is off by |v| d anyway, and a
-// smaller error is not worth its packets.
+// A larger threshold for fast entities: a delay of d already causes an error of |v| d at a viewer,
+// and a smaller error is not worth its packets.
 #pragma once
 
 #include <array>

@@ -16,15 +16,16 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kLongestStep = 1e-3;     // [s]
-constexpr double kLongestSubstep = 5e-4;  // [s], of what is foreseen
+constexpr double kLongestSubstep = 5e-4;  // [s], of a prediction
 constexpr double kLongestGap = 0.1;       // [s]
-constexpr double kJitter = 5e-5;          // [s], of a servo that is on time
-constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
-constexpr double kBodyTime = 3.5e-6;      // [s], of a step, for each body
-constexpr double kMetAhead = 2.0;         // periods, in which one that moves may meet what sleeps
-constexpr std::size_t kMostLeft = 256;    // since a copy of the states was brought up to date
-constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
-constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
+constexpr double kJitter = 5e-5;          // [s], lateness of a punctual servo
+constexpr double kMostTime =
+    3e-4;  // [s], part of a period for prediction and steps of touched islands
+constexpr double kBodyTime = 3.5e-6;    // [s], cost of a step for each body
+constexpr double kMetAhead = 2.0;       // periods in which a moving body may reach a sleeping one
+constexpr std::size_t kMostLeft = 256;  // bodies between two updates of a copy of the states
+constexpr double kRight = 0.15;         // greatest dt sqrt(K / m)
+constexpr double kLeverage = 0.4;       // least effective mass of a rotating body, over its mass
 
 }  // namespace
 
@@ -85,7 +86,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   const BodySet rest = ahead_ > 0 ? rest_ : apart();
   double length = kLongestStep;
   if (rest != 0) {
-    // What is pushed goes on in small steps, all else as if nothing were.
+    // Pushed islands move in small steps, all other bodies in usual ones.
     const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps(pushes_)));
     if (rest != BodySolver::all()) {
       carried_.drive(solver_, gap);
@@ -137,7 +138,7 @@ void BodyEngine::go_ahead() noexcept {
   rest_ = apart();
   if (rest_ == 0) return;
   ahead_ = period_;
-  // What is carried goes on as it does now.
+  // Carried objects keep their present velocity.
   carried_.put(solver_);
   solver_.only(rest_);
   solver_.keep();
@@ -182,7 +183,7 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   period_ = period;
   stepped_ |= std::uint64_t{1} << hand % 64;
   const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
-  // What is frozen gives way to nobody.
+  // Frozen bodies do not give way.
   if (frozen_ || std::ranges::none_of(pushes_, own)) return;
   const BodySet pushed = slots_of(pushes_, solver_.slots()) | still_pushed();
   const std::size_t steps = steps_for(period);
@@ -220,12 +221,12 @@ double BodyEngine::take_back(std::size_t body, double energy) noexcept {
   return taken;
 }
 
-// Nothing moves, and has not since both sets of states were read.
+// The bodies to search, in these states.
 BodiesAbout BodyEngine::about(std::span<const BodyState> states) const noexcept {
   return {states, with_slot(), solver_.slots().asleep()};
 }
 
-// One that sleeps gets one, and another that sleeps may lose it.
+// A sleeping body gets a slot; another sleeping body may lose its slot.
 std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
   const std::size_t had = solver_.slots().slot_of(body);
   if (had != BodySlots::kNone) return had;
@@ -249,7 +250,7 @@ std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
   return slot;
 }
 
-// What sleeps and is in the way of one that is awake.
+// Wakes sleeping bodies in the way of moving ones.
 void BodyEngine::take_in_met() noexcept {
   if (solver_.slots().asleep().size() == 0) return;
   met_.clear();
@@ -263,11 +264,11 @@ void BodyEngine::take_in_met() noexcept {
       if (met_.size() < met_.capacity()) met_.push_back(body);
     });
   }
-  std::ranges::sort(met_);  // so that it is the same whatever the grid's order
+  std::ranges::sort(met_);  // the result does not depend on the order of the grid
   for (const std::uint32_t body : met_) static_cast<void>(slot_for(body));
 }
 
-// To the period's begin, where all others are.
+// Moves the bodies that are ahead back to the start of the period, where all others are.
 void BodyEngine::go_back() noexcept {
   if (!(std::exchange(ahead_, 0.0) > 0)) return;
   solver_.only(rest_);
@@ -281,7 +282,7 @@ void BodyEngine::begin_period() noexcept {
   ahead_ = 0.0;
 }
 
-// What is stepped apart from the islands that hands push; none where these take one step.
+// The bodies outside the islands that hands push. None if these islands take one step.
 BodySet BodyEngine::apart() const noexcept {
   if (pushes_.empty()) return BodySolver::all();
   const std::size_t steps = most_steps(pushes_);
@@ -289,7 +290,7 @@ BodySet BodyEngine::apart() const noexcept {
   return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
 }
 
-// Whether it is stepped fast enough, by each hand and once more.
+// Whether an island can be stepped in time: once for each hand and once more.
 bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
   double bodies = 0.0;
   solver_.slots().each(island, [&](std::size_t slot) { bodies += solver_.effort(slot); });
@@ -297,7 +298,7 @@ bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
   return kBodyTime * bodies * times <= kMostTime;
 }
 
-// A hand that has not stepped yet in this period still pushes as in the last one.
+// A hand that has not stepped yet in this period keeps its push of the last one.
 bool BodyEngine::is_due(const BodyPush& push) const noexcept {
   return push.stiffness() > 0 && (stepped_ >> push.hand() % 64 & 1) == 0;
 }
@@ -309,7 +310,7 @@ BodySet BodyEngine::still_pushed() const noexcept {
   return out;
 }
 
-// So many that the lightest body that is pushed is stepped right.
+// Number of steps that is accurate for the lightest pushed body.
 std::size_t BodyEngine::steps_for(double period) const noexcept {
   std::array<double, BodySlots::kMost> stiffness{};
   for (const BodyPush& push : pushes_)
@@ -350,7 +351,8 @@ void BodyEngine::follow(BodyPush& push, double dt) noexcept {
   push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
 }
 
-// All that acts, for `whole` [s], in steps of dt [s] or less. @return their length [s]
+// Moves all acting bodies by `whole` [s], in steps of dt [s] or less. @return length of the steps
+// [s]
 double BodyEngine::push_for(double whole, double dt) noexcept {
   const double steps = std::ceil(whole / dt - 1e-9);
   const double length = whole / steps;
@@ -372,8 +374,8 @@ void BodyEngine::go_on(double whole) noexcept {
   for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
 }
 
-// Into the next states, which then are those that hold: those of `some`, and of what is carried.
-// @param step [s], in which `fine` were moved last
+// Reads the states of `some` and of carried objects into next_, which becomes the present states.
+// @param step [s], last step of the bodies `fine`
 void BodyEngine::read_states(BodySet some, double step, BodySet fine) noexcept {
   for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
     if ((some >> slot & 1) == 0 && !solver_.is_carried(slot)) continue;

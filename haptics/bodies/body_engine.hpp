@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a world of bodies goes on in time: what hands push in small steps that they foresee, all else
-// when the forces are written.
+// Time integration of the bodies: islands that hands push in small, predicted steps; all others
+// after the forces are written.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@
 
 namespace reckon::haptics {
 
-/// Time, and what hands do to the bodies within a period. See BodyWorld, which publishes what comes
-/// of it. Servo thread.
+/// Advances the bodies in time and applies the pushes of hands within a period. BodyWorld publishes
+/// the results. Servo thread.
 class BodyEngine {
  public:
   BodyEngine(const EffectPlan& plan, const Eigen::Vector3d& gravity,
@@ -31,7 +31,7 @@ class BodyEngine {
 
   std::size_t add_hand() { return near_.add_hand(); }
 
-  /// See BodyWorld, here and below. @return whether there was anything to do
+  /// This and the functions below: see BodyWorld. @return whether the time has advanced
   bool advance_to(std::chrono::nanoseconds now, bool frozen) noexcept;
 
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
@@ -41,10 +41,10 @@ class BodyEngine {
   }
   [[nodiscard]] bool has_hands() const noexcept { return near_.hands() > 0; }
 
-  /// @return whether all hands have
+  /// @return whether all hands have written
   bool written(std::size_t hand, const HandReach& reach) noexcept;
 
-  /// What no hand touches, to the end of the period.
+  /// Moves the bodies that no hand touches to the end of the period.
   void go_ahead() noexcept;
 
   std::size_t push(std::size_t body, const Eigen::Vector3d& point,
@@ -73,7 +73,7 @@ class BodyEngine {
   }
   /// Number of changes of the states, from 1 on.
   [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
-  /// How many have lost their slot, and the last of them.
+  /// Number of bodies that have lost their slot, and the last of them.
   [[nodiscard]] std::uint64_t left() const noexcept { return left_count_; }
   [[nodiscard]] std::span<const std::uint32_t> last_left() const noexcept { return left_; }
 
@@ -116,24 +116,24 @@ class BodyEngine {
   BodySolver solver_;
   CarriedObjects carried_;
   std::vector<BodyState> states_;
-  // Those of the period's end, as far as they are foreseen; until then those of the period before.
+  // States at the end of the period, of the bodies that are ahead; of others the previous states.
   std::vector<BodyState> next_;
   NearBodies near_;
   std::array<std::uint32_t, BodySlots::kMost> in_slot_ = all_nobody();  // bodies, by their slots
   std::vector<std::uint32_t> met_;
-  std::vector<std::uint32_t> left_;  // the last that lost their slots
+  std::vector<std::uint32_t> left_;  // the last bodies that lost their slots
   std::uint64_t left_count_ = 0, crowded_ = 0;
-  bool is_crowded_ = false;        // in this period
+  bool is_crowded_ = false;        // a body found no slot in this period
   std::uint64_t version_ = 1;      // of the states
-  std::uint64_t quiet_ = 0;        // reads of them since one was awake
-  std::vector<BodyPush> pushes_;   // of this period
-  std::vector<BodyPush> last_;     // of the one before
-  std::vector<BodyForce> forces_;  // of a step
+  std::uint64_t quiet_ = 0;        // updates of the states since a body was awake
+  std::vector<BodyPush> pushes_;   // pushes of this period
+  std::vector<BodyPush> last_;     // pushes of the last period
+  std::vector<BodyForce> forces_;  // forces of a step
   std::vector<double> works_;
-  std::uint64_t stepped_ = 0, written_ = 0;  // hands, in this period
-  BodySet rest_ = 0;                         // that has gone on to the period's end
-  double ahead_ = 0.0;                       // [s], of this period, in which it has
-  double lead_ = 0.0;     // [s], that it is ahead of the hands, after a step that came early
+  std::uint64_t stepped_ = 0, written_ = 0;  // hands with a step, and with a write, in this period
+  BodySet rest_ = 0;                         // bodies moved to the end of the period
+  double ahead_ = 0.0;                       // [s], time by which they are ahead
+  double lead_ = 0.0;     // [s], time by which they are ahead of the hands after an early step
   double period_ = 1e-3;  // [s]
   bool started_ = false;
   bool frozen_ = false;

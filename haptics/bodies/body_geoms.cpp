@@ -16,7 +16,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int kCells = 20;  // along a solid
+constexpr int kCells = 20;  // cells along a solid
 constexpr std::size_t kMostTriangles = 20'000;
 
 dGeomID placed(const PlannedObject& object, dGeomID geom) {
@@ -86,7 +86,7 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
   return geom;
 }
 
-// Of a mesh, or a solid that has an end.
+// The mesh of a mesh object or of a bounded solid; null for others.
 std::shared_ptr<const SurfaceMesh> BodyGeoms::mesh_for(const PlannedObject& object) {
   if (const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape))
     return *mesh;
@@ -124,7 +124,7 @@ std::span<dContactGeom> BodyGeoms::meet(dGeomID a, dGeomID b,
 }
 
 dGeomID BodyGeoms::make(const PlannedObject& object, const SurfaceMesh* mesh) {
-  // On a mesh it would roll over its pieces.
+  // As a mesh, a cylinder would roll over facets.
   if (const CylinderShape* cylinder = cylinder_of(object); mesh != nullptr && cylinder != nullptr)
     return placed(object, dCreateCylinder(space_, cylinder->radius, cylinder->height));
   if (mesh != nullptr) return placed(object, make_mesh(*mesh));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The objects of a plan as the shapes that ODE finds contacts of.
+// The objects of a plan as collision shapes of ODE.
 #pragma once
 
 #include <deque>
@@ -21,32 +21,35 @@ namespace reckon::haptics {
 /// @throws std::invalid_argument "object '..' {why}"
 [[noreturn]] void refuse_body(const PlannedObject& object, const std::string& why);
 
-/// Its dimensions, or null if it is none.
+/// Dimensions of a cylinder; null: another shape.
 [[nodiscard]] const CylinderShape* cylinder_of(const PlannedObject& object);
 
-/// What a geom is made of; its data.
+/// User data of a geom.
 struct GeomMatter {
   Matter matter;
-  const ProbedMesh* mesh = nullptr;  ///< of a mesh, where one with a mass moves
-  /// Of a ball, box, cylinder or plane, in the axes of the object; none of others.
+  const ProbedMesh* mesh = nullptr;  ///< of a mesh, if some mesh has a mass
+  /// Of a ball, box, cylinder or plane, in the axes of the object; std::nullopt: another shape.
   std::optional<QueryShape> swept;
-  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();  ///< of the object at the begin, to S
+  Eigen::Matrix3d turned =
+      Eigen::Matrix3d::Identity();  ///< initial rotation of the object, object -> S
 };
 
-/// A space of shapes: boxes, spheres, planes, meshes, and solids as meshes. One thread at a time.
+/// A collision space: boxes, spheres, cylinders, planes, meshes, and solids as meshes. One thread
+/// at a time.
 class BodyGeoms {
  public:
-  /// @param objects that are to be added
+  /// @param objects that will be added
   explicit BodyGeoms(std::span<const PlannedObject> objects);
   ~BodyGeoms();
   BodyGeoms(const BodyGeoms&) = delete;
   BodyGeoms& operator=(const BodyGeoms&) = delete;
 
-  /// A shape for the object, at its place if it stands still; one that moves is placed by its body.
-  /// @return null for a solid without end, which bodies pass through, or without bodies  @throws
-  /// std::invalid_argument for one that cannot move, or is too thin to be met
+  /// Adds a shape for the object, at its pose if it is static; the body of a moving object places
+  /// it.
+  /// @return null for an unbounded solid, which bodies pass through, or without bodies @throws
+  /// std::invalid_argument for a shape that cannot move, or is too thin to collide
   dGeomID add(const PlannedObject& object);
-  /// Contacts of two of them as dCollide finds them, those that hold best; 4 at most.
+  /// Contacts of two geoms, as dCollide: the ones that hold best, 4 at most.
   [[nodiscard]] static std::span<dContactGeom> meet(dGeomID a, dGeomID b,
                                                     std::span<dContactGeom> room) noexcept;
   [[nodiscard]] static const GeomMatter& matter_of(dGeomID geom) noexcept {
@@ -60,10 +63,10 @@ class BodyGeoms {
   [[nodiscard]] dGeomID make_mesh(const SurfaceMesh& mesh);
 
   dSpaceID space_;
-  bool has_bodies_ = false;   // one of them has a mass
-  bool meshes_meet_ = false;  // one with a mass is a mesh, or a solid, which others are to meet
+  bool has_bodies_ = false;   // an object has a mass
+  bool meshes_meet_ = false;  // an object with a mass is a mesh or a solid
   std::vector<dTriMeshDataID> meshes_;
-  std::deque<std::vector<double>> corners_;  // ODE points to them
+  std::deque<std::vector<double>> corners_;  // ODE keeps pointers to them
   std::deque<std::vector<dTriIndex>> indices_;
   std::deque<GeomMatter> matters_;
   std::map<const SurfaceMesh*, std::unique_ptr<const ProbedMesh>> probed_;  // shared by copies

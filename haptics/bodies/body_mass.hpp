@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a body resists being moved and turned, by its shape.
+// Mass and inertia of a body from its shape.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@
 
 namespace reckon::haptics {
 
-/// Of one density. Axes: those of its shape.
+/// For uniform density, in the axes of the shape.
 struct BodyMass {
-  dMass mass;                                        ///< about its middle
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of mass [m]
-  double inner = 0.0;                                ///< [m], radius of the ball about it within
-  double least_inertia = 0.0;                        ///< [kg m^2], of its principal ones
+  dMass mass;                                        ///< about its center of mass
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< center of mass [m]
+  double inner = 0.0;          ///< [m], radius of the largest ball around it inside the body
+  double least_inertia = 0.0;  ///< [kg m^2], least principal moment of inertia
 };
 
-/// @param object a ball, a box, or with a mesh; it has a mass  @param mesh closed, or null
+/// @param object a ball or box, or any shape with a mesh; it has a mass @param mesh closed, or null
 [[nodiscard]] BodyMass mass_of(const PlannedObject& object, const SurfaceMesh* mesh);
 
 }  // namespace reckon::haptics

@@ -12,11 +12,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kLossy = 0.25;  // of a period
-// Of the spring of a patch, over the inertia [1/s^2]: as stiff as steps of half a period at 1 kHz
-// can be.
+constexpr double kLossy = 0.25;  // share of a period, see mean()
+// Rotational stiffness of a patch, over the inertia [1/s^2]: the stiffest for steps of half a
+// period at 1 kHz.
 constexpr double kTwist = 0.0225 / (0.5e-3 * 0.5e-3);
-constexpr double kFastestRest = 400.0;  // [1/s], in which a grip may bring a body's turning to rest
+constexpr double kFastestRest =
+    400.0;  // [1/s], greatest rate at which a grip damps the rotation of a body
 
 }  // namespace
 
@@ -41,7 +42,7 @@ BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& a
     begun_ = tension_ = {0.0, spring.force, spring.normal, 0.0, true};
     return;
   }
-  // A smooth surface pushes along the force that it has, also at an edge.
+  // A smooth surface pushes along its present force, at an edge too.
   const double size = spring.force.norm();
   const bool is_rough = spring.friction > 0 && spring.force.dot(spring.normal) < 0;
   const Vector3d normal = is_rough || !(size > 0) ? spring.normal : Vector3d(-spring.force / size);
@@ -93,7 +94,7 @@ Vector3d BodyPush::torque(const Vector3d& turn_rate, double inertia, double shar
   const double most = 2.0 / 3.0 * share * friction_ * patch_ * tension_.across;
   const double wanted = -stiffness * tension_.twist - 1.4 * std::sqrt(kTwist) * inertia * rate;
   const double held = std::clamp(wanted, -most, most);
-  // What slips is gone.
+  // Slip reduces the twist to the friction limit.
   if (held != wanted)
     tension_.twist = std::clamp(tension_.twist, -most / stiffness, most / stiffness);
   return held * tension_.normal;
@@ -111,7 +112,7 @@ void BodyPush::follow(const Vector3d& velocity, const Vector3d& turn_rate,
   late_ = after(kLossy * static_cast<double>(steps_) * step_ * rate, normal).force();
 }
 
-// It slides where friction does not hold it.
+// Tension beyond the friction limit slides away.
 BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal) const noexcept {
   if (grips_) return {0.0, tension_.along + change, normal, 0.0, true};
   const double away = change.dot(normal);
@@ -122,7 +123,7 @@ BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal
   return out;
 }
 
-// It never pulls, but for one that grips.
+// Only a grip can pull.
 Vector3d BodyPush::Tension::force() const noexcept {
   if (grips) return along;
   if (!(across > 0)) return Vector3d::Zero();

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEffort = 6e-4;  // of a corner of a mesh
+constexpr double kEffort = 6e-4;  // cost of a step for a mesh corner, over a box
 constexpr const char* kTooManyCarried =
     "the scene has more than 64 objects that move below time functions, and bodies beside them: "
     "take the mass of the bodies out, or time functions";
@@ -120,7 +120,7 @@ void BodySlots::leave(std::size_t slot) noexcept {
   kind.orientation = bodies_[slot].turned();
   kind.account = bodies_[slot].account;
   slot_of_[kind.number] = kNone;
-  dGeomSetBody(kind.geom, nullptr);  // it stays where it is
+  dGeomSetBody(kind.geom, nullptr);  // the geom keeps its pose
   dSpaceRemove(space_, kind.geom);
   lie_down(kind);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which bodies of a plan take part, and where the others lie.
+// Active bodies of a plan, in slots, and the poses of the inactive ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,18 +16,17 @@
 
 namespace reckon::haptics {
 
-/// Bodies by their slots, a bit each.
+/// A set of bodies: bit i is the body in slot i.
 using BodySet = std::uint64_t;
 
-/// Slot of a body that takes part.
+/// Slot of an active body.
 [[nodiscard]] inline std::size_t slot_of(dBodyID body) noexcept {
   return reinterpret_cast<std::size_t>(dBodyGetData(body));
 }
 
-/// Those that take part have a slot each. A plan of no more bodies than slots has all of them in,
-/// in its order. Of others all but those that are carried begin asleep, as they stand, and without
-/// a slot; they are in a grid of their own, and in no space of ODE's. After some steps it allocates
-/// nothing. One thread.
+/// Each active body has a slot. If a plan has no more bodies than slots, all have one, in the
+/// plan's order. Otherwise all but carried objects start asleep, without a slot, in a separate grid
+/// outside ODE's space. It allocates nothing after some steps. One thread.
 class BodySlots {
  public:
   static constexpr std::size_t kMost = 8 * sizeof(BodySet);
@@ -40,17 +39,17 @@ class BodySlots {
   BodySlots(const BodySlots&) = delete;
   BodySlots& operator=(const BodySlots&) = delete;
 
-  /// The next body. @param geom in the space, or null
+  /// Adds the next body. @param geom in the space, or null
   void add(const PlannedObject& object, std::uint32_t number, dGeomID geom);
-  /// After the last one. @throws std::invalid_argument where more are carried than have room
+  /// Call after the last add(). @throws std::invalid_argument: more carried objects than slots
   void fill();
 
   [[nodiscard]] const std::vector<BodyKind>& kinds() const noexcept { return kinds_; }
   [[nodiscard]] std::size_t slot_of(std::size_t body) const noexcept { return slot_of_[body]; }
-  /// Boxes of those without a slot [m], S, by their numbers.
+  /// Boxes of bodies without a slot [m], S, by body number.
   [[nodiscard]] const CellGrid& asleep() const noexcept { return asleep_; }
-  /// Calls visit(number) for each of those whose box overlaps or touches `box` of a slot [m, S].
-  /// Where none is near, the slot's next boxes thereabouts cost some ns.
+  /// Calls visit(number) for each body without a slot whose box overlaps or touches `box` of a slot
+  /// [m, S]. If none is near, the slot's next calls with boxes nearby take some ns.
   template <class Visit>
   void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, Visit&& visit) {
     RigidBody& body = bodies_[slot];
@@ -65,10 +64,10 @@ class BodySlots {
     asleep_.visit(body.clear, [&](std::uint32_t) { any = true; });
     body.clear_since = any ? 0 : lain_down_;
   }
-  /// Of their weight [J].
+  /// Potential energy of bodies without a slot [J].
   [[nodiscard]] double asleep_energy() const noexcept { return asleep_energy_; }
-  /// Gives a body a slot: a new one, or that of one that sleeps and is not in `pinned`, which then
-  /// has none. @return kNone if there is none to be had
+  /// Gives a body a slot: a new one, or the slot of a sleeping body outside `pinned`, which loses
+  /// it. @return kNone: none free
   std::size_t take_in(std::size_t body, BodySet pinned) noexcept;
 
   /// Slots in use.
@@ -78,7 +77,7 @@ class BodySlots {
     return bodies_[slot];
   }
   [[nodiscard]] BodySet carried() const noexcept { return carried_; }
-  /// Calls visit(slot) for those in use that are in the set, in their order.
+  /// Calls visit(slot) for each slot in use of the set, ascending.
   template <class Visit>
   void each(BodySet some, Visit&& visit) const {
     const BodySet used = size() < kMost ? (BodySet{1} << size()) - 1 : ~BodySet{0};
@@ -87,7 +86,7 @@ class BodySlots {
   }
 
  private:
-  static constexpr double kClear = 0.005;  // [m], about a box that meets none
+  static constexpr double kClear = 0.005;  // [m], margin around a box without a body near
 
   void sit(std::size_t slot, const BodyKind& kind) noexcept;
   void leave(std::size_t slot) noexcept;
@@ -97,13 +96,13 @@ class BodySlots {
   dSpaceID space_;
   Eigen::Vector3d gravity_;
   std::vector<BodyKind> kinds_;
-  std::vector<std::size_t> slot_of_;  // of all bodies
-  std::vector<RigidBody> bodies_;     // by their slots
+  std::vector<std::size_t> slot_of_;  // by body
+  std::vector<RigidBody> bodies_;     // by slot
   BodySet carried_ = 0;
   CellGrid asleep_;
-  std::uint64_t lain_down_ = 1;  // how often one was added to them
+  std::uint64_t lain_down_ = 1;  // number of additions to asleep_
   double asleep_energy_ = 0.0;
-  std::size_t next_out_ = 0;  // slot
+  std::size_t next_out_ = 0;  // next slot to take from a sleeping body
 };
 
 }  // namespace reckon::haptics

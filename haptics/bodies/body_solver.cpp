@@ -21,15 +21,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the iterative solver, for one contact, so that a step of many takes no longer.
+// Iterations times contacts of the iterative solver, which bounds the time of a step.
 constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
-// Depth at which contacts rest [m], so that they last from step to step.
+// Rest depth of contacts [m], so that they persist from step to step.
 constexpr double kRestDepth = 1e-5;
-constexpr double kParting = 0.1;      // [m/s], at most, of bodies that are in one another
+constexpr double kParting = 0.1;      // [m/s], greatest separation speed of penetrating bodies
 constexpr double kStillSpeed = 1e-3;  // [m/s]
 constexpr double kStillTurn = 0.02;   // [rad/s]
 
-// The exact solver says so where it found no answer, as in a pile of many contacts at once.
+// Set when the exact solver has found no solution, as in a pile of many contacts.
 thread_local bool lost = false;
 void note_lost(int, const char*, va_list) { lost = true; }
 
@@ -41,7 +41,7 @@ void start_ode() {
   });
 }
 
-// What ODE keeps for each thread.
+// Allocates ODE's data of this thread.
 void know_thread() {
   thread_local const bool known = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   static_cast<void>(known);
@@ -100,7 +100,7 @@ double BodySolver::energy() const noexcept {
 }
 
 BodySet BodySolver::island(BodySet some) const noexcept {
-  // What is carried joins nothing: it goes its way whatever lies on it.
+  // Carried objects join no island: no load changes their motion.
   some &= ~slots_->carried();
   std::array<std::array<dReal, 6>, BodySlots::kMost> boxes;
   for (std::size_t i = 0; i < size(); ++i)
@@ -157,7 +157,7 @@ void BodySolver::restore() noexcept {
   tally_ = kept_;
 }
 
-// Without bodies nobody sees what is carried.
+// Without other bodies, carried objects have no effect.
 bool BodySolver::rests() const noexcept {
   if (std::popcount(slots_->carried()) == static_cast<int>(size())) return true;
   bool any = false;
@@ -194,9 +194,9 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   joints_->clear();
 }
 
-// The speed of a body that is pushed is that of half a step before its place; where one flies both
-// are of one instant. Its weight makes up for the difference when a push begins or ends, or a
-// rebound from a hand would leave it higher by half a step of its way.
+// The velocity of a pushed body lags its position by half a step; in flight both are of one
+// instant. When a push begins or ends, its weight corrects the difference. Otherwise a rebound from
+// a hand would leave it too high by half a step of its motion.
 void BodySolver::time_speeds(double dt) noexcept {
   each_acting([&](std::size_t i) {
     RigidBody& body = body_at(i);
@@ -212,8 +212,8 @@ void BodySolver::time_speeds(double dt) noexcept {
   });
 }
 
-// A body that the solver slowed after it had moved got no work by that: a hand that it moved
-// against pays for its spring itself.
+// Slowing a body after its motion does no work on it: a hand that it moved against pays for its own
+// spring.
 void BodySolver::take_out(double dt, std::span<BodyForce> forces) noexcept {
   const auto half = [&](const BodyForce& force) {
     return 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
@@ -234,8 +234,8 @@ void BodySolver::take_out(double dt, std::span<BodyForce> forces) noexcept {
   }
 }
 
-// A body that is pushed moves by its new speed for all of the step, and so is lifted by half of the
-// change of its speed more than the pushes did work for. It is as much less when it slows down.
+// A pushed body moves by its new velocity for the whole step. So it is lifted by half the change of
+// its velocity more than the pushes have worked for, or less if it slows down.
 void BodySolver::book_lifted_ahead(double dt) noexcept {
   each_acting([&](std::size_t i) {
     const RigidBody& body = body_at(i);
@@ -249,8 +249,8 @@ void BodySolver::book_lifted_ahead(double dt) noexcept {
   });
 }
 
-// Where the exact solver would take too long or is lost, the island, and no other, is stepped by
-// one that always ends near the answer.
+// If the exact solver would take too long or fails, the iterative solver steps that island, and
+// only that one; it always ends near the solution.
 void BodySolver::solve(BodySet but, double dt) noexcept {
   each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
   BodySet bodies = 0;
@@ -271,16 +271,16 @@ void BodySolver::solve(BodySet but, double dt) noexcept {
   tally_.lost += any ? 1 : 0;
 }
 
-// @return whether an answer was found
+// @return whether a solution was found
 bool BodySolver::solve_exactly(BodySet some, double dt) noexcept {
   lost = false;
-  put_back(slots_->carried());  // it goes on once
+  put_back(slots_->carried());  // it must move only once
   step_alone(some | slots_->carried(), [&] { host_.step(world_, dt); });
   if (lost) put_back(some);
   return !lost;
 }
 
-// Two bodies, or one, where they meet.
+// Solves the impact of one or two bodies.
 void BodySolver::strike(BodySet bodies) noexcept {
   lost = false;
   step_alone(bodies, [&] { host_.step(world_, Impacts::kInstant); });
@@ -293,7 +293,7 @@ void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {
   const int contacts = std::max(1, joints_->islands().contacts_of(one));
   dWorldSetQuickStepNumIterations(world_,
                                   std::clamp(kIterations / contacts, kFewest, kMostIterations));
-  dRandSetSeed(1);  // so that it is the same twice
+  dRandSetSeed(1);  // for reproducible results
   put_back(island | slots_->carried());
   step_alone(island | slots_->carried(), [&] { host_.quick_step(world_, dt); });
 }
@@ -311,7 +311,7 @@ void BodySolver::put_back(BodySet some) noexcept {
   slots_->each(some, [&](std::size_t i) { body_at(i).set(body_at(i).before); });
 }
 
-// Steps `some` alone. No contact joins these to other bodies, except carried ones.
+// Steps only `some`. Their contacts join them only to carried objects.
 template <class Step>
 void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
   BodySet off = 0;
@@ -338,7 +338,7 @@ void BodySolver::apply(std::span<BodyForce> forces) noexcept {
   }
 }
 
-// What sleeps without a slot does not give way; it gets one as soon as something comes near.
+// Sleeping bodies without a slot are static here; they get a slot as soon as a body is near.
 void BodySolver::meet_sleeping() noexcept {
   if (slots_->asleep().size() == 0) return;
   each_acting([&](std::size_t i) {
@@ -359,8 +359,8 @@ double BodySolver::take_back(std::size_t slot, double energy) noexcept {
   return taken;
 }
 
-// Bodies that touch one another fall asleep together: one that does so alone would be woken by the
-// others, and disturb them.
+// An island falls asleep as a whole: a single sleeping body would be woken by the others and
+// disturb them.
 void BodySolver::rest(double dt) noexcept {
   std::array<double, BodySlots::kMost> still;  // [s], of islands
   still.fill(std::numeric_limits<double>::infinity());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One step of rigid bodies under forces, among what stands still: contacts, friction, energy, rest.
+// One step of rigid bodies under forces among static objects: contacts, friction, energy, sleep.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,29 +24,30 @@ namespace reckon::haptics {
 
 /// A force on a body in one step.
 struct BodyForce {
-  std::size_t slot = 0;                             // of the body
+  std::size_t slot = 0;                             // slot of the body
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the axes of its shape
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], S
-  /// [N m], S: it holds the body against turning, and its work is none of the hand's.
+  /// [N m], S: it resists the rotation of the body; its work is not the hand's.
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
-  double work = 0.0;  ///< [J], that it did, after the step
-  double made = 0.0;  // of that, by the speed at the end, before the solver's energy was taken out
+  double work = 0.0;  ///< [J], work of the force, set by the step
+  double made =
+      0.0;  // [J], part of it from the final velocity, before the solver's energy is taken out
 };
 
-/// ODE's world of the bodies of a plan that have a slot, and what stands still. After some steps it
-/// allocates nothing. One thread at a time.
+/// ODE's world of the bodies with a slot, and of static objects. It allocates nothing after some
+/// steps. One thread at a time.
 class BodySolver {
  public:
-  static constexpr double kNear = 5e-4;  ///< [m], between the boxes of bodies that may touch
+  static constexpr double kNear = 5e-4;  ///< [m], distance of boxes whose bodies may touch
 
-  /// @param gravity [m/s^2], S  @throws std::invalid_argument for a body that cannot be one
+  /// @param gravity [m/s^2], S @throws std::invalid_argument for an object that cannot be a body
   BodySolver(const EffectPlan& plan, const Eigen::Vector3d& gravity, const WorkSpace& work_space);
   ~BodySolver();
   BodySolver(const BodySolver&) = delete;
   BodySolver& operator=(const BodySolver&) = delete;
 
   [[nodiscard]] const BodySlots& slots() const noexcept { return *slots_; }
-  /// See BodySlots. Only while all act.
+  /// See BodySlots. Only while only() has all bodies.
   std::size_t take_in(std::size_t body, BodySet pinned) noexcept {
     return slots_->take_in(body, pinned);
   }
@@ -57,17 +58,17 @@ class BodySolver {
     slots_->visit_asleep(slot, box, visit);
   }
 
-  /// Slots in use. The following are of slots.
+  /// Slots in use. The functions below take a slot.
   [[nodiscard]] std::size_t size() const noexcept { return slots_->size(); }
   [[nodiscard]] std::size_t body(std::size_t slot) const noexcept { return body_at(slot).number; }
   [[nodiscard]] double mass(std::size_t slot) const noexcept { return body_at(slot).mass; }
   /// See BodyKind.
   [[nodiscard]] double effort(std::size_t slot) const noexcept { return body_at(slot).effort; }
-  /// Moved by carry() alone.
+  /// Only carry() moves it.
   [[nodiscard]] bool is_carried(std::size_t slot) const noexcept {
     return body_at(slot).is_carried;
   }
-  /// Puts a carried one there; in the next steps it goes on at this velocity.
+  /// Sets the pose of a carried object; in the next steps it moves at this velocity.
   void carry(std::size_t slot, const ObjectMotion& motion) noexcept { body_at(slot).carry(motion); }
   [[nodiscard]] ObjectMotion motion(std::size_t slot) const noexcept {
     return body_at(slot).motion();
@@ -77,30 +78,30 @@ class BodySolver {
   [[nodiscard]] Eigen::AlignedBox3d box(std::size_t slot) const noexcept {
     return box_of(body_at(slot).geom);
   }
-  /// Of its principal ones [kg m^2].
+  /// Least principal moment of inertia [kg m^2].
   [[nodiscard]] double least_inertia(std::size_t slot) const noexcept {
     return body_at(slot).least_inertia;
   }
-  /// Of a place in the body's axes [m/s].
+  /// Velocity of a point in the body's axes [m/s].
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t slot,
                                          const Eigen::Vector3d& place) const noexcept {
     return body_at(slot).velocity_of(place);
   }
 
-  /// `some` and all that lie against one another with them.
+  /// `some` and all bodies in contact with them, directly or through others.
   [[nodiscard]] BodySet island(BodySet some) const noexcept;
-  /// Bodies outside `some` are neither moved nor met by the next steps.
+  /// The next steps neither move bodies outside `some` nor collide with them.
   void only(BodySet some) noexcept;
   [[nodiscard]] static constexpr BodySet all() noexcept { return ~BodySet{0}; }
 
-  /// Goes on by dt [s]. Energy that the solver makes beyond the work of the forces is taken out of
-  /// the bodies' speeds in the same step.
+  /// Advances by dt [s]. Energy that the solver adds beyond the work of the forces is taken out of
+  /// the bodies' velocities in the same step.
   void step(double dt, std::span<BodyForce> forces) noexcept;
 
-  /// Slows a body. @param energy [J] > 0, at most  @return how much it had of that
+  /// Slows a body. @param energy [J] > 0 @return the energy taken [J], at most its kinetic energy
   double take_back(std::size_t slot, double energy) noexcept;
 
-  /// Keeps the bodies of only(), and puts them back as they were kept.
+  /// Saves the bodies of only(), and restores them.
   void keep() noexcept;
   void restore() noexcept;
 
@@ -121,7 +122,7 @@ class BodySolver {
     return (*slots_)[slot];
   }
   [[nodiscard]] bool acts(std::size_t slot) const noexcept { return (only_ >> slot & 1) != 0; }
-  // Those of only(), in their order.
+  // Visits the slots of only(), ascending.
   template <class Visit>
   void each_acting(Visit&& visit) const {
     slots_->each(only_, visit);
@@ -144,15 +145,15 @@ class BodySolver {
 
   StepHost host_;  // outlives the world
   dWorldID world_ = nullptr;
-  std::optional<BodyGeoms> geoms_;  // begins when ODE has
+  std::optional<BodyGeoms> geoms_;  // constructed after ODE's initialization
   IslandEnergy energy_;
   std::optional<ContactJoints> joints_;
   Eigen::Vector3d gravity_;
-  std::optional<BodySlots> slots_;  // within the world, and geoms_
+  std::optional<BodySlots> slots_;  // refers to the world and geoms_
   std::optional<FreeMotion> motion_;
   std::optional<Impacts> impacts_;
   BodySet only_ = all();
-  BodySet parked_awake_ = 0;  // of those that only() leaves out
+  BodySet parked_awake_ = 0;  // awake bodies outside only()
   Tally tally_, kept_;
 };
 

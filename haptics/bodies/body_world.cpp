@@ -16,7 +16,7 @@ BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
                      std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
     : engine_(std::make_unique<BodyEngine>(plan, gravity, std::move(mover), work_space)),
       was_awake_(engine_->states().size(), 0) {
-  // Each slot of the buffers gets its room.
+  // Reserves memory in each slot of the buffers.
   for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
     for (int i = 0; i < 3; ++i) {
       to->write_slot().bodies.reserve(engine_->states().size());
@@ -28,7 +28,7 @@ BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
 }
 BodyWorld::~BodyWorld() = default;
 
-// States wait for the forces, not the other way round.
+// Publishes the last states here if not all hands have written: forces come before states.
 void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
   if (is_due_ && now != engine_->time()) publish();
   if (!engine_->advance_to(now, frozen)) return;
@@ -46,7 +46,7 @@ void BodyWorld::publish() noexcept {
   if (trace_ != nullptr) trace_steps();
 }
 
-// Those without a slot have not moved since they lost it.
+// Bodies without a slot have not moved since they lost it.
 void BodyWorld::bring_up_to_date(BodyStates& out) const noexcept {
   const std::span<const BodyState> states = engine_->states();
   const std::uint64_t missed = engine_->left() - out.left;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The objects of a scene that have a mass, and how they move: pushed by hands, by their weight and
-// by one another, among the objects that stand still.
+// Simulates the objects of a scene that have a mass: hands, weight and collisions move them among
+// the static objects.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,9 @@
 
 namespace reckon::haptics {
 
-/// Where a body is and how it moves: its origin is its middle.
+/// Pose and motion of a body; its origin is its center of mass.
 struct BodyState : ObjectMotion {
-  std::uint32_t object = 0;  ///< its number in the plan
+  std::uint32_t object = 0;  ///< index in the plan
   bool awake = true;
   bool carried = false;  ///< pushes do not move it
 };
@@ -36,7 +36,7 @@ struct BodyStates {
   std::chrono::nanoseconds time{0};
   std::vector<BodyState> bodies;
   std::uint64_t crowded = 0;  ///< see BodyWorld
-  std::uint64_t left = 0;     ///< bodies that had lost their slots when this was written
+  std::uint64_t left = 0;     ///< number of bodies that had lost their slots by then
 };
 
 /// One body after a step.
@@ -46,106 +46,106 @@ struct BodyStep {
 };
 using BodyRing = SpscRing<BodyStep>;
 
-/// All bodies of one peer. Hands push them from within their servo steps, all on one thread and at
-/// one rate; the first servo of a period steps the world to it. A hand foresees the period that
-/// begins, shows the mean of its force, and pushes the body as foreseen, so that what a hand gives
-/// up and what a body gets are one (docs/bodies.md).
+/// All bodies of one peer. Hands push them within their servo steps, all on one thread and at one
+/// rate. The first servo of a period advances the world to it. A hand predicts its period, renders
+/// the mean of its force, and pushes the body as predicted, so the body gets the energy that the
+/// hand loses (docs/bodies.md).
 ///
-/// Free flight and rebounds from the work space are in closed form. Contacts are inelastic or
-/// bounce by the greater of both restitutions, and rub by the geometric mean of both frictions. The
-/// solver is ODE's exact step; what energy it makes beyond what was put in is taken out of the
-/// bodies' speeds in the same step, so that a pile never gains any. A body that has been still for
-/// kSleep sleeps until it is pushed or hit.
+/// Free flight and rebounds from the workspace are in closed form. Contacts are inelastic or bounce
+/// by the greater of both restitutions; friction is the geometric mean of both. The solver is ODE's
+/// exact step. Energy that it adds is taken out of the bodies' velocities in the same step, so a
+/// pile never gains energy. A body at rest for kSleep sleeps until it is pushed or hit.
 ///
-/// 64 take part at one time. A world of more begins asleep, as it stands: what is pushed or comes
-/// near one that moves wakes, and the others cost nothing. While 64 are awake the rest does not
-/// give way (crowded()).
+/// At most 64 bodies are active. A larger world starts asleep: a body that is pushed or near a
+/// moving one wakes; the others cost nothing. While 64 are awake, the others do not give way
+/// (crowded()).
 ///
-/// Allocates at construction, and within the first steps until as many contacts were met as there
-/// will be; then nothing. 3 us for a body that is awake, 20 us for ten in a pile; body_bench has
+/// Allocates at construction, and in the first steps until the number of contacts has reached its
+/// maximum; then nothing. 3 us for an awake body, 20 us for ten in a pile; body_bench measures
 /// hands.
 class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};
-  /// Greatest speed [m/s] and turn rate [rad/s]; a body that is pushed faster keeps to them.
+  /// Limits of speed [m/s] and turn rate [rad/s] of a body.
   static constexpr double kFastest = 200.0;
   static constexpr double kFastestTurn = 200.0;
-  /// Of a period: 8 hands of 8 probes, each held by 3 bodies and holding one.
+  /// Of a period: 8 hands of 8 probes, each in contact with 3 bodies and gripping one.
   static constexpr std::size_t kMostPushes = 256;
 
-  /// Bodies are the objects of the plan that have a Matter with a mass; what is carried goes its
-  /// way and takes along what lies on it; all others stand still.
+  /// Bodies are the objects of the plan whose Matter has a mass. Carried objects follow their mover
+  /// and carry what lies on them. All others are static.
   /// @param plan only read here  @param gravity [m/s^2], S
   /// @param mover of carried objects; null if there are none. Servo thread
   /// @param work_space of bodies, or none
-  /// @throws std::invalid_argument for a body that cannot be one; names it and the remedy
+  /// @throws std::invalid_argument for an object that cannot be a body; names it and the remedy
   BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity,
             std::shared_ptr<ObjectMover> mover = nullptr, const WorkSpace& work_space = {});
   ~BodyWorld();
   BodyWorld(const BodyWorld&) = delete;
   BodyWorld& operator=(const BodyWorld&) = delete;
 
-  /// Steps to `now`; does nothing if it is there already. The first call only notes the time. After
-  /// more than 0.1 s without a call the rest of that time is left out.
-  /// @param frozen that time is left out: the simulation is frozen
+  /// Advances to `now`, if later. The first call only records the time. After more than 0.1 s
+  /// without a call, it advances by 0.1 s.
+  /// @param frozen the simulation is frozen: the time passes without motion
   void advance_to(std::chrono::nanoseconds now, bool frozen = false) noexcept;
 
-  /// Holds `force` [N] at `point` [m] of a body from now until the next advance.
+  /// Applies `force` [N] at `point` [m] of a body until the next advance.
   /// @return the number of this push, for work(); kNoPush if there is no room for it
   std::size_t push(std::size_t body, const Eigen::Vector3d& point,
                    const Eigen::Vector3d& force) noexcept;
   static constexpr std::size_t kNoPush = static_cast<std::size_t>(-1);
 
-  /// A hand's number, for the following. Before the first advance. Allocates.
+  /// Adds a hand. @return its number, for the functions below. Call before the first advance.
+  /// Allocates.
   [[nodiscard]] std::size_t add_hand();
-  /// Bodies that a hand there may meet before its next step, ascending, and perhaps others. Looks
-  /// at no body where the hand is as was to be expected and nothing came late.
-  /// @param period [s], until then
+  /// Bodies that a hand at `reach` may touch before its next step, ascending, possibly with others.
+  /// O(1) if the hand is where it was expected and no step was late.
+  /// @param period [s] until its next step
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
                                                     double period) noexcept;
-  /// How a body stood before the last advance. Until the last hand's written().
+  /// State of a body before the last advance. Valid until the last hand's written().
   [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept;
-  /// A hand is at a body from now until the next advance. Nothing is pushed before hold().
+  /// A hand touches a body until the next advance. The push has no force before hold().
   /// @return as push()
   std::size_t press(std::size_t hand, const BodySpring& spring) noexcept;
-  /// Foresees how the springs of this hand give way in the period [s] that begins: in steps, with
-  /// all that the bodies lie against, while the hands go on at their speeds. To be called each
-  /// period, after all press(). An island that would take more than 0.3 ms of a period is stepped
-  /// once, and only those of its bodies that hands push are foreseen: a light body in a large pile
-  /// gives way too easily.
+  /// Predicts how the springs of this hand relax in the period [s] that begins: in steps, with all
+  /// bodies of the island, while the hands keep their velocities. Call each period, after all
+  /// press(). An island that would take more than 0.3 ms of a period is stepped once, and the
+  /// prediction has only the bodies that hands push: a light body in a large pile gives way too
+  /// easily.
   void foresee(std::size_t hand, double period) noexcept;
-  /// Mean force of a push over the period, less what it was at its begin [N].
+  /// Mean force of a push over the period minus the force at its start [N].
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
-  /// The body gets this share of a push, [0, 1], and `rest` [N] besides.
+  /// The body gets this share of a push, [0, 1], plus `rest` [N].
   void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
-  /// The hand's force is written. After the last hand of a period the states are published, and the
-  /// bodies that no hand touches go on to its end, so that no force waits for them.
+  /// The hand's force is written. After the last hand of a period, the states are published, and
+  /// the untouched bodies move to the end of the period, so no force waits for them.
   void written(std::size_t hand, const HandReach& reach) noexcept;
-  /// Work that a push of the period before did on its body [J].
+  /// Work of a push of the last period on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
-  /// Slows a body by so much of its kinetic energy [J], before anything is pushed in this period.
-  /// @return what was there to be taken
+  /// Slows a body by so much of its kinetic energy [J]. Call before any push of this period.
+  /// @return the energy taken [J]
   double take_back(std::size_t body, double energy) noexcept;
 
   [[nodiscard]] std::span<const BodyState> states() const noexcept;
-  /// The same after each advance in which one was awake, once all hands have written or the next
-  /// one begins; one reader thread.
+  /// All states, after each advance with an awake body, once all hands have written or the next
+  /// advance begins; one reader thread.
   [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
-  /// The same for another reader, which sends them.
+  /// The same for the reader that sends them.
   [[nodiscard]] TripleBuffer<BodyStates>& outgoing() noexcept { return outgoing_; }
-  /// Records each step of those that are awake, and their last one, from now on; null stops. Call
-  /// while no step runs. A full ring loses the newest.
+  /// Records each step of awake bodies, including the last one before sleep; null stops. Call while
+  /// no step runs. A full ring drops new records.
   void trace(BodyRing* ring) noexcept { trace_ = ring; }
-  /// Kinetic energy and that of the weight, above the places at the start [J].
+  /// Kinetic and potential energy, relative to the initial positions [J].
   [[nodiscard]] double energy() const noexcept;
-  /// Energy that was taken out because the solver had made it [J], since the start.
+  /// Energy added by the solver and taken out again [J], since the start.
   [[nodiscard]] double taken_out() const noexcept;
-  /// Steps in which the exact solver was lost, or would have taken too long, and an iterative one
-  /// answered, since the start.
+  /// Steps in which the iterative solver replaced the exact one, which failed or would have taken
+  /// too long, since the start.
   [[nodiscard]] std::uint64_t approximated() const noexcept;
-  /// Periods of a hand whose island was too large to be foreseen as a whole, since the start.
+  /// Predictions of a hand whose island was too large to be predicted as a whole, since the start.
   [[nodiscard]] std::uint64_t coarse() const noexcept;
-  /// Periods in which one was to wake and did not, since as many as can be were awake.
+  /// Periods in which a body could not wake because all slots were awake.
   [[nodiscard]] std::uint64_t crowded() const noexcept;
 
  private:
@@ -157,19 +157,18 @@ class BodyWorld {
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
   BodyRing* trace_ = nullptr;
-  std::vector<char> was_awake_;  // in the last step
-  bool is_due_ = false;          // to be published
+  std::vector<char> was_awake_;  // by body, in the last step
+  bool is_due_ = false;          // states are not published yet
   std::uint64_t published_version_ = 0;
 };
 
-/// The world of the objects that move in the plan of a scene; null if there are none. @throws as
-/// the constructor
+/// The world of the moving objects in the plan of a scene; null: none. @throws as the constructor
 [[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Scene& scene,
                                                      std::shared_ptr<ObjectMover> mover = nullptr);
 
-/// Stiffest spring of each of two hands that a body of `mass` [kg] can be squeezed with at a rate
-/// of `period` [s]: dt sqrt(2 K / m) <= 0.15 for the lighter resistance of a body that turns under
-/// it (0.4 m), in 16 steps a period.
+/// Greatest stiffness of each of two hands that squeeze a body of `mass` [kg], for a servo period
+/// [s]: dt sqrt(2 K / m) <= 0.15 with the effective mass of a rotating body (0.4 m) and 16 steps a
+/// period.
 [[nodiscard]] constexpr double stiffest_push(double mass, double period) noexcept {
   const double dt = period / 16.0;
   return 0.0225 * 0.4 * mass / (2.0 * dt * dt);

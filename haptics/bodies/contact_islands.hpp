@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Contacts of one step, by the bodies that they join.
+// Groups the contacts of one step by islands of bodies.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@ class ContactIslands {
     std::iota(roots_.begin(), roots_.end(), std::size_t{0});
     contacts_.fill(0);
   }
-  /// So many contacts of a body with what is no body.
+  /// Adds contacts of a body with static objects.
   void add(std::size_t body, int contacts) noexcept { contacts_[root_of(body)] += contacts; }
-  /// So many of two bodies.
+  /// Adds contacts between two bodies.
   void join(std::size_t a, std::size_t b, int contacts) noexcept {
     const std::size_t one = root_of(a), other = root_of(b);
     if (one != other) {
@@ -32,12 +32,12 @@ class ContactIslands {
     }
     contacts_[one] += contacts;
   }
-  /// Contacts of the island that has most.
+  /// Number of contacts of the largest island.
   [[nodiscard]] int largest() const noexcept { return *std::ranges::max_element(contacts_); }
 
-  /// Contacts of the island of a body.
+  /// Number of contacts of a body's island.
   [[nodiscard]] int contacts_of(std::size_t body) noexcept { return contacts_[root_of(body)]; }
-  /// A number that the bodies of one island have in common.
+  /// A number that is the same for all bodies of an island.
   [[nodiscard]] std::size_t island_of(std::size_t body) noexcept { return root_of(body); }
 
  private:

@@ -14,13 +14,13 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostFound = 64;    // contacts of a pair with a mesh
-constexpr std::size_t kMostDriven = 256;  // contacts with what is carried, whose work is counted
+constexpr std::size_t kMostDriven = 256;  // contacts with carried objects whose work is booked
 constexpr double kBounceSpeed = 0.01;     // [m/s]; slower hits do not bounce
 constexpr double kHitSoftness = 1e-12;
 constexpr double kInstantSoftness = 1e-18;
-constexpr double kSlipSpeed = 1e-4;  // [m/s]; faster ones rub along their way
+constexpr double kSlipSpeed = 1e-4;  // [m/s]; faster contacts have friction along their slip
 
-// No body, or one that goes its way whatever it meets.
+// A static or a kinematic body.
 bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
 
 bool sleeps(dBodyID body) noexcept { return body == nullptr || !dBodyIsEnabled(body); }
@@ -35,7 +35,7 @@ Vector3d velocity_at(dBodyID body, const Vector3d& at) noexcept {
          vector_of(dBodyGetAngularVel(body)).cross(at - vector_of(dBodyGetPosition(body)));
 }
 
-// Friction is bounded along two axes: where a contact slips, one of them is its way.
+// ODE bounds friction along two axes: of a slipping contact one axis is along the slip.
 void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
   const Vector3d normal = vector_of(contact.geom.normal);
   const Vector3d slip = velocity - normal.dot(velocity) * normal;
@@ -49,7 +49,7 @@ void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
 
 ContactJoints::ContactJoints(dWorldID world, IslandEnergy& energy)
     : world_(world), energy_(energy), joints_(dJointGroupCreate(0)) {
-  driven_.reserve(kMostDriven);  // ODE points to them
+  driven_.reserve(kMostDriven);  // ODE keeps pointers to them
 }
 
 void ContactJoints::clear() noexcept {
@@ -89,7 +89,7 @@ void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> plac
     const Vector3d at = vector_of(place.pos);
     const Vector3d velocity = velocity_at(first, at) - velocity_at(second, at);
     rub_along(contact, velocity);
-    // What bounces is a hit: it is over within the step.
+    // A bounce ends within the step.
     if (contact.surface.bounce > 0 &&
         velocity.dot(vector_of(contact.geom.normal)) < -contact.surface.bounce_vel) {
       contact.surface.mode |= dContactSoftCFM;

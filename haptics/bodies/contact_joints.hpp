@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The contacts of one step as the joints of ODE, and the islands of bodies that they make.
+// Contact joints of ODE for one step, and their islands of bodies.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +17,11 @@
 
 namespace reckon::haptics {
 
-/// The number of a body's slot is its data in ODE. After some steps it allocates nothing. One
-/// thread.
+/// A body's data in ODE is its slot number. It allocates nothing after some steps. One thread.
 class ContactJoints {
  public:
-  /// Contacts of an island up to which the exact solver is the faster one. Beyond it takes their
-  /// number to the third power, and mostly finds no answer.
+  /// Greatest number of contacts of an island for which the exact solver is faster. Its cost is
+  /// cubic, and with more contacts it mostly finds no solution.
   static constexpr int kMostExact = 24;
 
   /// @param world, energy outlive this
@@ -33,22 +32,22 @@ class ContactJoints {
 
   /// Removes all.
   void clear() noexcept;
-  /// Finds and adds the contacts of two geoms, if one of them is of a body that is awake and moves.
+  /// Finds and adds the contacts of two geoms, if one belongs to an awake body that is not carried.
   void meet(dGeomID a, dGeomID b) noexcept;
   enum class Hardness : std::uint8_t {
     usual,
-    exact,  ///< for a step of an instant
+    exact,  ///< for a step of Impacts::kInstant
   };
-  /// Adds contacts of these two.
+  /// Adds contacts of two geoms.
   void add(dGeomID a, dGeomID b, std::span<const dContactGeom> places,
            Hardness hardness = Hardness::usual) noexcept;
-  /// Whether these two touch, in this order or the other.
+  /// Whether two geoms touch, in either order.
   [[nodiscard]] bool have_met(dGeomID a, dGeomID b) const noexcept;
-  /// Removes the contacts, but keeps what is known of the islands.
+  /// Removes the contacts, but keeps the islands.
   void remove() noexcept { dJointGroupEmpty(joints_); }
 
   [[nodiscard]] IslandEnergy::Islands& islands() noexcept { return islands_; }
-  /// Those of `some` whose island has more than kMostExact contacts.
+  /// Bodies of `some` whose island has more than kMostExact contacts.
   [[nodiscard]] BodySet crowded(BodySet some, const BodySlots& slots) noexcept;
   /// Whether more than kMostExact contacts are with carried objects. ODE treats all bodies that
   /// touch one carried object as one island, which would then be too large for the exact solver.
@@ -59,11 +58,12 @@ class ContactJoints {
   void book_driven(double dt) noexcept;
 
  private:
-  // A contact of a body with what is carried.
+  // A contact of a body with a carried object.
   struct Driven {
     std::size_t slot = 0;
-    bool is_second = false;                              // it is the joint's second body
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s], of what is carried, there
+    bool is_second = false;  // the body is the joint's second one
+    Eigen::Vector3d velocity =
+        Eigen::Vector3d::Zero();  // [m/s], of the carried object at the contact
     dJointFeedback force{};
   };
   void note(dBodyID first, dBodyID second, std::span<const dContactGeom> places) noexcept;

@@ -9,8 +9,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kLittleDrag = 1e-5;   // times the time: its square is lost in rounding
-constexpr double kShortFlight = 1e-6;  // [s], between rebounds of one that comes to rest
+constexpr double kLittleDrag = 1e-5;   // drag times time below which its square is lost in rounding
+constexpr double kShortFlight = 1e-6;  // [s] between rebounds of a body that comes to rest
 constexpr int kMostRebounds = 10'000;  // in a step
 
 Flight parabola(const Flight& from, double acceleration, double t) noexcept {
@@ -23,7 +23,7 @@ double time_to(double distance, double speed, double acceleration) noexcept {
   const double square = speed * speed + 2.0 * acceleration * distance;
   if (square < 0.0) return kNever;
   const double root = std::sqrt(square);
-  // In these forms nothing cancels.
+  // These forms avoid cancellation.
   if (speed < 0.0) return acceleration > 0.0 ? (root - speed) / acceleration : kNever;
   if (speed + root > 0.0) return 2.0 * distance / (speed + root);
   return acceleration > 0.0 ? 0.0 : kNever;
@@ -61,7 +61,7 @@ Flight bounce(const Flight& from, double acceleration, const Walls& walls, doubl
     const bool is_high = up < down;
     left -= hit;
     now = {is_high ? walls.high : walls.low, -walls.restitution * (now.speed + acceleration * hit)};
-    // What presses it to the wall brings it back at once.
+    // The acceleration towards the wall brings it back at once.
     const double press = is_high ? acceleration : -acceleration;
     if (press > 0.0 && 2.0 * std::abs(now.speed) < kShortFlight * press) return {now.place, 0.0};
   }

@@ -56,7 +56,7 @@ void FreeMotion::turn(RigidBody& body, double dt) const noexcept {
   dBodySetAngularVel(body.id, w.x(), w.y(), w.z());
 }
 
-// Of its middle, along an axis of S.
+// Limits of a body's center along an axis of S.
 Walls FreeMotion::walls_of(const RigidBody& body, int axis) const noexcept {
   dReal box[6];
   dGeomGetAABB(body.geom, box);
@@ -66,8 +66,8 @@ Walls FreeMotion::walls_of(const RigidBody& body, int axis) const noexcept {
           work_space_.restitution};
 }
 
-// The solver moves a body by its new speed for all of the step, which keeps the energy of springs.
-// One that nothing touches flies in closed form.
+// The solver moves a body by its new velocity for the whole step, which conserves the energy of
+// springs. A body without contacts flies in closed form instead.
 void FreeMotion::fly_exactly(BodySet bodies, double dt) noexcept {
   slots_.each(bodies, [&](std::size_t i) {
     const RigidBody& body = slots_[i];
@@ -94,8 +94,8 @@ void FreeMotion::fly_exactly(BodySet bodies, double dt) noexcept {
   });
 }
 
-// A body that would be behind what it hits is put where its middle meets it, and the next step
-// finds both in touch.
+// A body that would tunnel is put where its center meets the obstacle, and the next step finds them
+// in contact.
 void FreeMotion::catch_fast(BodySet bodies) noexcept {
   slots_.each(bodies, [&](std::size_t i) {
     const RigidBody& body = slots_[i];
@@ -111,7 +111,7 @@ void FreeMotion::catch_fast(BodySet bodies) noexcept {
   });
 }
 
-// How far the middle of a body gets before it meets anything else.
+// Distance that the center of a body can move before it meets another object.
 double FreeMotion::length_free(const RigidBody& body, const Vector3d& from, const Vector3d& way,
                                double length) noexcept {
   dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How bodies move that nothing touches: in closed form, within the work space, past nothing.
+// Free motion of bodies in closed form, within the workspace and without tunneling.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace reckon::haptics {
 
-/// Motion beside the solver's. One thread; allocates nothing after construction.
+/// Motion outside the solver. One thread; allocates nothing after construction.
 class FreeMotion {
  public:
   /// @param geoms, slots outlive this  @param gravity [m/s^2], S
@@ -21,11 +21,12 @@ class FreeMotion {
   FreeMotion(const FreeMotion&) = delete;
   FreeMotion& operator=(const FreeMotion&) = delete;
 
-  /// A body goes on alone for dt [s] >= 0 from where it is; it keeps its angular momentum.
+  /// Moves a body freely for dt [s] >= 0; it keeps its angular momentum.
   void fly(std::size_t slot, double dt) noexcept;
-  /// Those of a step of dt [s] that fly, from RigidBody::before; others stay in the work space.
+  /// Moves the flying bodies of a step of dt [s], from RigidBody::before; keeps the others in the
+  /// workspace.
   void fly_exactly(BodySet bodies, double dt) noexcept;
-  /// Those that would be behind what they hit are put where they meet it.
+  /// Puts bodies that would tunnel where they meet the obstacle.
   void catch_fast(BodySet bodies) noexcept;
 
  private:
@@ -40,7 +41,7 @@ class FreeMotion {
   BodySlots& slots_;
   Eigen::Vector3d gravity_;
   WorkSpace work_space_;
-  dGeomID ray_;  // in no space
+  dGeomID ray_;  // outside all spaces
 };
 
 }  // namespace reckon::haptics

@@ -13,11 +13,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastWay = 1e-4;     // [m], of both bodies in the step
-constexpr double kLeastShared = 5e-4;  // [m], the same where others touch or push them
-constexpr double kTolerance = 1e-6;    // [m], of the distance at the impact
-constexpr double kTouch = 2e-6;        // [m], further way of both, so that they touch
-constexpr double kLeastSpeed = 1e-3;   // [m/s], least that is assumed for it
+constexpr double kLeastWay = 1e-4;     // [m], motion of both bodies in the step
+constexpr double kLeastShared = 5e-4;  // [m], the same if others touch or push them
+constexpr double kTolerance = 1e-6;    // [m], error of the distance at the impact
+constexpr double kTouch = 2e-6;        // [m], further motion of both, so that they touch
+constexpr double kLeastSpeed = 1e-3;   // [m/s], least assumed closing speed
 constexpr std::size_t kMostPlaces = 8;
 
 bool moves(dGeomID geom) noexcept {
@@ -25,7 +25,7 @@ bool moves(dGeomID geom) noexcept {
   return body != nullptr && dBodyIsEnabled(body);
 }
 
-// Of the shape's axes.
+// Motion of the shape's axes.
 Motion motion_of(dGeomID geom) noexcept {
   Motion out;
   if (dGeomGetClass(geom) != dPlaneClass) {
@@ -34,7 +34,7 @@ Motion motion_of(dGeomID geom) noexcept {
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) out.start.orientation(i, k) = r[4 * i + k];
   } else {
-    // Its normal is in S.
+    // The normal of a plane is in S.
     dVector4 plane;
     dGeomPlaneGetParams(geom, plane);
     out.start.position = plane[3] * vector_of(plane);
@@ -48,7 +48,7 @@ Motion motion_of(dGeomID geom) noexcept {
   return out;
 }
 
-// Upper bound of the way of any part of it in dt [m].
+// Upper bound of the motion of any point of a geom in dt [m].
 double way_of(dGeomID geom, double dt) noexcept {
   if (!moves(geom)) return 0.0;
   const dBodyID body = dGeomGetBody(geom);
@@ -91,7 +91,7 @@ void Impacts::find_of(std::size_t slot, double dt) noexcept {
     const dBodyID body = dGeomGetBody(other);
     const bool is_moved = body != nullptr && !dBodyIsKinematic(body);
     if (other == geom || !dGeomIsEnabled(other)) continue;
-    // Of two that move, one finds it.
+    // Of two moving bodies, only one finds the meeting.
     if (is_moved && dBodyIsEnabled(body) && slot_of(body) < slot) continue;
     const double both = way + way_of(other, dt);
     if (!(both > kLeastWay)) continue;
@@ -112,7 +112,7 @@ void Impacts::test(dGeomID a, dGeomID b, BodySet bodies, double way, double dt) 
     found_.push_back({found.time, way, a, b, bodies});
 }
 
-// Nothing else touches or pushes them.
+// Whether nothing else touches or pushes them.
 bool Impacts::is_alone(const Meeting& meeting) const noexcept {
   const dBodyID other = dGeomGetBody(meeting.b);
   if (other != nullptr && dBodyIsKinematic(other)) return false;
@@ -123,7 +123,7 @@ bool Impacts::is_alone(const Meeting& meeting) const noexcept {
   return is;
 }
 
-// The bodies of an impact go on until they touch. @return the time that took [s]
+// Moves the bodies of an impact until they touch. @return the time until then [s]
 double Impacts::reach(const Meeting& meeting, double dt) noexcept {
   slots_.each(meeting.bodies, [&](std::size_t i) { motion_.fly(i, meeting.time); });
   const Motion a = motion_of(meeting.a), b = motion_of(meeting.b);
@@ -147,7 +147,7 @@ bool Impacts::touch(const Meeting& meeting) noexcept {
   return !places.empty();
 }
 
-// Where it was before, at the speed that it has.
+// Restores a body's pose before the step and keeps its velocity.
 void Impacts::stay(RigidBody& body) noexcept {
   const auto& at = body.before.at;
   const auto& q = body.before.turned;
@@ -156,7 +156,8 @@ void Impacts::stay(RigidBody& body) noexcept {
   dBodySetQuaternion(body.id, turned);
 }
 
-// The solver of the step holds both apart where they are, by the contact that they will have.
+// Gives the contact at the impact to the solver of the step, which keeps both apart at their
+// present poses.
 void Impacts::hand_over(const Meeting& meeting) noexcept {
   std::array<RigidBody::State, 2> before;
   std::size_t count = 0;

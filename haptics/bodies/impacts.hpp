@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies that meet within a step: at the time, place and direction of their impact, not where the
-// step would end.
+// Handles impacts within a step: at the time, position and direction of the impact, not at the end
+// of the step.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace reckon::haptics {
 
-/// Impacts of balls, boxes and cylinders with one another and with planes; other shapes meet where
-/// a step ends. A pair that touches nothing else and that nothing pushes flies to its impact in
-/// closed form, takes its impulse, and flies on. For any other pair the contact at the time of
-/// impact goes to the solver of the step. A body has one impact in a step, the first.
+/// Impacts of balls, boxes and cylinders with one another and with planes; other shapes collide at
+/// the end of a step. A pair that nothing else touches or pushes flies to its impact in closed
+/// form, gets its impulse, and flies on. For any other pair, the contact at the impact goes to the
+/// solver of the step. A body has only its first impact in a step.
 ///
-/// Pairs that together move less than 0.1 mm in a step meet where it ends; less than 0.5 mm where
-/// others touch or push them. One thread; after some steps it allocates nothing.
+/// Pairs that together move less than 0.1 mm in a step (0.5 mm if others touch or push them)
+/// collide at its end. One thread; it allocates nothing after some steps.
 class Impacts {
  public:
   /// [s], length of the step in which the impulse of an impact is solved.
@@ -30,11 +30,11 @@ class Impacts {
   Impacts(const BodyGeoms& geoms, BodySlots& slots, ContactJoints& joints, FreeMotion& motion)
       : geoms_(geoms), slots_(slots), joints_(joints), motion_(motion) {}
 
-  /// Finds those of a step of dt [s], after all that touches has met. @param acting bodies
-  /// @return bodies that pass() is to move; the solver of the step leaves them as they are
+  /// Finds the impacts of a step of dt [s], after the contacts of the step. @param acting bodies
+  /// @return bodies that pass() will move; the solver of the step must not move them
   [[nodiscard]] BodySet find(BodySet acting, double dt) noexcept;
-  /// Moves the bodies that find() returned by dt [s]. The contacts of the step are gone after it.
-  /// @param solve called with a body or two where they touch, to step them by kInstant
+  /// Moves the bodies that find() returned by dt [s]. Removes the contacts of the step.
+  /// @param solve called with one or two touching bodies, to step them by kInstant
   template <class Solve>
   void pass(double dt, Solve&& solve) noexcept {
     for (const Meeting& meeting : alone_) {
@@ -51,10 +51,10 @@ class Impacts {
 
  private:
   struct Meeting {
-    double time = 0.0;  // [s], since the begin of the step
-    double way = 0.0;   // [m], that both move in the step
+    double time = 0.0;  // [s], since the start of the step
+    double way = 0.0;   // [m], motion of both in the step
     dGeomID a = nullptr, b = nullptr;
-    BodySet bodies = 0;  // that move: one or two
+    BodySet bodies = 0;  // moving bodies: one or two
   };
   void find_of(std::size_t slot, double dt) noexcept;
   void test(dGeomID a, dGeomID b, BodySet bodies, double way, double dt) noexcept;

@@ -76,7 +76,7 @@ double IslandEnergy::take_out(Island& island, BodySlots& slots) const noexcept {
     slots.each(island.bodies, [&](std::size_t i) { slots[i].slow(slower); });
     left += taken;
   }
-  // A stack of bodies is lifted by the sum of their depths at most.
+  // A stack of bodies is lifted at most by the sum of its depths.
   const double lift = was.depth * (gravity_.norm() * island.mass + was.pressed);
   island.account = std::min(left, lift);
   return std::max(0.0, taken);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 0.0625;  // of points along an edge, of the mesh's size
+constexpr double kSpacing = 0.0625;  // spacing of points along an edge, over the size of the mesh
 
 struct Place {
   Vector3d at;
@@ -35,7 +35,8 @@ bool before(const Vector3d& a, const Vector3d& b) {
 
 Vector3d vector(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
 
-// Points of `one` in `other`. @param way of the normals: 1 where `one` is the first geom
+// Finds points of `one` inside `other`. @param way sign of the normals: 1 if `one` is the first
+// geom
 void find(const ProbedMesh& one, const Place& one_at, const ProbedMesh& other,
           const Place& other_at, double way, std::span<dContactGeom> out,
           std::size_t& count) noexcept {
@@ -107,11 +108,11 @@ std::size_t meet_plane(const ProbedMesh& mesh, dGeomID at, dGeomID plane, bool i
   dGeomPlaneGetParams(plane, given);
   const Vector3d normal(given[0], given[1], given[2]);
   const Vector3d up = place.turned.conjugate() * normal;
-  const double height = given[3] - normal.dot(place.at);  // of the plane, in the mesh's axes
+  const double height = given[3] - normal.dot(place.at);  // height of the plane, in the mesh's axes
   const Eigen::AlignedBox3d& box = mesh.mesh().bounds();
   if (up.dot(box.center()) - 0.5 * up.cwiseAbs().dot(box.sizes()) > height) return 0;
   const Vector3d along = up.unitOrthogonal(), across = up.cross(along);
-  // The deepest, then the farthest along each way.
+  // The deepest corner, then the farthest in each direction.
   std::array<const Vector3d*, kWays + 1> found{};
   std::array<double, kWays + 1> most;
   most.fill(-std::numeric_limits<double>::infinity());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where two meshes touch, and the few contacts of many that hold a body best.
+// Finds contacts of two meshes, and selects the few that hold a body best.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +14,11 @@
 
 namespace reckon::haptics {
 
-/// A mesh with the points of its surface that are looked for in others: corners, and places along
-/// long edges. Between them another mesh is met by its own points, or not at all.
+/// A mesh with probe points on its surface: corners, and points along long edges. Between them,
+/// only the probe points of the other mesh find a contact.
 class ProbedMesh {
  public:
-  /// Of at most kMostPoints.
+  /// Takes at most kMostPoints points.
   explicit ProbedMesh(std::shared_ptr<const SurfaceMesh> mesh);
 
   static constexpr std::size_t kMostPoints = 2000;
@@ -32,19 +32,19 @@ class ProbedMesh {
   std::vector<Eigen::Vector3d> points_, corners_;
 };
 
-/// Contacts of two meshes at the places of their geoms, as dCollide: points of each that are inside
-/// the other one, with the way out over the nearest place of its surface. What is open has no
-/// inside. 1 us for each point that is near. @return how many of `out` are set
+/// Contacts of two meshes at the poses of their geoms, as dCollide: points of each inside the
+/// other, with the way out through the nearest point of its surface. An open mesh has no inside. 1
+/// us for each near point. @return number of contacts in `out`
 [[nodiscard]] std::size_t meet(const ProbedMesh& a, dGeomID a_at, const ProbedMesh& b, dGeomID b_at,
                                std::span<dContactGeom> out) noexcept;
 
-/// Contacts with a plane: the deepest corner, and those farthest out each way. 2 ns a corner; none
-/// of them where the mesh is beyond it. @param is_first whether the mesh is the first geom
+/// Contacts with a plane: the deepest corner, and the farthest ones in each direction. 2 ns a
+/// corner, or O(1) if the mesh is off the plane. @param is_first whether the mesh is the first geom
 [[nodiscard]] std::size_t meet_plane(const ProbedMesh& mesh, dGeomID at, dGeomID plane,
                                      bool is_first, std::span<dContactGeom> out) noexcept;
 
-/// Brings the deepest contact and three that span most with it to the front.
-/// @return how many there are, 4 at most
+/// Moves the deepest contact, and the three that span most with it, to the front.
+/// @return their number, 4 at most
 [[nodiscard]] std::size_t keep_widest(std::span<dContactGeom> contacts) noexcept;
 
 }  // namespace reckon::haptics

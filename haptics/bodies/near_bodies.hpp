@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which bodies a hand may meet in the period that begins, so that its step looks at no others.
+// Lists the bodies that a hand may touch in a period, so its step checks no others.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,39 +16,40 @@ namespace reckon::haptics {
 
 struct BodyState;
 
-/// What a hand may touch: a ball about its probes, and the points that they are held at.
+/// Reach of a hand: a ball around its probes and their contact points.
 struct HandReach {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m], S
   double radius = 0.0;                               ///< [m]
-  double speed = 0.0;                                ///< [m/s], of the fastest probe
+  double speed = 0.0;                                ///< [m/s], speed of the fastest probe
 };
 
-/// Where to look for bodies.
+/// The bodies to search.
 struct BodiesAbout {
-  std::span<const BodyState> states;     ///< of all
-  std::span<const std::uint32_t> awake;  ///< that may move; one that does not may be among them
-  const CellGrid& asleep;                ///< boxes of all others [m], S
+  std::span<const BodyState> states;     ///< all bodies
+  std::span<const std::uint32_t> awake;  ///< bodies that may move, possibly with others
+  const CellGrid& asleep;                ///< boxes of all other bodies [m], S
 };
 
-/// One list a hand, of bodies by their numbers, ascending. It is foreseen while nobody waits, and
-/// holds for as long as the hand stays where it was expected. Servo thread.
+/// One list for each hand: bodies by number, ascending. Lists are made ahead, outside the critical
+/// path, and stay valid while the hand is where it was expected. Servo thread.
 class NearBodies {
  public:
-  /// A body on its way is listed so many periods before it is there.
+  /// Number of periods by which a moving body is listed before it arrives.
   static constexpr double kAhead = 4.0;
 
-  /// @param radius of the ball about each body's origin that it is in [m]; infinite: always listed
+  /// @param radius of a ball around each body's origin that contains it [m]; infinite: always
+  /// listed
   explicit NearBodies(std::vector<double> radius);
 
-  /// The next hand's number. Allocates.
+  /// Adds a hand. @return its number. Allocates.
   std::size_t add_hand();
   [[nodiscard]] std::size_t hands() const noexcept { return hands_.size(); }
-  /// A hand's own, at the end of its step.
+  /// Sets a hand's reach at the end of its step.
   void watch(std::size_t hand, const HandReach& reach) noexcept { hands_[hand].watched = reach; }
-  /// Makes the lists of all hands. @param bodies as they will be  @param period [s]
+  /// Makes the lists of all hands. @param bodies in their next states @param period [s]
   void foresee(const BodiesAbout& bodies, double period) noexcept;
-  /// The same where no body has moved: of the hands that will soon be out of their lists.
-  /// @param about returns the bodies; called where they are needed
+  /// The same if no body has moved: only for hands that will soon leave the range of their lists.
+  /// @param about returns the bodies; called only if needed
   template <class About>
   void foresee_moved(const About& about, double period) noexcept {
     if (!is_foreseen_) return foresee(about(), period);
@@ -57,9 +58,9 @@ class NearBodies {
         list(hand, hand.watched, about(), period);
     }
   }
-  /// The states are others than those that were foreseen.
+  /// The states differ from the predicted ones.
   void forget() noexcept { is_foreseen_ = false; }
-  /// As foreseen, or else made now: some ns a body that is awake.
+  /// The list of a hand, made now if it is not valid: some ns for each awake body.
   /// @param about as above
   template <class About>
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t hand, const HandReach& reach,
@@ -70,15 +71,15 @@ class NearBodies {
   }
 
  private:
-  static constexpr double kMargin = 0.005;  // [m], of a hand that starts from rest
-  static constexpr double kLeft = 0.5;      // of the margin, up to which a list is not made anew
+  static constexpr double kMargin = 0.005;  // [m], margin for a hand that starts from rest
+  static constexpr double kLeft = 0.5;      // share of the margin down to which a list is kept
 
   struct Hand {
-    HandReach watched, at;  // at the end of its last step; where its list was made for
-    double covers = 0.0;    // [m], radius about the middle within which all bodies are listed
+    HandReach watched, at;  // reach at the end of its last step, and reach of its list
+    double covers = 0.0;    // [m], radius around the middle within which the list is complete
     std::vector<std::uint32_t> bodies;
   };
-  // Whether its list holds for a hand there, with room to spare [m].
+  // Whether the list is valid for a hand at `reach`, with `spare` [m].
   [[nodiscard]] static bool holds(const Hand& hand, const HandReach& reach, double period,
                                   double spare) noexcept {
     const double left = hand.covers - reach.radius - reach.speed * (kAhead - 1.0) * period - spare;
@@ -88,12 +89,12 @@ class NearBodies {
             double period) const noexcept;
 
   std::vector<double> radius_;
-  std::vector<std::uint32_t> always_;  // bodies
+  std::vector<std::uint32_t> always_;  // bodies that are always listed
   std::vector<Hand> hands_;
   bool is_foreseen_ = false;
 };
 
-/// Of the ball about the origin of each object of the plan that moves, for NearBodies [m].
+/// Radii of NearBodies for the moving objects of the plan [m].
 [[nodiscard]] std::vector<double> radii_of_moving(const EffectPlan& plan);
 
 }  // namespace reckon::haptics

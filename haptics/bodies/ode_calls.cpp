@@ -22,7 +22,7 @@ struct Call {
   Call* next_free = nullptr;
 };
 
-/// A step posts some ten calls; the pool grows to what the largest step took.
+/// A step posts about ten calls; the pool grows to the need of the largest step.
 class Calls {
  public:
   Call* take() {
@@ -44,8 +44,8 @@ class Calls {
   Call* free_ = nullptr;
 };
 
-/// Blocks of memory, each used again where it is large enough. ODE frees a block without its owner,
-/// so each block begins with a header.
+/// Memory blocks, each reused if it is large enough. ODE frees a block without its owner, so each
+/// block begins with a header.
 class Blocks {
  public:
   void* take(std::size_t size) {
@@ -82,10 +82,10 @@ struct StepHost::Store {
 
 namespace {
 
-// ODE asks for memory without saying for which world: for the one that this thread steps.
+// ODE's requests for memory do not name a world: it is the one that this thread steps.
 thread_local Blocks* stepped = nullptr;
 
-// Any address does: there is one thread, and nothing to lock or to wait for.
+// A dummy address: with one thread there is nothing to lock or to wait for.
 char nothing = 0;
 
 Calls& calls_of(dThreadingImplementationID calls) noexcept {
@@ -146,7 +146,7 @@ const dThreadingFunctionsInfo kCalls{sizeof(kCalls), make_locks, free_locks, loc
                                      wait,           one_thread, have_room};
 const dWorldStepMemoryFunctionsInfo kMemory{sizeof(kMemory), allocate, shrink, release};
 
-/// While it lives, this thread steps the world of these blocks.
+/// Scope in which this thread steps the world that uses these blocks.
 class Stepping {
  public:
   explicit Stepping(Blocks& blocks) noexcept : outer_(std::exchange(stepped, &blocks)) {}

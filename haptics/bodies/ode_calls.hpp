@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What ODE asks of its host while it steps, without allocation: memory and calls.
+// Memory and calls that ODE requests from its host in a step, without allocation.
 #pragma once
 
 #define dDOUBLE
@@ -10,9 +10,9 @@
 
 namespace reckon::haptics {
 
-/// Memory and calls of one ODE world. The world steps in the caller's thread and in memory that is
-/// kept from step to step: ODE's own ways allocate 12 to 90 times a step, and not through the hook
-/// that it has for that. Every thread may step and destroy the world, one at a time.
+/// Memory and calls of one ODE world. The world steps in the caller's thread, in memory that is
+/// reused from step to step. ODE alone allocates 12 to 90 times a step, and not through its
+/// allocation hook. Any thread may step and destroy the world, one at a time.
 class StepHost {
  public:
   StepHost();
@@ -20,7 +20,7 @@ class StepHost {
   StepHost(const StepHost&) = delete;
   StepHost& operator=(const StepHost&) = delete;
 
-  /// `world` is stepped by this host alone, which outlives it. Before the first step.
+  /// Only this host steps `world`, and outlives it. Call before the first step.
   void serve(dWorldID world);
 
   /// dWorldStep(), dWorldQuickStep().

@@ -50,7 +50,7 @@ class Blow {
     return is_on() && since > playback_.behind();
   }
   /// Greatest depth of a hand that was stated `depth` [m] deep and approaches at `closing` [m/s]:
-  /// that of a light hand which a spring of k1 [N/m] stops.
+  /// the depth at which a spring of k1 [N/m] stops a light hand.
   [[nodiscard]] static double deepest_guess(double depth, double closing, double k1) noexcept;
 
   /// Share of the surface's excess depth in our hand that is removed in dt [s]. In a blow the

@@ -30,12 +30,12 @@ struct ObjectContact {
   bool started_inside = false;  ///< since reset, until this object is left once
 };
 
-/// A body that is near the probe and does not touch it, frame S.
+/// A body near the probe, without contact, frame S.
 struct NearBody {
-  std::uint32_t index = 0;                           ///< of the object
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< of the body, the nearest one [m]
+  std::uint32_t index = 0;                           ///< index of the object
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< nearest point of the body [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the body
-  double gap = 0.0;                                  ///< between both [m], > 0
+  double gap = 0.0;                                  ///< distance [m], > 0
 };
 
 /// Result of a step, frame S. The spans stay valid until the solver's next call.

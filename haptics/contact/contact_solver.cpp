@@ -60,8 +60,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   return sum(device);
 }
 
-// The contact point goes on with the body that holds it most. A body that comes from elsewhere
-// pushes it.
+// The contact point moves with the body that holds it most. Other bodies push it.
 void ContactSolver::carry() noexcept {
   const MovingObject* holder = nullptr;
   for (const std::uint32_t body : moving_.placed()) {
@@ -117,7 +116,7 @@ void ContactSolver::let_through(const Vector3d& device, double dt) noexcept {
   }
 }
 
-// An object that was touched just now begins at its place, without sliding.
+// A newly touched object starts at its contact point, without sliding.
 void ContactSolver::follow_place(double dt) noexcept {
   for (const std::uint32_t i : touched_) {
     FeltObject& state = states_[i];
@@ -187,7 +186,7 @@ void ContactSolver::settle(const Vector3d& device) noexcept {
   } else {
     settle_among(device);
   }
-  // An object that was left no longer slides, and is whole again.
+  // An object without contact no longer slides, and its depth is no longer hidden.
   for (const std::uint32_t i : touched_) {
     if (contacts_[i].in_contact) continue;
     if (cones_[i] != nullptr) cones_[i]->set_sliding(false);

@@ -32,8 +32,8 @@ namespace reckon::haptics {
 /// stiffness meet, the energy may jump as one takes over from another. The user must therefore book
 /// all of it, as StaticContact does.
 ///
-/// If no place outside all objects is found, as between planes that leave none, the SCP starts
-/// inside. It is still passive, but is held by the surfaces that it meets from there.
+/// If no position outside all objects is found, as between planes that leave none, the SCP starts
+/// inside. The contact is still passive, held by the surfaces that the SCP meets from there.
 class ContactSolver {
  public:
   /// @param plan outlives the solver; solvers that share it only read it
@@ -49,44 +49,43 @@ class ContactSolver {
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// From now on a contact with an object that moves ends after 50 ms in which the device is
-  /// outside of it, and at least 10 mm farther from the SCP than `force` [N], the greatest that is
-  /// shown, stretches the object's springs.
+  /// Ends the contact with a moving object after the device has been outside of it for 50 ms, at
+  /// least 10 mm farther from the SCP than `force` [N], the greatest rendered force, stretches the
+  /// object's springs.
   void let_through_beyond(double force) noexcept { strongest_ = force; }
-  /// Storage of what was let through in the last step [J], which is lost.
+  /// Lost storage of the contacts that ended in this way in the last step [J].
   [[nodiscard]] double lost() const noexcept { return lost_; }
-  /// Times that something was let through.
+  /// Number of contacts that ended in this way.
   [[nodiscard]] std::uint32_t passed() const noexcept { return passed_; }
 
-  /// How many of the plan's objects that move the last step met.
+  /// Number of moving objects in the last step.
   [[nodiscard]] std::size_t placed() const noexcept { return moving_.placed().size(); }
-  /// Puts one of them where it is, before a step, which meets only those that were placed since the
-  /// last one. The SCP goes on with the body that holds it; one that comes from elsewhere pushes
-  /// it.
-  /// @param before where it was a step ago, if the last step did not meet it
+  /// Sets the state of a moving object before a step. The step considers only objects placed since
+  /// the last one. The SCP moves with the body that holds it; other bodies push it.
+  /// @param before state one step ago, used if the object was not placed for the last step
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     moving_.place(body, motion, before, contacts_);
   }
-  /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
+  /// Velocity of an object's material point at `point` [m, S], [m/s]; zero for a static object.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
                                             const Eigen::Vector3d& point) const noexcept {
     return moving_.velocity_of(index, point);
   }
-  /// Work of the carried objects on the springs in the last move, place() to step() [J]: what the
-  /// storage grew by because the surfaces moved.
+  /// Work of the carried objects on the springs in the last move, place() to step() [J]: the growth
+  /// of the storage from the motion of the surfaces.
   [[nodiscard]] double carried_work() const noexcept { return moving_.carried_work(contacts_); }
-  /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
+  /// Time by which an object's velocity lags its position [s]; see ObjectMotion::step.
   [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept {
     return moving_.ahead_of(index);
   }
-  /// Of those that were placed, the next one from `next` on that the probe may touch within `time`
-  /// [s] at this velocity [m/s], and does not touch yet. @return none if there is none
+  /// The next placed object from `next` on that the probe does not touch, but may touch within
+  /// `time` [s] at this velocity [m/s]. @return std::nullopt: none
   [[nodiscard]] std::optional<NearBody> near_body(std::size_t& next,
                                                   const Eigen::Vector3d& velocity,
                                                   double time) const noexcept {
     return moving_.near_body(next, {last_device_, velocity, radius_, time}, contacts_);
   }
-  /// Of an object: greatest force along its surface over that across it; 0 if it is smooth.
+  /// Greatest ratio of tangential to normal force of an object; 0 if it is smooth.
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return cones_[index] != nullptr ? cones_[index]->at_rest() : 0.0;
   }
@@ -106,9 +105,9 @@ class ContactSolver {
   [[nodiscard]] bool on_patches() const noexcept;
   /// Share of the touched patches' stiffness that the energy allowed, (0, 1].
   [[nodiscard]] double patch_share() const noexcept { return patch_share_; }
-  /// Shortens the springs of the touched objects to `share` [0, 1] of their depth: the rest of it
-  /// is hidden, as if the surface stood nearer to the device. It is shown again as far as the
-  /// device comes out. No allocation.
+  /// Shortens the springs of the touched objects to `share` [0, 1] of their depth. The rest is
+  /// hidden, as if the surface were nearer to the device, until the device moves out by as much. No
+  /// allocation.
   ContactResult hide(double share) noexcept;
   /// Greatest hidden depth of a touched object [m].
   [[nodiscard]] double hidden() const noexcept;
@@ -153,7 +152,7 @@ class ContactSolver {
 
   const EffectPlan& plan_;
   MovingObjects moving_;
-  std::vector<const PlannedObject*> objects_;  // of the plan, where they are now
+  std::vector<const PlannedObject*> objects_;  // objects of the plan at their present poses
   std::vector<FeltObject> states_;
   std::vector<ObjectContact> contacts_;
   double radius_;

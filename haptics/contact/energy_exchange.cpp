@@ -10,14 +10,14 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kSpringSpare = 1e-4;  // [J], wanted beyond the springs' storage
-constexpr double kMostAsked = 0.06;    // [J], of one neighbour
+constexpr double kMostAsked = 0.06;    // [J], from one neighbour
 
 // Sums over all engaged contacts.
 struct Wants {
   std::size_t engaged = 0;
   Eigen::Vector3d shown = Eigen::Vector3d::Zero();   // [N], sum: opposite forces cancel
   Eigen::Vector3d coming = Eigen::Vector3d::Zero();  // [N], sum of coming_force()
-  double inside_force = 0.0;                         // [N], greatest of those that began inside
+  double inside_force = 0.0;                         // [N], greatest of contacts that began inside
   double of_hands = 0.0;                             // [N], greatest of the hands
   double stored = 0.0;                               // [J]
   double asked = 0.0;                                // [J], requested of us

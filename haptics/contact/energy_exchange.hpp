@@ -22,7 +22,7 @@ inline constexpr double kHandLoanPower = 0.01;
 inline constexpr double kWallLoanPower = 0.05;
 inline constexpr double kCalm = 0.02;
 
-/// What the port of a device has to supply in a step.
+/// Energy demand on the port of a device in a step.
 struct PortNeeds {
   double spare = 0.0;    ///< [N/m], see first_tier()
   double walls = 0.0;    ///< [J], see StaticContact::lacks()
@@ -31,16 +31,16 @@ struct PortNeeds {
   double dt = 0.0;       ///< [s]
 };
 
-/// One servo step of the exchange: repays or takes a loan, answers requests and requests what is
-/// short. A request that we cannot meet is passed on to the other neighbours, so that energy
+/// One servo step of the exchange: repays or takes a loan, answers requests and requests missing
+/// energy. A request that we cannot meet is passed on to the other neighbours, so that energy
 /// reaches the end of a row of hands.
 ///
 /// A loan is energy that nobody put in. Three kinds of contact get one: a contact that began
-/// inside, a contact whose force was cut to zero, and a contact that is short for longer while the
-/// hand holds still in touch; none that has parted since. There the port may be empty with nobody
-/// left to fill it: hands that start overlapping, an outage in contact, a late discovery, a start
-/// inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The loan is
-/// repaid before anything is given, even if the contact ends.
+/// inside, a contact whose force was cut to zero, and a contact that is short of energy for long
+/// while the hand is at rest in contact; none after a separation. There the port may be empty with
+/// nobody left to fill it: hands that start overlapping, an outage in contact, a late discovery, a
+/// start inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The
+/// loan is repaid before anything is given, even if the contact ends.
 /// @return number of engaged contacts.
 std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyLedger& ledger,
                             const PortNeeds& needs) noexcept;

@@ -15,7 +15,7 @@ bool has_follower(const PlannedEffects& effects) {
   return has;
 }
 
-// What effects are given of an object that is touched.
+// The object's side of a contact, as input of effects.
 ContactedObject seen_of(const PlannedObject& object, const ObjectContact& contact, bool began,
                         double gain) {
   ContactedObject seen;

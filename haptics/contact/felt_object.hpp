@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One object of a plan as one probe feels it: its effects, and what they keep of the contact.
+// One object of a plan at one probe: its effects, and their state of the contact.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,26 +18,27 @@ namespace reckon::haptics {
 struct FeltObject {
   FeltObject(const PlannedEffects& planned, double radius);
 
-  SurfaceContactPoint point;  ///< while this object alone is within reach
+  SurfaceContactPoint point;  ///< while only this object is within reach
   PlannedEffects effects;
   bool started_inside = false;
-  PatchBlend blend{};                                 ///< of a mesh with patches
+  PatchBlend blend{};                                 ///< for a mesh with patches
   std::uint64_t touched_at = 0;                       ///< step of the last touch; 0: none
-  Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  ///< where its springs end, its own axes
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< of the SCP, for effects that follow it
-  bool follows = false;                               ///< it has such an effect
-  MeshStroke stroke{};                                ///< over a mesh, for effects with a force
-  bool began = false;                                 ///< its contact is new in this step
-  double hidden = 0.0;                                ///< [m], of the depth
+  Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  ///< end of its springs, in its own axes
+  Eigen::Vector3d place =
+      Eigen::Vector3d::Zero();  ///< position of the SCP, for effects that follow it
+  bool follows = false;         ///< it has an effect that follows the SCP
+  MeshStroke stroke{};          ///< on a mesh, for effects with a force
+  bool began = false;           ///< its contact is new in this step
+  double hidden = 0.0;          ///< [m], hidden part of the depth
 
   /// Friction cone that holds the contact point; null for a smooth surface.
   [[nodiscard]] FrictionCone* cone() noexcept;
-  /// Of all its springs together [N/m].
+  /// Stiffness of all its springs together [N/m].
   [[nodiscard]] double stiffness() const noexcept;
 
-  /// As never touched.
+  /// Restores the state before any contact.
   void restart(const PlannedEffects& planned) noexcept;
-  /// It is touched in this step.
+  /// Marks it as touched in this step.
   void touch(std::uint64_t step) noexcept;
   /// Takes the properties of the surface below the contact point.
   void adjust(const SurfaceFeel& feel) noexcept;
@@ -45,7 +46,7 @@ struct FeltObject {
   /// @param slid it slides  @param depth of the device below the SCP [m]  @param dt [s] of the step
   void follow(const Eigen::Vector3d& at, bool slid, const ObjectContact& contact, double depth,
               double dt) noexcept;
-  /// Forces of its springs for a contact with known place and normal, into `contact`.
+  /// Computes the forces of its springs into `contact`, whose point and normal are known.
   /// @param scp, device in the object's axes [m]
   void hold(const PlannedObject& object, const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
             ObjectContact& contact) noexcept;

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Number of overlapping objects that the search leaves one by one before it goes straight out, and
+// Number of overlapping objects that the search leaves one by one before it moves straight out, and
 // the lengths [m] that it tries.
 constexpr int kPushes = 32;
 constexpr double kSearchFrom = 1e-4;

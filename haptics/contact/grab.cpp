@@ -27,7 +27,7 @@ void Grab::take(std::size_t body, const GrabSpring& spring, const Vector3d& prob
 
 void Grab::let_go(EnergyLedger& ledger) noexcept {
   if (!holds_) return;
-  // What was lent for the body's motion was no storage.
+  // The energy lent for the body's motion is no storage.
   ledger.book(-gain_ * lent_);
   *this = {};
 }
@@ -39,7 +39,7 @@ Vector3d Grab::move(const Vector3d& probe, EnergyLedger& ledger) noexcept {
   const Vector3d stretch = probe - point();
   force_ = -spring_.stiffness * stretch;
   stored_ = 0.5 * spring_.stiffness * stretch.squaredNorm();
-  // A body has its speed of half a step before its place; see WallContact.
+  // The velocity of a body lags its position by half a step; see WallContact.
   lent_ = 0.5 * motion_.step * force_.dot(point_velocity());
   ledger.book(before - booked());
   return gain_ * (force_ - force);

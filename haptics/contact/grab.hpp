@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A body held by one probe: a spring with viscosity from a place of the probe to a place of the
-// body, booked as a wall's is.
+// A body held by one probe: a spring with viscosity from a point of the probe to a point of the
+// body, booked like the spring of a wall.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,66 +13,64 @@
 
 namespace reckon::haptics {
 
-/// It begins unstretched, so that nothing jumps and nothing has to be paid. Where the ledger is
-/// short its gain falls, and rises in 100 ms as the ledger pays; where nothing of it is left, as
-/// after a cut to zero, the body is lost. Order of calls within a step: place, move,
-/// settle, load, shown, attenuate; all but the last of them do nothing while nothing is held. One
-/// thread; allocates nothing.
+/// It starts unstretched, without a jump or an energy cost. If the ledger is short, its gain falls,
+/// and rises within 100 ms as the ledger pays. At zero gain, as after a cut, the body is released.
+/// Order of calls within a step: place, move, settle, load, shown, attenuate; they do nothing while
+/// nothing is held. One thread; allocates nothing.
 class Grab {
  public:
-  /// Holds a body from now on. @param body its number among the objects that move
-  /// @param spring of a stiffness and a viscosity that device and body can take
+  /// Grabs a body. @param body its number among the moving objects
+  /// @param spring with a stiffness and a viscosity that device and body can take
   /// @param probe [m, S]  @param motion of the body
   void take(std::size_t body, const GrabSpring& spring, const Eigen::Vector3d& probe,
             const ObjectMotion& motion) noexcept;
-  /// What the spring stores is lost.
+  /// Releases the body; the energy of the spring is lost.
   void let_go(EnergyLedger& ledger) noexcept;
   [[nodiscard]] bool holds() const noexcept { return holds_; }
   [[nodiscard]] std::size_t body() const noexcept { return body_; }
-  /// Whether it is pulled harder than the most that it holds.
+  /// Whether the pull exceeds the limit of the spring.
   [[nodiscard]] bool tears() const noexcept { return holds_ && force_.norm() > spring_.most; }
 
-  /// The body goes on.
+  /// Sets the motion of the body.
   void place(const ObjectMotion& motion) noexcept { motion_ = motion; }
-  /// The probe goes on, and what the spring stored or released is booked. @return by how much its
-  /// force changed [N]
+  /// Moves the probe, and books the stored or released energy. @return the change of the force [N]
   Eigen::Vector3d move(const Eigen::Vector3d& probe, EnergyLedger& ledger) noexcept;
-  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s], of the sample
+  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s] of the sample
   void settle(double dt, EnergyLedger& ledger) noexcept;
-  /// The mean force over the sample that begins, with its viscosity, differs by so much from the
-  /// spring's present one [N]. For the next load().
+  /// Sets the predicted difference between the mean force over the next sample, with viscosity, and
+  /// the spring's present force [N]. For the next load().
   void foresee(const Eigen::Vector3d& change) noexcept { change_ = change; }
   /// Adds the forces to be held.
   void load(PortLoad& load) const noexcept;
-  /// Takes the held share of the forces besides the spring's, [0, 1].
+  /// Takes the held share of the forces other than the spring's, [0, 1].
   void shown(double extra) noexcept { shown_ = extra; }
   /// Scales force and storage by `factor` in [0, 1].
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
-  /// On the hand [N, S], after shown().
+  /// Force on the hand [N, S], after shown().
   [[nodiscard]] Eigen::Vector3d force() const noexcept {
     return holds_ ? Eigen::Vector3d(spring_force() + shown_ * change_) : Eigen::Vector3d::Zero();
   }
-  /// Of it, that of the spring.
+  /// The spring's part of it.
   [[nodiscard]] Eigen::Vector3d spring_force() const noexcept { return gain_ * force_; }
-  /// That the spring lacks because its gain is below 1 [N].
+  /// Force that the spring lacks because its gain is below 1 [N].
   [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
     return holds_ ? Eigen::Vector3d((1.0 - gain_) * force_) : Eigen::Vector3d::Zero();
   }
   [[nodiscard]] double gain() const noexcept { return gain_; }
   [[nodiscard]] double stiffness() const noexcept { return gain_ * spring_.stiffness; }
   [[nodiscard]] double viscosity() const noexcept { return gain_ * spring_.viscosity; }
-  /// Where the body is held [m, S].
+  /// Grip point on the body [m, S].
   [[nodiscard]] Eigen::Vector3d point() const noexcept {
     return motion_.position + motion_.orientation * place_;
   }
-  /// Of that place [m/s].
+  /// Velocity of that point [m/s].
   [[nodiscard]] Eigen::Vector3d point_velocity() const noexcept {
     return motion_.velocity + motion_.turn_rate.cross(motion_.orientation * place_);
   }
 
  private:
-  // What is out of the ledger for the spring [J].
+  // Energy booked for the spring [J].
   [[nodiscard]] double booked() const noexcept { return gain_ * (stored_ - lent_); }
   void scale_gain(double factor, EnergyLedger& ledger) noexcept;
 
@@ -80,7 +78,7 @@ class Grab {
   std::size_t body_ = 0;
   GrabSpring spring_;
   ObjectMotion motion_;
-  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();   // in the body's axes [m]
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();   // grip point in the body's axes [m]
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();   // of the spring at a gain of 1 [N]
   Eigen::Vector3d change_ = Eigen::Vector3d::Zero();  // [N]
   double stored_ = 0.0, lent_ = 0.0;                  // [J], at a gain of 1

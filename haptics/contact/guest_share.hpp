@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a hand feels of guests, bodies of plain DIS programs, beside other hands. A guest has no
-// energy to give: else its spring would take that of the hands, and part them for seconds.
+// Share of the force of guests, bodies of plain DIS programs, beside other hands. A guest has no
+// energy to give, so its spring would take the energy of the hands and separate them for seconds.
 #pragma once
 
 #include <span>
@@ -13,18 +13,18 @@ namespace reckon::haptics {
 /// Share of the guests' springs beside hands. One thread, no allocation, linear in the contacts.
 class GuestShare {
  public:
-  /// For so long [s] after guests and hands have touched the device together, the energy that hands
-  /// lack counts as taken by guests.
+  /// Time after a joint contact of guests and hands [s] in which a lack of energy for hands counts
+  /// as taken by guests.
   static constexpr double kOver = 2.0;
 
-  /// Before the load of a servo step: the share becomes the largest in [0, 1] that the energy of
-  /// the port pays for after the hands and what their springs store. It rises within
-  /// RemoteContact::kRamp. Without hands it is 1.
+  /// Call before the load of a servo step. Sets the largest share in [0, 1] that the port's energy
+  /// pays for after the hands and the storage of their springs. It rises within
+  /// RemoteContact::kRamp; without hands it is 1.
   /// @param spare [N/m], of the port at the probe  @param level [J], of the port  @param dt [s]
   void make_room(std::span<RemoteContact* const> near, double spare, double level,
                  double dt) noexcept;
 
-  /// 1 for a hand and a body of a peer.
+  /// Share of a contact; 1 for a hand or body of a peer.
   [[nodiscard]] double share_of(const RemoteContact& remote) const noexcept {
     return remote.is_guest() ? share_ : 1.0;
   }
@@ -33,7 +33,7 @@ class GuestShare {
 
  private:
   double share_ = 1.0;
-  double left_ = 0.0;  // [s], of kOver
+  double left_ = 0.0;  // [s], remaining time of kOver
 };
 
 }  // namespace reckon::haptics

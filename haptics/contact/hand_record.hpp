@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Checks of a record that another peer sends of its hand.
+// Checks of received records of remote hands.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace reckon::haptics {
 
-/// Whether it has numbers that a servo can use.
+/// Whether its numbers are usable in a servo.
 [[nodiscard]] inline bool is_sound(const RemoteHand& hand) {
   return deadreckon::is_finite(hand.state) && hand.model.point.allFinite() &&
          hand.model.normal.allFinite() && std::isfinite(hand.model.damping) &&
          hand.model.damping >= 0;
 }
 
-/// Whether the spring differs, whatever its place.
+/// Whether the spring's parameters differ, ignoring its position.
 [[nodiscard]] inline bool is_reshaped(const deadreckon::ForceModel& from,
                                       const deadreckon::ForceModel& to) {
   const auto differs = [](double a, double b) { return std::abs(b - a) > 0.01 * std::max(a, b); };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Adds up what the contacts at the probes of a tool ask of the port.
+// Sums the load of the contacts at the probes of a tool on the port.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@
 
 namespace reckon::haptics {
 
-/// For each probe: of_probe(), to which its contacts add, then add(). At last finish().
+/// For each probe: of_probe(), to which its contacts add, then add(). Finally finish().
 template <int axes>
 class LoadSum;
 
-/// A point: its contacts add to the load itself.
+/// A point: its contacts add directly to the load.
 template <>
 class LoadSum<3> {
  public:

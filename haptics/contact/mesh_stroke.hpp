@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The place on a mesh at which effects are felt.
+// The point on a mesh at which effects are evaluated.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,19 +8,19 @@
 
 namespace reckon::haptics {
 
-/// Where a hand presses into a mesh and goes over an edge between two triangles, the normal turns
-/// at once and the contact point jumps, by the depth times the angle between them. A texture would
-/// step with both. So the place that effects are given moves on as the hand does, and comes back to
-/// the contact point by a tenth of the way that the hand goes. The normal turns by half a radian
-/// for each millimetre of it. A jump beyond kMostShift or kMostTurn is one of the shape itself, and
-/// is followed at once. One for each contact; servo thread.
+/// If a hand presses into a mesh and crosses an edge between two triangles, the normal turns
+/// abruptly, and the contact point jumps by the depth times the angle between them. A texture would
+/// step with both. So the point for effects moves with the hand, and returns to the contact point
+/// by a tenth of the hand's motion. The normal turns by half a radian for each millimetre of that
+/// motion. A jump beyond kMostShift or kMostTurn comes from the shape itself and is followed at
+/// once. One for each contact; servo thread.
 class MeshStroke {
  public:
   static constexpr double kMostShift = 1e-3;  ///< [m]
   static constexpr double kMostTurn = 0.2;    ///< [rad]
 
-  /// All in the mesh's axes. @param scp, device [m]  @param normal unit  @param began the contact
-  /// is new
+  /// All arguments are in the mesh's axes. @param scp, device [m] @param normal unit @param began
+  /// the contact is new
   void follow(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
               const Eigen::Vector3d& normal, std::uint32_t triangle, bool began) noexcept {
     const Eigen::Vector3d hand = device - device_;
@@ -49,7 +49,7 @@ class MeshStroke {
   static constexpr double kBack = 0.1;
   static constexpr double kTurn = 500.0;  // [rad/m]
 
-  // Of `way`, at most `length`.
+  // `way`, limited to `length`.
   static Eigen::Vector3d part(const Eigen::Vector3d& way, double length) noexcept {
     const double whole = way.norm();
     return whole > length ? Eigen::Vector3d(length / whole * way) : way;
@@ -57,7 +57,7 @@ class MeshStroke {
 
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d device_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();  // from the contact point to the place
+  Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();  // from the contact point to place()
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   std::uint32_t triangle_ = 0;
 };

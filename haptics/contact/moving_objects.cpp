@@ -41,12 +41,12 @@ void MovingObjects::place(std::uint32_t body, const ObjectMotion& motion,
   moving.pushed = contacts[moving.object].force;
   moving.before = was_met ? moving.motion : before;
   moving.motion = motion;
-  // It stands where it stood.
+  // It has not moved.
   if (was_met && !moving.is_moved()) return;
   moving.now.place(motion.position, motion.orientation.toRotationMatrix());
 }
 
-// Those of rounds before.
+// Forgets the objects of earlier rounds.
 void MovingObjects::forget_placed(std::uint64_t round) noexcept {
   if (!placed_.empty() && moving_[placed_.front()].placed != round) placed_.clear();
 }
@@ -56,8 +56,8 @@ Vector3d MovingObjects::velocity_of(std::uint32_t index, const Vector3d& point) 
   return moving != nullptr ? moving->motion.velocity_at(point) : Vector3d::Zero();
 }
 
-// Exact for springs that are held before and after. A surface that comes into touch stores no more
-// than what is there then, and gives nothing when it is left.
+// Exact for springs held before and after. A surface in new contact stores no more than its energy
+// then, and gives nothing at the end of the contact.
 double MovingObjects::carried_work(std::span<const ObjectContact> contacts) const noexcept {
   double sum = 0.0;
   for (const std::uint32_t body : placed_) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The objects of a plan that move, as one probe meets them: where each is, and was one step ago.
+// The moving objects of a plan for one probe: present state, and state one step ago.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,18 +17,17 @@
 
 namespace reckon::haptics {
 
-/// One of them.
+/// A moving object.
 struct MovingObject {
-  std::uint32_t object = 0;  ///< its number in the plan
+  std::uint32_t object = 0;  ///< index in the plan
   PlannedObject now;
   ObjectMotion motion{}, before{};
-  std::uint64_t placed = 0;                          ///< the round in which it was placed last
+  std::uint64_t placed = 0;                          ///< last round in which it was placed
   Eigen::Vector3d pushed = Eigen::Vector3d::Zero();  ///< force on the device before the move [N]
-  QueryShape solid;                                  ///< for what is inside
+  QueryShape solid;                                  ///< to test for points inside
   double beyond = 0.0;  ///< [s], see ContactSolver::let_through_beyond()
 
-  /// Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
-  /// shape has no origin of its own.
+  /// A fixed point of S in the object's axes one step ago. A body's shape has no origin of its own.
   [[nodiscard]] Eigen::Vector3d before_of(const Eigen::Vector3d& p_S) const noexcept {
     return before.orientation.conjugate() * (p_S - before.position);
   }
@@ -40,7 +39,7 @@ struct MovingObject {
   [[nodiscard]] bool is_outside(const Eigen::Vector3d& p_S) const noexcept;
 };
 
-/// A ball that moves, S, and the time ahead [s] that matters.
+/// A moving ball, S, and its look-ahead [s].
 struct MovingProbe {
   Eigen::Vector3d place;     ///< [m]
   Eigen::Vector3d velocity;  ///< [m/s]
@@ -48,14 +47,14 @@ struct MovingProbe {
   double time = 0.0;
 };
 
-/// See the functions of equal names of ContactSolver. `contacts` are those of all objects.
+/// See the functions of the same names in ContactSolver. `contacts` has all objects.
 class MovingObjects {
  public:
   explicit MovingObjects(const EffectPlan& plan);
 
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before,
              std::span<const ObjectContact> contacts) noexcept;
-  /// Ends a round of place() and step(); a step that cannot be made ends one too.
+  /// Ends a round of place() and step(), even if the step was impossible.
   void next_round() noexcept { forget_placed(round_++); }
 
   /// Numbers of the objects that were placed for this round.
@@ -64,7 +63,7 @@ class MovingObjects {
   [[nodiscard]] const MovingObject& operator[](std::uint32_t body) const noexcept {
     return moving_[body];
   }
-  /// An object of the plan; null if it stands still.
+  /// A moving object by its index in the plan; null: static.
   [[nodiscard]] const MovingObject* moving_as(std::uint32_t index) const noexcept {
     return of_[index] != kNobody ? &moving_[of_[index]] : nullptr;
   }

@@ -17,7 +17,7 @@ PairAccount& NearHands::pair_of(const pdu::EntityId& id) noexcept {
   return *oldest;
 }
 
-// Sets mostly keep their order, so that the search begins at the hand's place in the last set.
+// Sets mostly keep their order, so the search starts at the hand's index in the last set.
 RemoteContact* NearHands::slot_of(const pdu::EntityId& id, std::size_t at) noexcept {
   RemoteContact* guess = placed_[at];
   if (guess != nullptr && guess->occupied() && guess->id() == id) return guess;

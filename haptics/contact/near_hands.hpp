@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The remote hands at one device: which slot each has, and the accounts of those that left.
+// Slots of the remote hands at one device, and the accounts of hands that left.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace reckon::haptics {
 
-/// Up to kMaxRemoteHands contacts, in an order that does not depend on who came when. A hand that
-/// leaves keeps its account, and is not credited twice when it returns. Servo thread; bounded; no
+/// Up to kMaxRemoteHands contacts, in an order independent of their arrival. A hand that leaves
+/// keeps its account, and is not credited twice when it returns. Servo thread; bounded; no
 /// allocation.
 class NearHands {
  public:
@@ -28,8 +28,8 @@ class NearHands {
   /// One step: credits, predicts, and drops hands that have faded out.
   void advance(const StepContext& step, std::uint64_t count, EnergyLedger& ledger) noexcept;
 
-  /// Hands that touch or nearly do: is_cut(place, apart) says whether a solid is between ours and
-  /// that place [m]; see is_between_hands().
+  /// For hands in contact or nearly so: is_cut(place, apart) returns whether a solid is between our
+  /// hand and that position [m]; see is_between_hands().
   template <class IsCut>
   void set_apart(IsCut&& is_cut) noexcept {
     for (RemoteContact* remote : all()) {
@@ -44,9 +44,9 @@ class NearHands {
     return {near_.data(), count_};
   }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-  /// Hands that are near and not felt, because there are too many.
+  /// Number of near hands without a slot, because there are too many.
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
-  /// Energy received from all hands since the start, less the energy given to them [J].
+  /// Energy received from all hands since the start, minus the energy given to them [J].
   [[nodiscard]] double transferred() const noexcept;
   /// Whether the simulation is frozen, as of the last take().
   [[nodiscard]] bool frozen() const noexcept { return frozen_; }

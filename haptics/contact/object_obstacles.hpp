@@ -16,7 +16,7 @@ namespace reckon::haptics {
 /// A probe of `radius` [m] among the objects. p is relative to `anchor` [m, S], so that planes and
 /// levels stay small at any distance of the objects from the origin.
 struct ObjectObstacles {
-  std::span<const PlannedObject* const> objects;  ///< of the plan, where they are now
+  std::span<const PlannedObject* const> objects;  ///< objects of the plan at their present poses
   std::span<FrictionCone* const> cones;           ///< per object; null if it is smooth
   std::span<const std::uint32_t> within_reach;    ///< objects that the walk may meet
   double radius;

@@ -22,13 +22,13 @@ struct PairAccount {
   double stated = 0.0;          ///< [J], greatest total that the owner stated
   double seen = 0.0;  ///< [J], part of `stated` that was credited or is lost; the rest is pending
   /// [J], energy that the owner should have by our observation: the work of its surface on our
-  /// spring plus our gifts, less what was credited from it. Energy that it claims to have given is
+  /// spring plus our gifts, minus the credits from it. Energy that it claims to have given is
   /// credited up to this, plus what the ledger accepts from anybody. The rest is lost. An owner
   /// that should have enough gets no share in a shortage.
   double believed = 0.0;
 
   /// Opens the account of this hand unless it is open. Energy given before is lost.
-  /// @param total [J], that its owner states to have given
+  /// @param total [J], given by its owner, as stated
   void open(const pdu::EntityId& whose, std::uint32_t life, double total) noexcept;
   /// Receives a total from the owner. Totals only grow, so that loss and reordering of updates can
   /// lose energy but not create any. With a new epoch of the owner the total restarts.

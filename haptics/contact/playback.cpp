@@ -35,7 +35,7 @@ deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& stated,
 deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
   if (!(age > kTrustedFaster)) return deadreckon::extrapolate(state, age);
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
-  // Steady motion: its extrapolated direction says nothing more.
+  // Steady motion: its extrapolated direction has no further information.
   if (!terms.acceleration && !terms.body_axes) {
     if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
     const deadreckon::Pose steady = deadreckon::extrapolate(state, kTrusted);
@@ -84,8 +84,8 @@ deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind,
   return towards(heard_[(i + 1) % kKept], pose, heard_[i], age - before);
 }
 
-// Between two known states the motion leads from one to the other. So a hand that was stopped after
-// the first state is not extrapolated from it until the second.
+// Between two received states the motion is interpolated. So a hand that was stopped after the
+// first state is not extrapolated from it until the second.
 deadreckon::Pose Playback::towards(const Heard& next, deadreckon::Pose pose, const Heard& last,
                                    double age) noexcept {
   const double gap = seconds(next.time) - seconds(last.time);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Playback of a delayed blow. While the blow lasts, the remote hand is shown at a stated place of a
-// short time ago. Extrapolation does not know the touch that stops a hand, and would lead it into
-// ours as deep as it travels within the delay. Servo thread, SI units.
+// short time ago. Extrapolation does not include the touch that stops a hand, and would move it
+// into ours as deep as it travels within the delay. Servo thread, SI units.
 #pragma once
 
 #include <array>
@@ -30,7 +30,8 @@ class Playback {
   /// Stores a received state of this time. A time before the last one discards the older states.
   void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
 
-  /// Whether extrapolation would lead this approach deep into our hand before a touch can be known.
+  /// Whether extrapolation would move an approaching hand deep into ours before an update can show
+  /// the touch.
   /// @param closing [m/s]  @param age [s], of updates on arrival
   [[nodiscard]] static bool is_blow(double closing, double age) noexcept;
   /// Begins the playback of a blow, with a delay at which states arrive before they are shown.

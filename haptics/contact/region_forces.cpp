@@ -11,14 +11,14 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kRiseSeconds = 0.1;
-// Left to walls, remote hands and held forces while a potential rises [J].
+// Energy left for walls, remote hands and held forces while a potential rises [J].
 constexpr double kLeft = 0.01;
 constexpr double kFar = 1e6;       // [m]
 constexpr double kNoJump = 1e-12;  // [J], rounding
 
 double free_energy(const EnergyLedger& ledger) { return std::max(0.0, ledger.level() - kLeft); }
 
-// Where a device may be, in a region's axes.
+// Range of a device's positions, in a region's axes.
 RegionReach reach_of(const PlannedRegion& region, const Eigen::AlignedBox3d& space,
                      const Eigen::Isometry3d& to_scene) {
   RegionReach out;
@@ -113,8 +113,8 @@ void RegionForces::move(const Vector3d& device, EnergyLedger& ledger) noexcept {
   }
 }
 
-// Inside, what a potential stores changes by the work of the hand. Where it changes beyond that, as
-// at an edge, the loan for regions pays or is repaid.
+// Inside, a potential changes by the work of the hand. For any other change, as at an edge, the
+// loan for regions pays or is repaid.
 void RegionForces::move(State& state, const RegionPotential& before, const Vector3d& way,
                         EnergyLedger& ledger) noexcept {
   const RegionPotential& after = state.source;
@@ -140,7 +140,7 @@ Vector3d RegionForces::change() noexcept {
 }
 
 void RegionForces::settle(double dt, EnergyLedger& ledger) noexcept {
-  // What the hand has entered, or a late sample, may leave a debt.
+  // Entering a region, or a late sample, may leave a debt.
   for (State& state : states_) {
     const double debt = ledger.debt(), held = state.gain * state.sum.energy;
     if (!(debt > 0)) break;
@@ -156,7 +156,7 @@ void RegionForces::settle(double dt, EnergyLedger& ledger) noexcept {
   sum_up();
 }
 
-// The potentials that the device is in share the cap.
+// The active potentials share the cap.
 double RegionForces::most_gain() const noexcept {
   double sum = 0.0;
   for (const State& state : states_)
@@ -187,14 +187,14 @@ void RegionForces::sink(State& state, double dt, EnergyLedger& ledger) noexcept 
   });
 }
 
-// Of the energy that is freed, the part of the loan is to be given back.
+// The loan's part of the freed energy is to be repaid.
 void RegionForces::lower(State& state, double factor, EnergyLedger& ledger) noexcept {
   ledger.region_loan().expect(state.gain * (1.0 - factor) * state.source.energy);
   scale_gain(state, factor, ledger);
 }
 
-// A potential of no energy has no force, so that its gain is free. The loan for regions pays for
-// what is theirs, the ledger for the rest. @return whether nothing is short
+// A potential without energy has no force, so its gain is free. The loan for regions pays for the
+// regions' part, the ledger for the rest. @return whether nothing is short
 bool RegionForces::raise_gain(State& state, double most, double dt, EnergyLedger& ledger) noexcept {
   const double full = state.sum.energy;
   if (!(full > 0)) {

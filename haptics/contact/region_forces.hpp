@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a device feels of the regions of a scene. Their potentials are booked whole, as those of
-// walls are; where one begins at more than 0, the port's loan for regions pays for it. Their other
-// forces are held as far as the ledger covers them, and oscillations by their own bucket.
+// Forces of the regions of a scene on a device. Their potentials are booked in full, like walls; if
+// one begins above 0, the port's loan for regions pays for it. The ledger covers their other
+// forces, and a separate bucket their oscillations.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,59 +14,59 @@
 
 namespace reckon::haptics {
 
-/// All regions of a plan. Each region's potential is shown with a gain. It falls to what the loan
-/// and the ledger cover where the potential would take more, as when the hand enters a region that
-/// draws it in, and rises in 100 ms as they pay. Order of calls within a step: move, settle, load,
-/// attenuate. One thread; allocates only at construction.
+/// All regions of a plan. Each region's potential has a gain. It falls to the part that loan and
+/// ledger cover, as when the hand enters a region that attracts it, and rises within 100 ms as they
+/// pay. Order of calls within a step: move, settle, load, attenuate. One thread; allocates only at
+/// construction.
 class RegionForces {
  public:
   /// @param plan outlives this object  @param stiffness_cap [N/m] of all potentials together
   RegionForces(const EffectPlan& plan, double stiffness_cap);
 
-  /// From the next settle() on the cap is this [N/m].
+  /// Sets the cap [N/m] from the next settle() on.
   void limit(double stiffness) noexcept { cap_ = stiffness; }
 
-  /// The most that the potentials that a region brings can store within the work space of a device
-  /// [J]. @param space [m], in the device's axes  @param to_scene from these to S
+  /// Greatest energy of the potentials that regions supply, within the workspace of a device [J].
+  /// @param space [m], in the device's axes @param to_scene from these to S
   [[nodiscard]] double range(const Eigen::AlignedBox3d& space,
                              const Eigen::Isometry3d& to_scene) const noexcept;
 
-  /// Whether the plan has none: nothing need be called then.
+  /// Whether the plan has no regions; then no call is needed.
   [[nodiscard]] bool empty() const noexcept { return states_.empty(); }
-  /// Restarts at `device` [m, S]: every region is entered anew, and its potential fades in.
+  /// Restarts at `device` [m, S]: enters every region again, and its potential fades in.
   void reset(const Eigen::Vector3d& device) noexcept;
-  /// Moves to `device` [m, S], and books what was stored or released.
+  /// Moves to `device` [m, S], and books the stored or released energy.
   void move(const Eigen::Vector3d& device, EnergyLedger& ledger) noexcept;
-  /// By how much that changed the force of the potentials [N]; between move and settle.
+  /// Change of the potentials' force by that motion [N]; between move and settle.
   [[nodiscard]] Eigen::Vector3d change() noexcept;
-  /// Lowers the gains for a debt, and raises them as the ledger pays. @param dt [s], of the sample
-  /// that ended
+  /// Lowers the gains for a debt, and raises them as the ledger pays. @param dt [s] of the last
+  /// sample
   void settle(double dt, EnergyLedger& ledger) noexcept;
-  /// Adds the forces to be held. @param velocity of the device [m/s, S]  @param dt [s], of the next
+  /// Adds the forces to be held. @param velocity of the device [m/s, S] @param dt [s] of the next
   /// sample
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
   /// Takes the held share of the other forces, [0, 1].
   void shown(double extra) noexcept { shown_ = force_ + extra * held_; }
-  /// Takes the share of the oscillations that is held besides, [0, 1].
+  /// Takes the held share of the oscillations, [0, 1].
   void shook(double share) noexcept { shown_ += share * shake_; }
-  /// Scales the potentials, and the force, by `factor` in [0, 1]. What that releases repays the
-  /// loan for regions, and the rest goes to the ledger.
+  /// Scales the potentials and the force by `factor` in [0, 1]. The released energy repays the loan
+  /// for regions, and the rest goes to the ledger.
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
-  /// The whole force that is shown [N, S], after shown().
+  /// The whole rendered force [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return shown_; }
   [[nodiscard]] double stored() const noexcept;
   /// Least share of a potential that the ledger allows, [0, 1].
   [[nodiscard]] double share() const noexcept { return share_; }
-  /// Force of the potentials if nothing were short [N].
+  /// Force of the potentials without a lack of energy [N].
   [[nodiscard]] double asked() const noexcept { return asked_; }
 
  private:
   struct State {
     PlannedRegionEffects effects;
     RegionPoint point;
-    RegionPotential sum{};     // of its potentials, in the region's axes
-    RegionPotential source{};  // of that, what the region brings
+    RegionPotential sum{};     // sum of its potentials, in the region's axes
+    RegionPotential source{};  // the part that the region supplies
     double gain = 0.0;
   };
 

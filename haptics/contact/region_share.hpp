@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How stiff regions may be beside walls, and what dampers of objects may take.
+// Stiffness limit of regions beside walls, and damping limit of objects.
 #pragma once
 
 namespace reckon::haptics {
 
-/// Stiffness that the potentials of all regions together may have, over that of walls: static_cap()
-/// leaves a quarter of the whole to them.
+/// Greatest stiffness of the potentials of all regions together, over the walls': static_cap()
+/// leaves them a quarter of the whole.
 inline constexpr double kRegionsOverWalls = 1.0 / 3.0;
-/// The same of what holds bodies.
+/// The same for grab springs.
 inline constexpr double kGrabOverWalls = kRegionsOverWalls;
-/// Share of the device's own damping that static_cap() keeps for dampers of objects at most: half
-/// of the three quarters on which surfaces may lean.
+/// Greatest share of the device's damping that static_cap() reserves for dampers of objects: half
+/// of the three quarters for surfaces.
 inline constexpr double kMostDamperShare = 0.375;
 
 }  // namespace reckon::haptics

@@ -116,8 +116,8 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   return theta;
 }
 
-// Extrapolation does not know touches: a hand that ours stops would continue through the middle of
-// ours, and pull from there. Only its owner knows on which side the hand is.
+// Extrapolation does not include touches: a hand that ours stops would continue through the middle
+// of ours, and pull from there. Only the owner's states show on which side the hand is.
 void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
                                        const Eigen::Vector3d& probe) const noexcept {
   if (!hand_.has_device || !is_sphere(full_.kind)) return;
@@ -195,8 +195,8 @@ void RemoteContact::recede(ContactParameters& target, const StepContext& step) n
 }
 
 // Greatest share of the difference to the prediction that is taken in this step: a jump is felt as
-// a push, not as a blow. The spring of a hand changes separately and slowly, that of a body
-// together with its place.
+// a push, not as a blow. The spring of a hand changes separately and slowly; the spring of a body
+// changes with its position.
 double RemoteContact::calm_share(const ContactParameters& shown,
                                  const StepContext& step) const noexcept {
   const Eigen::Vector3d normal = spring_.normal_force() * spring_.geometry().normal;

@@ -21,7 +21,7 @@ namespace reckon::haptics {
 /// State of the servo in one step.
 struct StepContext {
   std::chrono::nanoseconds now{0};
-  double dt = 0.001;      ///< [s], length of the sample that ended
+  double dt = 0.001;      ///< [s], length of the last sample
   double period = 0.001;  ///< [s], nominal length of the next one
   Eigen::Vector3d probe = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
@@ -60,9 +60,9 @@ class RemoteContact {
   /// A solid has come between both hands: fades out with its record, and in again when it is gone.
   void set_apart(bool is) noexcept { apart_ = is; }
   [[nodiscard]] bool is_apart() const noexcept { return apart_; }
-  /// Where the other hand is predicted to be now [m]: on the surface that holds it, not below.
+  /// Predicted position of the other hand [m]: on the surface that holds it, not below.
   [[nodiscard]] const Eigen::Vector3d& predicted_place() const noexcept { return pose_.position; }
-  /// From the hand to the surface that is predicted [m]; below 0 in front of it.
+  /// Depth of our hand below the predicted surface [m]; negative in front of it.
   [[nodiscard]] double depth() const noexcept { return usable_ ? there_.depth : -kTeleport; }
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
@@ -106,7 +106,8 @@ class RemoteContact {
   /// Whether energy may be exchanged: the hand is touched, or nearly.
   [[nodiscard]] bool engaged() const noexcept;
   /// The hand came to its place without feeling the surface: it was found inside, or again after
-  /// its model had expired or the force had been cut to zero. A surface that jumps stays known.
+  /// its model had expired or the force had been cut to zero. A surface that jumps is not such a
+  /// case.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
   /// The force was cut to zero: it grows again from there.
   void drop() noexcept {
@@ -128,7 +129,7 @@ class RemoteContact {
   [[nodiscard]] const ContactSpring& spring() const noexcept { return spring_; }
   [[nodiscard]] const SurfaceTracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
-  /// Whether the last record, or the present prediction from it, cannot be shown.
+  /// Whether the last record, or the present prediction from it, cannot be rendered.
   [[nodiscard]] bool refused() const noexcept;
   /// @param extra held share of its damper
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
@@ -149,7 +150,8 @@ class RemoteContact {
   void fade_to(double gain) noexcept;
   [[nodiscard]] bool let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to its [m/s]
+  [[nodiscard]] Eigen::Vector3d slip(
+      const StepContext& step) const noexcept;  // velocity of our hand over its surface [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
@@ -157,9 +159,9 @@ class RemoteContact {
   SurfaceTracker tracker_;
   Blow blow_;
   deadreckon::Pose pose_;
-  ContactParameters full_;                                  // predicted now, gain = fade_
-  ContactPlace before_;                                     // of the same record one step ago
-  ContactGeometry there_;                                   // of full_, at our hand
+  ContactParameters full_;                                  // present prediction, gain = fade_
+  ContactPlace before_;                                     // from the same record one step ago
+  ContactGeometry there_;                                   // geometry of full_ at our hand
   Eigen::Vector3d stated_point_ = Eigen::Vector3d::Zero();  // place stated by the owner [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
@@ -171,16 +173,16 @@ class RemoteContact {
   double asked_ = 0.0;      // [J], by the owner
   double need_ = 0.0;       // [J], our request
   double spring_need_ = 0.0;
-  double share_ = 0.0;   // of the spring, held by the port
+  double share_ = 0.0;   // share of the spring that the port holds
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
-  bool lost_ = true;  // not known, or no longer known
+  bool lost_ = true;  // the surface is not known, or no longer known
   bool usable_ = false;
-  bool showable_ = false;  // full_ is a surface that can be shown
+  bool showable_ = false;  // full_ can be rendered
   bool unsound_ = false;   // the last record is invalid: the one before it stays
   bool leaving_ = false;
-  bool apart_ = false;   // from our hand, by a solid
-  bool answer_ = false;  // an account came and is not answered yet
+  bool apart_ = false;   // a solid is between both hands
+  bool answer_ = false;  // an account was received and is not answered yet
 };
 
 }  // namespace reckon::haptics

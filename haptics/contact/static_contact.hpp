@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The static scene at a device: the walls that the probes of its tool touch, and the regions that
-// the tool is in.
+// The static scene at a device: the walls that the probes of its tool touch, and the regions around
+// it.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +18,9 @@
 
 namespace reckon::haptics {
 
-/// Contact of a tool with all static objects and bodies, each probe for itself, the bodies that the
-/// probes hold, and the forces of all regions, which act at the first probe. All of them are paid
-/// by the device's one port. Order of calls within a step: settle, load, shown, attenuate.
+/// Contact of each probe of a tool with all static objects and bodies, the bodies that the probes
+/// hold, and the forces of all regions, which act at the first probe. The device's one port pays
+/// for all. Order of calls within a step: settle, load, shown, attenuate.
 /// @tparam axes of the device: 3, with a point for a tool, or 6
 template <int axes>
 class StaticContactOf {
@@ -30,13 +30,13 @@ class StaticContactOf {
   using Port = EnergyPortOf<axes>;
   using Load = PortLoadOf<axes>;
 
-  /// @param plan outlives this object  @param stiffness_cap [N/m] of any object; regions together
-  /// have a third of it besides, see static_cap()
+  /// @param plan outlives this object @param stiffness_cap [N/m] of any object; regions together
+  /// have a third of it in addition, see static_cap()
   /// @param radius of the probes [m], >= 0  @param probes of the tool, 1 or more
   StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius = 0.0,
                   std::size_t probes = 1);
 
-  /// See ContactSolver, all probes.
+  /// See ContactSolver, for all probes.
   void let_through_beyond(double force) noexcept {
     for (std::size_t i = 0; i < size(); ++i) walls_[i]->let_through_beyond(force);
   }
@@ -45,21 +45,21 @@ class StaticContactOf {
     for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->passed();
     return sum;
   }
-  /// One of the objects that move goes on, before settle(); see ContactSolver.
+  /// Sets the state of a moving object, before settle(); see ContactSolver.
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     for (std::size_t i = 0; i < size(); ++i) {
       walls_[i]->place(body, motion, before);
       if (grabs_[i].holds() && grabs_[i].body() == body) grabs_[i].place(motion);
     }
   }
-  /// The springs of bodies at a probe give way by so much [N] in the sample that begins; for the
-  /// next load().
+  /// Sets the predicted change of the force of bodies' springs at a probe in the next sample [N];
+  /// for the next load().
   void foresee(std::size_t probe, const Eigen::Vector3d& change) noexcept {
     walls_[probe]->foresee(change);
   }
-  /// From the next settle() on the cap is this [N/m], at most that of the begin.
+  /// Sets the cap [N/m] from the next settle() on, at most the initial one.
   void limit(double stiffness) noexcept;
-  /// Restarts where the tool is.
+  /// Restarts at the tool's pose.
   void reset(const Tool& tool) noexcept;
   /// Follows the tool after a sample of `dt` [s], and books the stored or released energy.
   void settle(const Tool& tool, double dt, Port& port) noexcept;
@@ -72,23 +72,23 @@ class StaticContactOf {
   }
   /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
   [[nodiscard]] double lacks() const noexcept;
-  /// Greatest depth of a wall that is hidden at a probe [m], see WallContact.
+  /// Greatest hidden depth of a wall at a probe [m], see WallContact.
   [[nodiscard]] double hidden() const noexcept;
   /// Takes the held share of the effects' forces, [0, 1].
   void shown(double extra) noexcept;
   /// Scales forces and storage by `factor` in [0, 1].
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
-  /// Takes the share of the regions' oscillations that is held besides, [0, 1].
+  /// Takes the held share of the regions' oscillations, [0, 1].
   void shook(double share) noexcept { regions_.shook(share); }
 
-  /// Of the probe that is deepest in an object; of the first if none is in any.
+  /// Result of the probe that is deepest in an object; of the first without contact.
   [[nodiscard]] const ContactResult& result() const noexcept { return walls(deepest()).result(); }
   [[nodiscard]] std::size_t deepest() const noexcept { return axes == 3 ? 0 : deepest_; }
   /// Walls at a probe.
   [[nodiscard]] const WallContact& walls(std::size_t probe = 0) const noexcept {
     return *walls_[probe];
   }
-  /// What a probe holds.
+  /// The grab of a probe.
   [[nodiscard]] Grab& grab(std::size_t probe) noexcept { return grabs_[probe]; }
   [[nodiscard]] const Grab& grab(std::size_t probe) const noexcept { return grabs_[probe]; }
   [[nodiscard]] bool grabs() const noexcept { return std::ranges::any_of(grabs_, &Grab::holds); }
@@ -97,7 +97,7 @@ class StaticContactOf {
   [[nodiscard]] bool touches_others_body(const EffectPlan& plan) const noexcept;
   /// Sum of walls and regions at all probes [N, S], after shown().
   [[nodiscard]] Eigen::Vector3d force() const noexcept;
-  /// See WallContact, all probes.
+  /// See WallContact, for all probes.
   [[nodiscard]] double carried() const noexcept {
     double sum = 0.0;
     for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->carried();
@@ -105,7 +105,7 @@ class StaticContactOf {
   }
   /// Least share of the springs that the available energy allows, [0, 1].
   [[nodiscard]] double share() const noexcept;
-  /// Force of the springs at the greatest stiffness that the device can show, all probes [N].
+  /// Force of the springs at the greatest stiffness that the device can render, all probes [N].
   [[nodiscard]] double asked() const noexcept;
   /// Force that the springs lack because their gain is below the cap.
   [[nodiscard]] Force held_back(const Tool& tool) const noexcept;
@@ -116,14 +116,14 @@ class StaticContactOf {
   [[nodiscard]] std::size_t size() const noexcept { return axes == 3 ? 1 : size_; }
   void find_deepest() noexcept;
 
-  std::array<std::optional<WallContact>, kMost> walls_;  // of the probes
-  std::array<Grab, kMost> grabs_;                        // likewise
+  std::array<std::optional<WallContact>, kMost> walls_;  // by probe
+  std::array<Grab, kMost> grabs_;                        // by probe
   std::size_t size_ = 1;
   RegionForces regions_;
   std::size_t deepest_ = 0;
 };
 
-/// At a device of three axes, of which the handle is the one probe.
+/// For a device of three axes, whose handle is its only probe.
 using StaticContact = StaticContactOf<3>;
 
 }  // namespace reckon::haptics

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a surface that moves does to a probe on the way.
+// Work of a moving surface on a probe.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,14 +24,14 @@ struct SurfacePush {
 };
 
 /// Work of the surface on the probe while it moved [J]. The normal part follows the change of
-/// depth, the lateral part the motion of the surface. A stiffer spring is no work of a hand.
+/// depth, the lateral part the motion of the surface. A change of stiffness does not count as work.
 [[nodiscard]] inline double work_between(const SurfacePush& before,
                                          const SurfacePush& after) noexcept {
   return 0.5 * ((before.along + after.along) * (after.depth - before.depth) +
                 (before.across + after.across).dot(after.point - before.point));
 }
 
-/// Whether a ball on its way touches a probe more deeply than at either end.
+/// Whether a moving ball presses a probe more deeply during its motion than at either end.
 [[nodiscard]] inline bool passes(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                  double reach, const Eigen::Vector3d& probe) noexcept {
   const Eigen::Vector3d way = to - from, away = probe - from;

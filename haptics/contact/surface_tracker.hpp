@@ -17,8 +17,7 @@ struct Following {
   double weight = 1.0;
   bool played = false;  ///< a playback and no extrapolation: followed closely, whatever the line
   double share = 1.0;   ///< greatest share of the error corrected in this step
-  bool in_row =
-      false;  ///< a hand that another one touches too, or that is not the only one at ours
+  bool in_row = false;  ///< another hand touches it too, or it is not the only one at ours
 };
 
 /// Second-order follower c of a prediction c*. c moves with a filtered velocity u and corrects the

@@ -32,7 +32,7 @@ ToolOf<6>::ToolOf(const AxisDamping& damping, std::span<const Vector3d> probes)
     all += of_a_unit_spring(probes_[i]);
     longest_ = std::max(longest_, probes_[i].norm());
   }
-  // All axes that turn are damped alike, so that a turn of the tool changes neither.
+  // All rotational axes have the same damping, so a rotation of the tool changes neither.
   tool_damping_ = 1.0 / axes_.slope(all);
   probe_damping_ = 1.0 / axes_.slope(of_a_unit_spring(probes_[0]));
   place_probes();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a hand holds: the probes with which it touches, where they are, and what their forces are to
-// the axes of the device. Frame S, SI units, servo thread.
+// The tool of a hand: positions of its probes, and their forces in the axes of the device. Frame S,
+// SI units, servo thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,24 +17,24 @@
 
 namespace reckon::haptics {
 
-/// Where a handle is.
+/// Pose of a handle.
 struct HandlePose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S
 };
 
-/// Damping of a device's axes, sure.
+/// Guaranteed damping of a device's axes.
 struct AxisDamping {
   double translation = 0.0;  ///< [N s/m]
-  double rotation = 0.0;     ///< [N m s/rad]; of a device that turns: > 0
+  double rotation = 0.0;     ///< [N m s/rad]; > 0 for 6 axes
 };
 
-/// A rigid tool on a device with `axes` axes. Its port has one coordinate for each of them, as
-/// AxisForces; those of six axes are scaled by DampedAxes.
+/// A rigid tool on a device with `axes` axes. Its port has one coordinate for each axis, as
+/// AxisForces; for six axes they are scaled by DampedAxes.
 template <int axes>
 class ToolOf;
 
-/// A point: the handle is its one probe, and the port's forces are those on the handle.
+/// A point: the handle is its only probe, and the port's forces are the forces on the handle.
 template <>
 class ToolOf<3> {
  public:
@@ -54,12 +54,12 @@ class ToolOf<3> {
   [[nodiscard]] const Eigen::Vector3d& place(std::size_t /*probe*/ = 0) const noexcept {
     return place_;
   }
-  /// Of the handle [m/s].
+  /// Velocity of the handle [m/s].
   void set_velocity(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
   [[nodiscard]] const Eigen::Vector3d& velocity(std::size_t /*probe*/ = 0) const noexcept {
     return velocity_;
   }
-  /// Since the last move.
+  /// Motion since the last move.
   [[nodiscard]] Force motion() const noexcept { return place_ - before_; }
   [[nodiscard]] static Force at_port(std::size_t /*probe*/, const Eigen::Vector3d& force) noexcept {
     return force;
@@ -74,20 +74,20 @@ class ToolOf<3> {
   [[nodiscard]] static constexpr double step_at_port(double step, double /*turn*/) noexcept {
     return step;
   }
-  /// On the handle [N].
+  /// Force on the handle [N].
   [[nodiscard]] static const Eigen::Vector3d& wrench(const Force& at_port) noexcept {
     return at_port;
   }
-  /// Of the handle [m/s].
+  /// Velocity of the handle [m/s].
   [[nodiscard]] const Eigen::Vector3d& twist() const noexcept { return velocity_; }
   /// Stiffness at the first probe. @param at_port of the port's coordinates
   [[nodiscard]] static constexpr double at_probe(double at_port) noexcept { return at_port; }
   /// Damping that pays for the port's motions.
   [[nodiscard]] double damping() const noexcept { return damping_; }
-  /// That meets springs of one stiffness at the first probe, or at all of them [N s/m].
+  /// Damping for springs of equal stiffness at the first probe, or at all probes [N s/m].
   [[nodiscard]] double probe_damping() const noexcept { return damping_; }
   [[nodiscard]] double tool_damping() const noexcept { return damping_; }
-  /// Curvature at the port from forces of `force` [N] for the bend of the probes' ways.
+  /// Curvature at the port from `force` [N] and the curved paths of the probes.
   [[nodiscard]] static constexpr double bend(double /*force*/) noexcept { return 0.0; }
 
  private:
@@ -99,13 +99,14 @@ class ToolOf<3> {
 
 using PointTool = ToolOf<3>;
 
-/// A rigid body with 1 to kMostProbes probes, on a device that shows force and torque.
+/// A rigid body with 1 to kMostProbes probes, on a device with force and torque.
 template <>
 class ToolOf<6> {
  public:
   using Force = AxisForces<6>;
 
-  /// @param probes from the handle, in axes of the tool [m]; none: the handle is the one probe
+  /// @param probes positions from the handle, in axes of the tool [m]; empty: the handle is the
+  /// only probe
   ToolOf(const AxisDamping& damping, std::span<const Eigen::Vector3d> probes);
 
   void reset(const HandlePose& pose) noexcept;
@@ -116,7 +117,7 @@ class ToolOf<6> {
     return pose_.position + levers_[probe];
   }
   [[nodiscard]] const HandlePose& pose() const noexcept { return pose_; }
-  /// Of the handle. @param velocity [m/s]  @param turn [rad/s], about the axes of S
+  /// Sets the motion of the handle. @param velocity [m/s] @param turn [rad/s], about the axes of S
   void set_velocity(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) noexcept {
     velocity_ = velocity;
     turn_ = turn;
@@ -124,18 +125,18 @@ class ToolOf<6> {
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t probe = 0) const noexcept {
     return velocity_ + turn_.cross(levers_[probe]);
   }
-  /// From the handle to a probe [m].
+  /// Vector from the handle to a probe [m].
   [[nodiscard]] const Eigen::Vector3d& lever(std::size_t probe) const noexcept {
     return levers_[probe];
   }
-  /// Since the last move: [m], then the angle about each axis [rad].
+  /// Motion since the last move: [m], then the angle about each axis [rad].
   [[nodiscard]] const Wrench& step() const noexcept { return step_; }
   /// The same in the port's coordinates.
   [[nodiscard]] Force motion() const noexcept { return axes_.scaled_motion(step_); }
   [[nodiscard]] Force at_port(std::size_t probe, const Eigen::Vector3d& force) const noexcept {
     return axes_.scaled_force(wrench_of(levers_[probe], force));
   }
-  /// On the handle [N; N m].
+  /// Wrench on the handle [N; N m].
   [[nodiscard]] Wrench wrench(const Force& at_port) const noexcept { return axes_.force(at_port); }
   [[nodiscard]] Eigen::Vector3d force(const Force& at_port) const noexcept {
     return wrench(at_port).head<3>();
@@ -147,7 +148,7 @@ class ToolOf<6> {
     return std::max(step * std::sqrt(translation_), turn * std::sqrt(rotation_));
   }
   [[nodiscard]] double at_probe(double at_port) const noexcept { return at_port * probe_damping_; }
-  /// Of the handle: [m/s], then [rad/s].
+  /// Twist of the handle: [m/s], then [rad/s].
   [[nodiscard]] Wrench twist() const noexcept {
     Wrench twist;
     twist << velocity_, turn_;
@@ -160,14 +161,14 @@ class ToolOf<6> {
   /// @param written in the port's coordinates
   [[nodiscard]] ToolState state(const Force& written) const noexcept;
   [[nodiscard]] static constexpr double damping() noexcept { return 1.0; }
-  /// A spring at the first probe, or springs at all of them, meet the damping of all axes that
-  /// they move [N s/m].
+  /// Damping for a spring at the first probe, or for springs at all probes, from all axes that they
+  /// move [N s/m].
   [[nodiscard]] double probe_damping() const noexcept { return probe_damping_; }
   [[nodiscard]] double tool_damping() const noexcept { return tool_damping_; }
   [[nodiscard]] double bend(double force) const noexcept { return longest_ * force / rotation_; }
-  /// A torque that is held while the handle turns about changing axes does other work than its
-  /// product with the turn that was read: at most by the area between the way and that turn, which
-  /// the damping of the longer way limits to |torque|^2 turn^2 T / (48 b).
+  /// Error of the work of a held torque while the axis of rotation changes. The work differs from
+  /// the product of torque and measured rotation at most by the area between the path and that
+  /// rotation. The damping along the longer path limits this to |torque|^2 turn^2 T / (48 b).
   [[nodiscard]] double turning_cost(const Force& held, double dt) const noexcept {
     return held.tail<3>().squaredNorm() * step_.tail<3>().squaredNorm() * dt / 48.0;
   }
@@ -181,7 +182,7 @@ class ToolOf<6> {
   std::size_t size_ = 1;
   double translation_;    // [N s/m], damping of each axis
   double rotation_;       // [N m s/rad]
-  double longest_ = 0.0;  // [m], lever
+  double longest_ = 0.0;  // [m], longest lever
   double probe_damping_ = 0.0;
   double tool_damping_ = 0.0;
   HandlePose pose_;

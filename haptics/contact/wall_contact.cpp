@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
-constexpr double kHideAfter = 0.5;  // [s] at the end of the loan
-constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
+constexpr double kHideAfter = 0.5;  // [s] after the end of the loan
+constexpr double kHiccup =
+    0.05;  // share of the storage that a late sample may cost without a drop of the contact
 
 }  // namespace
 
@@ -51,8 +52,8 @@ Eigen::Vector3d WallContact::move(const Eigen::Vector3d& device, double dt,
   return gain_ * (result_.force - force);
 }
 
-// A surface that moves by itself is a sender of energy like any other: what it gives is bounded,
-// and beyond that the wall becomes soft. What it takes is gone.
+// A surface that moves by itself is a source of energy like any other: its gift is bounded, and
+// beyond the bound the wall becomes soft. Energy that it takes is lost.
 void WallContact::take_from_carried(EnergyLedger& ledger) noexcept {
   const double work = gain_ * solver_.carried_work();
   if (work > 0) {
@@ -63,9 +64,9 @@ void WallContact::take_from_carried(EnergyLedger& ledger) noexcept {
   }
 }
 
-// A body that is pushed by a held force has its speed of half a step before its place. While it
-// comes nearer, spring and body have T F v / 2 more than went in, and so much less while it goes
-// away: it is lent, and is back when they part.
+// The velocity of a body under a held force lags its position by half a step. While it approaches,
+// spring and body have T F v / 2 more energy than was put in, and as much less while it recedes.
+// This energy is lent, and is back when they separate.
 void WallContact::lend_for_motion(EnergyLedger& ledger) noexcept {
   double lent = 0.0;
   for (const std::uint32_t i : result_.touched) {
@@ -127,8 +128,8 @@ void WallContact::raise_gain(double dt, EnergyLedger& ledger) noexcept {
   if (!(gain_ < most)) fades_in_ = false;
 }
 
-// A whole spring of the same force stores less than a weaker one on the whole depth, so that this
-// only frees energy.
+// A full spring stores less at the same force than a weaker one over the whole depth, so this only
+// frees energy.
 void WallContact::hide_rest(double dt, EnergyLedger& ledger) noexcept {
   shown_depth_ = solver_.shown_depth();
   share_ *= shown_depth_;
@@ -143,8 +144,8 @@ void WallContact::hide_rest(double dt, EnergyLedger& ledger) noexcept {
   ledger.book(before - booked());
 }
 
-// The effects' forces belong to no storage, and the port limits them. Here they are limited so that
-// the sum never pulls the hand to the surface.
+// The effects' forces have no storage, and the port limits them. Here they are limited so that the
+// sum never pulls the hand to the surface.
 void WallContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
   extra_.setZero();
   effects_.setZero();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walls that one probe touches: scales the contact solver's force so that the sampled wall
-// stays passive for this device, and books the storage of its springs.
+// The walls at one probe: scales the contact solver's force so that the sampled wall stays passive
+// for this device, and books the storage of its springs.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +21,10 @@ namespace reckon::haptics {
 /// 100 ms as the ledger pays. It is full again when nothing is touched. If the device starts inside
 /// an object, or the force was cut to zero while it was pressed, the gain begins at zero and rises
 /// within half a second on a loan; lacks() returns its amount. If a contact crosses a border
-/// between patches, its springs follow as in PatchBlend, paid by the ledger. Where the loan ends
-/// before the gain is full, the springs become whole and a part of their depth is hidden instead:
-/// the force stays as it is, and what the hand presses deeper is right. Order of calls within a
-/// step: move, settle, load, shown, attenuate.
+/// between patches, its springs follow as in PatchBlend, paid by the ledger. If the loan ends
+/// before the gain is full, the springs get their full stiffness, and a part of their depth is
+/// hidden instead: the force stays the same, and further pressing has the right stiffness. Order of
+/// calls within a step: move, settle, load, shown, attenuate.
 class WallContact {
  public:
   /// @param plan outlives this object  @param stiffness_cap [N/m] of any object
@@ -34,24 +34,25 @@ class WallContact {
   /// See ContactSolver.
   void let_through_beyond(double force) noexcept { solver_.let_through_beyond(force); }
   [[nodiscard]] std::uint32_t passed() const noexcept { return solver_.passed(); }
-  /// One of the objects that move goes on, before move(); see ContactSolver.
+  /// Sets the state of a moving object, before move(); see ContactSolver.
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     solver_.place(body, motion, before);
   }
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 
-  /// From the next settle() on no object is stiffer [N/m], and none than the cap of the begin.
+  /// Sets the stiffness limit of all objects [N/m] from the next settle() on, at most the initial
+  /// cap.
   void limit(double stiffness) noexcept { cap_ = stiffness; }
 
   /// Moves the contact to `device` [m] after a sample of `dt` [s], and books the stored or released
-  /// energy. @return by how much that changed the force of the springs [N]
+  /// energy. @return the change of the springs' force [N]
   Eigen::Vector3d move(const Eigen::Vector3d& device, double dt, EnergyLedger& ledger) noexcept;
-  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s], of that sample
+  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s] of that sample
   void settle(double dt, EnergyLedger& ledger) noexcept;
 
-  /// Bodies give way in the sample that begins: by so much the mean force of their springs differs
-  /// from the present one [N]. For the next load().
+  /// Sets the predicted difference between the mean force of bodies' springs over the next sample
+  /// and their present force [N]. For the next load().
   void foresee(const Eigen::Vector3d& change) noexcept { change_ = change; }
 
   /// Adds the forces to be held: springs, and the effects' forces, which never pull.
@@ -68,7 +69,7 @@ class WallContact {
     return fades_in_ ? (most_gain() - gain_) * result_.stored_energy : 0.0;
   }
 
-  /// Depth of the touched objects that is not shown [m], see above.
+  /// Hidden depth of the touched objects [m], see above.
   [[nodiscard]] double hidden() const noexcept { return solver_.hidden(); }
 
   /// Takes the held share of the effects' forces, [0, 1].
@@ -81,7 +82,7 @@ class WallContact {
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
-  /// [N/m], of an object's springs, whether or not they are touched.
+  /// Stiffness of an object's springs, touched or not [N/m].
   [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept {
     return std::min(gain_ * solver_.stiffness_of(index), cap_);
   }
@@ -94,17 +95,16 @@ class WallContact {
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return solver_.friction_of(index);
   }
-  /// Of an object that is touched: force of its effects [N, S], after shown(). The deepest one has
-  /// them all.
+  /// Force of a touched object's effects [N, S], after shown(). The deepest object has them all.
   [[nodiscard]] Eigen::Vector3d effects_of(std::uint32_t index) const noexcept {
     return index == result_.deepest ? Eigen::Vector3d(shown_ * effects_) : Eigen::Vector3d::Zero();
   }
-  /// [N, S], after shown().
+  /// Force of the walls [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }
   /// Share of the springs that the available energy allows, [0, 1]; 1 if energy is not short.
   [[nodiscard]] double share() const noexcept { return share_; }
-  /// Force of the springs at the greatest stiffness that the device can show [N].
+  /// Force of the springs at the greatest stiffness that the device can render [N].
   [[nodiscard]] double asked() const noexcept {
     return shown_depth_ > 0 ? most_gain() / patch_share_ / shown_depth_ * result_.force.norm()
                             : 0.0;
@@ -114,13 +114,13 @@ class WallContact {
     return (most_gain() - gain_) * result_.force;
   }
   [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
-  /// Energy that came from carried objects, as far as the port may receive it, less what they took
-  /// [J], since the start.
+  /// Energy received from carried objects, as far as the port may receive it, minus the energy that
+  /// they took, since the start [J].
   [[nodiscard]] double carried() const noexcept { return carried_; }
 
  private:
   [[nodiscard]] double most_gain() const noexcept;
-  // What is out of the ledger for the springs [J].
+  // Energy booked for the springs [J].
   [[nodiscard]] double booked() const noexcept { return gain_ * (result_.stored_energy - lent_); }
   void scale_gain(double factor, EnergyLedger& ledger) noexcept;
   void lend_for_motion(EnergyLedger& ledger) noexcept;
@@ -137,16 +137,16 @@ class WallContact {
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;
-  double patch_share_ = 1.0;  // share of it for patches that are not paid for
+  double patch_share_ = 1.0;  // share that the energy allows for patches
   double shown_depth_ = 1.0;  // least share of an object's depth that is not hidden
   double carried_ = 0.0;
   bool fades_in_ = false;                             // until the gain is full or the contact ends
   double without_loan_ = 0.0;                         // [s] since the loan ran out during a fade-in
   Eigen::Vector3d change_ = Eigen::Vector3d::Zero();  // [N], of the springs of bodies
   Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
-  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull
-  double not_pulling_ = 1.0;                           // share of both
-  double shown_ = 1.0;                                 // share of both that is shown
+  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], effects_ + change_, without a pull
+  double not_pulling_ = 1.0;  // share of effects_ + change_ that does not pull
+  double shown_ = 1.0;        // held share of effects_ + change_
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 

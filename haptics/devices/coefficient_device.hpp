@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the servo knows of a device that takes a force model and renders it by itself.
+// Interface of a device that renders a force model by itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,27 +11,28 @@
 
 namespace reckon::haptics {
 
-/// What such a device shows now.
+/// The model that the device renders now.
 struct ShownModel {
-  SpringModel model;    ///< that it was told last
-  double energy = 0.0;  ///< [J], of its books, in no wall
+  SpringModel model;    ///< uploaded last
+  double energy = 0.0;  ///< [J], energy in its account outside the walls
 };
 
-/// A device of kind `coefficients`. Its limits() have 1 or 2 axes, those of its x and y, and a
-/// greatest stiffness. The device itself keeps the energy books, where the instant of each change
-/// is known: it shows the nearest model to the one stated that they pay for.
+/// A device of kind `coefficients`. Its limits() have 1 or 2 axes, x and y, and a greatest
+/// stiffness. The device keeps its own energy account, because only the device has the instant of
+/// each change. It renders the model nearest to the requested one for which the energy in the
+/// account suffices.
 ///
-/// The same rules as of HapticDevice: one thread, the servo's; all calls return at once, none
-/// throws or allocates. The model stated holds until the next one; where none came for kWatchdog
-/// the walls are taken off.
+/// The rules of HapticDevice apply: only the servo's thread; all calls return at once, and none
+/// throws or allocates. A requested model holds until the next one. Without a request for
+/// kWatchdog, the walls are removed.
 class CoefficientDevice : public HapticDevice {
  public:
-  /// @param wanted frame D
+  /// @param wanted walls in frame D
   virtual void state(const SpringModel& wanted, std::chrono::nanoseconds now) noexcept = 0;
-  /// As of the last read().
+  /// The model at the last read().
   [[nodiscard]] virtual ShownModel shown() const noexcept = 0;
 
-  /// It takes no force.
+  /// Does nothing: the device takes no force.
   void write(const Eigen::Vector3d& /*force*/, std::chrono::nanoseconds /*now*/) noexcept final {}
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the thread of every real device does: opens the device, exchanges with it, reports its loss
+// Base of the sessions of real devices: opens the device, exchanges data with it, reports its loss
 // and opens it again.
 #pragma once
 
@@ -13,20 +13,20 @@
 
 namespace reckon::haptics {
 
-/// One device. Its thread calls step() repeatedly; any thread may take the notices.
+/// Session of one device. Its thread calls step() repeatedly; any thread may take the notices.
 ///
 /// After any failure the force is zero here within 10 ms, one notice reports it, and the device is
 /// opened again as soon as possible.
 class DeviceSession {
  public:
-  /// Steady, the clock of the servo's writes.
+  /// Steady clock of the servo's writes.
   using SteadyTime = std::function<std::chrono::nanoseconds()>;
 
   virtual ~DeviceSession() = default;
   DeviceSession(const DeviceSession&) = delete;
   DeviceSession& operator=(const DeviceSession&) = delete;
 
-  /// Waits for the device so long at most, except while setting it up, and does what is due.
+  /// Runs the session. Waits for the device at most `longest`, except during set-up.
   void step(std::chrono::microseconds longest) {
     if (is_open()) return exchange(longest);
     if (now() < next_try_) return wait(longest);
@@ -36,14 +36,14 @@ class DeviceSession {
     opened(tried, problem);
     if (!problem.empty()) tell_problem(problem);
   }
-  /// Sentences since the last call, each once. Any thread but the servo's, for it locks.
+  /// Notices since the last call. It locks, so any thread except the servo's.
   [[nodiscard]] std::vector<std::string> take_notices() {
     const std::lock_guard lock(mutex_);
     return std::exchange(notices_, {});
   }
-  /// Ends an attempt to set the device up. Any thread.
+  /// Aborts a set-up of the device. Any thread.
   virtual void stop() noexcept {}
-  /// Axes of frame D that the last device had that was ready, bit 0 for x; 0: unknown. Any thread.
+  /// Axes of frame D of the last device that was ready, bit 0 for x; 0: unknown. Any thread.
   [[nodiscard]] virtual unsigned axes() const noexcept { return 0; }
 
  protected:
@@ -51,7 +51,7 @@ class DeviceSession {
   DeviceSession(SteadyTime time, std::chrono::nanoseconds retry)
       : time_(std::move(time)), retry_(retry) {}
 
-  /// Of the device, as its notices begin.
+  /// Name of the device, the prefix of its notices.
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual bool is_open() const noexcept = 0;
   /// @return why the device cannot be used, as a sentence; empty: it is open
@@ -60,7 +60,7 @@ class DeviceSession {
   virtual void opened(std::chrono::nanoseconds now, std::string& problem) = 0;
   /// A step without a device.
   virtual void wait(std::chrono::microseconds longest) = 0;
-  /// A step with one.
+  /// A step with a device.
   virtual void exchange(std::chrono::microseconds longest) = 0;
 
   /// The next attempt follows after `pause`.
@@ -83,14 +83,14 @@ class DeviceSession {
     const auto tenths = (time + std::chrono::microseconds(99)) / std::chrono::microseconds(100);
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " ms";
   }
-  /// The end of the notice of a loss.
+  /// Suffix of the notice of a loss.
   static constexpr const char* kIsTakenUpAgain = "; it is taken up again as soon as it is there";
 
  private:
   SteadyTime time_;
   std::chrono::nanoseconds retry_;
   std::chrono::nanoseconds next_try_{0};
-  std::string problem_;  // reported last
+  std::string problem_;  // last reported problem
   std::mutex mutex_;
   std::vector<std::string> notices_;
 };

@@ -9,12 +9,12 @@ using Eigen::Vector3d;
 
 Vector3d mirrored(const Vector3d& vector) noexcept { return {-vector.x(), vector.y(), vector.z()}; }
 
-// A mirror turns the way round of what turns: -M v, with M the mirror.
+// A mirror M maps an axial vector v to -M v.
 Vector3d mirrored_turn(const Vector3d& vector) noexcept {
   return {vector.x(), -vector.y(), -vector.z()};
 }
 
-// M R M is a turn by the same angle about the mirrored axis, the other way round.
+// M R M is a rotation by the same angle about the mirrored axis in the opposite direction.
 Quaterniond mirrored(const Quaterniond& orientation) noexcept {
   return {orientation.w(), orientation.x(), -orientation.y(), -orientation.z()};
 }

@@ -19,7 +19,7 @@ struct HandTraceOptions {
   /// Centres the motion in this box [m] and shrinks it (all axes alike) until it fits.
   std::optional<Eigen::AlignedBox3d> fit_to;
   bool loop = true;         ///< starts again at the end; else holds the last position
-  double loop_blend = 0.5;  ///< [s] > 0, time of the smooth way from the end back to the start
+  double loop_blend = 0.5;  ///< [s] > 0, duration of the smooth return from the end to the start
 };
 
 /// Positions over time, interpolated C1 (Catmull-Rom for uneven times): recordings at 83 to 103 Hz
@@ -34,7 +34,7 @@ class HandTrace {
   /// Position and velocity at a time [s] since the start; before 0 the start. O(log n).
   [[nodiscard]] HandTarget at(double time) const noexcept;
 
-  /// [s], of one round: the recording and, when looping, the way back.
+  /// [s], of one round: the recording and, if looping, the return.
   [[nodiscard]] double duration() const noexcept { return knots_.back().time; }
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 

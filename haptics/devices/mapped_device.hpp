@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device as its hand moves: scaled, mirrored, and let go of by a clutch.
+// A device in the hand's frame: scaled, mirrored, and disengaged by a clutch.
 #pragma once
 
 #include "reckon/haptics/devices/hand_mapping.hpp"
@@ -8,18 +8,18 @@
 
 namespace reckon::haptics {
 
-/// Stands between a servo and a device, and maps what they tell each other so that the force does
-/// the same work on both sides.
+/// Adapter between a servo and a device. Maps readings and forces so that the force does the same
+/// work on both sides.
 ///
-/// Clutch: in the step that sees it go down the way of the handle is still told, for the force of
-/// the last sample did its work on it, and so it is while older forces of a device with a delay
-/// are under way. From then on the hand stands still. The operator's switch counts as released all
-/// the while, so that contacts let go and no force is written. When it is up again the hand goes on
-/// from where it stood, and contacts fade in. Turns of the handle are told all the while.
+/// Clutch: when it goes down, the motion of the handle still counts in that step, because the last
+/// force has worked on it, and in a device with a delay as long as older forces are pending. Then
+/// the hand stops. While the clutch is down, the operator's switch counts as released, so contacts
+/// release and no force is written. When it goes up, the hand continues from there, and contacts
+/// fade in. Rotations of the handle always count.
 class MappedDevice : public HapticDevice {
  public:
-  /// @param device outlives this @throws std::invalid_argument for a scale that is not above 0, or
-  /// a button that is none of 0 to 31
+  /// @param device outlives this @throws std::invalid_argument if the scale is not above 0, or the
+  /// button not in 0 to 31
   MappedDevice(HapticDevice& device, const HandMapping& mapping);
 
   [[nodiscard]] DeviceLimits limits() const noexcept override;
@@ -38,8 +38,9 @@ class MappedDevice : public HapticDevice {
   HandMapping mapping_;
   int delay_;                                         // samples
   int clutched_ = 0;                                  // samples, at most delay_ + 1
-  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();  // [m], of the hand, by clutching
-  Eigen::Vector3d stands_ = Eigen::Vector3d::Zero();  // [m], of the hand while it stands still
+  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();  // [m], offset of the hand from clutching
+  Eigen::Vector3d stands_ =
+      Eigen::Vector3d::Zero();  // [m], position of the hand while it is stopped
 };
 
 }  // namespace reckon::haptics

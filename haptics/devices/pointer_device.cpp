@@ -10,9 +10,9 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kPathShare = 0.4;   // of the device's speed
-constexpr double kPullShare = 0.5;   // of its force
-constexpr double kSpeedShare = 0.5;  // of its speed, that the pull adds to the path's
+constexpr double kPathShare = 0.4;   // of the device's greatest speed
+constexpr double kPullShare = 0.5;   // of its greatest force
+constexpr double kSpeedShare = 0.5;  // of its greatest speed, which the pull adds to the path's
 
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& start, double reach) {
   if (!(reach > 0)) {
@@ -23,7 +23,7 @@ Eigen::AlignedBox3d box_about(const Eigen::Vector3d& start, double reach) {
   return {Eigen::Vector3d(start - half), Eigen::Vector3d(start + half)};
 }
 
-// Pulled by F along a path of speed u, a handle comes to (F + c u) / (b + c).
+// A handle that F pulls along a path of speed u reaches (F + c u) / (b + c).
 double pull_of(const SimulatedDeviceConfig& config) {
   if (!(config.hand_damping > 0)) {
     throw std::invalid_argument("pointer device: hand damping must be above 0 N s/m, got " +
@@ -70,7 +70,7 @@ HandTarget PointerDevice::target_at(double time) noexcept {
   return target;
 }
 
-// While the grip fades the path comes to rest; where nothing is left of it, it goes with the hand.
+// While the grip fades, the path comes to rest; then it follows the hand.
 void PointerDevice::lead() noexcept {
   if (course_ && !grip_.holds() && grip_.since() > kAlone) grip_.rest();
   if (grip_.rests()) {

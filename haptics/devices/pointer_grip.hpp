@@ -1,28 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How firmly a hand that follows a pointer holds its device.
+// Strength of the grip of a hand that follows a pointer.
 #pragma once
 
 #include <algorithm>
 
 namespace reckon::haptics {
 
-/// Share of the grip's spring and damper, 0 .. 1: full until the first sample, and after rest(),
-/// for then nobody points; full while samples hold it; else it fades, and comes back as smoothly.
-/// Within kPatience + kFade = 0.29 s of the last sample nothing is left of it.
+/// Share of the grip's spring and damper, 0 .. 1. It is full until the first sample, after rest(),
+/// and while samples hold it. Otherwise it fades, and returns as smoothly. It is zero kPatience +
+/// kFade = 0.29 s after the last sample.
 class PointerGrip {
  public:
-  static constexpr double kPatience = 0.14;  ///< [s], longest way between samples that hold
-  static constexpr double kFade = 0.15;      ///< [s], from all to nothing and back
+  static constexpr double kPatience =
+      0.14;  ///< [s], longest interval between samples of a held pointer
+  static constexpr double kFade = 0.15;  ///< [s], from full to zero or back
 
-  /// A sample: whether somebody holds the pointer.
+  /// Takes a sample. @param held whether the pointer is held
   void take(bool held) noexcept {
     rests_ = false;
     held_ = held;
     since_ = 0.0;
   }
 
-  /// Nobody points any more: as before the first sample.
+  /// Returns to the state before the first sample.
   void rest() noexcept { rests_ = true; }
 
   /// @param h [s] >= 0
@@ -31,11 +32,11 @@ class PointerGrip {
     phase_ = std::clamp(phase_ + (rests_ || holds() ? h : -h) / kFade, 0.0, 1.0);
   }
 
-  /// Whether the pointer is held and its last sample is young.
+  /// Whether the pointer is held and its last sample is at most kPatience old.
   [[nodiscard]] bool holds() const noexcept { return held_ && since_ <= kPatience; }
-  /// Before the first sample, and after rest().
+  /// True before the first sample, and after rest().
   [[nodiscard]] bool rests() const noexcept { return rests_; }
-  /// Since the last sample [s].
+  /// Time since the last sample [s].
   [[nodiscard]] double since() const noexcept { return since_; }
   /// Minimum jerk between 0 and 1.
   [[nodiscard]] double share() const noexcept {
@@ -43,7 +44,7 @@ class PointerGrip {
   }
 
  private:
-  double since_ = 0.0;  // [s], the last sample
+  double since_ = 0.0;  // [s], time since the last sample
   double phase_ = 1.0;
   bool rests_ = true;
   bool held_ = false;

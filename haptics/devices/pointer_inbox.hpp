@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a page or a program puts what its pointer does, for a device that follows it.
+// Input of pointer samples from a page or a program to a device that follows them.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,25 +11,25 @@
 
 namespace reckon::haptics {
 
-/// Where a pointer wants the hand to be.
+/// Target of the hand from a pointer.
 struct PointerSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
-  bool held = true;    ///< false: it lets go, and the position says nothing
-  bool grabs = false;  ///< the device's button 0 is pressed
+  bool held = true;                                    ///< false: released; the position is ignored
+  bool grabs = false;                                  ///< the device's button 0 is pressed
 };
 
-/// Samples come at any rate and carry no time: the newest one counts, from when the device reads
-/// it. One thread puts, the servo's takes, neither waits for the other; any thread may ask.
+/// Samples arrive at any rate without timestamps: the newest takes effect when the device reads it.
+/// One thread puts, the servo's takes; neither blocks on the other. Any thread may query.
 ///
 ///     inbox.put({{0.02, 0.0, 0.1}, true});   // 60 times a second, while the button is down
 ///     inbox.put({{}, false});                // let go
 class PointerInbox {
  public:
-  /// [m], of any coordinate; what is farther from the device's origin is not meant.
+  /// [m], greatest coordinate; samples farther from the device's origin are refused.
   static constexpr double kFarthest = 100.0;
 
   /// The writer's thread. A position that is not finite or beyond kFarthest is refused and counted,
-  /// as if it had not come. @return false where it was refused
+  /// and has no effect. @return false if it was refused
   bool put(const PointerSample& sample) noexcept {
     // Written so that not-a-number is refused.
     if (sample.held && !(sample.position.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthest)) {
@@ -47,7 +47,7 @@ class PointerInbox {
     return refused_.load(std::memory_order_relaxed);
   }
 
-  /// The device: whether there is a sample that it has not seen; sample() then has it.
+  /// For the device: whether there is a new sample, which sample() then returns.
   [[nodiscard]] bool take() noexcept { return newest_.update(); }
   [[nodiscard]] const PointerSample& sample() const noexcept { return newest_.read(); }
   void tell(bool held) noexcept { held_.store(held, std::memory_order_relaxed); }

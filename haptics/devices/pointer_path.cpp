@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The filter's answer to an impulse is h(t) = w^3 t^2/2 e^(-wt). Of it, in x = wt:
+// The filter's impulse response is h(t) = w^3 t^2/2 e^(-wt). With x = wt:
 constexpr double kPeak = 0.27067056647322537;  // largest h / w: 2/e^2, at x = 2
-// Way that h' goes up and down / w^2: h' is 0.23058 at x = 2 - sqrt 2 and -0.07944 at 2 + sqrt 2.
+// Total variation of h' / w^2: h' is 0.23058 at x = 2 - sqrt 2 and -0.07944 at 2 + sqrt 2.
 constexpr double kSlopeWay = 0.6200250;
 
 Eigen::Vector3d inside(const Eigen::AlignedBox3d& box, const Vector3d& point) {
@@ -55,8 +55,8 @@ void PointerPath::advance(double h) noexcept {
   advance_filter(Vector3d::Zero(), h);
 }
 
-// Exact for a wanted point u + speed t: the path is u + speed (t - 3/w), and on top of it what
-// solves (1 + s/w)^3 e = 0, which is (c0 + c1 t + c2 t^2) e^(-wt).
+// Exact for a wanted point u + speed t: the path is u + speed (t - 3/w) plus the solution of (1 +
+// s/w)^3 e = 0, which is (c0 + c1 t + c2 t^2) e^(-wt).
 void PointerPath::advance_filter(const Vector3d& speed, double h) noexcept {
   if (!(h > 0)) return;
   constexpr double w = kBandwidth;

@@ -159,7 +159,7 @@ void SimulatedDevice::run(double duration) noexcept {
   for (int i = 0; i < static_cast<int>(steps); ++i) substep(h);
 }
 
-// Turning and moving do not depend on each other while force and torque are held.
+// Rotation and translation are independent while force and torque are held.
 void SimulatedDevice::run_turn(int steps, double h) noexcept {
   DeviceTurn target{turn_->config().start, Eigen::Vector3d::Zero()};
   for (int i = 0; i < steps; ++i) {
@@ -170,8 +170,8 @@ void SimulatedDevice::run_turn(int steps, double h) noexcept {
   }
 }
 
-// Semi-implicit Euler: velocity first, and every book with the velocity that moves the handle, so
-// that damping * |dx|^2 / dt never exceeds the loss booked here (Cauchy-Schwarz).
+// Semi-implicit Euler: velocity first. All energies use the velocity that moves the handle, so
+// damping * |dx|^2 / dt never exceeds the loss booked here (Cauchy-Schwarz).
 void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device and the hand that holds it, simulated: for tests, demos and peers without
+// Simulates a haptic device and the hand that holds it: for tests, demos and peers without
 // hardware.
 #pragma once
 
@@ -19,57 +19,58 @@
 
 namespace reckon::haptics {
 
-/// Where a hand wants the handle to be, frame D.
+/// Target of the hand for the handle, frame D.
 struct HandTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
-  double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
-  double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
-  std::uint32_t buttons = 0;                                   ///< pressed
+  Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], added to the spring's force
+  double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: released
+  double most_pull =
+      std::numeric_limits<double>::infinity();  ///< [N] >= 0, greatest force of the spring
+  std::uint32_t buttons = 0;                    ///< pressed buttons, bit by bit
 };
 
 /// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
 /// step.
 using HandScript = std::function<HandTarget(double)>;
 
-/// How a hand wants a device of six axes to be turned, at such a time; the same rules.
+/// Target orientation of a hand for a device of six axes at a time [s]; the same rules.
 using TurnScript = std::function<DeviceTurn(double)>;
 
 struct SimulatedDeviceConfig {
-  double mass = 0.1;              ///< [kg], > 0; of the handle and what moves with it
-  double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as sure
-  double friction = 0.0;          ///< [N], >= 0; dry, of which nothing counts as sure
-  double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0 = no hand
+  double mass = 0.1;              ///< [kg], > 0, of all moving parts
+  double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as guaranteed
+  double friction = 0.0;          ///< [N], >= 0, dry friction; none of it counts as guaranteed
+  double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0: no hand
   double hand_damping = 3.0;      ///< [N s/m]
-  double max_force = 10.0;        ///< [N], as the servo is given it
-  double max_speed = 2.0;         ///< [m/s], as the servo is given it
-  double max_stiffness = 0.0;     ///< [N/m], as the servo is given it; 0 = no limit of its own
-  /// Writes until a force is at the handle, 0 .. kMostDelay, as the servo is given it: each write
-  /// moves the queue on by one, so that it is so many servo periods late.
+  double max_force = 10.0;        ///< [N], reported limit
+  double max_speed = 2.0;         ///< [m/s], reported limit
+  double max_stiffness = 0.0;     ///< [N/m], reported limit; 0: no limit of its own
+  /// Reported number of writes until a force is at the handle, 0 .. kMostDelay. Each write advances
+  /// the queue by one, so a force is late by this number of servo periods.
   int delay_samples = 0;
-  /// Then the force drops to zero by itself, > 0 and at most HapticDevice::kWatchdog. One and a
-  /// half servo periods keep a late step from holding a force that is out of date; it is dropped
-  /// for the rest of that step, which the hand feels.
+  /// Time without a write until the force drops to zero, > 0 and at most HapticDevice::kWatchdog.
+  /// With one and a half servo periods, a late step does not hold an outdated force: the force is
+  /// zero for the rest of that step, which the hand feels.
   std::chrono::nanoseconds hold = HapticDevice::kWatchdog;
-  double resolution = 0.0;  ///< [m], encoder step; 0 = exact positions and velocities
+  double resolution = 0.0;  ///< [m], encoder step; 0: exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
-  /// [m], frame D, as the servo is given it; no wall holds the handle in it.
+  /// [m], frame D, reported limit; no wall keeps the handle inside.
   Eigen::AlignedBox3d workspace{Eigen::Vector3d::Constant(-0.05), Eigen::Vector3d::Constant(0.05)};
-  std::optional<SimulatedTurnConfig> turn{};  ///< none: a device of three axes
+  std::optional<SimulatedTurnConfig> turn{};  ///< std::nullopt: a device of three axes
 };
 
-/// A point mass with viscous and dry friction, which also turns if it has six axes, moved by a held
-/// force and by a hand: a spring and damper to a target that a script moves (scripted operator) or
-/// that stays where it is (passive operator). The plant runs at a tenth of a millisecond or finer,
-/// semi-implicit, between two reads. Its books are exact for its own steps: port_work +
-/// damping_loss is what a passive environment keeps >= 0.
+/// A point mass with viscous and dry friction, with rotation if it has six axes. A held force and a
+/// hand move it. The hand is a spring and damper to a target, which a script moves (scripted
+/// operator) or which is fixed (passive operator). The plant runs semi-implicit steps of 0.1 ms or
+/// less between two reads. Its energy books are exact for these steps: a passive environment keeps
+/// port_work + damping_loss >= 0.
 class SimulatedDevice : public HapticDevice {
  public:
   static constexpr int kMostDelay = 1000;  ///< [samples]
 
   /// @throws std::invalid_argument for a mass <= 0 or other values out of range.
-  /// @param turns of a device of six axes; none: as at its start
+  /// @param turns targets for a device of six axes; empty: its start
   explicit SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script = {},
                            TurnScript turns = {});
 
@@ -82,24 +83,24 @@ class SimulatedDevice : public HapticDevice {
 
   /// The operator's switch.
   void enable(bool held) noexcept { enabled_ = held; }
-  /// Its buttons from the next read on, as DeviceSample::buttons, besides those that its hand
-  /// presses.
+  /// Sets its buttons from the next read on, as DeviceSample::buttons, in addition to the ones that
+  /// its hand presses.
   void press(std::uint32_t buttons) noexcept { buttons_ = buttons; }
-  /// While false, reads fail as if the cable were out, and the force is zero.
+  /// While false, reads fail as if it were unplugged, and the force is zero.
   void plug(bool in) noexcept;
-  /// The handle is there at `now`, wherever it was: no force is held or on its way, the books begin
-  /// anew, and of what happened since the last read only the hand's own path goes on. Between a
-  /// read and a write. @param position [m], frame D  @param velocity [m/s]
+  /// Sets the handle's state at `now`. No force is held or pending, and the books restart; only the
+  /// hand's path continues from the last read. Call between a read and a write. @param position
+  /// [m], frame D @param velocity [m/s]
   void restart(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
                std::chrono::nanoseconds now) noexcept;
 
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// Force now at the handle [N].
+  /// Present force at the handle [N].
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
-  /// How it turns; none of a device of three axes.
+  /// Its rotation; std::nullopt: a device of three axes.
   [[nodiscard]] const std::optional<SimulatedTurn>& turn() const noexcept { return turn_; }
-  /// Energy that the rendered forces and torques took from the handle since the start [J].
+  /// Work of the handle against the rendered forces and torques since the start [J].
   [[nodiscard]] double port_work() const noexcept {
     return turn_ ? port_work_ + turn_->port_work() : port_work_;
   }
@@ -107,7 +108,7 @@ class SimulatedDevice : public HapticDevice {
   [[nodiscard]] double damping_loss() const noexcept {
     return turn_ ? damping_loss_ + turn_->damping_loss() : damping_loss_;
   }
-  /// Energy that the hand put in, less what its damper took [J].
+  /// Work of the hand, minus the loss in its damper [J].
   [[nodiscard]] double hand_work() const noexcept {
     return turn_ ? hand_work_ + turn_->hand_work() : hand_work_;
   }
@@ -132,15 +133,15 @@ class SimulatedDevice : public HapticDevice {
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_ = Eigen::Vector3d::Zero();
   std::optional<SimulatedTurn> turn_;
-  std::vector<Wrench> under_way_;  // a ring, the oldest at next_
+  std::vector<Wrench> under_way_;  // pending wrenches, a ring buffer, the oldest at next_
   std::size_t next_ = 0;
   std::chrono::nanoseconds read_at_{0};
   std::chrono::nanoseconds written_at_{0};
-  double time_ = 0.0;  // [s], of the plant
+  double time_ = 0.0;  // [s], time of the plant
   std::uint32_t buttons_ = 0;
   bool started_ = false;
   bool enabled_ = true;
-  std::uint32_t scripted_ = 0;  // buttons
+  std::uint32_t scripted_ = 0;  // buttons that the script presses
   bool plugged_ = true;
   double port_work_ = 0.0;
   double damping_loss_ = 0.0;

@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 
 constexpr double kMotionSubstep = 5e-5;  // [s]
 constexpr nanoseconds kLongestMotion{1'000'000'000};
-// A loop of velocities makes good what it is behind in four times its own time.
+// A velocity loop corrects its position error in four times its time constant.
 constexpr double kCorrection = 0.25;
 
 }  // namespace
@@ -89,7 +89,7 @@ void SimulatedMotion::run(double duration, bool driven) noexcept {
   for (int i = 0; i < static_cast<int>(steps); ++i) substep(duration / steps, driven);
 }
 
-// Semi-implicit Euler. The hand's own force goes by its place and speed before, like the sensor's.
+// Semi-implicit Euler. The forces of hand and sensor use the state before the step.
 void SimulatedMotion::substep(double h, bool driven) noexcept {
   HandTarget target;
   target.position = config_.start;
@@ -106,7 +106,7 @@ void SimulatedMotion::substep(double h, bool driven) noexcept {
   hand_velocity_ += h / config_.hand_mass * (wants - force_);
 
   const double fast = 2.0 * std::numbers::pi * config_.bandwidth;  // [rad/s]
-  Vector3d drive = -fast * velocity_;                              // it brakes
+  Vector3d drive = -fast * velocity_;                              // brakes
   if (driven && config_.loop == MotionLoop::position) {
     drive = fast * fast * (command_.position - position_) +
             2.0 * fast * (command_.velocity - velocity_);
@@ -114,7 +114,7 @@ void SimulatedMotion::substep(double h, bool driven) noexcept {
     drive = fast *
             (command_.velocity + kCorrection * fast * (command_.position - position_) - velocity_);
   }
-  if (driven) command_.position += h * command_.velocity;  // until the next one
+  if (driven) command_.position += h * command_.velocity;  // extrapolated until the next command
   velocity_ += h * (drive + force_ / config_.mass);
   const Vector3d step = h * velocity_;
   position_ += step;

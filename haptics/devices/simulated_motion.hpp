@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An admittance device and the hand that holds it, simulated.
+// Simulates an admittance device and the hand that holds it.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,24 +17,24 @@ namespace reckon::haptics {
 
 struct SimulatedMotionConfig {
   MotionLoop loop = MotionLoop::position;
-  double bandwidth = 30.0;         ///< [Hz] > 0, of its motion
-  double mass = 5.0;               ///< [kg] > 0, that its motors move
+  double bandwidth = 30.0;         ///< [Hz] > 0, of its motion loop
+  double mass = 5.0;               ///< [kg] > 0, moved by its motors
   double sensor_stiffness = 20e3;  ///< [N/m] > 0, of the force sensor between hand and handle
   double sensor_damping = 20.0;    ///< [N s/m] > 0
   double hand_mass = 0.2;          ///< [kg] > 0
   double hand_stiffness = 200.0;   ///< [N/m] >= 0, the hand's spring to its target
   double hand_damping = 3.0;       ///< [N s/m] >= 0
-  double max_force = 10.0;         ///< [N] > 0, that its sensor measures
+  double max_force = 10.0;         ///< [N] > 0, greatest measurable force
   double max_speed = 1.0;          ///< [m/s] > 0
-  int delay_samples = 0;           ///< commands until one counts, 0 .. kMostDelay
+  int delay_samples = 0;           ///< number of commands until one takes effect, 0 .. kMostDelay
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
   Eigen::AlignedBox3d workspace{Eigen::Vector3d::Constant(-0.05), Eigen::Vector3d::Constant(0.05)};
 };
 
-/// Along each axis a mass that motors move as commanded, and a hand of some mass that holds it by a
-/// stiff sensor and wants to be elsewhere (HandScript). Without a command for
-/// HapticDevice::kWatchdog it brakes. The plant runs at 50 us or finer, semi-implicit. Its book is
-/// exact for its own steps, and all that a hand can feel of a device.
+/// For each axis: a mass that motors move as commanded, and a hand with mass that holds it through
+/// a stiff sensor and follows a HandScript. Without a command for HapticDevice::kWatchdog it
+/// brakes. The plant runs semi-implicit steps of 50 us or less. Its energy book is exact for these
+/// steps and covers everything that a hand can feel.
 class SimulatedMotion final : public MotionDevice {
  public:
   static constexpr int kMostDelay = 100;  ///< [samples]
@@ -54,10 +54,9 @@ class SimulatedMotion final : public MotionDevice {
 
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// Of the hand on the handle [N].
+  /// Force of the hand on the handle [N].
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
-  /// Energy that the hand gave the handle since the start [J]: no passive device lets it fall
-  /// below 0.
+  /// Work of the hand on the handle since the start [J]; >= 0 for a passive device.
   [[nodiscard]] double handle_work() const noexcept { return handle_work_; }
 
  private:
@@ -74,10 +73,10 @@ class SimulatedMotion final : public MotionDevice {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), hand_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   Command command_;
-  std::vector<Command> under_way_;  // a ring, the oldest at next_
+  std::vector<Command> under_way_;  // pending commands, a ring buffer, the oldest at next_
   std::size_t next_ = 0;
   std::chrono::nanoseconds read_at_{0}, commanded_at_{0};
-  double time_ = 0.0;  // [s], of the plant
+  double time_ = 0.0;  // [s], time of the plant
   double handle_work_ = 0.0;
   std::uint32_t buttons_ = 0;
   bool started_ = false, commanded_ = false, enabled_ = true, plugged_ = true;

@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Of the loan: so much of what the hand gave the device and not the mass is kept for later.
+// Greatest credit, in loans: work of the hand on the device beyond its work on the mass.
 constexpr double kMostSaved = 4.0;
 constexpr double kLighter = 0.5 * std::numbers::ln2;  // [1/s]
 
@@ -40,13 +40,13 @@ DeviceLimits VirtualHandle::limits() const noexcept {
   limits.max_force =
       config_.max_force > 0 ? std::min(config_.max_force, limits_.max_force) : limits_.max_force;
   limits.damping = config_.damping;
-  limits.max_speed = 1.01 * limits_.max_speed;  // the mass goes no faster than the device can
+  limits.max_speed = 1.01 * limits_.max_speed;  // the mass is never faster than the device
   limits.workspace_min = limits_.workspace_min;
   limits.workspace_max = limits_.workspace_max;
   return limits;
 }
 
-// The mass is at rest where the device is, and no force of the scene is there.
+// Sets the mass at rest at the device's position, without a force of the scene.
 void VirtualHandle::stand(const MotionSample& sample, bool is_good) noexcept {
   if (force_.squaredNorm() > 0) released_ = position_;
   velocity_.setZero();
@@ -98,12 +98,12 @@ void VirtualHandle::move(const Eigen::Vector3d& hand, double dt) noexcept {
   if (!(dt > 0)) return;
   mass_ = std::max(config_.mass, mass_ * std::exp(-kLighter * dt));
   const double rate = config_.damping / mass_;
-  const double lost = -std::expm1(-rate * dt);  // share of a velocity
+  const double lost = -std::expm1(-rate * dt);  // lost share of the velocity
   const Eigen::Vector3d steady = (hand + force_) / config_.damping;
   Eigen::Vector3d step = steady * dt + (velocity_ - steady) * (lost / rate);
   velocity_ += (steady - velocity_) * lost;
 
-  // Whatever shortens the way along an axis takes as much of the velocity.
+  // A factor that shortens the displacement reduces the velocity as much.
   double share = 1.0;
   const double fastest = limits_.max_speed;
   const double speed = std::max(velocity_.norm(), step.norm() / dt);
@@ -114,7 +114,7 @@ void VirtualHandle::move(const Eigen::Vector3d& hand, double dt) noexcept {
   step *= share;
   velocity_ *= share;
   for (int axis = 0; axis < 3; ++axis) {
-    // Outside it may come back.
+    // From outside, only motion inwards is possible.
     const double to = std::clamp(position_[axis] + step[axis],
                                  std::min(limits_.workspace_min[axis], position_[axis]),
                                  std::max(limits_.workspace_max[axis], position_[axis]));

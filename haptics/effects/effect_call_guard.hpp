@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What all custom effects have in common when the servo runs them: their calls are timed, and their
-// forces bounded.
+// Guards the calls of custom effects in the servo: measures their time and bounds their forces.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,20 +14,20 @@
 
 namespace reckon::haptics {
 
-/// What was seen of a custom effect on one object or in one region. Servo threads write it, any
+/// Findings about a custom effect on one object or in one region. Servo threads write it, any
 /// thread reads it.
 struct GuardReport {
-  std::string key;                           ///< of the effect
+  std::string key;                           ///< key of the effect
   std::string object;                        ///< object or region for which it is declared
-  std::atomic<std::uint64_t> not_finite{0};  ///< answers that were no numbers, and are left out
-  std::atomic<std::uint64_t> too_strong{0};  ///< forces above CallGuard::kMostForce, cut to it
+  std::atomic<std::uint64_t> not_finite{0};  ///< results that were not numbers, and count as zero
+  std::atomic<std::uint64_t> too_strong{0};  ///< forces above CallGuard::kMostForce, limited to it
   std::atomic<bool> not_booked{false};       ///< its spring or potential is held, not booked
   std::atomic<bool> switched_off{false};     ///< it took too long
   std::atomic<std::int64_t> slowest{0};      ///< longest call [ns]
 };
 
-/// Times the calls of one copy of an effect: where kSlowCalls among kCalls took longer than kSlow,
-/// it is off for good. One thread but for the report, which copies share.
+/// Times the calls of one copy of an effect. If kSlowCalls among kCalls take longer than kSlow, the
+/// effect is switched off permanently. One thread, except for the report, which copies share.
 class CallGuard {
  public:
   static constexpr double kMostForce = 100.0;      ///< [N]
@@ -42,10 +41,10 @@ class CallGuard {
     report_->object = object;
   }
 
-  /// A copy has what was found of the code, and counts anew.
+  /// A copy keeps the findings about the code, and restarts the counts.
   CallGuard(const CallGuard& other) : report_(other.report_), off_(other.off_) {}
   CallGuard(CallGuard&& other) noexcept = default;
-  /// Takes the report; what was found of the code stays found.
+  /// Takes the report; the findings about the code stay.
   CallGuard& operator=(const CallGuard& other) noexcept {
     report_ = other.report_;
     return *this;
@@ -58,7 +57,8 @@ class CallGuard {
     return report_;
   }
 
-  /// Asked where an effect's answers begin to count, so that its force and its energy go together.
+  /// Checked before an effect's results take effect, so that its force and its energy stay
+  /// consistent.
   [[nodiscard]] bool is_off() noexcept {
     if (off_ || slow_ < kSlowCalls) return off_;
     report_->switched_off.store(true, std::memory_order_relaxed);
@@ -66,14 +66,14 @@ class CallGuard {
   }
   [[nodiscard]] bool was_off() const noexcept { return off_; }
 
-  /// The answer of `call`, timed.
+  /// The result of `call`, timed.
   template <class Call>
   auto timed(Call&& call) noexcept {
     const Timing timing(*this);
     return std::forward<Call>(call)();
   }
 
-  /// Zero for what is no number, at most kMostForce; both are counted.
+  /// Zero for a force that is not a number, and at most kMostForce; both cases are counted.
   [[nodiscard]] Eigen::Vector3d bounded(const Eigen::Vector3d& force) const noexcept {
     if (!force.allFinite()) {
       report_->not_finite.fetch_add(1, std::memory_order_relaxed);
@@ -85,7 +85,7 @@ class CallGuard {
   }
 
  private:
-  // The one place of the servo that reads a clock.
+  // The only code of the servo that reads a clock.
   class Timing {
    public:
     explicit Timing(CallGuard& guard) noexcept
@@ -112,7 +112,7 @@ class CallGuard {
   std::uint32_t calls_ = 0, slow_ = 0;
 };
 
-/// An effect that a program brings, as the servo runs it.
+/// A guarded custom effect.
 template <class Effect>
 concept IsGuarded = requires(const Effect& effect) {
   { effect.report() } -> std::convertible_to<std::shared_ptr<const GuardReport>>;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects that a program brings. A class that meets the concepts of effect_hooks.hpp needs no row
-// in a list of ours: custom_effects<Honey>() describes it, and load_scene_file() takes its key.
+// Custom effects of a program. A class that meets the concepts of effect_hooks.hpp needs no row in
+// the list: custom_effects<Honey>() describes it, and load_scene_file() accepts its key.
 //
 //   auto scene = load_scene_file("table.toml", custom_effects<Honey>());
 #pragma once
@@ -48,7 +48,7 @@ class CustomEffectState {
   [[nodiscard]] virtual double damping() const noexcept = 0;
 };
 
-/// A kind of effect that a program brings, as scene files know it. Immutable; any thread.
+/// A custom effect type for scene files. Immutable; any thread.
 class CustomEffect {
  public:
   virtual ~CustomEffect() = default;
@@ -65,7 +65,7 @@ class CustomEffect {
   }
 
  protected:
-  /// Of a class with the table of an effect.
+  /// From a class with the table of an effect.
   template <class Effect>
   explicit CustomEffect(std::type_identity<Effect>)
       : name_(Effect::kName), key_(Effect::kKey), cost_(Effect::kCost) {
@@ -73,7 +73,7 @@ class CustomEffect {
       parameters_.push_back({std::string(row.key), std::string(row.unit), row.minimum, row.maximum,
                              row.default_value, std::string(row.help)});
   }
-  /// @param values one for each row of parameters(), in its order
+  /// @param values one for each row of parameters(), in order
   template <class Effect>
   static typename Effect::Parameters parameters_of(std::span<const double> values) {
     typename Effect::Parameters parameters{};
@@ -87,13 +87,13 @@ class CustomEffect {
   std::vector<CustomParameter> parameters_;
 };
 
-/// Of objects.
+/// A custom effect type of objects.
 class CustomObjectEffect : public CustomEffect {
  public:
   [[nodiscard]] std::string_view section() const noexcept override { return "object"; }
   [[nodiscard]] virtual EffectHookSet hooks() const noexcept = 0;
-  /// @param values one for each row of parameters(), in its order
-  /// @throws std::invalid_argument when the effect refuses them
+  /// @param values one for each row of parameters(), in order
+  /// @throws std::invalid_argument if the effect refuses them
   [[nodiscard]] virtual std::unique_ptr<CustomEffectState> make(
       std::span<const double> values) const = 0;
 
@@ -104,13 +104,13 @@ class CustomObjectEffect : public CustomEffect {
 /// The custom effects that a scene file may declare.
 using CustomEffects = std::vector<std::shared_ptr<const CustomEffect>>;
 
-/// Declared for an object: the effect and one value for each of its parameters.
+/// A custom effect declared for an object, with a value for each of its parameters.
 struct DeclaredCustomEffect {
   std::shared_ptr<const CustomObjectEffect> effect;
   std::vector<double> values;
 };
 
-/// The state of an effect by its hooks.
+/// Adapts an effect class to CustomEffectState.
 template <class Effect>
 class CustomEffectStateOf final : public CustomEffectState {
  public:
@@ -177,7 +177,7 @@ class CustomEffectStateOf final : public CustomEffectState {
   Effect effect_;
 };
 
-/// A kind of effect by its class.
+/// Adapts an effect class to CustomObjectEffect.
 template <class Effect>
 class CustomEffectOf final : public CustomObjectEffect, private CheckedEffect<Effect> {
  public:
@@ -192,7 +192,7 @@ class CustomEffectOf final : public CustomObjectEffect, private CheckedEffect<Ef
   }
 };
 
-/// The description of a class: for effects of regions see region_custom.hpp.
+/// Selects the description of a class; for effects of regions see region_custom.hpp.
 template <class Effect>
 struct CustomDescription {
   using Type = CustomEffectOf<Effect>;

@@ -98,7 +98,7 @@ class EffectDeclarations {
   Slots slots_;
 };
 
-/// Of an object.
+/// Declarations for an object.
 using DeclaredEffects = EffectDeclarations<EffectTypes>;
 
 }  // namespace reckon::haptics

@@ -12,11 +12,11 @@ namespace {
 using Eigen::Vector3d;
 using std::memory_order_relaxed;
 
-constexpr int kDepths = 500;  // at which a spring is tried when it is made
+constexpr int kDepths = 500;  // depths of the test of a spring at construction
 constexpr double kMostFriction = 10.0;
 // Rounding of an effect that computes in double precision.
 constexpr double kRounding = 1e-6;
-constexpr double kExactly = 1e-9;       // of the bound that energy rests on
+constexpr double kExactly = 1e-9;       // tolerance of the bound that energy relies on
 constexpr double kLeastForce = 1e-6;    // [N], differences below are rounding
 constexpr double kLeastEnergy = 1e-12;  // [J]
 
@@ -29,8 +29,8 @@ struct Sample {
   bool usable = false;
 };
 
-// A force across the direction, or out of it, is none of a function of the depth. One that is
-// nowhere below zero, of curvature K, has no slope beyond sqrt(2 K energy).
+// A force across the direction, or away from the contact point, does not come from a function of
+// the depth. A non-negative function of curvature K has no slope above sqrt(2 K energy).
 Sample sample(const CustomEffectState& state, const Vector3d& scp, const Vector3d& way,
               double depth, double stiffness) {
   const Vector3d device = scp + depth * way;
@@ -50,8 +50,8 @@ bool agree(const Sample& near, const Sample& far, double step, double stiffness)
   if (!near.usable || !far.usable) return false;
   const double growth = stiffness * step;
   if (std::abs(far.force - near.force) > (1.0 + kRounding) * growth + kLeastForce) return false;
-  // Of all such forces, those whose slope is -stiffness and then stiffness have the work farthest
-  // from the trapezium's.
+  // Of all such forces, the ones with slope -stiffness and then stiffness have the work farthest
+  // from the trapezoidal rule.
   const double work = 0.5 * (near.force + far.force) * step;
   const double slack = 0.25 * growth * step + kRounding * std::abs(work) + kLeastEnergy;
   return std::abs(far.energy - near.energy - work) <= slack;
@@ -80,7 +80,7 @@ GuardedEffect::GuardedEffect(const GuardedEffect& other)
       guard_(other.guard_),
       held_(other.held_) {}
 
-// What was found of the code stays found when a contact starts anew.
+// Findings about the effect's code survive a restart of the contact.
 GuardedEffect& GuardedEffect::operator=(const GuardedEffect& other) {
   if (this == &other) return *this;
   if (effect_ != other.effect_) return *this = GuardedEffect(other);
@@ -128,7 +128,7 @@ bool GuardedEffect::is_potential_about(const Vector3d& scp, const Vector3d& devi
   return agree(before, now, step, stiffness) && agree(now, after, step, stiffness);
 }
 
-// The contact point follows the cone, so that a coefficient which is no number would lose it.
+// The contact point follows the cone, so a coefficient of NaN would lose it.
 void GuardedEffect::mend_cone() noexcept {
   FrictionCone* cone = state_->cone();
   if (cone == nullptr) return;
@@ -158,7 +158,7 @@ double GuardedEffect::stored_energy(const Vector3d& scp, const Vector3d& device)
   return guard_.timed([&] { return std::max(0.0, state_->stored_energy(scp, device)); });
 }
 
-// Asked of a plan too, which many threads read: it changes nothing. Its time counts in
+// Plans call it too, from many threads, so it changes nothing. Its time counts in
 // is_potential_about().
 double GuardedEffect::stiffness() const noexcept {
   if (!books()) return 0.0;
@@ -169,7 +169,7 @@ double GuardedEffect::stiffness() const noexcept {
 Vector3d GuardedEffect::force(const EffectContact& contact) noexcept {
   if (guard_.is_off()) return Vector3d::Zero();
   Vector3d total = Vector3d::Zero();
-  // One that holds back by speed says by how much.
+  // A velocity-dependent effect declares its coefficient.
   const double most = contact.most_viscosity;
   const double share = contact.in_contact && damping_ > most ? most / damping_ : 1.0;
   guard_.timed([&] {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A custom effect as the servo runs it. Nothing that its code answers reaches the energy ledger or
-// the device unchecked.
+// Runs a custom effect in the servo. Results of its code are checked before they reach the energy
+// ledger or the device.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,11 +17,11 @@ namespace reckon::haptics {
 
 /// Runs a custom effect and checks it in each step:
 ///
-/// - An answer that is no number counts as zero. A force is cut to CallGuard::kMostForce.
-/// - A spring is booked as long as it is what StoresEnergy asks for: a function of |device - scp|
-///   that falls with it, whose gradient is its force and whose curvature is at most stiffness(). It
-///   is tried at many depths when it is made, and about the present depth in each step. If it fails
-///   once, its force is a held one from then on, which the energy port bounds without knowing it.
+/// - A result that is not a number counts as zero. A force is limited to CallGuard::kMostForce.
+/// - A spring is booked while it meets StoresEnergy: a function of |device - scp| that falls with
+///   it, whose gradient is its force and whose curvature is at most stiffness(). It is tested at
+///   many depths at construction, and around the present depth in each step. After a first failure
+///   its force counts as a held force, which the energy port bounds for any effect.
 /// - An effect that is often slow is switched off, see CallGuard.
 ///
 /// A copy has its own state and shares the report. Assignment between copies of one effect does not
@@ -30,11 +30,11 @@ class GuardedEffect {
  public:
   static constexpr double kMostStiffness = 1e6;  ///< [N/m]
   static constexpr double kMostDamping = 1e4;    ///< [N s/m]
-  static constexpr double kMostDepth = 0.05;     ///< [m], to which a spring is tried
+  static constexpr double kMostDepth = 0.05;     ///< [m], greatest depth of the test of a spring
 
-  /// @param object its name, for the report
-  /// @throws std::invalid_argument when the effect refuses its values, or reserves a damping that
-  /// is no number from 0 to kMostDamping
+  /// @param object name, for the report
+  /// @throws std::invalid_argument if the effect refuses its values, or reserves a damping outside
+  /// 0 to kMostDamping
   GuardedEffect(const DeclaredCustomEffect& declared, const std::string& object);
   GuardedEffect(const GuardedEffect& other);
   GuardedEffect(GuardedEffect&& other) noexcept = default;
@@ -42,7 +42,7 @@ class GuardedEffect {
   GuardedEffect& operator=(GuardedEffect&& other) noexcept = default;
   ~GuardedEffect() = default;
 
-  /// Of the effect; a spring may come to be held and so gives a force too.
+  /// Hooks of the effect; a spring counts as giving a force too, because it may become a held one.
   [[nodiscard]] EffectHookSet hooks() const noexcept {
     EffectHookSet hooks = effect_->hooks();
     hooks.in_contact_only |= !hooks.gives;
@@ -57,17 +57,17 @@ class GuardedEffect {
 
   /// Hook; only if hooks().holds.
   [[nodiscard]] FrictionCone& cone() noexcept { return *state_->cone(); }
-  /// Hook: coefficients that are no numbers from 0 to 10 become 0.
+  /// Hook: coefficients outside 0 to 10 become 0.
   void follow(const SlidingPlace& place) noexcept;
-  /// Hook; zero once the spring is held.
+  /// Hook; zero once the spring has failed.
   [[nodiscard]] Eigen::Vector3d spring_force(const Eigen::Vector3d& scp,
                                              const Eigen::Vector3d& device) const noexcept;
-  /// Hook; to be called after spring_force() with the same points.
+  /// Hook; call after spring_force() with the same points.
   [[nodiscard]] double stored_energy(const Eigen::Vector3d& scp,
                                      const Eigen::Vector3d& device) const noexcept;
   /// Hook.
   [[nodiscard]] double stiffness() const noexcept;
-  /// Hook; with the force of a spring that is held.
+  /// Hook; includes the force of a failed spring.
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept;
   /// Hook.
   [[nodiscard]] double damping() const noexcept { return damping_; }
@@ -86,7 +86,7 @@ class GuardedEffect {
   std::shared_ptr<const std::vector<double>> values_;
   std::unique_ptr<CustomEffectState> state_;
   double damping_ = 0.0;
-  // Found while hooks that change nothing of the effect run.
+  // Mutable: const hooks update them.
   mutable CallGuard guard_;
   mutable bool held_ = false;
 };

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hooks of an effect: what it may do in a servo step. An effect is a class with a table of
-// parameters and at least one hook. Callers find the hooks by these concepts alone.
+// Hooks of an effect in a servo step. An effect is a class with a table of parameters and at least
+// one hook. Callers find the hooks only by these concepts.
 //
-//   cone()                                       holds the surface contact point (SCP)
-//   follow(place)                                the same, by where the SCP is and how fast it
-//   slides spring_force(), stored_energy(), stiffness() stores energy between device and SCP
-//   force(contact), damping()                    any other force on the device
+//   cone()                       holds the surface contact point (SCP)
+//   follow(place)                the same, with position and sliding speed of the SCP
+//   spring_force(), stored_energy(), stiffness()   stores energy between device and SCP
+//   force(contact), damping()    any other force on the device
 #pragma once
 
 #include <Eigen/Core>
@@ -23,14 +23,14 @@
 
 namespace reckon::haptics {
 
-/// Where the SCP of a touched object is.
+/// Motion of the SCP of a touched object.
 struct SlidingPlace {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the object's axes
   double slip = 0.0;                                ///< speed of the SCP on the surface [m/s], >= 0
   double dt = 0.001;                                ///< [s], since the last step
-  double normal_force = 0.0;                        ///< of the object's springs, out of it [N] >= 0
-  bool began = false;                               ///< the contact began in the last step
-  double depth = 0.0;  ///< [m] >= 0, of the device below the SCP, along the normal
+  double normal_force = 0.0;  ///< normal force of the object's springs [N] >= 0
+  bool began = false;         ///< the contact began in the last step
+  double depth = 0.0;         ///< [m] >= 0, depth of the device below the SCP, along the normal
 };
 
 /// The object's side of a contact.
@@ -39,7 +39,7 @@ struct ContactedObject {
 
   Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< the SCP in the object's axes [m]
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< the object's axes -> S
-  /// Of the object at the SCP [m/s, S]; zero, for objects do not move.
+  /// Velocity of the object at the SCP [m/s, S]; zero for static objects.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   std::uint32_t triangle = kNoTriangle;  ///< of a mesh, below the SCP
   std::uint32_t patch = 0;               ///< of a mesh, number in SurfacePatches; 0: none
@@ -57,15 +57,16 @@ struct EffectContact {
   double depth = 0.0;                                  ///< |device - scp| [m]
   double dt = 0.001;                                   ///< [s], hold time of the force
   bool in_contact = false;
-  /// Set while in contact, for objects that declare effects; null for those that are always there.
+  /// Set while in contact, for objects that declare effects; null for effects that are always
+  /// present.
   const ContactedObject* object = nullptr;
-  /// Of a force against slip() [N s/m]: beyond it a light body would turn around within dt, and the
-  /// force with it, in each step. Infinite for what stands still.
+  /// Greatest coefficient of a force against slip() [N s/m]. With a higher one, a light body would
+  /// reverse within dt, and the force with it, in each step. Infinite for static objects.
   double most_viscosity = std::numeric_limits<double>::infinity();
 
-  /// Of the springs, out of the solid [N] >= 0.
+  /// Normal force of the springs [N] >= 0.
   [[nodiscard]] double normal_force() const noexcept { return std::max(spring.dot(normal), 0.0); }
-  /// Velocity of the device towards and over the object [m/s]; `object` is set.
+  /// Velocity of the device relative to the object [m/s]; `object` is set.
   [[nodiscard]] Eigen::Vector3d relative() const noexcept { return velocity - object->velocity; }
   /// Its part along the surface [m/s].
   [[nodiscard]] Eigen::Vector3d slip() const noexcept {
@@ -81,7 +82,7 @@ concept HoldsContactPoint = requires(Effect& effect) {
   noexcept->std::same_as<FrictionCone&>;
 };
 
-/// Holds the contact point by where it is: told of the place before the SCP moves.
+/// A cone that depends on the position: gets the position before the SCP moves.
 template <class Effect>
 concept FollowsPlace = HoldsContactPoint<Effect> &&
     requires(Effect& effect, const SlidingPlace& place) {
@@ -122,7 +123,7 @@ concept ActsInContactOnly = requires {
   requires Effect::kInContactOnly;
 };
 
-/// Belongs to every object that can be touched, with its defaults if it is not declared.
+/// Present on every object that can be touched, with its defaults if it is not declared.
 template <class Effect>
 concept AlwaysThere = requires {
   requires Effect::kAlways;
@@ -134,14 +135,14 @@ concept SharesMemory = requires {
   requires Effect::kSharesMemory;
 };
 
-/// Takes a file besides its numbers: kFile, and a path `file` in its Parameters.
+/// Takes a file in addition to its numbers: kFile, and a path `file` in its Parameters.
 template <class Effect>
 concept TakesFile = requires {
   Effect::kFile.key;
 };
 
-/// Has a name, takes its parameters from its table, and is copied for each contact without a throw:
-/// it owns no memory, or shares it.
+/// Has a name, takes its parameters from its table, and can be copied for each contact without a
+/// throw: it owns no memory, or shares it.
 template <class Effect>
 concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
     std::constructible_from<Effect, const typename Effect::Parameters&> &&
@@ -160,7 +161,7 @@ concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
 template <class Effect>
 concept HookedEffect = HoldsContactPoint<Effect> || StoresEnergy<Effect> || GivesForce<Effect>;
 
-/// Each hook whose name it has is complete and has the right types.
+/// Each hook that the effect names is complete and has the right types.
 template <class Effect>
 concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; }) &&
                      (FollowsPlace<Effect> || !requires { &Effect::follow; }) &&
@@ -172,7 +173,7 @@ concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; })
                       !(
                           requires { &Effect::force; } || requires { &Effect::damping; }));
 
-/// The hooks that an effect has.
+/// Hooks of an effect.
 struct EffectHookSet {
   bool holds = false;            ///< HoldsContactPoint
   bool follows = false;          ///< FollowsPlace
@@ -180,7 +181,7 @@ struct EffectHookSet {
   bool gives = false;            ///< GivesForce
   bool in_contact_only = false;  ///< ActsInContactOnly
 
-  /// Turn in a servo step: the contact point first, then springs, then the rest.
+  /// Order in a servo step: the contact point first, then springs, then the rest.
   [[nodiscard]] constexpr int turn() const noexcept { return holds ? 0 : (stores ? 1 : 2); }
 };
 inline constexpr int kTurns = 3;
@@ -190,7 +191,7 @@ inline constexpr EffectHookSet kHooks{HoldsContactPoint<Effect>, FollowsPlace<Ef
                                       StoresEnergy<Effect>, GivesForce<Effect>,
                                       ActsInContactOnly<Effect>};
 
-/// Hooks of an effect: those of its class, unless it says itself which of them it has.
+/// Hooks of an effect: from its class, unless it has its own hooks().
 template <class Effect>
 [[nodiscard]] constexpr EffectHookSet hooks_of(const Effect& effect) noexcept {
   if constexpr (requires { effect.hooks(); }) {

@@ -26,7 +26,7 @@ struct EffectParameter {
   std::string_view help;  ///< one sentence: its meaning, and the effect of a higher value
 };
 
-/// A file that an effect takes besides; the member `file` of its parameters.
+/// A file of an effect, the member `file` of its parameters.
 struct EffectFile {
   std::string_view key;   ///< in scene files
   std::string_view help;  ///< one sentence

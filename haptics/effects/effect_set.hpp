@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The effects of an object, ready to run. Effects that are always there are members; of the others
-// only the declared ones exist, so that a longer list of effects costs an object nothing.
+// The effects of an object, ready to run. Effects that are always present are members; of the
+// others only the declared ones exist, so a longer list of effects costs an object nothing.
 #pragma once
 
 #include <tuple>
@@ -17,13 +17,13 @@
 namespace reckon::haptics {
 
 /// A copy has its own state. Assignment between copies of one set does not allocate.
-/// @tparam Types std::tuple of the effects  @tparam More that may be added besides
+/// @tparam Types std::tuple of the effects @tparam More types that may be added
 template <class Types, class... More>
 class EffectSet {
  public:
-  /// The effects that are always there, with their defaults.
+  /// The effects that are always present, with their defaults.
   EffectSet() : EffectSet(EffectDeclarations<Types>()) {}
-  /// @throws std::invalid_argument when an effect refuses its parameters.
+  /// @throws std::invalid_argument if an effect refuses its parameters.
   explicit EffectSet(const EffectDeclarations<Types>& declared)
       : always_(Parts<Types>::always(declared)) {
     for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
@@ -54,10 +54,11 @@ class EffectSet {
     note(hooks_of(effect));
     declared_.emplace_back(std::move(effect));
   }
-  /// Whether an effect that is not always there gives a force.
+  /// Whether a declared effect gives a force.
   [[nodiscard]] bool has_declared_forces() const noexcept { return declared_forces_; }
 
-  /// Calls f(effect) for each effect: those that are always there, then the declared ones.
+  /// Calls f(effect) for each effect: first the ones that are always present, then the declared
+  /// ones.
   template <class F>
   void for_each(F&& f) {
     visit(*this, f);
@@ -66,12 +67,12 @@ class EffectSet {
   void for_each(F&& f) const {
     visit(*this, f);
   }
-  /// The same for those that are always there.
+  /// The same for effects that are always present.
   template <class F>
   void for_each_always(F&& f) {
     std::apply([&](auto&... effects) { (f(effects), ...); }, always_);
   }
-  /// The same for those that store energy.
+  /// The same for effects that store energy.
   template <class F>
   void for_each_spring(F&& f) const {
     const auto one = [&]<class Effect>(const Effect& effect) {
@@ -134,7 +135,7 @@ class EffectSet {
   bool declared_springs_ = false, declared_forces_ = false;
 };
 
-/// Of an object.
+/// Effects of an object.
 using PlannedEffects = EffectSet<EffectTypes, GuardedEffect>;
 
 }  // namespace reckon::haptics

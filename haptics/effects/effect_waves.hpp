@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A periodic pattern over the axes of an object, for effects that vary with the place.
+// A periodic pattern over the axes of an object, for effects that vary with the position.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ namespace reckon::haptics {
 struct EffectWaves {
   Eigen::Vector3d lengths = Eigen::Vector3d::Zero();  ///< [m]; 0: constant along this axis
 
-  /// In [-1, 1]. @param place [m]
+  /// w at a position, in [-1, 1]. @param place [m]
   [[nodiscard]] double at(const Eigen::Vector3d& place) const noexcept {
     double product = 1.0;
     for (int i = 0; i < 3; ++i)
@@ -36,18 +36,18 @@ struct EffectWaves {
     return {slope[0] * cosine[1] * cosine[2], cosine[0] * slope[1] * cosine[2],
             cosine[0] * cosine[1] * slope[2]};
   }
-  /// The shortest length [m]; infinite without any.
+  /// The shortest wavelength [m]; infinite without waves.
   [[nodiscard]] double shortest() const noexcept {
     double shortest = std::numeric_limits<double>::infinity();
     for (const double length : lengths)
       if (length > 0.0) shortest = std::min(shortest, length);
     return shortest;
   }
-  /// As shown_of_waves() for the shortest. @param way [m]
+  /// shown_of_waves() for the shortest wave. @param way [m]
   [[nodiscard]] double shown(double way) const noexcept { return shown_of_waves(shortest(), way); }
 
  private:
-  // Only the part of a wave counts, so that a distant place loses no digits to the factor.
+  // Reduced to one wave, so that distant positions lose no precision.
   [[nodiscard]] double phase(const Eigen::Vector3d& place, int axis) const noexcept {
     return 2.0 * std::numbers::pi * std::remainder(place[axis], lengths[axis]) / lengths[axis];
   }

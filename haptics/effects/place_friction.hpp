@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stick-slip friction whose coefficients vary over the surface, as of cloth or wood grain: a
-// texture that only holds back, and so never needs energy. A scene file sets it with `grain = {..}`
-// of an object.
+// Stick-slip friction with coefficients that vary over the surface, like cloth or wood grain: a
+// texture that only resists motion, so it never needs energy. A scene file sets it with `grain =
+// {..}` of an object.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Grain {
   double wavelength_z = 0.0;  ///< [m]
 };
 
-/// Holds the contact point back by the coefficient where it is.
+/// Holds the contact point back with the coefficient of its position.
 class PlaceFriction : public CountedEffect<PlaceFriction> {
  public:
   using Parameters = Grain;
@@ -65,7 +65,7 @@ class PlaceFriction : public CountedEffect<PlaceFriction> {
 
   /// Hook: the cone that holds the contact point.
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
-  /// Hook: the coefficients of this place.
+  /// Hook: sets the coefficients of this position.
   void follow(const SlidingPlace& at) noexcept {
     const double factor = 1.0 + grain_.share * waves_.at(at.place);
     cone_.adjust(factor * grain_.static_coefficient, factor * grain_.kinetic_coefficient);

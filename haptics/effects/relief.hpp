@@ -23,13 +23,13 @@ namespace reckon::haptics {
 /// A picture laid over the object's x-y plane, seen from +z, and repeated without end.
 struct ReliefPicture {
   std::filesystem::path file;  ///< PNG or PGM; empty: random ground by `seed`
-  double width = 0.02;         ///< [m], of the picture along the object's x axis
-  double height = 1e-4;        ///< [m], from black to white
-  double seed = 1.0;           ///< of the random ground
+  double width = 0.02;         ///< [m], width of the picture along the object's x axis
+  double height = 1e-4;        ///< [m], height difference from black to white
+  double seed = 1.0;           ///< seed of the random ground
 };
 
-/// F = -N grad h along the surface, as for Texture, with h from a picture. Slopes above 1 are felt
-/// as 1. Copies share the picture.
+/// F = -N grad h along the surface, as for Texture, with h from a picture. Slopes are limited to 1.
+/// Copies share the picture.
 class Relief : public CountedEffect<Relief> {
  public:
   using Parameters = ReliefPicture;
@@ -75,7 +75,7 @@ class Relief : public CountedEffect<Relief> {
 
   [[nodiscard]] const ReliefPicture& parameters() const noexcept { return ground_->picture; }
   [[nodiscard]] const HeightMap& map() const noexcept { return ground_->map; }
-  /// Of a sine wave of the same spread of heights and slopes [m].
+  /// Wavelength of a sine wave with the same spread of heights and slopes [m].
   [[nodiscard]] double wavelength() const noexcept { return ground_->wavelength; }
 
  private:

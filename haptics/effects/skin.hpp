@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A skin that gives way: it adds to the surface's stiffness until it is pierced, and heals when the
-// tip is out again. A scene file sets it with `skin = {..}` of an object.
+// A skin that can be pierced: it adds to the surface's stiffness until then, and heals when the tip
+// is out again. A scene file sets it with `skin = {..}` of an object.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,13 @@
 
 namespace reckon::haptics {
 
-/// Over a softer body.
+/// Parameters of a skin over a softer body.
 struct Membrane {
-  double stiffness = 400.0;  ///< [N/m], besides the surface's
-  double force = 1.0;        ///< [N], of the skin alone, at which it gives way
+  double stiffness = 400.0;  ///< [N/m], in addition to the surface's
+  double force = 1.0;        ///< [N], of the skin alone, at which it breaks
 };
 
-/// A second spring beside the surface's. What it stores is lost where it breaks.
+/// A second spring beside the surface's. Its energy is lost when it breaks.
 class Skin : public CountedEffect<Skin> {
  public:
   using Parameters = Membrane;
@@ -49,10 +49,10 @@ class Skin : public CountedEffect<Skin> {
                                      const Eigen::Vector3d& device) const noexcept {
     return 0.5 * stiffness() * (scp - device).squaredNorm();
   }
-  /// Hook: stiffness of the spring [N/m]; 0 where it is pierced.
+  /// Hook: stiffness of the spring [N/m]; 0 while pierced.
   [[nodiscard]] double stiffness() const noexcept { return pierced_ ? 0.0 : membrane_.stiffness; }
 
-  /// Hook: it breaks or heals here; no force of its own [N].
+  /// Hook: breaks or heals the skin; gives no force itself [N].
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
     const auto breaks = [&] {
       return contact.object->gain * membrane_.stiffness * contact.depth > membrane_.force;

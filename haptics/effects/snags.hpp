@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Places that catch the tip until it is torn off, as of rough wood or Velcro. A scene file sets
-// them with `snags = {..}` of an object.
+// Points that catch the tip until it is torn off, like rough wood or Velcro. A scene file sets them
+// with `snags = {..}` of an object.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,19 +17,18 @@
 
 namespace reckon::haptics {
 
-/// Of a surface.
+/// Parameters of a surface.
 struct Snagging {
   double density = 2e4;   ///< [1/m2]
-  double force = 1.0;     ///< [N], that tears the tip off
-  double reach = 5e-4;    ///< [m], within which a place catches
-  double friction = 0.1;  ///< coefficient between them
-  double seed = 1.0;      ///< whole number: other places
+  double force = 1.0;     ///< [N], which tears the tip off
+  double reach = 5e-4;    ///< [m], radius within which a snag catches
+  double friction = 0.1;  ///< coefficient between the snags
+  double seed = 1.0;      ///< whole number; selects other positions
 };
 
-/// A bristle: where the contact point slides over a snag it sticks until the force along the
-/// surface reaches `force`, then slides on and is caught again by the next. It only holds the
-/// contact point back, and so never needs energy. The places follow from the seed and the object's
-/// axes: all peers have the same.
+/// A bristle: the contact point sticks to a snag until the tangential force reaches `force`, then
+/// slides on to the next one. It only holds the contact point back, so it never needs energy. The
+/// positions follow from the seed and the object's axes: they are the same on all peers.
 class Snags : public CountedEffect<Snags> {
  public:
   using Parameters = Snagging;
@@ -62,7 +61,7 @@ class Snags : public CountedEffect<Snags> {
       throw std::invalid_argument("snags: they reach each other; lower the reach or the density");
   }
 
-  /// The snag that reaches this place, as a number unlike all others nearby; 0: none.
+  /// The snag that reaches this position, as a number that is unique nearby; 0: none.
   [[nodiscard]] std::uint64_t at(const Eigen::Vector3d& place) const noexcept {
     const Eigen::Vector3d first = (place / cell_).array() - 0.5;
     for (int corner = 0; corner < 8; ++corner) {
@@ -85,7 +84,7 @@ class Snags : public CountedEffect<Snags> {
 
   /// Hook: the cone that holds the contact point.
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
-  /// Hook: catches it, or lets it go.
+  /// Hook: catches or releases the contact point.
   void follow(const SlidingPlace& here) noexcept {
     if (here.began || cone_.sliding()) caught_ = false;  // torn off, if it was caught
     if (!caught_) {
@@ -111,7 +110,7 @@ class Snags : public CountedEffect<Snags> {
   }
 
   Snagging snagging_;
-  double cell_;  // [m], of a grid with one snag each
+  double cell_;  // [m], size of a grid cell, each with one snag
   FrictionCone cone_;
   std::uint64_t last_ = 0;  // snag below the tip in the last step
   bool caught_ = false;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Friction that falls with the sliding speed, from stiction to Coulomb friction, and grows with it
-// by viscosity (Stribeck's curve): of lubricated surfaces, squeaking or smooth. A scene file sets
-// it with `stribeck = {..}` of an object.
+// by viscosity (Stribeck curve): for lubricated surfaces, squeaking or smooth. A scene file sets it
+// with `stribeck = {..}` of an object.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +23,13 @@ struct Lubrication {
   double static_coefficient = 0.6;
   double coulomb = 0.3;  ///< at most static_coefficient
   double speed = 0.02;   ///< [m/s]
-  double viscous = 0.0;  ///< [s/m], of the coefficient over the speed
+  double viscous = 0.0;  ///< [s/m], growth of the coefficient with speed
 };
 
-/// Holds the contact point back by the coefficient of its sliding speed, as a mean of the last 10
-/// ms: the contact point has no mass, and would chatter by the speed of a single step. Where the
-/// coefficient falls steeply a slow hand feels stick-slip. The viscous part is implicit: the more
-/// it holds the contact point back, the less that slides in the same step.
+/// Holds the contact point back with the coefficient of its sliding speed, averaged over 10 ms: the
+/// contact point has no mass, and would chatter with the speed of a single step. Where the
+/// coefficient falls steeply, a slow hand feels stick-slip. The viscous part is implicit: the more
+/// it holds the contact point back, the less the point slides in the same step.
 class StribeckFriction : public CountedEffect<StribeckFriction> {
  public:
   using Parameters = Lubrication;
@@ -47,7 +47,7 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
       {"viscous", "s/m", &Lubrication::viscous, 0.0, 100.0, 0.0,
        "Growth of the coefficient for each m/s; higher slows fast strokes."},
   }};
-  /// Most that viscosity adds to the coefficient.
+  /// Greatest viscous part of the coefficient.
   static constexpr double kMostViscous = 10.0;
 
   /// @throws std::invalid_argument when a value is out of range, or coulomb is above static.
@@ -71,12 +71,12 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
 
   /// Hook: the cone that holds the contact point.
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
-  /// Hook: the coefficient of this speed.
+  /// Hook: sets the coefficient of this speed.
   void follow(const SlidingPlace& at) noexcept {
     if (at.began) slip_ = held_ = 0.0;
     const double per_slip = lubrication_.viscous * at.depth;  // [s], held back for each m/s
     const double before = std::exchange(held_, per_slip * slip_);
-    // The speed at which it would slide if viscosity held it back no more than before.
+    // Sliding speed if viscosity held it back no more than before.
     const double free = std::max(0.0, at.slip + (held_ - before) / at.dt);
     const double share = std::min(1.0, at.dt / kLag);
     slip_ += share / (1.0 + share * per_slip / at.dt) * (free - slip_);
@@ -92,7 +92,7 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
   Lubrication lubrication_;
   FrictionCone cone_;
   double slip_ = 0.0;  // [m/s]
-  double held_ = 0.0;  // [m], by which viscosity held the contact point back
+  double held_ = 0.0;  // [m], distance by which viscosity held the contact point back
 };
 
 }  // namespace reckon::haptics

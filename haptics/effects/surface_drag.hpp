@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Viscous drag along a surface, as of a film of oil. A scene file sets it with `drag = {..}` of an
+// Viscous drag along a surface, like a film of oil. A scene file sets it with `drag = {..}` of an
 // object.
 #pragma once
 
@@ -15,15 +15,16 @@
 
 namespace reckon::haptics {
 
-/// Of a film on a surface.
+/// Parameters of a film on a surface.
 struct Film {
   double viscosity = 2.0;  ///< [N s/m]
 };
 
-/// F = -viscosity times the velocity along the surface, while in contact, whatever the pressure. Of
-/// a body viscosity is at most 0.3 m_eff / T, m_eff what it resists with (least_mass.hpp): a light
-/// body takes the hand's speed within a few periods. It grows and fades within some 5 ms, where
-/// hand and body meet and part, and begins anew where the surface turns, as beyond an edge.
+/// F = -viscosity times the velocity along the surface, while in contact, at any pressure. For a
+/// body the viscosity is at most 0.3 m_eff / T, with its least effective mass m_eff
+/// (least_mass.hpp): a light body reaches the hand's speed within a few periods. It grows and fades
+/// within about 5 ms at the start and end of a contact, and restarts where the surface turns, as at
+/// an edge.
 class SurfaceDrag : public CountedEffect<SurfaceDrag> {
  public:
   using Parameters = Film;
@@ -64,8 +65,8 @@ class SurfaceDrag : public CountedEffect<SurfaceDrag> {
   }
 
   Film film_;
-  double begun_ = 0.0;                                // share of it, of a body
-  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // then
+  double begun_ = 0.0;                                // share of the viscosity, for a body
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // normal in the last step
 };
 
 }  // namespace reckon::haptics

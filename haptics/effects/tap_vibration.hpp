@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a material answers to a tap: a decaying oscillation, by which wood, rubber and metal are
-// told apart. A scene file sets it with `vibration = {..}` of an object.
+// Response of a material to a tap: a decaying oscillation, which distinguishes wood, rubber and
+// metal. A scene file sets it with `vibration = {..}` of an object.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,16 +16,17 @@
 
 namespace reckon::haptics {
 
-/// Of a material (Okamura, Cutkosky and Dennerlein 2001: aluminium 300 Hz, 90/s; wood 100 Hz, 80/s;
-/// rubber 30 Hz, 60/s).
+/// Parameters of a material (Okamura, Cutkosky and Dennerlein 2001: aluminium 300 Hz, 90/s; wood
+/// 100 Hz, 80/s; rubber 30 Hz, 60/s).
 struct Ringing {
-  double amplitude = 1.0;    ///< [N s/m], of the force over the approach speed
+  double amplitude = 1.0;    ///< [N s/m], force over approach speed
   double frequency = 100.0;  ///< [Hz]
   double decay = 80.0;       ///< [1/s]
 };
 
-/// F = amplitude v e^(-decay t) sin(2 pi frequency t) along the normal, v the speed at which the
-/// device met the surface, t since then. It never pulls, and fades as the energy of the tap allows.
+/// F = amplitude v e^(-decay t) sin(2 pi frequency t) along the normal, with the impact speed v of
+/// the device and the time t since the impact. It never pulls, and fades as the energy of the tap
+/// allows.
 class TapVibration : public CountedEffect<TapVibration> {
  public:
   using Parameters = Ringing;

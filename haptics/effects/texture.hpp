@@ -24,11 +24,11 @@ struct TextureRelief {
   double wavelength_z = 0.0;  ///< [m]
 };
 
-/// F = -N grad h along the surface, N the normal force: what a small ball feels on the slope. The
-/// force is held, not booked as a potential: it is paid for like a damper's, and stays whole where
-/// its curvature N h'' would ask for more stiffness than the device can show. Waves that the hand
-/// crosses in fewer than four samples fade, since what samples show of them is noise: at 1 kHz, 1
-/// mm is felt whole up to 0.25 m/s.
+/// F = -N grad h along the surface, N the normal force: the force of the slope on a small ball. The
+/// force is held, not booked as a potential: it is paid for like a damper, and stays full even if
+/// its curvature N h'' exceeds the stiffness that the device can render. Waves that the hand
+/// crosses in fewer than four samples fade, because they would give noise: at 1 kHz, waves of 1 mm
+/// are rendered fully up to 0.25 m/s.
 class Texture : public CountedEffect<Texture> {
  public:
   using Parameters = TextureRelief;
@@ -48,7 +48,7 @@ class Texture : public CountedEffect<Texture> {
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range, or a wavelength below
-  /// ten heights: such walls are steeper than a slope that is felt as a texture.
+  /// ten heights: such slopes are too steep for a texture.
   explicit Texture(const TextureRelief& relief)
       : relief_(relief), waves_{{relief.wavelength_x, relief.wavelength_y, relief.wavelength_z}} {
     check_parameters(kParameters, relief);

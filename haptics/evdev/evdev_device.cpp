@@ -54,7 +54,7 @@ DeviceSample EvdevDevice::read(std::chrono::nanoseconds now) noexcept {
   return sample;
 }
 
-// A play may be on its way for some time.
+// A replay may reach the device up to kWatchdog later.
 ShownModel EvdevDevice::shown() const noexcept {
   const EvdevReading& reading = exchange_.reading.read();
   const bool has_ended = read_at_ - reading.at > kEffectLength + kWatchdog;

@@ -19,10 +19,10 @@ using std::chrono::nanoseconds;
 constexpr const char* kPulled =
     "was unplugged while it was set up; it is taken up again as soon as it is there";
 constexpr std::int32_t kFullGain = 0xFFFF;
-// In which nothing is read: a reading that is older is none.
+// No reading is taken during a call, and one older than kWatchdog is invalid.
 constexpr nanoseconds kLongestCall = HapticDevice::kWatchdog - std::chrono::milliseconds(2);
 
-// What of USB ends so does so because nobody answers.
+// The errors of USB when a device does not answer.
 std::string refusal_of(int result) {
   const std::string error = std::strerror(-result);
   const bool is_silent = result == -EPROTO || result == -EILSEQ || result == -ETIME;
@@ -59,7 +59,7 @@ void EvdevLoop::exchange(microseconds longest) {
   if (calls_->waits_for_device(file_)) publish(time);
   const int result = walls_.show(wanted(time), time);
   if (result == -ENODEV) return detach("was unplugged");
-  const bool is_asked_again = result == -EAGAIN;  // in the next step
+  const bool is_asked_again = result == -EAGAIN;  // repeated in the next step
   if (result < 0 && !is_asked_again) return detach(refusal_of(result));
   publish(time);
 }
@@ -71,7 +71,7 @@ int EvdevLoop::look(nanoseconds& time) noexcept {
   return 0;
 }
 
-// The kernel hands out what it has. A device that is gone says so.
+// Reads all events that the kernel has queued. @return false: the device is gone
 bool EvdevLoop::read_events() noexcept {
   std::array<input_event, 64> events{};
   while (true) {
@@ -85,7 +85,7 @@ bool EvdevLoop::read_events() noexcept {
   return !state_.wants_all() || ask_state(*calls_, file_, state_);
 }
 
-// A servo that is silent wants no walls.
+// No walls when the servo has stopped.
 SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
   exchange_.model.update();
   const StatedModel& stated = exchange_.model.read();
@@ -93,7 +93,8 @@ SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
   return stated.model;
 }
 
-// Why the device is too slow for the delay that is stated, as a sentence.
+// @return why the device is too slow for the declared delay, as a sentence; empty: it is fast
+// enough
 std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
   const ReportIntervals told = calls_->report_intervals(path);
   constexpr int kTurns = WallEffects::kTurns, kReports = WallEffects::kReportsOfAChange;
@@ -118,7 +119,7 @@ std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
          " ms or more in its [[device]]";
 }
 
-// A handle that moves says where it is in each report.
+// A moving handle is in each report; without one for `age_` it is still at its last position.
 void EvdevLoop::publish(nanoseconds now) noexcept {
   if (now - placed_at_ > age_) placed_at_ = now;
   EvdevReading& reading = exchange_.reading.write_slot();
@@ -151,7 +152,7 @@ void EvdevLoop::detach(const std::string& why) {
   tell(why + ": it shows nothing" + kIsTakenUpAgain);
 }
 
-// Another program that has the device for itself gets all its places, and we none.
+// A program that has grabbed the device (EVIOCGRAB) receives all its events, and this one none.
 std::string EvdevLoop::set_up() {
   int result = calls_->control(file_, EVIOCGRAB, reinterpret_cast<void*>(std::intptr_t{1}));
   if (result == -EBUSY) return "another program has it for itself: end that one";
@@ -176,7 +177,7 @@ std::string EvdevLoop::set_up() {
   return {};
 }
 
-// What is in the way, as a sentence; empty: it is set up, and file_ is its own.
+// @return why the device is not used, as a sentence; empty: it is set up, and file_ is open
 std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
   const auto is_named = [&](const std::string& name) {
     return by_path || (!name.empty() && name.find(settings_.event) != std::string::npos);
@@ -210,7 +211,7 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
   return !fault.empty() && is_gone(file) ? kPulled : fault;
 }
 
-// Whatever failed of a device that is pulled out: it says nothing of the device.
+// An error of an unplugged device is no fault of the device.
 bool EvdevLoop::is_gone(int file) noexcept {
   int version = 0;
   return calls_->control(file, EVIOCGVERSION, &version) == -ENODEV;

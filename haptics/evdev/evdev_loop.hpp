@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The session of a force feedback device of Linux: finds it, sets it up, uploads models that its
-// books pay for, and reads it.
+// The session of a force feedback device of Linux: finds it, sets it up, uploads the models that
+// its energy books can pay for, and reads it.
 #pragma once
 
 #include <array>
@@ -19,19 +19,20 @@
 
 namespace reckon::haptics {
 
-/// One device.
+/// Session of one device, run by its thread.
 class EvdevLoop final : public DeviceSession {
  public:
   static constexpr std::chrono::milliseconds kRetry{500};                     ///< between attempts
   static constexpr std::chrono::milliseconds kLength = WallEffects::kLength;  ///< of an effect
-  /// Between reports that a device takes which does not tell: that of USB at full speed.
+  /// Assumed interval of reports to a device that does not declare it: a frame of USB at full
+  /// speed.
   static constexpr std::chrono::milliseconds kReport{1};
 
-  /// @param exchange outlives it  @param time steady, that of the servo
+  /// @param exchange outlives it @param time steady clock of the servo
   /// @throws std::invalid_argument as evdev_limits()
   EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
             std::unique_ptr<EventCalls> calls, SteadyTime time);
-  /// Takes the walls off.
+  /// Removes the walls.
   ~EvdevLoop() override;
 
  private:
@@ -58,10 +59,10 @@ class EvdevLoop final : public DeviceSession {
   int file_ = -1;
   EventFacts facts_;
   EventState state_;
-  std::chrono::nanoseconds interval_{kReport};  // of reports that the device takes
-  std::chrono::nanoseconds age_{kReport};       // of a place when it is read, at most
+  std::chrono::nanoseconds interval_{kReport};  // of reports to the device
+  std::chrono::nanoseconds age_{kReport};       // greatest age of a position when it is read
   WallEffects walls_;
-  std::chrono::nanoseconds placed_at_{0};  // of the newest place
+  std::chrono::nanoseconds placed_at_{0};  // of the newest position
 };
 
 }  // namespace reckon::haptics

@@ -22,15 +22,14 @@ class KernelEventCalls final : public EventCalls {
       : devices_(std::move(devices)), facts_(std::move(facts)) {}
 
   std::vector<std::string> paths() override { return numbered_files(devices_, "event"); }
-  // The bits of its effects are words of hexadecimal digits.
+  // capabilities/ff lists the effects as hexadecimal words; all zeros: no force feedback.
   std::string closed_name(const std::string& path) override {
     const auto of =
         std::filesystem::path(facts_) / std::filesystem::path(path).filename() / "device";
     const std::string effects = first_line(of / "capabilities" / "ff");
     return effects.find_first_not_of("0 ") == std::string::npos ? "" : first_line(of / "name");
   }
-  // The input device is of a device of HID, and that is of an interface of USB, which lists its
-  // endpoints.
+  // input device -> HID device -> USB interface, whose folder lists the endpoints.
   ReportIntervals report_intervals(const std::string& path) override {
     return intervals_of(std::filesystem::path(facts_) / std::filesystem::path(path).filename() /
                         "device" / "device" / "..");
@@ -42,7 +41,7 @@ class KernelEventCalls final : public EventCalls {
   int control(int file, unsigned long request, void* argument) noexcept override {
     return kernel_call([&] { return ::ioctl(file, request, argument); });
   }
-  // The kernel gives whole events. Less is no event.
+  // The kernel returns whole events only.
   int read(int file, std::span<input_event> events) noexcept override {
     const auto octets =
         kernel_call([&] { return ::read(file, events.data(), events.size_bytes()); });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The few calls of the kernel by which event devices are used.
+// The calls of the kernel on event devices.
 #pragma once
 
 #include <linux/input.h>
@@ -13,48 +13,47 @@
 
 namespace reckon::haptics {
 
-/// For a user who may not open a device.
+/// Remedy for a user without permission to open a device.
 inline constexpr const char* kEventRemedy =
     "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
     "and log in again";
 
-/// Between two reports, by a device's USB endpoints; 0: unknown.
+/// Intervals between reports, from a device's USB endpoints; 0: unknown.
 struct ReportIntervals {
-  std::chrono::microseconds takes{0};  ///< that it takes of this host
-  std::chrono::microseconds sends{0};  ///< that it sends
+  std::chrono::microseconds takes{0};  ///< of reports from the host to the device
+  std::chrono::microseconds sends{0};  ///< of reports from the device
 };
 
-/// What fails returns -errno; an interrupted call is made again. Nothing throws but where strings
-/// do.
+/// Failures return -errno; interrupted calls are repeated. Only strings may throw.
 class EventCalls {
  public:
   virtual ~EventCalls() = default;
 
-  /// Event devices of this host, by their numbers.
+  /// Paths of the event devices of this host, in order of their numbers.
   [[nodiscard]] virtual std::vector<std::string> paths() = 0;
-  /// Name of a device that gives force feedback, without opening it; empty: another, or unknown.
+  /// Name of a force feedback device, without opening it; empty: no such device, or unknown.
   [[nodiscard]] virtual std::string closed_name(const std::string& path) = 0;
   [[nodiscard]] virtual ReportIntervals report_intervals(const std::string& path) = 0;
-  /// For a user who may not open it.
+  /// Remedy for a user without permission to open it.
   [[nodiscard]] virtual std::string denied_remedy(const std::string& /*path*/) {
     return kEventRemedy;
   }
-  /// For reading and writing, without waiting. @return a descriptor
+  /// Opens for reading and writing, non-blocking. @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;
   virtual void close(int file) noexcept = 0;
-  /// Why it cannot be used, beyond what control() tells of it, as a sentence; empty: nothing is
+  /// A reason beyond the results of control() why it cannot be used, as a sentence; empty: none
   /// known.
   [[nodiscard]] virtual std::string fault(int /*file*/) { return {}; }
-  /// Whether the device has what it is told when control() or write() returns; else the kernel has,
-  /// which sends it by and by.
+  /// Whether control() and write() return only after the device has received the data. Otherwise
+  /// the kernel queues it and sends it later.
   [[nodiscard]] virtual bool waits_for_device(int /*file*/) const noexcept { return false; }
   /// ioctl. @return its result
   [[nodiscard]] virtual int control(int file, unsigned long request, void* argument) noexcept = 0;
-  /// @return events that were read, the first of `events`; -EAGAIN: there are none
+  /// @return number of events read into `events`; -EAGAIN: none pending
   [[nodiscard]] virtual int read(int file, std::span<input_event> events) noexcept = 0;
   /// @return 0
   [[nodiscard]] virtual int write(int file, const input_event& event) noexcept = 0;
-  /// Waits for events so long at most. @param file negative: of none
+  /// Waits until events are pending, at most `longest`. @param file negative: waits `longest`
   virtual void wait(int file, std::chrono::microseconds longest) noexcept = 0;
 
  protected:
@@ -63,8 +62,7 @@ class EventCalls {
   EventCalls& operator=(const EventCalls&) = default;
 };
 
-/// Those of the kernel. @param devices folder of event devices @param facts folder that tells of
-/// each what it is
+/// The calls of the kernel. @param devices folder of event devices @param facts their sysfs folder
 [[nodiscard]] std::unique_ptr<EventCalls> kernel_event_calls(
     const std::string& devices = "/dev/input", const std::string& facts = "/sys/class/input");
 

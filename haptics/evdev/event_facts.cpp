@@ -10,7 +10,7 @@
 namespace reckon::haptics {
 namespace {
 
-// Bits as the kernel fills them.
+// A bitmap that an ioctl fills.
 template <std::size_t most>
 class Bits {
  public:

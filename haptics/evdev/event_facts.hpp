@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What an event device says of itself, and whether it can be used.
+// Reads the capabilities of an event device and checks whether it can render walls.
 #pragma once
 
 #include <array>
@@ -15,36 +15,36 @@
 
 namespace reckon::haptics {
 
-/// Of a device that was opened.
+/// Capabilities of an open device.
 struct EventFacts {
-  std::string name;  ///< of the product
-  /// ABS_X and ABS_Y; none: it has no such axis.
+  std::string name;  ///< product name
+  /// ABS_X and ABS_Y; std::nullopt: it has no such axis.
   std::array<std::optional<EventAxis>, EventState::kAxes> axes{};
-  std::vector<std::uint16_t> buttons;  ///< codes, ascending
+  std::vector<std::uint16_t> buttons;  ///< key codes, ascending
   bool has_springs = false, has_constant_forces = false;
   bool has_gain = false, has_autocenter = false;
-  int most_effects = 0;  ///< at once
-  std::string fault;     ///< what else keeps it from being used, as a sentence
+  int most_effects = 0;  ///< that it holds at once
+  std::string fault;     ///< another reason why it cannot be used, as a sentence
 };
 
-/// @return nothing where it gives no force feedback, or does not answer
+/// @return std::nullopt: no force feedback, or no answer
 [[nodiscard]] std::optional<EventFacts> event_facts(EventCalls& calls, int file);
 
-/// Why `axes` of it, 1 or 2, cannot be driven: a sentence; empty: they can.
+/// Why the first `axes` (1 or 2) axes cannot be driven, as a sentence; empty: they can.
 [[nodiscard]] std::string fault_of(const EventFacts& facts, int axes);
 
-/// Where all axes and buttons are now. @return whether it answers
+/// Reads the present state of all axes and buttons. @return whether the device answers
 [[nodiscard]] bool ask_state(EventCalls& calls, int file, EventState& state) noexcept;
 
 /// A device of this host with force feedback.
 struct EventDeviceSeen {
   std::string path;
-  EventFacts facts;     ///< where it does not open, of its name alone
-  std::string remedy;   ///< not empty: this user may not open it
-  std::string problem;  ///< another reason why it does not open
+  EventFacts facts;     ///< only the name if it cannot be opened
+  std::string remedy;   ///< not empty: the user lacks permission to open it
+  std::string problem;  ///< another reason why it cannot be opened
 };
 
-/// Opens each event device of this host, and closes it again. No force is asked for.
+/// Opens and closes each event device of this host. Renders no force.
 [[nodiscard]] std::vector<EventDeviceSeen> event_devices(EventCalls& calls);
 
 }  // namespace reckon::haptics

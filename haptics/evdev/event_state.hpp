@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the axes and buttons of a device are, by the events it sends. Pure.
+// Tracks axes and buttons of a device from its events. Pure.
 #pragma once
 
 #include <linux/input.h>
@@ -12,20 +12,20 @@
 
 namespace reckon::haptics {
 
-/// Events are believed frame by frame: what comes between two reports of the kernel is one instant.
-/// Where the kernel dropped some, what follows is not believed until the state is set anew.
+/// Events take effect frame by frame: those before a SYN_REPORT share one instant. After
+/// SYN_DROPPED all events are ignored until set().
 class EventState {
  public:
   static constexpr std::size_t kAxes = 2;          ///< ABS_X, ABS_Y
-  static constexpr std::size_t kMostButtons = 32;  ///< further ones are not seen
+  static constexpr std::size_t kMostButtons = 32;  ///< further ones are ignored
 
-  /// @param codes of the buttons, in the order of their numbers
+  /// @param codes key codes of the buttons, by button number
   explicit EventState(std::vector<std::uint16_t> codes = {});
 
-  /// Sets all of it, as asked of the kernel. @param axes readings
+  /// Sets the whole state, as queried from the kernel. @param axes readings
   void set(const std::array<std::int32_t, kAxes>& axes, std::uint32_t buttons) noexcept;
   void take(const input_event& event) noexcept;
-  /// Whether events were dropped, and the frame in which they were has ended: set() is due.
+  /// Whether events were dropped and their frame has ended: set() is due.
   [[nodiscard]] bool wants_all() const noexcept { return wants_all_; }
 
   [[nodiscard]] std::int32_t axis(std::size_t number) const noexcept { return now_.axes[number]; }

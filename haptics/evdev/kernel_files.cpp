@@ -14,7 +14,7 @@
 namespace reckon::haptics {
 namespace {
 
-// As the kernel writes it: "1ms", "125us". 0: it is none.
+// Parses an interval of sysfs, "1ms" or "125us". 0: malformed, or above 10,000.
 std::chrono::microseconds interval_of(const std::string& text) {
   long number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel's files of devices have in common: their numbers, what it tells of them, and the
-// calls on them.
+// Shared access to device files: their numbers, their sysfs entries and system calls on them.
 #pragma once
 
 #include <cerrno>
@@ -15,7 +14,7 @@
 
 namespace reckon::haptics {
 
-/// A call again where a signal interrupted it. @return its result, or -errno
+/// Repeats a call that a signal interrupted. @return its result, or -errno
 template <class Call>
 auto kernel_call(Call call) noexcept {
   while (true) {
@@ -25,17 +24,17 @@ auto kernel_call(Call call) noexcept {
   }
 }
 
-/// Files of a folder whose names are `prefix` and a number, by their numbers.
+/// Files of a folder whose names are `prefix` and a number, in order of the numbers.
 [[nodiscard]] std::vector<std::string> numbered_files(const std::string& folder,
                                                       std::string_view prefix);
 
-/// Empty: there is none.
+/// First line of a file after leading white space; empty: unreadable.
 [[nodiscard]] std::string first_line(const std::filesystem::path& file);
 
-/// Of an interface of USB, by the endpoints that its folder lists.
+/// Report intervals of a USB interface, from the endpoints in its sysfs folder.
 [[nodiscard]] ReportIntervals intervals_of(const std::filesystem::path& interface);
 
-/// Until a file has something to read; so long at most. @param file negative: of none
+/// Waits until a file is readable, at most `longest`. @param file negative: waits `longest`
 void wait_for(int file, std::chrono::microseconds longest) noexcept;
 
 }  // namespace reckon::haptics

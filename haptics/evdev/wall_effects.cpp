@@ -24,7 +24,7 @@ bool are_equal(const ff_effect& a, const ff_effect& b) noexcept {
          is_same_condition(a.u.condition[1], b.u.condition[1]);
 }
 
-// Whether a wall begins less deep than another of the same spring.
+// Whether the surface of a wall is nearer to the hand than the surface of another.
 bool is_nearer(const SpringWall& wall, const SpringWall& than, WallSide side) noexcept {
   return side == WallSide::below ? wall.at > than.at : wall.at < than.at;
 }
@@ -63,8 +63,8 @@ int WallEffects::play() noexcept {
   return play_all(1);
 }
 
-// What cannot be told does not matter: the kernel erases what a closed file had, and a device of
-// reports ends it by itself.
+// Errors do not matter: the kernel erases the effects of a closed file, and a hidraw device ends
+// them by itself.
 void WallEffects::end() noexcept {
   if (file_ < 0) return;
   static_cast<void>(play_all(0));
@@ -86,8 +86,8 @@ PlaceRange WallEffects::places_of(std::size_t axis, nanoseconds longer) const no
   return {at - reach, at + reach};
 }
 
-// Rounding makes a wall begin a little deeper each time: what is told already stays, where it is as
-// near.
+// Rounding puts a wall a little deeper each time, so an uploaded wall stays if the next one is no
+// nearer.
 SpringWall WallEffects::next_wall(std::size_t axis, WallSide side,
                                   const SpringWall& wanted) const noexcept {
   const SpringWall& shown = books_.shown().wall(axis, side);
@@ -100,7 +100,7 @@ SpringWall WallEffects::next_wall(std::size_t axis, WallSide side,
   return is_alike && is_short && !is_nearer(next, shown, side) ? shown : next;
 }
 
-// What is booked is what may have become of it until the device has it.
+// Books the energy over all positions that the handle may reach until the device has the change.
 int WallEffects::tell_side(WallSide side, const SpringModel& model, nanoseconds now) noexcept {
   ff_effect& told = effects_[index_of(side)];
   ff_effect next = effect_of(model, side, settings_.scale, told.id, kLengthInEffect);
@@ -152,7 +152,7 @@ int WallEffects::play_all(std::int32_t value) noexcept {
   return result;
 }
 
-// From a reading until the device has to have a change.
+// Time from a reading until the device must have received a change.
 nanoseconds WallEffects::left_of_delay() const noexcept {
   return settings_.chain - age_ - kReaction;
 }
@@ -161,8 +161,9 @@ nanoseconds WallEffects::longest_wait() const noexcept {
   return std::min(left_of_delay(), 2 * kTurns * kReportsOfAChange * interval_);
 }
 
-// Of what was told since a reading. Where the kernel sends it by and by, that time begins when the
-// call returns; where the call waits for the device, it ends then.
+// Delay beyond the declared one of a change uploaded since the reading at `now`. If the kernel
+// queues it, the queue's delay follows the call; if the call waits for the device, the delay ends
+// with it.
 nanoseconds WallEffects::later_than_stated(nanoseconds now) const noexcept {
   constexpr nanoseconds kNone{0};
   const nanoseconds calls = std::max(clock_() - now, kNone);
@@ -179,8 +180,8 @@ bool WallEffects::is_soon_there(nanoseconds now) const noexcept {
   return std::max(drained_, now) + kTurns * kReportsOfAChange * interval_ <= now + longest_wait();
 }
 
-// An effect that was played too long ago may have ended, or not: the next one is paid for as if it
-// had, before it is played again.
+// An effect that was played too long ago may have ended or not. The next one is booked as if it
+// had, before it is replayed.
 int WallEffects::show_at_once(const SpringModel& asked, nanoseconds now) noexcept {
   const bool may_have_ended = now - played_ > kLength / 2;
   if (may_have_ended) books_.forget();
@@ -200,8 +201,8 @@ int WallEffects::show_at_once(const SpringModel& asked, nanoseconds now) noexcep
   return result;
 }
 
-// Where each call waits for the device, any of them may take long. So each report follows a
-// reading, and effects that may have ended are played again without walls.
+// Calls that wait for the device may take long. So a new reading precedes each report, and effects
+// that may have ended are replayed without walls.
 int WallEffects::show_in_turn(const SpringModel& asked, nanoseconds& now) noexcept {
   const bool may_have_ended = now - played_ > kLength / 2;
   if (may_have_ended) books_.forget();
@@ -210,7 +211,7 @@ int WallEffects::show_in_turn(const SpringModel& asked, nanoseconds& now) noexce
   for (const WallSide side : sides_in_turn()) {
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
       if (result < 0) return result;
-      if (!may_have_ended && now - played_ >= kLength / 3) return result;  // to play is first
+      if (!may_have_ended && now - played_ >= kLength / 3) return result;  // the replay comes first
       const SpringWall next = next_wall(axis, side, asked.wall(axis, side));
       result = tell_wall(axis, side, may_have_ended ? SpringWall() : next, now);
       if (result >= 0) result = look_again(now);
@@ -219,19 +220,19 @@ int WallEffects::show_in_turn(const SpringModel& asked, nanoseconds& now) noexce
   return may_have_ended && result >= 0 ? play_in_turn(now, false) : result;
 }
 
-// Which waits longest is first.
+// The side with the oldest change comes first.
 std::array<WallSide, SpringModel::kSides> WallEffects::sides_in_turn() const noexcept {
   auto sides = kSides;
   if (changed_[index_of(sides[1])] < changed_[index_of(sides[0])]) std::swap(sides[0], sides[1]);
   return sides;
 }
 
-// Readings would age meanwhile.
+// Reads the device again if the call took at least half an interval.
 int WallEffects::look_again(nanoseconds& now) noexcept {
   return clock_() - now < interval_ / 2 ? 0 : look_(now);
 }
 
-// @param has_walls one that may have ended meanwhile is not played
+// @param has_walls an effect that may have ended in the meantime is not replayed
 int WallEffects::play_in_turn(nanoseconds& now, bool has_walls) noexcept {
   const nanoseconds begin = now;
   for (const ff_effect& effect : effects_) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The effects by which a force feedback device of Linux is told walls: what they are next, what
-// that costs, when they are told and when they are played.
+// Renders walls as evdev condition effects: next effect, its energy cost, upload and play times.
 #pragma once
 
 #include <linux/input.h>
@@ -20,47 +19,48 @@
 
 namespace reckon::haptics {
 
-/// Walls are two effects, one for each side, which stay on the device and are changed in place. The
-/// device ends them by itself kLength after they were last played, so that a program that hangs
-/// leaves none; one that ends leaves none because the kernel erases the effects of a closed file,
-/// but of a device that it does not drive. A driver or a device that ignores the length of an
-/// effect keeps them until then.
+/// Walls are two effects, one for each side. They stay on the device and are changed in place. The
+/// device ends them kLength after they were last played, so a program that hangs leaves no walls.
+/// When a program ends, the kernel erases the effects of its closed file, except on a device that
+/// it does not drive. A driver or device that ignores the length of effects keeps them until then.
 ///
-/// The kernel takes a change at once and sends it as reports, one in each interval of the device's
-/// endpoint or, where it is late with the next, in every other one; how many wait, it does not
-/// tell. So changes wait here until they are surely there within the delay that is stated, counted
-/// from when the handle was where the newest reading has it. At most two are on their way: what is
-/// stated beyond that is the device's, for what it does with a report. Walls are taken off without
-/// that wait.
+/// The kernel queues a change and sends it as reports, one in each interval of the device's
+/// endpoint or, if it is late, in every other one. The queue length is unknown, so a change is sent
+/// only when it will arrive within the declared delay, counted from the instant of the newest
+/// position. At most two changes are in flight: the rest of the declared delay is for the device
+/// itself. Walls are removed without that wait.
 ///
-/// Where calls wait for the device, nothing is on its way when they return, but any of them may
-/// take long. So each report then follows a reading of its own.
+/// If calls wait for the device, nothing is in flight when they return, but any of them may take
+/// long. So a new reading then precedes each report.
 ///
-/// All of it belongs to the device's thread. Results are those of EventCalls.
+/// For the device's thread only. Returns results of EventCalls.
 class WallEffects {
  public:
-  /// Of an effect, which is played again a third of it later.
+  /// Duration of an effect, which is replayed after a third of it.
   static constexpr std::chrono::milliseconds kLength = kEffectLength;
-  static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect, at least
-  static constexpr int kReportsOfAChange = 2;  ///< a condition for each of two axes, always
-  static constexpr int kTurns = 2;             ///< of the endpoint, until a report is surely there
-  /// At least, of the stated delay, until the device does what it has been told.
+  static constexpr std::chrono::milliseconds kBetween{
+      4};                                      ///< least time between two changes of an effect
+  static constexpr int kReportsOfAChange = 2;  ///< always a condition for each of two axes
+  static constexpr int kTurns =
+      2;  ///< intervals of the endpoint within which a report surely arrives
+  /// Least part of the declared delay that is left for the device to act on a report.
   static constexpr std::chrono::milliseconds kReaction{1};
-  /// Reads the device again, for `state`, and says when that was. @return -ENODEV: it is gone
+  /// Reads the device again into `state`, and sets `now` to that time. @return -ENODEV: it is gone
   using Look = std::function<int(std::chrono::nanoseconds& now)>;
 
-  /// @param calls, facts, state of the device that is open; they outlive it
+  /// @param calls, facts, state of the open device; they outlive this object
   WallEffects(EventCalls& calls, const EvdevSettings& settings, const EventFacts& facts,
               const EventState& state, std::function<std::chrono::nanoseconds()> clock, Look look);
 
-  /// Uploads both, without walls. @param interval of the reports that it takes, > 0
-  /// @param age that a place may have when it is read
+  /// Uploads both effects without walls. @param interval of reports to the device, > 0
+  /// @param greatest age of a position when it is read
   [[nodiscard]] int begin(int file, std::chrono::nanoseconds interval,
                           std::chrono::nanoseconds age) noexcept;
   [[nodiscard]] int play() noexcept;
-  /// Takes them off; where there are none, nothing.
+  /// Stops and erases the effects, if any.
   void end() noexcept;
-  /// What is due of these walls. @param now of the newest reading
+  /// Uploads and plays the due effects of these walls. @param now time of the newest reading;
+  /// updated by further readings
   [[nodiscard]] int show(const SpringModel& asked, std::chrono::nanoseconds& now) noexcept;
   [[nodiscard]] const WallBooks& books() const noexcept { return books_; }
 
@@ -100,9 +100,9 @@ class WallEffects {
   std::array<ff_effect, SpringModel::kSides> effects_{};  // as uploaded
   std::array<std::chrono::nanoseconds, SpringModel::kSides> changed_{};
   std::chrono::nanoseconds played_{0};
-  std::chrono::nanoseconds interval_{0};  // of reports that the device takes
-  std::chrono::nanoseconds age_{0};       // of a place when it is read, at most
-  std::chrono::nanoseconds drained_{0};   // when it has all of them
+  std::chrono::nanoseconds interval_{0};  // of reports to the device
+  std::chrono::nanoseconds age_{0};       // greatest age of a position when it is read
+  std::chrono::nanoseconds drained_{0};   // when the device has received all of them
 };
 
 }  // namespace reckon::haptics

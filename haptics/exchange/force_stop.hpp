@@ -8,29 +8,29 @@
 
 namespace reckon::haptics {
 
-/// Who pressed or released the software stop last.
+/// Cause of the last change of the software stop.
 enum class StopCause : std::uint8_t { none, program, signal, key, button };
 
-/// Any thread presses and releases it, a signal handler too; every servo that has it looks once in
-/// each step. While it is pressed no hand has a force. Never blocks, allocates or fails.
+/// Any thread or signal handler may press and release it; every servo that uses it checks it in
+/// each step. While it is pressed, no hand has a force. Never blocks, allocates or fails.
 ///
 ///     ForceStop stop;
 ///     config.stop = &stop;           // of each ServoConfig
 ///     stop.press(StopCause::program);
 class ForceStop {
  public:
-  /// What it says at one instant.
+  /// State at one instant.
   struct State {
     bool pressed = false;
     std::uint32_t presses = 0;  ///< since its construction; counts to 2^23 and starts again at 0
     StopCause cause = StopCause::none;  ///< of the last change
   };
 
-  /// Without an effect while it is pressed.
+  /// No effect while it is pressed.
   void press(StopCause cause) noexcept { change(cause, 0); }
-  /// Without an effect while it is released.
+  /// No effect while it is released.
   void release(StopCause cause) noexcept { change(cause, 1); }
-  /// Presses it where it is released, and releases it where it is pressed.
+  /// Presses it if it is released, and releases it if it is pressed.
   void toggle(StopCause cause) noexcept {
     std::uint32_t seen = word_.load(std::memory_order_relaxed);
     while (!word_.compare_exchange_weak(seen, after(seen, cause))) {
@@ -38,7 +38,7 @@ class ForceStop {
   }
 
   [[nodiscard]] bool is_pressed() const noexcept { return (changes() & 1U) != 0; }
-  /// Presses and releases since its construction: odd while it is pressed.
+  /// Number of presses and releases since its construction: odd while it is pressed.
   [[nodiscard]] std::uint32_t changes() const noexcept { return word_.load() >> kCauseBits; }
   [[nodiscard]] State state() const noexcept {
     const std::uint32_t word = word_.load();
@@ -53,7 +53,7 @@ class ForceStop {
   [[nodiscard]] static std::uint32_t after(std::uint32_t word, StopCause cause) noexcept {
     return (((word >> kCauseBits) + 1) << kCauseBits) | static_cast<std::uint32_t>(cause);
   }
-  // Where the count of changes has this lowest bit.
+  // Changes it if the count of changes has this lowest bit.
   void change(StopCause cause, std::uint32_t lowest) noexcept {
     std::uint32_t seen = word_.load(std::memory_order_relaxed);
     while (((seen >> kCauseBits) & 1U) == lowest &&
@@ -61,7 +61,8 @@ class ForceStop {
     }
   }
 
-  // Changes, then the cause of the last: one word, so that a signal handler may change it.
+  // Count of changes, then the cause of the last one: one word, so that a signal handler may change
+  // it.
   std::atomic<std::uint32_t> word_{0};
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 };

@@ -15,7 +15,7 @@ struct Shortfall {
   static constexpr double kLeastForce = 0.001;  // [N]
 
   double seconds = 0.0;  ///< [s], duration
-  double share = 1.0;    ///< shown share of `asked` in the case that lacked most newtons
+  double share = 1.0;    ///< shown share of `asked` in the case with the greatest lack in newtons
   double asked = 0.0;    ///< [N], wanted in that case
 
   /// Counts one step of `dt` [s] that shows the share `shown` in [0, 1] of a force of `newtons`
@@ -43,7 +43,7 @@ struct ServoTally {
   double grabbed = 0.0;  ///< [s] in which it held a body
   Shortfall held_back;   ///< springs of hands, for lack of energy
   Shortfall guests;      ///< springs of guests beside hands, which come first (GuestShare)
-  Shortfall crowd;       ///< springs of hands that are together stiffer than the device can show
+  Shortfall crowd;       ///< springs of hands that are together stiffer than the device can render
   /// The shown force against the force of springs at their received stiffness: energy has been
   /// short for longer, and both ends show the contact softer.
   Shortfall softened;
@@ -54,11 +54,11 @@ struct ServoTally {
   double hidden = 0.0;       ///< [m], greatest depth of a wall that no loan could pay for
   double refused = 0.0;      ///< [s] in which a nearby record could not be used
   std::uint64_t late = 0;    ///< steps more than half a period late
-  std::uint64_t let_go = 0;  ///< steps after which the device had dropped the force by itself
+  std::uint64_t let_go = 0;  ///< steps in which the device had dropped the force by itself
   std::uint64_t failed = 0;  ///< readings that failed
   double stopped = 0.0;      ///< [s] in which the software stop held the force at zero
   std::uint32_t stops = 0;   ///< times that the software stop began
-  std::uint32_t passed = 0;  ///< objects that moved through the hand, with more than its force
+  std::uint32_t passed = 0;  ///< objects that moved through the hand with more than its force
 };
 
 }  // namespace reckon::haptics

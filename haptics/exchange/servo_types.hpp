@@ -110,15 +110,15 @@ struct AccountList {
 /// Probes of a tool.
 inline constexpr std::size_t kMostProbes = 8;
 
-/// How the tool of a device of six axes is held. Frame S.
+/// Pose of the tool of a device of six axes. Frame S.
 struct ToolState {
-  bool turns = false;  ///< false: a device of three axes, and nothing here is said
+  bool turns = false;  ///< false: a device of three axes; the other members are unset
   Eigen::Vector3d handle = Eigen::Vector3d::Zero();                 ///< [m], measured
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S, measured
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();   ///< [N m], about the handle, as written
-  std::size_t count = 0;                              ///< of its probes
-  std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], where they are
+  std::size_t count = 0;                              ///< number of probes
+  std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], positions
 };
 
 /// Published result of one servo step.
@@ -147,22 +147,24 @@ struct ServoSnapshot : AccountList {
   bool stopped = false;  ///< the software stop held the force at zero in this step
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
-  /// [J], absorbed from the hand + sure damping + received - given, to and from hands and bodies.
+  /// [J], absorbed from the hand + guaranteed damping + received from hands and bodies - given to
+  /// them.
   double port_energy = 0.0;
   /// [J], least value of port_energy + loan + source_energy() so far; >= -1e-9 - late_cost on a
   /// device that keeps its limits.
   double port_energy_min = 0.0;
-  double late_cost = 0.0;  ///< [J], energy that late steps took from an empty ledger, at most
+  double late_cost =
+      0.0;  ///< [J], upper bound of the energy that late steps took from an empty ledger
   /// [J], greatest error of port_energy above the truth from encoder steps; 0 without them.
   double encoder_allowance = 0.0;
   double loan = 0.0;       ///< [J], debt, see exchange_energy(); <= kGreatestLoan
   double loan_most = 0.0;  ///< [J], greatest loan so far
-  /// [J], lent to the potentials of regions and not back; <= ServoConfig::region_loan.
+  /// [J], outstanding loan of the potentials of regions; <= ServoConfig::region_loan.
   double region_loan = 0.0;
   double region_loan_most = 0.0;  ///< [J], greatest so far
-  /// [J], that oscillations of regions have put in so far, less what came back, with the most that
-  /// those under way to a handle with a delay may put in; at most
-  /// ServoConfig::oscillation_energy and oscillation_power times the time.
+  /// [J], net energy that oscillations of regions have put in so far, plus the greatest energy of
+  /// pending ones for a handle with a delay; at most ServoConfig::oscillation_energy plus
+  /// oscillation_power times the time.
   double oscillation_energy = 0.0;
   double mesh_ledger = 0.0;  ///< [J]
   /// Share of the stiffness of remote hands and bodies that the device can show, limited by energy,
@@ -181,21 +183,20 @@ struct ServoConfig {
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
-  /// [m], of the patch by which a probe holds bodies against turning about the contact normal, as a
-  /// soft finger does; 0 (a point) to 1. Where they have friction.
+  /// [m], radius of the contact patch of a probe, which resists rotation of bodies with friction
+  /// about the contact normal, like a soft finger; 0 (a point) to 1.
   double patch_radius = 0.0;
-  /// What holds a body that a probe touches while one of these buttons is pressed (bit i is button
-  /// i). Device and body may allow less.
+  /// Grab spring for a body that a probe touches while one of these buttons is pressed (bit i is
+  /// button i). Device and body may limit it further.
   GrabSpring grab{};
   std::uint32_t grab_buttons = 1;
   double contact_radius = 0.0;  ///< [m], of the probes against the static scene; 0 (points) to 1
-  /// Of the tool on a device of six axes: 1 to 8 places from the handle [m], in axes of the tool,
-  /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.
+  /// Probes of the tool on a device of six axes: 1 to 8 positions from the handle [m], in axes of
+  /// the tool, each at most 1 m away. Remote hands touch the first. Empty: the handle is the probe.
   std::vector<Eigen::Vector3d> probes{};
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
-  /// [N], force that the device's motors hold for ever; 0: their greatest. They become warm with
-  /// the time constant `thermal_time` [s], at least 1, and the limit of the force then goes down to
-  /// this.
+  /// [N], continuous force of the device's motors; 0: their greatest force. They become warm with
+  /// the time constant `thermal_time` [s], at least 1, and the force limit then falls to this.
   double continuous_force = 0.0;
   double thermal_time = 20.0;
   /// [N/s], limit for growth and rotation of the force; its decrease is free. At most, and by
@@ -204,26 +205,26 @@ struct ServoConfig {
   /// [W], greatest power of the force on a yielding hand; excess is cut, walls included. At most,
   /// and by default, the device's largest force at 1 m/s.
   double max_power = std::numeric_limits<double>::infinity();
-  /// [W], greatest mean power of others on the hand through their contacts: gifts that they state,
-  /// less what was given to them, are credited no faster. A person pushes another with some 0.1 W;
-  /// a dishonest peer gets no more than this.
+  /// [W], greatest mean power of others on the hand through their contacts: stated gifts, minus the
+  /// energy given to them, are credited no faster. A person pushes another with about 0.1 W; a
+  /// dishonest peer gets no more than this.
   double max_received_power = 0.2;
   /// [J], greatest loan for the potentials of all regions: springs, magnets, borders, constant
-  /// forces. It is no more than they can store within the device's work space. 0: the hand's motion
-  /// has to pay for them.
+  /// forces. At most what they can store within the device's workspace. 0: the hand's motion must
+  /// pay for them.
   double region_loan = 0.12;
-  /// What oscillations of regions may put into the hand: a power [W], and an energy that it refills
-  /// [J]. More power lets stronger ones be shown whole.
+  /// Energy that oscillations of regions may put into the hand: a power [W] that refills an energy
+  /// [J]. More power allows stronger oscillations.
   double oscillation_power = 0.1;
   double oscillation_energy = 0.02;
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< gives energy on request (off: a hand cannot push another)
-  /// The software stop, shared by the servos of a program and longer alive than them; null: none
-  /// but the one that `stop_button` makes.
+  /// The software stop, shared by the servos of a program, which it outlives; null: only a private
+  /// one for `stop_button`.
   ForceStop* stop = nullptr;
-  /// Bit number of DeviceSample::buttons, 0 to 31, of the button that presses and releases the
-  /// stop; none: no button does.
+  /// Bit number in DeviceSample::buttons, 0 to 31, of the button that presses and releases the
+  /// stop; std::nullopt: no button.
   std::optional<int> stop_button{};
 };
 
@@ -231,7 +232,7 @@ struct ServoConfig {
 /// cannot disturb the servo.
 using TraceRing = SpscRing<ServoSnapshot>;
 
-/// A contact set as a servo found it from this time on.
+/// A contact set that a servo used from this time on.
 struct TimedContactSet {
   std::chrono::nanoseconds time{0};
   ContactSet set;

@@ -42,9 +42,9 @@ constexpr std::uint8_t kAllHomed = 7;
 constexpr std::uint8_t kGreen = 2, kBlue = 4, kRed = 8;
 constexpr double kWordsPerTorque = -1e4;  // [1/(N m)]
 constexpr double kMostWord = 32767.0;
-// [m/rad]: beyond it a motor's word could not hold the largest force.
+// [m/rad]: a longer lever needs torques beyond the range of a motor's word.
 constexpr double kLongestLever = 0.3;
-constexpr double kMostSweep = 0.05;  // [rad], that is believed of an exchange
+constexpr double kMostSweep = 0.05;  // [rad], greatest rotation per exchange that prediction uses
 
 constexpr const char* kRefusal = "its FTDI chip refuses a setting: unplug it and plug it in again";
 
@@ -62,10 +62,10 @@ bool set_line(UsbLine& line, bool for_firmware) {
          line.request(kReset, kPurgeIn) && line.request(kReset, kPurgeOut);
 }
 
-// Of the chip [ms]; 0: it does not tell.
+// Latency timer of the chip [ms]; 0: no answer.
 int latency_timer(UsbLine& line) { return line.ask(kReadLatency).value_or(std::uint8_t{0}); }
 
-// Waits for exactly these octets, among others before them.
+// Waits until these octets are received, after any others.
 bool hears(UsbSetUp& desk, std::span<const std::uint8_t> wanted, nanoseconds longest) {
   const nanoseconds end = desk.now() + longest;
   while (desk.goes_on()) {
@@ -83,7 +83,7 @@ bool hears(UsbSetUp& desk, std::span<const std::uint8_t> wanted, nanoseconds lon
 const UsbFacts& falcon_facts() noexcept {
   static constexpr UsbFacts kFacts{.name = "Falcon",
                                    .vendor = 0x0403,   // FTDI
-                                   .product = 0xCB48,  // as Novint has it
+                                   .product = 0xCB48,  // Novint's
                                    .most_force = 8.9,
                                    .sure_share = 0.9,
                                    .assumed_damping = 0.3,
@@ -144,7 +144,7 @@ std::string FalconDriver::set_up(UsbSetUp& desk) {
   return "it does not answer with the firmware that was loaded: is the file that of a Falcon?";
 }
 
-// A zero, and a report in answer.
+// Sends a zero force. @return whether a report answers it
 bool FalconDriver::answers(UsbSetUp& desk) {
   for (int attempt = 0; attempt < kAnswers && desk.goes_on(); ++attempt) {
     desk.line().clear();

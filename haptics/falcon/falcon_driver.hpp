@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a Novint Falcon needs that other devices on USB do not: an FTDI chip and a firmware to be
-// set up, its packets and its geometry.
+// Driver of a Novint Falcon: set-up of its FTDI chip, upload of its firmware, its packets and its
+// geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,28 +18,28 @@
 
 namespace reckon::haptics {
 
-/// What is known of every Falcon: 8.9 N, by its maker; 0.3 N s/m are assumed, nine tenths of which
-/// the servo gets.
+/// Facts of every Falcon: 8.9 N, from its maker; an assumed damping of 0.3 N s/m, nine tenths of it
+/// for the servo.
 [[nodiscard]] const UsbFacts& falcon_facts() noexcept;
 
-/// The program that a Falcon runs. It belongs to its maker and is not part of Reckon; the device
-/// forgets it without power.
+/// The firmware of a Falcon. It belongs to the maker and is not part of Reckon. The device loses it
+/// without power.
 struct FalconFirmware {
   static constexpr std::size_t kLeast = 1'000;   ///< octets
   static constexpr std::size_t kMost = 262'144;  ///< octets
 
   std::vector<std::uint8_t> octets;
 
-  /// @throws std::runtime_error for a file that cannot be read or has no size of a firmware; the
-  /// text has the file and the remedy. No checksum is known: the device's echo is compared.
+  /// @throws std::runtime_error if the file cannot be read or its size is out of range; the text
+  /// has the file and the remedy. No checksum is known, so the upload compares the device's echo.
   [[nodiscard]] static FalconFirmware load(const std::string& file);
 };
 
-/// One Falcon. Its exchange takes 2 ms: a command waits for the next USB frame, and its chip keeps
-/// the report until its latency timer of 1 ms.
+/// Driver of a Falcon. Its exchange takes 2 ms: a command waits for the next USB frame, and the
+/// FTDI chip holds the report until its latency timer of 1 ms expires.
 class FalconDriver final : public UsbDriver {
  public:
-  /// @param firmware empty: none is loaded
+  /// @param firmware empty: no upload; the device must already run it
   explicit FalconDriver(FalconFirmware firmware);
 
   [[nodiscard]] const UsbFacts& facts() const noexcept override { return falcon_facts(); }
@@ -66,9 +66,9 @@ class FalconDriver final : public UsbDriver {
   FalconReport report_;
   std::array<std::uint8_t, kFalconPacket> octets_{};
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the report before
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
-  double share_ = 1.0;  // of the last force
+  double share_ = 1.0;  // of the last force that was commanded
 };
 
 }  // namespace reckon::haptics

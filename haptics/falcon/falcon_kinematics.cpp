@@ -19,9 +19,9 @@ constexpr double kFirst = 35.0;                                  // [deg], at co
 constexpr double kStep = 360.0 / (320.0 * 4.0) * 14.25 / 110.0;  // [deg]
 constexpr double kRadian = std::numbers::pi / 180.0;
 constexpr int kMostSteps = 12;
-constexpr double kNear = 1e-6;  // [m]: the next step of Newton's is below 1e-11
-// Share of the greatest volume that the three rods span. Below it a small error of an angle is a
-// great one of the place.
+constexpr double kNear = 1e-6;  // [m]: after such a step the next Newton step is below 1e-11
+// Share of the greatest volume that the three rods can span. Below it, small errors of the angles
+// become large errors of the position.
 constexpr double kLeastVolume = 0.05;
 constexpr double kLeastLever = 0.1;  // share of the arm's length
 
@@ -36,19 +36,19 @@ const std::array<Leg, 3>& legs() {
   return kAll;
 }
 
-// The end of an arm, from where the parallelogram leads to the handle's middle.
+// The end of an arm, shifted so that the parallelogram leads to the middle of the handle.
 Vector3d knee(const Leg& leg, double cosine, double sine) {
   const double u = G::kAxis - G::kHandle + G::kArm * cosine;
   return {leg.cosine * u - leg.sine * G::kAside, leg.sine * u + leg.cosine * G::kAside,
           G::kArm * sine};
 }
 
-// From a knee to the handle in the leg's axes. The middle of the parallelogram's far end is on a
-// torus: a circle of radius kRod, carried about the knee at kJoints.
+// Vector from a knee to the handle in the leg's axes. The middle of the parallelogram's far end is
+// on a torus about the knee, of radii kJoints (major) and kRod (minor).
 struct Rod {
   double u, v, w;
   double fold;   // [m], across the knee's axis
-  double share;  // of (u, w) that is the circle's
+  double share;  // share of (u, w) along the minor circle
 };
 Rod rod_of(const Leg& leg, const Vector3d& q) {
   Rod rod{leg.cosine * q.x() + leg.sine * q.y(), leg.cosine * q.y() - leg.sine * q.x(), q.z(), 0,
@@ -58,14 +58,14 @@ Rod rod_of(const Leg& leg, const Vector3d& q) {
   return rod;
 }
 
-// Half the gradient of the torus' equation: the way along the rod, of its length.
+// Half the gradient of the torus' equation: a vector along the rod, of its length.
 Vector3d along(const Leg& leg, const Rod& rod) {
   const double u = rod.share * rod.u;
   return {leg.cosine * u - leg.sine * rod.v, leg.sine * u + leg.cosine * rod.v, rod.share * rod.w};
 }
 
-// The upper one of the points that are kRod + kJoints from each knee; where there is none, the
-// middle between those that come nearest.
+// The upper point at the distance kRod + kJoints from each knee; if none exists, the point in the
+// plane of the knees with equal distances.
 Vector3d sphere_point(const std::array<Vector3d, 3>& knees) {
   constexpr double kLength = G::kRod + G::kJoints;
   const Vector3d a = knees[1] - knees[0];
@@ -126,7 +126,7 @@ std::optional<FalconPose> falcon_pose(const Vector3d& angles) noexcept {
     if (!(std::abs(volume) > kLeastVolume * G::kRod * G::kRod * G::kRod)) return std::nullopt;
     const Matrix3d ways = rods.inverse();
     if (last) {
-      // Another way of assembling it: a parallelogram or an arm that is folded inwards.
+      // Another assembly mode: a parallelogram or an arm folded inwards.
       if (!(least_share > 0)) return std::nullopt;
       if (!(levers.minCoeff() > kLeastLever * G::kArm * G::kRod)) return std::nullopt;
       pose.jacobian = ways * levers.asDiagonal();
@@ -149,7 +149,7 @@ std::optional<Vector3d> falcon_angles(const Vector3d& position) noexcept {
     const double circle = std::sqrt(G::kRod * G::kRod - v * v);
     const double fold = G::kJoints + circle;
     const double reach = std::sqrt(u * u + w * w);
-    // The triangle of arm, parallelogram and the way from the arm's axis; the knee is outwards.
+    // Triangle of arm, parallelogram and the line from the arm's axis; the knee is outwards.
     const double inside = (G::kArm * G::kArm + reach * reach - fold * fold) / (2 * G::kArm * reach);
     angles[i] = std::atan2(w, u) - std::acos(inside);
   }

@@ -8,11 +8,11 @@ namespace {
 constexpr std::uint8_t kBegin = '<';
 constexpr std::uint8_t kEnd = '>';
 constexpr std::uint8_t kLetter = 'A';
-constexpr std::size_t kFlags = 13;  // place of buttons and homed arms, or of lights
+constexpr std::size_t kFlags = 13;  // index of buttons and homed arms, or of lights
 constexpr std::size_t kSpare = 14;
 constexpr std::uint8_t kMostFlags = 0x7F;  // three arms and four buttons
 
-// Whether an octet may stand at a place of a report.
+// Whether an octet is valid at an index of a report.
 bool fits(std::size_t place, std::uint8_t octet) noexcept {
   if (place == 0) return octet == kBegin;
   if (place == kFalconPacket - 1) return octet == kEnd;

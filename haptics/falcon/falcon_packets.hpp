@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What goes over a Falcon's line: a command of 16 octets, and a report of 16 octets in answer. Both
-// are '<', letters, '>': a letter is 'A' and a number on top, four bits of a motor or an encoder
-// in each, the lowest first.
+// Encodes and decodes the packets of a Falcon: a command of 16 octets, answered by a report of 16
+// octets. Both are '<', letters, '>'. A letter is 'A' plus a number: four bits of a motor or an
+// encoder, the lowest first.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ inline constexpr std::size_t kFalconHeader = 2;
 struct FalconCommand {
   std::array<std::int16_t, 3> motors{};
   std::uint8_t lights = 0;  ///< 2 green, 4 blue, 8 red
-  bool homing = false;      ///< look for the arms' reference places
+  bool homing = false;      ///< search for the reference positions of the arms
 
   friend bool operator==(const FalconCommand&, const FalconCommand&) = default;
 };
@@ -30,7 +30,7 @@ struct FalconCommand {
 struct FalconReport {
   std::array<std::int16_t, 3> counts{};  ///< of the encoders
   std::uint8_t buttons = 0;              ///< 1 plus, 2 forward, 4 centre, 8 minus
-  std::uint8_t homed = 0;                ///< a bit for each arm; 7: its counts are angles
+  std::uint8_t homed = 0;                ///< a bit for each arm; 7: the counts are angles
 
   friend bool operator==(const FalconReport&, const FalconReport&) = default;
 };
@@ -38,15 +38,15 @@ struct FalconReport {
 [[nodiscard]] std::array<std::uint8_t, kFalconPacket> octets_of(
     const FalconCommand& command) noexcept;
 
-/// Puts reports together from octets in any pieces. A '<' begins anew, wherever it comes, for no
-/// letter is one; what is no report is dropped and counted. No allocation; one thread.
+/// Decodes reports from a stream of octets. A '<' always starts a new report, because no letter is
+/// '<'. Malformed reports are dropped and counted. No allocation; one thread.
 class FalconReportParser {
  public:
-  /// @return the report that this octet ends
+  /// @return the report that this octet completes
   [[nodiscard]] std::optional<FalconReport> take(std::uint8_t octet) noexcept;
-  /// What came so far of a report is forgotten.
+  /// Discards a partly received report.
   void restart() noexcept { length_ = 0; }
-  /// Begun and dropped, since the start.
+  /// Reports begun and dropped since the start.
   [[nodiscard]] std::uint64_t malformed() const noexcept { return malformed_; }
 
  private:

@@ -199,7 +199,7 @@ bool BoundingVolumeTree::clip(const Eigen::Vector3d& origin, const Eigen::Vector
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     ray.origin[axis] = broadcast(from[i]);
-    // Not zero, so that no product is NaN; the box's padding hides the difference.
+    // Not zero, so no product is NaN; the box's padding covers the difference.
     const float safe = std::abs(way[i]) > 1e-18f ? way[i] : std::copysign(1e-18f, way[i]);
     ray.inverse[axis] = broadcast(1.0f / safe);
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Search of many boxes: those along a short path, near a point or in a box. A tree of four-wide
+// Search of many boxes: along a short path, near a point or in a box. A tree of four-wide
 // axis-aligned boxes in single precision. The padding of the boxes exceeds the rounding of all
 // numbers in a query, so that a result may have too many boxes but never too few.
 #pragma once
@@ -44,8 +44,7 @@ class BoundingVolumeTree {
                      const double& limit, Visit&& visit, Soon&& soon = {}) const;
 
   /// Visits runs of items that a ball of `radius` [m] about origin + t step may meet, t in [0,
-  /// limit], roughly in the order of the meetings; `visit` as above. For a ball larger than its
-  /// step.
+  /// limit], roughly in the order of contact; `visit` as above. For a ball larger than its step.
   template <class Visit, class Soon = NoNews>
   void along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                   const double& limit, Visit&& visit, Soon&& soon = {}) const;
@@ -61,14 +60,14 @@ class BoundingVolumeTree {
   template <class Visit>
   void overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const;
 
-  /// A box of the tree, for searches of one's own, such as of two trees at once.
+  /// A box of the tree, for custom searches, such as of two trees at once.
   struct Branch {
-    Eigen::AlignedBox3d box;  ///< [m], around all that is in it
-    std::uint32_t first = 0;  ///< place in order(); without items the number of a node
+    Eigen::AlignedBox3d box;  ///< [m], bounds of its content
+    std::uint32_t first = 0;  ///< index in order(); without items the number of a node
     std::uint32_t count = 0;  ///< items; 0: visit_children(first, ..)
   };
 
-  /// Around all items. Not for a tree without any.
+  /// The branch of all items. The tree must not be empty.
   [[nodiscard]] Branch root() const noexcept { return {bounds_, 0, 0}; }
 
   /// Calls visit(const Branch&) for each of the one to four branches of a node.
@@ -77,7 +76,7 @@ class BoundingVolumeTree {
 
   /// Levels below the root.
   [[nodiscard]] int depth() const noexcept { return depth_; }
-  /// Levels below any root, at most.
+  /// Greatest depth of any tree.
   static constexpr int kMaxDepth = 60;
 
  private:
@@ -97,13 +96,13 @@ class BoundingVolumeTree {
   struct Entry {
     std::uint32_t child;
     std::uint32_t count;
-    float key;  // time or distance at which the child's box begins
+    float key;  // time or distance of the child's box
   };
   /// A segment clipped to the root box, in tree units.
   struct Ray {
     std::array<Float4, 3> origin;
     std::array<Float4, 3> inverse;
-    double first = 0.0;   // t at the begin of the clipped segment
+    double first = 0.0;   // t at the start of the clipped segment
     double length = 1.0;  // its share of t
   };
   struct Builder;
@@ -263,8 +262,7 @@ void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limi
   }
 }
 
-// Every number has the same roundings as those of the boxes, and none of them can turn "not above"
-// into "above".
+// Every number is rounded like the boxes, which cannot turn "not above" into "above".
 template <class Visit>
 void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const {
   if (nodes_.empty()) return;

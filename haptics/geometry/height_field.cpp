@@ -72,7 +72,7 @@ class SolidMaker {
         add(a, c, d, kTop);
       }
   }
-  /// Pixels of the border, to the left seen from above.
+  /// Pixels of the border, counterclockwise seen from above.
   [[nodiscard]] std::vector<Index> border() const {
     std::vector<Index> round;
     for (std::size_t i = 0; i + 1 < columns_; ++i) round.push_back(at(i, 0));

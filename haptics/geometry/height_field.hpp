@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A solid whose upper side is a picture, as triangles. Set-up code.
+// Makes triangles of a solid whose upper side is a picture. Set-up code.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace reckon::haptics {
 
-/// Of a picture that becomes a solid: two triangles each, some 600 octets at load.
+/// Greatest size of a picture for a solid: two triangles for each pixel, about 600 octets at load.
 inline constexpr std::size_t kMostFieldPixels = 1 << 20;
 
 /// The picture of a solid.
@@ -19,14 +19,15 @@ inline constexpr std::size_t kMostFieldPixels = 1 << 20;
 /// than kMostFieldPixels, a length out of its range
 [[nodiscard]] GreyImage heights_of(const HeightsShape& shape);
 
-/// Its length along y [m]: as stated, or of square pixels.
+/// Length of the shape along y [m]: as stated, or for square pixels.
 [[nodiscard]] double length_of(const HeightsShape& shape, const GreyImage& picture) noexcept;
 
-/// At most so many pixels of it, evenly spread and with its border. For drawing.
+/// A picture of at most `most_pixels` pixels, evenly spread and with the border of `picture`. For
+/// drawing.
 [[nodiscard]] GreyImage thinned(const GreyImage& picture, std::size_t most_pixels);
 
 /// The closed surface: two triangles between each four pixels, four walls, a bottom. Its vertices
-/// stand over the middles of the pixels. Triangles are named "top", "side" and "bottom", as
+/// are above the centers of the pixels. Triangles are named "top", "side" and "bottom", as
 /// materials.
 /// @param picture of heights_of()
 [[nodiscard]] TriangleSoup solid_of(const HeightsShape& shape, const GreyImage& picture);

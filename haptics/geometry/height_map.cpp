@@ -15,18 +15,18 @@ namespace {
 
 constexpr std::size_t kLeast = 4;
 constexpr std::size_t kRandom = 64;   // along each edge of a random map
-constexpr std::size_t kEnough = 256;  // along each edge, for a mean
+constexpr std::size_t kEnough = 256;  // samples along each edge that suffice for a mean
 
 }  // namespace
 
-/// Four neighbours along one axis: where they are, and their weights in the value and the slope.
+/// Four neighbours along one axis: their indices, and their weights in value and slope.
 struct HeightMap::Weights {
   std::size_t at[4];
   double value[4], slope[4];
 
   Weights(double place, std::size_t count) noexcept {
     const double n = static_cast<double>(count);
-    // A place that is no number is at the begin.
+    // NaN counts as the start.
     const double share = place - std::floor(place);
     const double x = std::isfinite(share) ? share * n : 0.0;
     const auto cell = std::min(static_cast<std::size_t>(x), count - 1);
@@ -87,8 +87,8 @@ Eigen::Vector2d HeightMap::gradient(const Eigen::Vector2d& place) const noexcept
   return {sum(x, x.slope, y, y.value), sum(x, x.value, y, y.slope)};
 }
 
-// For h = cos(2 pi x / length) the spread of the slope is 2 pi / length times that of h. Of a large
-// map some heights are enough.
+// For h = cos(2 pi x / length) the spread of the slope is 2 pi / length times the spread of h. A
+// sample of the heights suffices for a large map.
 double HeightMap::wavelength(const Eigen::Vector2d& size) const noexcept {
   const std::size_t across = std::max<std::size_t>(1, columns_ / kEnough);
   const std::size_t along = std::max<std::size_t>(1, rows_ / kEnough);

@@ -23,7 +23,7 @@ constexpr double kLeastApproach = 1e-6;       // least share of a path along its
 constexpr double kCutRoom = 1e-3;             // of the size, around the bounds
 constexpr double kLongestStretch = 4.0;       // [sizes], range of the search for an SCP outside
 constexpr int kMostClimbs = 64;
-// Samples after which a path that is slow at first counts as one along a surface: the remaining
+// Samples after which a path that is slow at first counts as parallel to a surface: the remaining
 // samples would not help.
 constexpr int kFirstSamples = 6;
 constexpr double kSlow = 1e-3;
@@ -181,7 +181,7 @@ bool ImplicitSolid::climb_out(Vector3d& p, double radius) const noexcept {
   return sample(p).value >= radius + kFloorShare * clearance_;
 }
 
-// If the gradient leads nowhere, as at the very centre: inwards from outside, along an axis.
+// If the gradient gives no direction, as at the very centre: inwards from outside, along an axis.
 Vector3d ImplicitSolid::nearest_outside(const Vector3d& p, double radius) const noexcept {
   Vector3d climbed = p;
   if (climb_out(climbed, radius)) return climbed;
@@ -200,8 +200,9 @@ Vector3d ImplicitSolid::nearest_outside(const Vector3d& p, double radius) const 
   return best;
 }
 
-// Advances by the distance that f proves to be free until f is down to the stop. If it is so at the
-// start, rounding may have moved the SCP there, and only motion towards the surface is barred.
+// Advances by the distance that f proves to be free until f is down to the stop. If f is below it
+// at the start, rounding may have moved the SCP there, and only motion towards the surface is
+// blocked.
 bool ImplicitSolid::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                           SweepHit& hit) const noexcept {
   const double length = step.norm();

@@ -16,7 +16,7 @@
 namespace reckon::haptics {
 
 /// Solid where f < 0, object axes [m]. A probe of radius r touches where f = r. Where f is the
-/// distance, its ball then lies on the surface. At convex edges of intersections and differences f
+/// distance, its ball then touches the surface. At convex edges of intersections and differences f
 /// is less, and the ball stays up to the mitre away.
 ///
 /// The SCP settles at one clearance above that: 0.4 nm, or 1e-10 of the size for objects above 4 m.

@@ -60,7 +60,7 @@ struct MeshReport {
 /// 5184 triangles, closed; 12 vertices merged, 3 polygons cut".
 [[nodiscard]] std::string mesh_summary(const MeshReport& report);
 
-/// Remarks for the user, a sentence each with place, repair and remedy: triangles dropped, turned
+/// Notices for the user, a sentence each with place, repair and remedy: triangles dropped, turned
 /// or repeated, holes, edges with many triangles, a size that no hand can feel.
 [[nodiscard]] std::vector<std::string> mesh_notes(const MeshReport& report);
 

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Distance from the goal at which friction holds an SCP that lies `lateral` from it, under `load`.
+// Distance from the goal at which friction holds an SCP under `load`. @param lateral present
+// distance
 double stay(FrictionCone* friction, double lateral, double load) {
   if (friction == nullptr) return 0.0;
   const double held = friction->held(lateral, load, friction->sliding());

@@ -19,10 +19,10 @@ using Eigen::Array3i;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kHalvings = 40;   // of an edge, to its crossing
-constexpr int kSteps = 3;       // of Newton's, onto the surface
-constexpr double kFlat = 0.02;  // of the greatest spread of normals: less is no edge
-// Others are tried where two sheets of the surface share a cell.
+constexpr int kHalvings = 40;   // bisections of an edge to its crossing
+constexpr int kSteps = 3;       // Newton steps onto the surface
+constexpr double kFlat = 0.02;  // of the greatest spread of normals; a smaller spread is no edge
+// Further grids to try if two sheets of the surface share a cell.
 constexpr std::array<int, 4> kMoreCells = {0, 3, 7, 12};
 
 class Contour {
@@ -30,7 +30,7 @@ class Contour {
   Contour(const ImplicitSolid& solid, int cells) : solid_(solid) {
     const Eigen::AlignedBox3d& box = solid.bounds();
     edge_ = box.sizes().maxCoeff() / cells;
-    // No place of the grid lies in a plane of a shape that begins at its bounds.
+    // Keeps grid points off planes of the shape at its bounds.
     const Vector3d room = Vector3d::Constant(1.37 * edge_);
     low_ = box.min() - room;
     counts_ = ((box.sizes() + 2.0 * room) / edge_).array().ceil().cast<int>();
@@ -67,8 +67,8 @@ class Contour {
   [[nodiscard]] bool is_inside(const Array3i& at) const { return values_[index(at)] < 0.0; }
   [[nodiscard]] static Array3i along(int axis) { return Eigen::Vector3i::Unit(axis).array(); }
 
-  // The edge from a place along an axis, if it crosses the surface: a square of the corners in the
-  // four cells about it.
+  // Handles the edge from a grid point along an axis: if it crosses the surface, adds a square of
+  // the corners in the four cells around it.
   void cross(const Array3i& at, int axis) {
     const bool from = is_inside(at);
     if (from == is_inside(at + along(axis))) return;
@@ -94,8 +94,8 @@ class Contour {
     return number;
   }
 
-  // Where the planes of a cell's crossings meet, and the surface next to it; along an edge or a
-  // face, next to their middle.
+  // The surface point nearest to the intersection of the planes of a cell's crossings; along an
+  // edge or a face, nearest to the middle of the crossings.
   [[nodiscard]] Vector3d corner_place(const Array3i& cell) const {
     std::array<Vector3d, 12> points, normals;
     std::size_t count = 0;
@@ -131,7 +131,7 @@ class Contour {
       const double steep = here.gradient.squaredNorm();
       if (steep > 0.0) at -= here.value / steep * here.gradient;
     }
-    // On a curve it may be in the next cell.
+    // On a curved surface it may be in the next cell.
     const Vector3d room = Vector3d::Constant(0.5 * edge_);
     return at.cwiseMax(low - room).cwiseMin(high + room);
   }
@@ -149,7 +149,7 @@ class Contour {
   double edge_ = 0.0;  // [m]
   Vector3d low_ = Vector3d::Zero();
   Array3i counts_ = Array3i::Zero();  // cells
-  std::vector<double> values_;        // at the places
+  std::vector<double> values_;        // at the grid points
   std::vector<std::uint32_t> corner_of_;
   std::vector<Vector3d> corners_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

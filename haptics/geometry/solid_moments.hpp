@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Volume, middle and inertia of what a closed mesh encloses.
+// Volume, center of mass and inertia of the solid in a closed mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,16 @@
 
 namespace reckon::haptics {
 
-/// Of a body of one density, in the axes of its mesh.
+/// For uniform density, in the axes of the mesh.
 struct SolidMoments {
-  double volume = 0.0;                                ///< [m^3]
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();   ///< [m], centre of mass
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about it, for a mass of 1 kg [m^2]
+  double volume = 0.0;                               ///< [m^3]
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m], center of mass
+  Eigen::Matrix3d inertia =
+      Eigen::Matrix3d::Zero();  ///< about the center of mass, for a mass of 1 kg [m^2]
 };
 
 /// Exact for the mesh: a sum over the tetrahedra between its triangles and a point near it.
-/// O(triangles). Of an open mesh, whatever that sum is.
+/// O(triangles). For an open mesh the result is meaningless.
 [[nodiscard]] SolidMoments moments_of(const SurfaceMesh& mesh);
 
 }  // namespace reckon::haptics

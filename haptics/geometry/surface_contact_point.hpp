@@ -39,14 +39,14 @@ namespace reckon::haptics {
 /// Invariants for any motion of the device. The SCP keeps the probe's radius and at least half of
 /// kRelativeClearance of the object's size from every triangle, and half an
 /// ImplicitSolid::clearance() from every implicit surface. So it cannot pass a surface. An update
-/// never raises |device - scp|, since every move leads towards the nearest point of a convex set
+/// never raises |device - scp|, because every move leads towards the nearest point of a convex set
 /// that contains the SCP.
 class SurfaceContactPoint {
  public:
   /// @param radius of the probe [m], >= 0
   explicit SurfaceContactPoint(double radius = 0.0) noexcept : radius_(radius) {}
 
-  /// Puts the SCP at `device`, or at a place outside nearby if the probe overlaps the solid there.
+  /// Puts the SCP at `device`, or outside nearby if the probe overlaps the solid there.
   /// @return true if `device` was inside.
   bool reset(const ContactShape& shape, const Eigen::Vector3d& device) noexcept;
 
@@ -64,7 +64,7 @@ class SurfaceContactPoint {
   [[nodiscard]] const Eigen::Vector3d& scp() const noexcept { return point_.scp; }
   [[nodiscard]] const Eigen::Vector3d& normal() const noexcept { return point_.normal; }
   [[nodiscard]] bool in_contact() const noexcept { return point_.in_contact; }
-  /// Of a mesh in contact: the triangle with most of the load.
+  /// The triangle of a mesh in contact with the greatest load.
   [[nodiscard]] std::uint32_t triangle() const noexcept { return triangle_; }
 
  private:

@@ -244,7 +244,7 @@ bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double rad
 }
 
 // A list pays if sweeps begin near each other and few triangles are near. The margin adapts to
-// that. The centre of the list lies ahead, because a hand mostly continues its motion.
+// that. The centre of the list is ahead, because a hand mostly continues its motion.
 bool SurfaceMesh::list_near(const Vector3d& p, double stop, NearTriangles& near) const noexcept {
   const double usual = size_ / std::sqrt(static_cast<double>(triangles_.size()));
   if (near.margin_ == 0.0) near.margin_ = usual;

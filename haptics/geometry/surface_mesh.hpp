@@ -58,8 +58,8 @@ class SurfaceMesh {
 
   [[nodiscard]] const MeshReport& report() const noexcept { return report_; }
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
-  /// Origin of this mesh's axes, in the axes of its shape [m]. Zero, except for a file whose middle
-  /// lies more than 100 of its sizes from the file's own origin: then that middle.
+  /// Origin of this mesh's axes, in the axes of its shape [m]. Zero, unless the middle of the file
+  /// is more than 100 of its sizes from the file's own origin: then that middle.
   [[nodiscard]] const Eigen::Vector3d& origin() const noexcept { return origin_; }
   /// Diagonal of the bounding box [m].
   [[nodiscard]] double size() const noexcept { return size_; }
@@ -118,7 +118,7 @@ class SurfaceMesh {
   /// Inside of a closed surface, by the vote of three rays; false for a shell.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
 
-  /// Whether the foot of p on the triangle's plane lies in the triangle.
+  /// Whether the foot of p on the triangle's plane is in the triangle.
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a file to a SurfaceMesh: of a mesh, polygons cut, scaled, centred; of a picture, a solid.
+// Makes a SurfaceMesh from a file: a mesh, with polygons cut, scaled and centred, or a solid from a
+// picture.
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -100,7 +100,7 @@ bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
   change *= side;
   if (begin >= r && begin + change >= r) return false;
 
-  // The flat: entered from outside. A start within it counts only if the path leads nearer.
+  // The face, entered from outside. A start within the radius counts only if the path leads nearer.
   double slab_enter = 0.0;
   if (begin >= r) {
     slab_enter = (begin - r) / -change;

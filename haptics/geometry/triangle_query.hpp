@@ -20,7 +20,7 @@ struct Sweep {
   Eigen::Vector3d origin;  ///< [m]
   Eigen::Vector3d step;    ///< [m]
   double radius;           ///< [m], > 0
-  double floor;            ///< [m], below the radius: nothing nearer is let pass
+  double floor;            ///< [m], below the radius: no nearer point may pass
   /// Inward motion [m] allowed for a point that starts between floor and radius, so that rounding
   /// does not stop a slide along a surface.
   double slack;
@@ -42,11 +42,11 @@ struct TriangleHit {
 [[nodiscard]] bool sweep_corner(const Eigen::Vector3d& corner, const Sweep& sweep, double limit,
                                 TriangleHit& hit) noexcept;
 
-/// Point of the triangle that is nearest to p.
+/// The point of the triangle nearest to p.
 [[nodiscard]] Eigen::Vector3d closest_on_triangle(const Triangle& triangle,
                                                   const Eigen::Vector3d& p) noexcept;
 
-/// Whether the foot of p on the triangle's plane lies in the triangle, border included.
+/// Whether the foot of p on the triangle's plane is in the triangle, border included.
 [[nodiscard]] inline bool is_over(const Triangle& t, const Eigen::Vector3d& p) noexcept {
   return t.normal.dot((t.b - t.a).cross(p - t.a)) >= 0.0 &&
          t.normal.dot((t.c - t.b).cross(p - t.b)) >= 0.0 &&

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> octets_of(const path& file) {
   return octets;
 }
 
-// Of "bus:vendor:product", hexadecimal, eight digits each.
+// Part 0 .. 2 of "bus:vendor:product", hexadecimal, up to eight digits each.
 std::uint16_t number_of(std::string_view id, std::size_t part) {
   for (; part > 0 && id.find(':') != id.npos; --part) id.remove_prefix(id.find(':') + 1);
   id = id.substr(0, id.find(':'));
@@ -45,7 +45,7 @@ std::uint16_t number_of(std::string_view id, std::size_t part) {
   return static_cast<std::uint16_t>(number);
 }
 
-// As the kernel writes bits: words of hexadecimal digits, those of the lowest bits last.
+// Tests a bit of a bitmap in sysfs: hexadecimal words, the lowest bits last.
 bool has_bit(std::string_view words, unsigned bit) {
   constexpr unsigned kWord = 8 * sizeof(long);
   for (; bit >= kWord; bit -= kWord) {
@@ -68,7 +68,7 @@ bool has_springs(const path& inputs) {
   return false;
 }
 
-// A device that was pulled out is disabled before its file is.
+// An unplugged device fails with ESHUTDOWN until its file is gone.
 int told(long result) noexcept { return result == -ESHUTDOWN ? -ENODEV : static_cast<int>(result); }
 
 class KernelHidCalls final : public HidCalls {
@@ -93,7 +93,7 @@ class KernelHidCalls final : public HidCalls {
     }
     return seen;
   }
-  // A device of HID is of an interface of USB.
+  // The parent of a HID device is its USB interface.
   ReportIntervals report_intervals(const std::string& file) override {
     return intervals_of(facts_ / path(file).filename() / "device" / "..");
   }

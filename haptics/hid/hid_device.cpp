@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// What the kernel has read of it.
+// The octets that the kernel has read.
 std::span<const std::uint8_t> front(const HidReport& report, int octets) noexcept {
   return report.span().first(std::min(report.span().size(), static_cast<std::size_t>(octets)));
 }
@@ -32,7 +32,7 @@ HidDevice::HidDevice(HidCalls& calls, int file, std::string name, PidReports rep
   ask_for_places();
 }
 
-// Some do not answer, and say it by themselves.
+// Some devices do not answer a request, but send reports on their own.
 void HidDevice::ask_for_places() noexcept {
   for (std::size_t axis = 0; axis < reports_.axes().size(); ++axis) {
     if (!reports_.axes()[axis] || places_.is_known[axis]) continue;
@@ -61,7 +61,7 @@ std::string HidDevice::fault() const {
   return {};
 }
 
-// Effects of a program that was killed are still there.
+// The device still holds the effects of a program that was killed.
 int HidDevice::take() noexcept {
   if (const int result = calls_.take(file_); result < 0) return result;
   effects_ = {};
@@ -73,7 +73,7 @@ int HidDevice::take() noexcept {
   return 0;
 }
 
-// What came before the newest report of each number does not matter.
+// Only the newest report of each ID matters.
 int HidDevice::read() noexcept {
   constexpr int kMostAtOnce = 256;
   bool says_any = false;
@@ -110,7 +110,7 @@ int HidDevice::create(Effect& effect, milliseconds length) noexcept {
   return send(reports_.set_effect(load.block, length));
 }
 
-// A new one gets the condition of each axis, one that is there what changes.
+// A new effect gets the conditions of all axes, an existing one only the changed ones.
 int HidDevice::upload(ff_effect& wanted) noexcept {
   const bool is_new = wanted.id < 0;
   Effect* effect = effect_of(wanted.id);

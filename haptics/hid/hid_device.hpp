@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An open device of the class HID PID: the effects that it was told, and where it says that it is.
+// An open device of the class HID PID: its uploaded effects and its last position.
 #pragma once
 
 #include <linux/input.h>
@@ -18,32 +18,31 @@
 
 namespace reckon::haptics {
 
-/// What fails returns -errno. Each report that it sends has reached the device when the call
-/// returns.
+/// Failures return -errno. A report has reached the device when the call that sends it returns.
 class HidDevice {
  public:
-  /// What asking for an effect may take until the device has it or has no room.
+  /// Reads of PID Block Load until the device has created an effect or refused it.
   static constexpr int kTries = 60;
-  /// That a device has to say where it is, unless it is asked.
+  /// Wait for a first input report if the device does not answer a request for one.
   static constexpr std::chrono::milliseconds kFirstReport{100};
-  static constexpr std::size_t kMostEffects = 2;  ///< walls on both sides
+  static constexpr std::size_t kMostEffects = 2;  ///< one wall on each side
 
-  /// @param calls outlive it  @param file that is open
+  /// @param calls outlive the device @param file open descriptor
   HidDevice(HidCalls& calls, int file, std::string name, PidReports reports);
 
   [[nodiscard]] const PidReports& reports() const noexcept { return reports_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] int most_effects() const noexcept { return most_effects_; }
-  /// Of each axis that it has, unless fault() says otherwise.
+  /// Every axis of the device is known if fault() is empty.
   [[nodiscard]] const HidPlaces& places() const noexcept { return places_; }
-  /// Why it gives no springs as walls need them, as a sentence; empty: it does.
+  /// Why it cannot render the springs that walls need, as a sentence; empty: it can.
   [[nodiscard]] std::string fault() const;
 
-  /// Takes it from other programs, and all effects from it.
+  /// Locks the device against other programs, and clears all its effects.
   [[nodiscard]] int take() noexcept;
-  /// The newest of what it has sent since. @return -EAGAIN: nothing
+  /// Reads all pending input reports into places(). @return 0; -EAGAIN: no new values
   [[nodiscard]] int read() noexcept;
-  /// As EVIOCSFF, of a spring: a new one gets its id.
+  /// Uploads a spring as EVIOCSFF does: with id -1 it is new and gets an id.
   [[nodiscard]] int upload(ff_effect& effect) noexcept;
   [[nodiscard]] int erase(int id) noexcept;
   [[nodiscard]] int play(int id, bool on) noexcept;
@@ -51,7 +50,7 @@ class HidDevice {
 
  private:
   struct Effect {
-    std::uint8_t block = 0;  // 0: there is none
+    std::uint8_t block = 0;  // 0: the slot is free
     std::array<ff_condition_effect, EventState::kAxes> told{};
   };
 

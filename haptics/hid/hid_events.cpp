@@ -18,17 +18,17 @@
 namespace reckon::haptics {
 namespace {
 
-// Buttons of a device are without a name of their own.
+// HID buttons are numbered; these key codes have no meaning of their own either.
 constexpr std::uint16_t kFirstButton = BTN_TRIGGER_HAPPY1;
 static_assert(EventState::kMostButtons <= BTN_TRIGGER_HAPPY40 - BTN_TRIGGER_HAPPY1 + 1);
 
 struct Opened {
-  std::optional<HidDevice> device;  // nothing: it gives no forces, or is gone already
-  std::optional<HidPlaces> sent;    // as events
-  std::string unread;               // why it is not known whether it gives forces; empty: it is
+  std::optional<HidDevice> device;  // std::nullopt: no force feedback, or already unplugged
+  std::optional<HidPlaces> sent;    // the state last sent as events
+  std::string unread;               // why its descriptor could not be parsed; empty: it was
 };
 
-// Sets bits of an answer that is as long as the caller has room for.
+// Sets bits of an answer in the caller's buffer; bits beyond its end are dropped.
 class BitAnswer {
  public:
   BitAnswer(void* octets, std::size_t length)
@@ -58,7 +58,8 @@ int answer_bits(const PidReports& reports, unsigned kind, void* to, std::size_t 
   if (kind == EV_FF) {
     bits.set(FF_SPRING, reports.has_springs());
     bits.set(FF_CONSTANT, reports.has_constant_forces());
-    bits.set(FF_PERIODIC, !reports.has_springs() && !reports.has_constant_forces());  // of the rest
+    bits.set(FF_PERIODIC, !reports.has_springs() &&
+                              !reports.has_constant_forces());  // in place of all other effects
     bits.set(FF_GAIN, reports.gain().has_value());
   } else if (kind == EV_ABS) {
     bits.set(ABS_X, reports.axes()[0].has_value());
@@ -108,7 +109,7 @@ int answer(HidDevice& device, unsigned long request, void* argument) noexcept {
   return answer_bits(device.reports(), number - first, argument, length);
 }
 
-// What differs, as a frame of the kernel. @return events
+// The changes as an evdev frame that SYN_REPORT ends. @return number of events
 int events_between(const std::optional<HidPlaces>& before, const HidPlaces& now,
                    std::span<input_event> events) noexcept {
   std::size_t count = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices of the class HID PID that the kernel does not drive as event devices, by reports of their
-// own: what the kernel's driver does for the others.
+// Presents HID PID devices that the kernel does not drive as event devices, and sends their reports
+// as the kernel's driver does.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace reckon::haptics {
 
-/// Devices that give forces, and whose springs the kernel does not drive.
+/// Devices with force feedback whose springs the kernel does not drive.
 [[nodiscard]] std::vector<HidSeen> undriven_devices(HidCalls& devices);
 
-/// Those of `events`, and after them the undriven_devices(), which are used likewise. By its path
-/// (/dev/hidraw0) each is. Such a device has the effects that it was told until it ends them:
-/// nobody erases those of a program that was killed.
+/// The devices of `events`, followed by the undriven_devices(), with the same calls. Their paths
+/// are those in /dev (/dev/hidraw0). Such a device keeps the effects of a program that was killed
+/// until they end by themselves: the kernel does not erase them.
 [[nodiscard]] std::unique_ptr<EventCalls> with_hid_devices(std::unique_ptr<EventCalls> events,
                                                            std::unique_ptr<HidCalls> devices);
 
-/// Those of the kernel: /dev/input/event0 .., and /dev/hidraw0 ..
+/// The devices of the kernel: /dev/input/event0 .. and /dev/hidraw0 ..
 [[nodiscard]] std::unique_ptr<EventCalls> force_feedback_calls();
 
 }  // namespace reckon::haptics

@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kDesktop = 0x01, kButtons = 0x09, kForces = 0x0F;
 constexpr std::uint32_t kX = hid_usage(kDesktop, 0x30), kY = hid_usage(kDesktop, 0x31);
 
-// Of the page PID: reports, lists, and what stands in them.
+// Usages of the page PID: reports, lists and their fields.
 enum : std::uint32_t {
   kSetEffect = 0x21,
   kBlock = 0x22,
@@ -49,13 +49,14 @@ enum : std::uint32_t {
   kCreateReport = 0xAB
 };
 
-// A share of steps in the steps of a field.
+// Scales `steps` of `of` to a field of range 0 .. `most`.
 std::int64_t rounded_down(std::int64_t steps, double of, std::int64_t most) noexcept {
   const auto all = static_cast<std::int64_t>(of);
   return std::clamp<std::int64_t>(steps, 0, all) * most / all;
 }
 
-// A coefficient below means a wall that ends there, above one that begins: both as deep as that.
+// The center of the condition in steps of the field, rounded away from the hand: a left coefficient
+// means a wall below the center, a right one a wall above it.
 std::int64_t middle_of(const ff_condition_effect& condition, const HidField& field) noexcept {
   const bool is_below = condition.left_coeff > 0;
   const std::int64_t center = condition.center;
@@ -67,7 +68,7 @@ std::int64_t middle_of(const ff_condition_effect& condition, const HidField& fie
   return center < 0 ? -steps : steps;
 }
 
-// In the unit of the field, which is a millisecond where it has none; 0: it cannot say that.
+// In the unit of the field, by default milliseconds; 0: outside the range of the field.
 std::int64_t ticks_of(milliseconds length, const HidField& field) noexcept {
   std::int64_t ticks = length.count();
   if (field.is_seconds) {
@@ -171,7 +172,7 @@ void PidReports::find_effect(const Finder& finder) {
   has_constant_forces_ = finder.choice(effect_, kEffectType, kConstantForce).has_value();
 }
 
-// Without the number of an axis there is one axis.
+// A report without an axis number has one axis.
 void PidReports::find_condition(const Finder& finder) {
   static_cast<Form&>(condition_) = finder.form(HidKind::output, kSetCondition);
   condition_.block = finder.field(condition_, kBlock);

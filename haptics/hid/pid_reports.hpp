@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The reports of a device of the class PID (Physical Interface Devices 1.0) by which it is told
-// springs, and those by which it tells where it is. Pure.
+// Encodes the reports of the class PID (Physical Interface Devices 1.0) that render springs, and
+// decodes its input reports of position and buttons. Pure: no calls of the system.
 #pragma once
 
 #include <linux/input.h>
@@ -21,7 +21,7 @@
 
 namespace reckon::haptics {
 
-/// A report that begins with its number.
+/// A report that begins with its ID.
 class HidReport {
  public:
   static constexpr std::size_t kMost = 256;  ///< octets
@@ -42,83 +42,87 @@ class HidReport {
   std::size_t size_ = 0;
 };
 
-/// What a report of the device says that it is.
+/// Position and buttons of the device, from its input reports.
 struct HidPlaces {
-  std::array<std::int32_t, EventState::kAxes> axes{};  ///< readings
-  std::array<bool, EventState::kAxes> is_known{};      ///< a report has said where the axis is
+  std::array<std::int32_t, EventState::kAxes> axes{};  ///< position, in device units
+  std::array<bool, EventState::kAxes> is_known{};      ///< a report has held the axis
   std::uint32_t buttons = 0;                           ///< bit i: button i + 1 is down
   bool operator==(const HidPlaces&) const = default;
 };
 
-/// What became of an effect that was asked for.
+/// The device's answer to the creation of an effect (PID Block Load).
 struct PidLoad {
   enum class Outcome : std::uint8_t { none, done, full, failed };
   Outcome outcome = Outcome::none;
-  std::uint8_t block = 0;  ///< of the effect, in all that follows
+  std::uint8_t block = 0;  ///< effect block index, for all later reports of the effect
 };
 
-/// What to do with all of a device, and with an effect of it: usages of the page PID.
+/// Commands to a device and to one of its effects: usages of the page PID.
 enum class PidControl : std::uint8_t { enable = 0x97, stop_all = 0x99, reset = 0x9A };
 enum class PidOperation : std::uint8_t { start = 0x79, stop = 0x7B };
 
-/// Made once of a descriptor; what is made of it afterwards takes no heap. Where a field is not in
-/// the descriptor that nothing depends on, it is left out; the rest is needed, see fault().
+/// Built once from a descriptor. The reports that it then makes take no heap. Optional fields that
+/// the descriptor lacks are left out; fault() names a required one that is missing.
 class PidReports {
  public:
   explicit PidReports(const HidReports& reports);
 
-  /// Whether it gives forces at all.
+  /// Whether the device renders any effect.
   [[nodiscard]] bool gives_forces() const noexcept { return gives_forces_; }
   [[nodiscard]] bool has_springs() const noexcept { return create_.spring.has_value(); }
   [[nodiscard]] bool has_constant_forces() const noexcept { return has_constant_forces_; }
-  /// Why it cannot be told springs as walls need them, as a sentence; empty: it can.
+  /// Why it cannot render the springs that walls need, as a sentence; empty: it can.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
-  /// X and Y of what the hand moves.
+  /// Ranges of X and Y; std::nullopt: the device lacks the axis.
   [[nodiscard]] const std::array<std::optional<EventAxis>, EventState::kAxes>& axes()
       const noexcept {
     return ranges_;
   }
   [[nodiscard]] std::size_t buttons() const noexcept { return buttons_.size(); }
-  /// The input report that has an axis, which axes() has.
+  /// An empty input report of the one that holds `axis`, which must be in axes().
   [[nodiscard]] HidReport place_report(std::size_t axis) const noexcept {
     return {place_forms_[axis].number, place_forms_[axis].octets};
   }
-  /// Of the report of what it holds; nothing: it has none.
+  /// An empty PID Pool report; std::nullopt: the device has none.
   [[nodiscard]] std::optional<HidReport> pool() const noexcept;
 
-  // Feature reports: asks for an effect, which report then tells what became of it, and what.
+  // Feature reports: create() asks for an effect, load() is the report to read the answer into (PID
+  // Block Load), and read_load() decodes it.
   [[nodiscard]] HidReport create() const noexcept;
   [[nodiscard]] HidReport load() const noexcept;
   [[nodiscard]] PidLoad read_load(std::span<const std::uint8_t> report) const noexcept;
-  /// Effects that it holds at once; 0: it does not tell.
+  /// Effects that the device holds at once; 0: not reported.
   [[nodiscard]] int read_pool(std::span<const std::uint8_t> report) const noexcept;
-  /// Whether it finds room for effects by itself; where it does not tell, it does.
+  /// Whether the device allocates the memory of effects itself; true if it does not report that.
   [[nodiscard]] bool has_room_of_its_own(std::span<const std::uint8_t> report) const noexcept;
 
-  // Output reports. @param block as PidLoad tells it
+  // Output reports. @param block from PidLoad
   [[nodiscard]] HidReport set_effect(std::uint8_t block,
                                      std::chrono::milliseconds length) const noexcept;
-  /// As linux/input.h has it, rounded so that it is no nearer, no stiffer and no stronger.
+  /// A condition in the units of linux/input.h, rounded so that the wall is no nearer, no stiffer
+  /// and no stronger.
   [[nodiscard]] HidReport set_condition(std::uint8_t block, std::size_t axis,
                                         const ff_condition_effect& condition) const noexcept;
   [[nodiscard]] HidReport operate(std::uint8_t block, PidOperation operation) const noexcept;
-  /// Nothing: it cannot be told that.
+  /// std::nullopt: the device has no such report; the same for control() and gain().
   [[nodiscard]] std::optional<HidReport> free(std::uint8_t block) const noexcept;
   [[nodiscard]] std::optional<HidReport> control(PidControl control) const noexcept;
-  /// The full one.
+  /// Full gain.
   [[nodiscard]] std::optional<HidReport> gain() const noexcept;
 
-  /// An input report; `places` keeps what it does not say. @return whether it says any
+  /// Decodes an input report. `places` keeps what the report lacks. @return whether it holds any of
+  /// it
   [[nodiscard]] bool take(std::span<const std::uint8_t> report, HidPlaces& places) const noexcept;
 
  private:
   using Field = std::optional<HidField>;
   struct Form {
     std::uint8_t number = 0;
-    std::size_t octets = 0;  // 0: there is none
+    std::size_t octets = 0;  // 0: no such report
     HidKind kind = HidKind::output;
   };
-  // A field that says one of a list, or has a bit for each of it, and what it says for one.
+  // A field that selects one usage of a list, or the bit of that usage, and the value that selects
+  // it.
   struct Choice {
     HidField field;
     std::int64_t value = 0;

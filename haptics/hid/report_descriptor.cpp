@@ -27,7 +27,7 @@ enum class GlobalTag : std::uint8_t {
 enum class LocalTag : std::uint8_t { usage = 0, first = 1, last = 2, delimiter = 10 };
 constexpr std::uint8_t kLongItem = 0xFE;
 constexpr std::uint32_t kIsConstant = 1, kIsVariable = 2;
-constexpr std::uint32_t kSeconds = 0x1001;  // 6.2.2.7, of the system SI linear
+constexpr std::uint32_t kSeconds = 0x1001;  // 6.2.2.7: seconds, in the system SI linear
 constexpr std::size_t kMostPushed = 16, kDeepest = 64;
 constexpr std::uint32_t kNumberBits = 8;
 
@@ -49,7 +49,7 @@ struct Globals {
   int exponent = 0;
   std::uint8_t report = 0;
 
-  // 6.2.2.7: as many as make sense of it; that of a range from 0 on has no sign.
+  // 6.2.2.7: the maximum has a sign only if the minimum is negative.
   [[nodiscard]] std::int64_t greatest() const noexcept {
     return least < 0 ? most.with_sign() : std::int64_t{most.value};
   }
@@ -101,7 +101,7 @@ class Reader {
       case GlobalTag::most:
         now_.most = item;
         return true;
-      case GlobalTag::exponent:  // of four bits with a sign; some write it as an octet
+      case GlobalTag::exponent:  // four bits with a sign; some devices write it as an octet
         now_.exponent = static_cast<int>(item.value & 0xF);
         if (now_.exponent > 7) now_.exponent -= 16;
         return true;
@@ -127,7 +127,7 @@ class Reader {
         pushed_.pop_back();
         return true;
       default:
-        return true;  // what the numbers are physically
+        return true;  // physical minimum and maximum
     }
   }
 
@@ -145,13 +145,13 @@ class Reader {
         return add_usages(first, first.value, item.value);
       }
       case LocalTag::delimiter:
-        return false;  // sets of usages to choose from: no such device is known
+        return false;  // alternative usages: no known device has them
       default:
-        return true;  // what is said of them in words
+        return true;  // designators and strings
     }
   }
 
-  // 5.4: one of two octets or less is of the page that holds at the main item.
+  // 5.4: a usage of at most two octets belongs to the usage page in force at the main item.
   bool add_usages(const Item& item, std::uint32_t from, std::uint32_t to) {
     if (to - from >= HidReports::kMostUsages - usages_.size()) return false;
     for (std::uint32_t i = 0; i <= to - from; ++i) usages_.push_back({from + i, item.octets <= 2});

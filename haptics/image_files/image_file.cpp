@@ -17,7 +17,7 @@
 namespace reckon::haptics {
 namespace {
 
-/// Frees what libpng holds, also when a check throws.
+/// Frees libpng's image, even if a check throws.
 struct PngImage {
   png_image png{};
   PngImage() { png.version = PNG_IMAGE_VERSION; }
@@ -37,7 +37,7 @@ GreyImage read_png(std::string_view bytes) {
   const std::size_t width = image.png.width, height = image.png.height;
   check_pixels(width, height);
   check_png_data(bytes);
-  // 8 bits are brightness as stored, without the gamma of a screen: a height is no light.
+  // 8-bit values are used as stored, without gamma: a height is not a brightness.
   const bool deep = (image.png.format & PNG_FORMAT_FLAG_LINEAR) != 0;
   image.png.format = deep ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_GRAY;
   GreyImage out{width, height, std::vector<float>(width * height)};

@@ -18,11 +18,11 @@ struct GreyImage {
 
 inline constexpr std::size_t kLeastPixels = 4;    ///< along each edge
 inline constexpr std::size_t kMostPixels = 4096;  ///< along each edge
-/// A file is read up to here [octets]: more than any picture of kMostPixels needs.
+/// Greatest size of a file [octets]: more than any picture of kMostPixels needs.
 inline constexpr std::size_t kMostImageOctets = 192 << 20;
 
-/// @throws std::invalid_argument for a picture that is too small or too large, or exceeds the
-/// pixels of one scene
+/// @throws std::invalid_argument if a picture is too small or too large, or exceeds the pixel
+/// budget of a scene
 void check_pixels(std::size_t width, std::size_t height);
 
 /// Decodes a PNG file of any depth and colour, or a PGM file (P2 or P5) of 8 or 16 bits. The first

@@ -22,7 +22,7 @@ class PgmNumbers {
  public:
   explicit PgmNumbers(std::string_view bytes) : rest_(bytes) {}
 
-  /// Nothing where no whole number below 2^32 stands.
+  /// std::nullopt: the next token is no whole number below 2^32.
   std::optional<std::uint32_t> next() {
     skip_blanks();
     std::uint32_t value = 0;
@@ -31,7 +31,7 @@ class PgmNumbers {
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
-  /// What follows the one blank after the last number of the header.
+  /// Data after the single blank that ends the header.
   [[nodiscard]] std::string_view raster() const {
     const bool parted = !rest_.empty() && kBlanks.find(rest_.front()) != std::string_view::npos;
     if (!parted) refuse("has no blank after its greatest value; write the picture again");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PGM pictures, as netpbm defines them: grey alone, of 8 or 16 bits. Set-up code.
+// Reads PGM pictures, as netpbm defines them: grey only, of 8 or 16 bits. Set-up code.
 #pragma once
 
 #include <string_view>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/image_files/png_data.hpp"
 
-#define ZLIB_CONST  // zlib then leaves its input alone, and says so
+#define ZLIB_CONST  // declares zlib's input as const
 #include <zlib.h>
 
 #include <array>
@@ -13,8 +13,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr std::size_t kFirstChunk = 8;   // behind the signature; that of the head
-constexpr std::size_t kAroundData = 12;  // length and name before it, a checksum behind it
+constexpr std::size_t kFirstChunk = 8;   // the header chunk, after the signature
+constexpr std::size_t kAroundData = 12;  // length and type before the data, a checksum after it
 
 std::size_t number_at(std::string_view bytes, std::size_t at) {
   std::size_t value = 0;
@@ -23,16 +23,16 @@ std::size_t number_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// More than the rows of the picture take, interlaced or not.
+/// Upper bound of the size of the picture's rows, interlaced or not.
 std::size_t most_unpacked(std::string_view bytes) {
-  constexpr std::size_t kChannels[] = {1, 1, 3, 1, 2, 1, 4, 1};  // by the type of colour
+  constexpr std::size_t kChannels[] = {1, 1, 3, 1, 2, 1, 4, 1};  // by colour type
   const std::size_t width = number_at(bytes, 16), height = number_at(bytes, 20);
   const std::size_t depth = static_cast<unsigned char>(bytes[24]);
   const std::size_t channels = kChannels[static_cast<unsigned char>(bytes[25]) % 8];
   return 2 * height * (width * depth * channels / 8 + 2) + 1024;
 }
 
-/// Unpacks without keeping.
+/// Unpacks data without storing it.
 class Unpacked {
  public:
   explicit Unpacked(std::size_t most) : most_(most) { inflateInit(&stream_); }

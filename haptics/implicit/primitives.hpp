@@ -14,7 +14,7 @@ namespace reckon::haptics {
 /// Value of a signed function at one point.
 struct SignedSample {
   double value = 0.0;                                  ///< [m]
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< at a discontinuity that of one side
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< at a discontinuity, from one side
 };
 
 /// Solid where normal . p < 0.

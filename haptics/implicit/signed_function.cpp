@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// A function that is convex along the path lies above its tangent.
+// A function that is convex along the path is above its tangent.
 double above_tangent(double height, double slope) {
   if (slope >= 0.0) return kFar;
   return height / -slope;

@@ -71,8 +71,8 @@ class SignedFunction {
   [[nodiscard]] std::size_t leaves() const noexcept { return (nodes_.size() + 1) / 2; }
   /// Whether f is the distance outside, and not only a bound of it.
   [[nodiscard]] bool exact_outside() const noexcept { return exact_outside_; }
-  /// Whether f is known to be convex, and so lies above each of its tangents: a convex primitive or
-  /// an intersection of such.
+  /// Whether f is known to be convex, and so above each of its tangents: a convex primitive or an
+  /// intersection of convex functions.
   [[nodiscard]] bool convex() const noexcept { return nodes_.back().convex; }
 
  private:

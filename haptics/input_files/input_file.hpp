@@ -13,7 +13,7 @@
 namespace reckon::haptics {
 
 /// A regular file, open for reading. A folder, device, pipe or socket is refused, and no call waits
-/// for data. It ends where its size at the opening says: a file of /proc has size 0 and is empty.
+/// for data. It ends at its size at the opening: a file of /proc has size 0 and is empty.
 class InputFile {
  public:
   /// Starts the time of LoadProgress for this file, and charges its octets to LoadBudget.

@@ -14,7 +14,7 @@ struct Limit {
   const char* what;
   const char* remedy;
 };
-// In the order of LoadWork. docs/robustness.md has the table and what reaches each bound.
+// In the order of LoadWork. docs/robustness.md has the table, with inputs that reach each bound.
 constexpr Limit kLimits[kLoadWorks] = {
     {512 << 20, "octets in all files", "take smaller files, or fewer"},
     {1 << 21, "triangles in all meshes and pictures", "take coarser ones, or fewer"},

@@ -10,10 +10,10 @@
 
 namespace reckon::haptics {
 
-/// What is counted before it is done.
+/// Kinds of work, each counted before it is done.
 enum class LoadWork : std::uint8_t {
   octets,        ///< of files that are opened
-  triangles,     ///< of meshes, and two for each pixel of a solid made of a picture
+  triangles,     ///< of meshes, and two for each pixel of a solid from a picture
   corner_pairs,  ///< of faces that are not convex: the square of their corners
   pixels,        ///< of pictures
   rows,          ///< of tracks and hand traces
@@ -21,14 +21,14 @@ enum class LoadWork : std::uint8_t {
 };
 inline constexpr std::size_t kLoadWorks = 6;
 
-/// More than the files of one scene may cost; the text has the bound and the remedy.
+/// The files of a scene exceed a bound; the text has the bound and the remedy.
 struct LoadLimitError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Counts the work of one pass over the files of a scene. A budget holds for the thread that makes
-/// it, until its end; one that is made while another holds counts into that one. Readers deep in
-/// the construction of an effect or a shape charge it without a parameter.
+/// Counts the work of one pass over the files of a scene. A budget is active for its thread while
+/// it exists; one made while another is active counts into that one. Readers deep in the
+/// construction of an effect or a shape charge it without a parameter.
 class LoadBudget {
  public:
   LoadBudget() noexcept;
@@ -36,11 +36,11 @@ class LoadBudget {
   LoadBudget(const LoadBudget&) = delete;
   LoadBudget& operator=(const LoadBudget&) = delete;
 
-  /// Charges work that is about to be done, and lets LoadProgress look at its clock. Without a
-  /// budget each call is bounded alone. Some nanoseconds.
+  /// Charges work before it is done, and lets LoadProgress check its clock. Without a budget each
+  /// call is bounded alone. Some nanoseconds.
   /// @throws LoadLimitError if the sum exceeds limit(work); nothing is charged then
   static void take(LoadWork work, std::size_t count);
-  /// Most of it in one pass.
+  /// Greatest amount in one pass.
   [[nodiscard]] static std::size_t limit(LoadWork work) noexcept;
 
  private:

@@ -10,9 +10,9 @@
 
 namespace reckon::haptics {
 
-/// Reports the file that this thread loads after 1 s, and then once a second, while it goes on.
-/// Readers look at the clock between units of work. It holds for the thread that makes it, until
-/// its end; one that is made while another holds reports nothing.
+/// Reports the file that this thread loads: after 1 s, and then once a second while loading
+/// continues. Readers check the clock between units of work. An object is active for its thread
+/// while it exists; a second one made meanwhile reports nothing.
 class LoadProgress {
  public:
   using Clock = std::function<std::chrono::nanoseconds()>;
@@ -26,9 +26,9 @@ class LoadProgress {
 
   /// The loading of a file begins.
   static void begin(const std::filesystem::path& file);
-  /// Between units of work of microseconds: each 64th call looks at the clock.
+  /// Between units of work of microseconds: each 64th call checks the clock.
   static void look();
-  /// Between units of work of milliseconds: looks at the clock.
+  /// Between units of work of milliseconds: checks the clock.
   static void look_now();
 
  private:

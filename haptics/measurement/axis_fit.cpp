@@ -13,17 +13,17 @@ namespace {
 
 using Parameters = Eigen::Vector4d;  // ln mass, damping, friction, delay
 
-// Substeps of a search, and of its last descent [periods].
+// Integration steps of the search, and of its last descent [periods].
 constexpr double kCoarse = 1.0, kFine = 0.1;
 constexpr int kMostIterations = 40;
-constexpr std::size_t kDescents = 3;                    // from the best of the starts
+constexpr std::size_t kDescents = 3;                    // from the best starting points
 constexpr double kLeastMass = 1e-3, kMostMass = 100.0;  // [kg]
 
 AxisModel model_of(const Parameters& p) {
   return {std::exp(p(0)), p(1), std::max(0.0, p(2)), std::max(0.0, p(3))};
 }
 
-// Integral of the forces of a push from its first write on [N s]; none was held before.
+// Integral of the forces of a push from its first write on [N s]; before it the force is zero.
 class Impulse {
  public:
   explicit Impulse(const AxisPush& push) : push_(push), sums_(push.forces.size(), 0.0) {
@@ -44,8 +44,8 @@ class Impulse {
   std::size_t k_ = 0;
 };
 
-// Places that changed, or change next. The others are wrong by where in a step of its sensor the
-// handle stands, all in the same way.
+// Positions next to a change of the reading. At the others the quantization error of the sensor is
+// unknown, and the same for all of a run.
 std::vector<std::size_t> telling(const AxisPush& push) {
   const std::vector<double>& p = push.places;
   std::vector<std::size_t> some;
@@ -54,7 +54,7 @@ std::vector<std::size_t> telling(const AxisPush& push) {
   return some;
 }
 
-// Takes out of values what is along others, or their mean.
+// Subtracts from values their projection on others, or their mean.
 void leave_out(std::span<double> values, std::span<const double> along) {
   double product = 0.0, square = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -68,14 +68,14 @@ void leave_out_mean(std::span<double> values) {
   leave_out(values, std::vector<double>(values.size(), 1.0));
 }
 
-// How far 1 m/s at first carries it, without dry friction: where there is any, nothing creeps.
+// Distance after an initial speed of 1 m/s, without dry friction: with it, no handle creeps.
 double coasted(const AxisModel& model, double time) {
   const double share = model.damping * time / model.mass;
   return std::abs(share) < 1e-6 ? time : -std::expm1(-share) * model.mass / model.damping;
 }
 
-// Where in such a step it began is not known either: of each push the mean is left out, and what a
-// speed at first makes.
+// The quantization error of the first position is unknown too, so the mean of each push is
+// subtracted, and the effect of an initial speed if the handle crept.
 Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p,
                           double substep) {
   std::vector<double> all;
@@ -148,9 +148,9 @@ Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double subste
   return best;
 }
 
-// Where dry friction holds the handle the cost has corners, and a descent may end in one. A delay
-// is what they hide best, and dry friction passes for viscous: others about it are tried until none
-// is better.
+// Where dry friction holds the handle, the cost has corners, and a descent may end in one. They
+// mostly hide the delay, or mistake dry friction for viscous. So descents start from other values
+// around the best until none improves it.
 Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double period,
                      double longest_delay) {
   constexpr int kMostRounds = 6;
@@ -172,7 +172,7 @@ Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double p
 
 }  // namespace
 
-// Semi-implicit steps with the exact decay, so that long ones are stable too; the force is its mean
+// Semi-implicit steps with exact decay, so that long steps are stable too; the force is its mean
 // over the step.
 std::vector<double> places_of(const AxisModel& model, const AxisPush& push, double substep) {
   Impulse impulse(push);

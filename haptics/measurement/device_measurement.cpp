@@ -11,24 +11,25 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kRest = 0.2;         // [s], so long it must not move
-constexpr double kPatience = 6.0;     // [s], for it to come to rest
-constexpr double kStill = 0.002;      // [m/s]
-constexpr double kFirstPush = 0.05;   // [N]
-constexpr double kGrows = 1.3;        // from push to push
-constexpr double kTells = 1.4;        // times the push that just went kWay, to be recorded
+constexpr double kRest = 0.2;        // [s] of rest before a push
+constexpr double kPatience = 6.0;    // [s] allowed to come to rest
+constexpr double kStill = 0.002;     // [m/s]
+constexpr double kFirstPush = 0.05;  // [N]
+constexpr double kGrows = 1.3;       // factor from push to push
+constexpr double kTells =
+    1.4;  // force of recorded pushes / force of the first push that moves kWay
 constexpr double kCoast = 0.4;        // [s], recorded after a push
-constexpr double kSpeedOver = 0.005;  // [s], over which a speed is taken
-constexpr double kGains = 1.3;        // times the speed after the push: nothing passive does that
-constexpr double kMoves = 0.02;       // [m/s], below it no gain is looked for
-constexpr int kRecorded = 8;          // pushes of an axis
+constexpr double kSpeedOver = 0.005;  // [s], interval of a speed
+constexpr double kGains = 1.3;   // times the speed after the push: no passive handle gains so much
+constexpr double kMoves = 0.02;  // [m/s], least speed for that check
+constexpr int kRecorded = 8;     // recorded pushes of an axis
 constexpr std::array<double, 3> kLengths{0.04, 0.05, 0.06};  // [s], of a quarter of a push
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// The step of which all moves are multiples; 0 where there is none.
+// The step of which nearly all moves are multiples; 0: none.
 double step_of(const std::vector<double>& moves) {
   constexpr double kLeast = 1e-7;  // [m]
   double least = 0.0;
@@ -55,7 +56,7 @@ DeviceMeasurement::DeviceMeasurement(const DeviceLimits& limits, std::chrono::na
       axis_(axis_from(0)),
       amplitude_(std::min(kFirstPush, greatest_)) {}
 
-// The first that it has; 3: none.
+// The first axis of the device from `axis` on; 3: none.
 int DeviceMeasurement::axis_from(int axis) const noexcept {
   while (axis < 3 && !axes_[static_cast<std::size_t>(axis)]) ++axis;
   return axis;
@@ -87,7 +88,7 @@ Eigen::Vector3d DeviceMeasurement::step(const DeviceSample& sample, std::chrono:
   return force;
 }
 
-// What was recorded has a hole now.
+// A failed reading leaves a gap in the record, so the push is repeated.
 void DeviceMeasurement::begin_anew() {
   if (phase_ == Phase::push && ++holes_ > kMostHoles) return end(MeasurementProblem::readings);
   now_ = {};
@@ -95,9 +96,9 @@ void DeviceMeasurement::begin_anew() {
   phase_ = Phase::rest;
 }
 
-// A force that is held for too long moves the handle farther than was meant.
+// A force that is held too long moves the handle farther than intended.
 bool DeviceMeasurement::is_punctual(std::chrono::nanoseconds now) {
-  constexpr std::size_t kTold = 1'000;  // steps that tell a share
+  constexpr std::size_t kTold = 1'000;  // least number of steps for a share
   gap_ = last_ ? pdu::to_seconds(now - *last_) : period_;
   last_ = now;
   if (phase_ != Phase::push) return true;
@@ -143,7 +144,7 @@ void DeviceMeasurement::rest(double place) {
   const double mean = mean_of(still);
   for (const double one : still) rests_.push_back(one - mean);
   begin_push();
-  // Without dry friction it does so for long.
+  // Without dry friction a handle creeps for long.
   now_.creeps = *most > *least;
 }
 
@@ -154,7 +155,8 @@ void DeviceMeasurement::begin_push() {
   at_rest_.clear();
 }
 
-// To, fro for twice as long, and to: a mass without friction is then at rest where it began.
+// Forward, backward for twice as long, and forward: a mass without friction is then at rest where
+// it started.
 double DeviceMeasurement::force_at(std::size_t k) const noexcept {
   const double quarter = kLengths[static_cast<std::size_t>(pushes_) % kLengths.size()];
   const double time = static_cast<double>(k) * period_;
@@ -163,7 +165,7 @@ double DeviceMeasurement::force_at(std::size_t k) const noexcept {
   return time < quarter || time >= 3 * quarter ? sign * amplitude_ : -sign * amplitude_;
 }
 
-// [s], of the handle's way to a reading.
+// Time of the motion to a reading [s].
 double DeviceMeasurement::way_time(const DeviceSample& sample) const noexcept {
   if (sample.took) return pdu::to_seconds(*sample.took);
   return heard_ ? heard_gap_ : gap_;
@@ -180,7 +182,7 @@ double DeviceMeasurement::push(const DeviceSample& sample) {
   const double quarter = kLengths[static_cast<std::size_t>(pushes_) % kLengths.size()];
   const double end = 4 * quarter + 2 * kLongestDelay;
   const double time = static_cast<double>(k) * period_;
-  // Once no force is under way any more, a handle may only become slower.
+  // After the last delayed force, a passive handle can only slow down.
   const auto over = static_cast<std::size_t>(std::lround(4 * kSpeedOver / period_));
   const auto after = static_cast<std::size_t>(std::lround(end / period_));
   if (k > after + 2 * over) {
@@ -214,8 +216,8 @@ void DeviceMeasurement::end_push() {
   }
 }
 
-// The present push, with times. The way from read k to the next was under the force of write
-// k - delay, however late they came.
+// The present push, with times. The motion from read k to the next was under the force of write k -
+// delay, however late they were.
 AxisPush DeviceMeasurement::recorded() const {
   AxisPush push = now_;
   const std::size_t last = push.places.size() - 1;

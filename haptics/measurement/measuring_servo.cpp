@@ -10,7 +10,7 @@ MeasuringServo::MeasuringServo(HapticDevice& device, const ForceStop& stop,
 
 void MeasuringServo::step(std::chrono::nanoseconds now) {
   DeviceSample sample = device_.read(now);
-  // When a report came says more than when forces were written.
+  // The receive time of a report is more accurate than the times of the writes.
   if (reports_ != nullptr && !reports_->has_clock()) sample.took.reset();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   MeasuringStage stage = stage_;

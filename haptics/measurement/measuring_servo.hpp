@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The servo that measures a real device: no force until somebody has said so, and none for good
-// after the first surprise, stop or wish to end.
+// The servo that measures a real device: no force before begin(), and none after the first anomaly,
+// software stop or halt().
 #pragma once
 
 #include <atomic>
@@ -16,26 +16,26 @@
 
 namespace reckon::haptics {
 
-/// How far a MeasuringServo is.
+/// Stage of a MeasuringServo.
 enum class MeasuringStage : std::uint8_t {
-  waiting,     ///< its readings fail: not plugged in, not homed
+  waiting,     ///< its readings fail: not attached, not homed
   switch_off,  ///< the operator's switch is not held
-  ready,       ///< its readings have been good for kReady
+  ready,       ///< its readings have been valid for kReady
   pushing,
-  ended,    ///< done, or stopped by its measurement: problem() of it says why
+  ended,    ///< done, or stopped by its measurement: see its problem()
   halted,   ///< by halt()
   stopped,  ///< by the software stop
 };
 
-/// step() belongs to the servo's thread; all else to one other thread, which asks and judges. In
-/// each step a force is written, zero in all stages but `pushing`, so that drivers see a servo that
-/// runs. Neither side waits for the other.
+/// step() is for the servo's thread, all else for one other thread. Each step writes a force, zero
+/// in all stages except `pushing`, so that drivers see a running servo. Neither side blocks on the
+/// other.
 class MeasuringServo {
  public:
   static constexpr std::chrono::milliseconds kReady{300};
 
-  /// @param device, stop outlive it  @param period of the steps, 0.1 to 10 ms  @param reports the
-  /// same device, where it reports at times of its own; null: it does not
+  /// @param device, stop outlive it @param period of the steps, 0.1 to 10 ms @param reports the
+  /// same device if it sends reports at its own times; null otherwise
   MeasuringServo(HapticDevice& device, const ForceStop& stop, std::chrono::nanoseconds period,
                  const UsbDevice* reports = nullptr);
 
@@ -46,15 +46,15 @@ class MeasuringServo {
     const MeasuringStage stage = stage_;
     return begin_ && stage < MeasuringStage::pushing ? MeasuringStage::pushing : stage;
   }
-  /// Pushes from the next step on. @param axes see DeviceMeasurement  @return false, and nothing
-  /// happens, where it is not ready, or the software stop is pressed
+  /// Pushes from the next step on. @param axes see DeviceMeasurement @return false, without effect,
+  /// if it is not ready or the software stop is pressed
   [[nodiscard]] bool begin(DeviceMeasurement::Axes axes);
-  /// No force any more, from the next step on and for good.
+  /// Zero force from the next step on, permanently.
   void halt() noexcept { halt_ = true; }
-  /// Works out an axis whose pushes have ended, if one is waiting; some 0.5 s then. Call it now and
-  /// then. @return whether one was
+  /// Fits an axis with completed pushes, if one is pending, in about 0.5 s. Call it regularly.
+  /// @return whether one was pending
   bool judge();
-  /// The run, once it was begun; what it found once the stage is `ended`.
+  /// The run, from begin() on; its result is valid from stage `ended` on.
   [[nodiscard]] const std::optional<DeviceMeasurement>& run() const noexcept { return run_; }
 
  private:
@@ -65,9 +65,9 @@ class MeasuringServo {
   std::chrono::nanoseconds period_;
   const UsbDevice* reports_;
   std::optional<DeviceMeasurement> run_;
-  std::atomic<MeasuringStage> stage_{MeasuringStage::waiting};  // as of the last step
+  std::atomic<MeasuringStage> stage_{MeasuringStage::waiting};  // of the last step
   std::atomic<bool> halt_{false}, begin_{false};
-  std::int64_t good_ = 0;  // readings in a row
+  std::int64_t good_ = 0;  // valid readings in a row
 };
 
 }  // namespace reckon::haptics

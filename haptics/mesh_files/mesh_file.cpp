@@ -53,7 +53,7 @@ const Format& format_of(const std::filesystem::path& file) {
   return *found;
 }
 
-/// Refuses text in UTF-16, with or without a mark at its begin. A binary STL may begin with any
+/// Refuses text in UTF-16, with or without a byte order mark. A binary STL may begin with any
 /// octets.
 void check_encoding(std::string_view text, const Format& format) {
   if (format.read == read_stl || text.size() < 4) return;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Content of a mesh file before any repair. Coordinates keep every digit of a double: a model in
-// national coordinates lies millions of metres from the origin, where single precision resolves
-// half metres.
+// national coordinates is millions of metres from the origin, where single precision resolves half
+// metres.
 //
 //   const MeshFile stone = read_mesh_file("scenes/touchstone.obj");
 //   stone.vertices[stone.corners[stone.faces[0].first]]   // first corner of the first face
@@ -26,7 +26,7 @@ struct FileFace {
   std::uint32_t count = 0;     ///< of its corners
   std::uint32_t place = 0;     ///< from 1: line of a text file, else number of the face
   std::uint32_t material = 0;  ///< in MeshFile::names, from 1; 0: none
-  std::uint32_t group = 0;     ///< likewise
+  std::uint32_t group = 0;     ///< in MeshFile::names, from 1; 0: none
 };
 
 struct MeshFile {
@@ -53,10 +53,10 @@ struct MeshFile {
 /// too many faces.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file);
 
-/// Cuts a polygon into count - 2 triangles with the same winding. A polygon that is not convex is
-/// cut along inner diagonals; one that crosses itself, anyhow. `corners` index `vertices`; no
-/// triangles for fewer than three corners. Of a polygon that is not convex and has more than 64
-/// corners, the cost grows with their square, which is charged to LoadBudget.
+/// Cuts a polygon into count - 2 triangles with the same winding. A non-convex polygon is cut along
+/// inner diagonals; one that crosses itself, in any way. `corners` index `vertices`; no triangles
+/// for fewer than three corners. For a non-convex polygon with more than 64 corners the cost is
+/// quadratic, and is charged to LoadBudget.
 /// @throws LoadLimitError
 void cut_polygon(std::span<const Eigen::Vector3d> vertices, std::span<const std::uint32_t> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);

@@ -45,7 +45,7 @@ std::vector<Vector2d> flattened(std::span<const Vector3d> vertices,
   return places;
 }
 
-/// The rest of a polygon while its ears are cut off. What is known of a corner holds until a
+/// The rest of a polygon while its ears are cut off. Findings about a corner are valid until a
 /// neighbour is cut.
 class Outline {
  public:
@@ -85,7 +85,7 @@ class Outline {
  private:
   enum class Known : std::uint8_t { nothing, no_ear };
 
-  /// size() if there is none.
+  /// Index of the first ear; size(): none.
   std::size_t first_ear() {
     for (std::size_t i = 0; i < size(); ++i) {
       if (known_[i] == Known::no_ear) continue;

@@ -65,7 +65,7 @@ void read_text(std::string_view bytes, MeshFile& file) {
 
 void read_stl(std::string_view bytes, MeshFile& file) {
   // A binary file may begin with "solid" too; its length identifies it. The letters of a text, read
-  // as a number of facets, are more than any file holds.
+  // as a number of facets, exceed any file.
   const std::size_t octets = kHeader + facets_of(bytes) * kFacet;
   const bool holds_facets = facets_of(bytes) > 0 && bytes.size() > octets;
   if (bytes.size() == octets || holds_facets) {

@@ -18,7 +18,7 @@ class ContactSpring {
   /// Discards the contact, at this probe position [m].
   void reset(const Eigen::Vector3d& probe) noexcept;
 
-  /// Lets go of the surface: gain 0. The next surface begins a new contact.
+  /// Releases the surface: gain 0. The next surface starts a new contact.
   void release() noexcept;
 
   /// The probe moved, and spring and bristle follow. @param probe [m]  @param dt [s], duration of

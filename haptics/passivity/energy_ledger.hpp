@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The energy of one haptic device: what the hand put in, what others gave, what is lent. The forces
-// that may be held with it: energy_port.hpp.
+// The energy of one haptic device: input of the hand, gifts of others, loans. energy_port.hpp has
+// the forces that may be held with it.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace reckon::haptics {
 
 /// One level E for all contacts of a device, which includes the storage of the springs that others
-/// move. It knows energy only: no force, no axis. One thread; O(1); allocates nothing.
+/// move. It contains only energies: no force, no axis. One thread; O(1); allocates nothing.
 class EnergyLedger {
  public:
   /// Energy credited without observation [J], and the power at which this credit refills [W]. A
@@ -30,7 +30,7 @@ class EnergyLedger {
   /// a lower value makes moving surfaces softer.
   static constexpr double kMostKept = 0.04;
 
-  /// Greatest power from all others together, less what was given to them [W] > 0; unlimited at
+  /// Greatest power from all others together, minus the energy given to them [W] > 0; unlimited at
   /// first. Excess energy is not lost but stays pending: see receivable().
   void limit_received_power(double power) noexcept { received_power_ = power; }
 
@@ -41,45 +41,44 @@ class EnergyLedger {
   /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
   /// received, and a surface that brings energy is observed to push. So energy is credited as far
   /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
-  /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
+  /// peers, independent of their identities. The rest is lost. @param seen observed energy [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// Books energy that went to others whatever the level is [J] >= 0; so much may be credited
-  /// again.
+  /// Books energy that went to others, at any level [J] >= 0; as much may be credited again.
   void give_back(double energy) noexcept;
   /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
   /// there is room.
   [[nodiscard]] double receivable() const noexcept;
   /// Advances time by `dt` [s]: both accounts refill.
   void wait(double dt) noexcept;
-  /// Takes `wanted` [J] for a gift, at most 0.9 E, and keeps the energy that pays for the forces
-  /// under way. @return the energy taken [J].
+  /// Takes `wanted` [J] for a gift, at most 0.9 E, but keeps the energy that pays for pending
+  /// forces. @return the energy taken [J].
   double give(double wanted) noexcept;
-  /// Adds a loan: energy that nobody put in and that is paid back. The caller bounds it. @param
+  /// Adds a loan: energy that nobody put in, and which is repaid. The caller bounds it. @param
   /// energy [J] >= 0
   void borrow(double energy) noexcept;
-  /// Pays back, at most the debt, and keeps the energy that pays for the forces under way. @param
-  /// energy [J] >= 0
+  /// Repays at most the debt, but keeps the energy that pays for pending forces. @param energy [J]
+  /// >= 0
   void pay_back(double energy) noexcept;
 
-  /// What the potentials of regions owe, beside E.
+  /// The loan for the potentials of regions, separate from E.
   [[nodiscard]] RegionLoan& region_loan() noexcept { return region_loan_; }
   [[nodiscard]] const RegionLoan& region_loan() const noexcept { return region_loan_; }
-  /// Repays the due part of the loan for regions, but keeps the energy that the forces under way
-  /// need.
+  /// Repays the due part of the loan for regions, but keeps the energy that pays for pending
+  /// forces.
   void repay_regions() noexcept { level_ -= region_loan_.pay_due(spendable()); }
-  /// What pays for the oscillations of regions, beside E.
+  /// Pays for the oscillations of regions, separate from E.
   [[nodiscard]] OscillationBucket& oscillations() noexcept { return oscillations_; }
   [[nodiscard]] const OscillationBucket& oscillations() const noexcept { return oscillations_; }
 
   /// E [J]; below 0 only after a late sample or a wall that cost more than was available.
   [[nodiscard]] double level() const noexcept { return level_; }
   [[nodiscard]] double debt() const noexcept { return level_ < 0 ? -level_ : 0.0; }
-  /// Debt: borrowed and not yet paid back [J].
+  /// Debt: borrowed and not yet repaid [J].
   [[nodiscard]] double owed() const noexcept { return owed_; }
   /// Energy in no spring [J], after the last hold().
   [[nodiscard]] double free() const noexcept { return level_ - booked_; }
-  /// Energy that the hand put in, plus what the device's damping certainly took [J], since the
-  /// start.
+  /// Energy that the hand put in, plus the certain loss in the device's damping, since the start
+  /// [J].
   [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
 
  protected:
@@ -92,12 +91,12 @@ class EnergyLedger {
     level_ += energy;
     absorbed_ += energy;
   }
-  // The hand's account of a force that the bucket of oscillations pays for; E pays what lacks.
+  // Books the work of an oscillation on the hand: the bucket pays for it, and E for the rest.
   void shake(double work) noexcept {
     absorbed_ -= work;
     level_ -= oscillations_.spend(work);
   }
-  // Damping lost `loss`, which was absorbed.
+  // Removes the oscillations' part of an absorbed damping loss.
   void forgo_loss(double loss) noexcept {
     if (!oscillations_.is_in_hand()) return;
     level_ -= oscillations_.take_from_loss(std::min(loss, std::max(0.0, level_)));
@@ -112,9 +111,9 @@ class EnergyLedger {
 
   double level_ = 0.0;
   double booked_ = 0.0;     // w S of the last hold
-  double committed_ = 0.0;  // of level_, pays for the forces under way
+  double committed_ = 0.0;  // of level_, pays for pending forces
   double unearned_ = 0.0;   // of level_, given by others
-  double pushed_ = 0.0;     // of that, what left it, as into the hand, and did not return
+  double pushed_ = 0.0;     // of unearned_, spent on the hand and not returned
 
  private:
   double owed_ = 0.0;

@@ -28,8 +28,8 @@ void EnergyPortOf<axes>::pass() noexcept {
   commit();
 }
 
-// The hand may take |q|^2 T / (4 b) from each force q under way, whatever is booked or shown by
-// then.
+// The hand may take |q|^2 T / (4 b) from each pending force q, independent of later bookings and
+// forces.
 template <int axes>
 void EnergyPortOf<axes>::commit() noexcept {
   if (held_.delay() == 0) return;
@@ -48,7 +48,7 @@ void EnergyPortOf<axes>::keep_in_mind(double dt) noexcept {
   shake_squares_ += dt * shaken_.at_handle().squaredNorm();
 }
 
-// hold() reckoned with the damping that dx costs within its own dt.
+// hold() assumed the damping loss of dx within its own dt.
 template <int axes>
 void EnergyPortOf<axes>::note_late(const Force& dx, double dt) noexcept {
   if (!(period_ > 0) || !(dt > period_)) return;
@@ -85,8 +85,8 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double 
   forgo_loss(lost);
 }
 
-// The bucket pays for the work of an oscillation. Where a motion takes more than it holds, E pays
-// the rest: the damping of that motion has brought E at least as much.
+// The bucket pays for the work of an oscillation. If a motion takes more than the bucket has, E
+// pays the rest: the damping of that motion has added at least as much to E.
 template <int axes>
 void EnergyPortOf<axes>::settle_shake(const Force& dx, double held) noexcept {
   const double work = shaken_.at_handle().dot(dx);
@@ -99,8 +99,8 @@ void EnergyPortOf<axes>::settle_shake(const Force& dx, double held) noexcept {
 
 // Lower bound of the energy for unknown motion. Forces g_j are held for t_j each, within a time t
 // in which the hand moved by D. The least of sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D
-// - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces. Of forces that were held in part it
-// is - sum t_j |g_j|^2 / (4 b), whatever the motion.
+// - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces. For partly held forces it is - sum
+//   t_j |g_j|^2 / (4 b), for any motion.
 template <int axes>
 void EnergyPortOf<axes>::settle_missed(const Force& dx, double took, double held) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
@@ -160,7 +160,7 @@ void EnergyPortOf<axes>::let_go() noexcept {
   commit();
 }
 
-// @param walls share of the walls that stays
+// @param walls remaining share of the walls
 template <int axes>
 SplitBoundOf<axes> EnergyPortOf<axes>::bound_of(const Load& load, double walls,
                                                 double dt) const noexcept {
@@ -205,15 +205,15 @@ PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept 
   const double kept = std::min(kMostKept, kReceivedAtOnce + level_ - unearned_);
   const double thrown_away = std::max(0.0, level_ - booked_ - std::max(kept, reserved));
   level_ -= thrown_away;
-  // What the hand put in repays what regions owe.
+  // The hand's surplus repays the loan for regions.
   if (region_loan().owed() > 0) region_loan().repay(std::max(0.0, thrown_away - unearned_));
   unearned_ = std::max(0.0, unearned_ - thrown_away);
   chosen_ = out.force = out.walls * load.walls + shown;
   return out;
 }
 
-// Reduces first what belongs to no storage.
-// @return false if the unchanged walls leave no energy for the forces under way.
+// Reduces forces without storage first.
+// @return false if the unchanged walls leave no energy for the pending forces.
 template <int axes>
 bool EnergyPortOf<axes>::choose_part(const Load& load, const SplitBoundOf<axes>& bound,
                                      Hold& out) const noexcept {
@@ -244,8 +244,8 @@ bool EnergyPortOf<axes>::choose_part(const Load& load, const SplitBoundOf<axes>&
   return weight.has_value() || held_.delay() == 0;
 }
 
-// The forces under way were paid for when they were chosen, with all storage of the walls. So the
-// shares of the walls that still pay for them are an interval that begins at 0.
+// The pending forces were paid for when they were chosen, with all storage of the walls. So the
+// shares of the walls that still pay for them form an interval that starts at 0.
 template <int axes>
 void EnergyPortOf<axes>::lower_walls(const Load& load, double dt, Hold& out) const noexcept {
   out.walls = 0.0;

@@ -18,13 +18,13 @@
 
 namespace reckon::haptics {
 
-/// Forces that the contacts of a device want to hold for the next sample.
-/// `axes` [N], and [N m] where an axis turns; see DampedAxes.
+/// Forces that the contacts of a device request for the next sample. `axes` [N], and [N m] where an
+/// axis turns; see DampedAxes.
 template <int axes>
 struct PortLoadOf {
   using Force = AxisForces<axes>;
 
-  /// Springs of the static scene [N]; their storage is already out of the ledger, see book().
+  /// Springs of the static scene [N]; their storage is already booked, see book().
   Force walls = Force::Zero();
   double walls_slope = 0.0;   ///< [N/m], upper bound of their curvature
   double walls_stored = 0.0;  ///< [J]
@@ -32,9 +32,9 @@ struct PortLoadOf {
   Force springs = Force::Zero();
   double stored = 0.0;         ///< [J], sum of their storage
   double springs_slope = 0.0;  ///< [N/m], greatest eigenvalue of the sum of their curvature bounds
-  /// Forces that belong to no storage: dampers, effects [N].
+  /// Forces without storage: dampers, effects [N].
   Force extra = Force::Zero();
-  /// Oscillations of regions, which their own bucket pays for [N].
+  /// Oscillations of regions, paid for by OscillationBucket [N].
   Force shake = Force::Zero();
 };
 
@@ -46,7 +46,7 @@ struct PortHoldOf {
   Force force = Force::Zero();  ///< [N]
   double weight = 0.0;          ///< share of `stored` that is booked
   double walls = 1.0;           ///< share of the walls; the caller books it
-  double springs = 1.0;         ///< share of the springs that is shown
+  double springs = 1.0;         ///< rendered share of the springs
   double extra = 1.0;           ///< share of the extra force
 };
 
@@ -56,8 +56,8 @@ struct PortHoldOf {
 ///
 /// Springs that others move are paid from one level E, which includes their storage. E changes only
 /// by the work of the hand and the device's damping, wherever the surfaces move. hold() chooses a
-/// force for which E can pay over any motion, together with all forces under way to the handle.
-/// O(delay); allocates only at construction.
+/// force for which E can pay over any motion, together with all pending forces. O(delay); allocates
+/// only at construction.
 /// @tparam axes 3, or 6 for a device that turns
 template <int axes>
 class EnergyPortOf : public EnergyLedger {
@@ -79,20 +79,20 @@ class EnergyPortOf : public EnergyLedger {
         here_(half_diagonal(resolution)),
         unsure_(here_) {}
 
-  /// The device's damping [N s/m] >= 0 and encoder step [m] >= 0 at the pose that the next settle()
-  /// leads to; until the next call. A force is paid for with the least damping of those that were
-  /// at hand when it, or one under way with it, was chosen.
+  /// Sets the device's damping [N s/m] >= 0 and encoder step [m] >= 0 at the pose of the next
+  /// settle(), until the next call. A force is paid for with the least damping in force when it, or
+  /// another pending force, was chosen.
   void pose(double damping, double resolution) noexcept;
 
-  /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
-  /// samples before it. In missed samples it is unknown how far the hand moved under which force.
-  /// So the worst case is booked, and no work of the hand is credited.
+  /// Books the last sample, in which the hand moved by dx [m] in dt [s] > 0, and the missed samples
+  /// before it. For missed samples the motion under each force is unknown. So the worst case is
+  /// booked, and no work of the hand is credited.
   void settle(const Force& dx, double dt) noexcept { settle(dx, dt, dt); }
-  /// @param took [s] >= 0, of the way dx, where the device tells; 0 where there was none
-  /// @param held [0, 1], least share of the force that was at the handle: what the hand put in is
-  /// booked by it, and what it got in whole
+  /// @param took [s] >= 0, duration of the motion dx, if the device reports it; 0: no motion
+  /// @param held [0, 1], least share of the force that was at the handle: energy from the hand is
+  /// booked with this share, energy to the hand in full
   void settle(const Force& dx, double dt, double took, double held = 1.0) noexcept;
-  /// A sample of dt [s] > 0 ended without a reading of the handle.
+  /// Books a sample of dt [s] > 0 without a reading of the handle.
   void miss(double dt) noexcept;
   /// Whether the handle is read in encoder steps; otherwise follow() does nothing.
   [[nodiscard]] bool reads_in_steps() const noexcept { return unsure_ > 0; }
@@ -106,34 +106,35 @@ class EnergyPortOf : public EnergyLedger {
   /// behind is paid for like any held force. @return false, without any change, if E cannot pay for
   /// it.
   bool hold_instead(const Load& load, const Force& force, double dt) noexcept;
-  /// Chooses the part of load.shake that is held besides, after hold(); see OscillationBucket.
+  /// Chooses the part of load.shake to hold in addition, after hold(); see OscillationBucket.
   const Force& shake(const Load& load, double dt) noexcept;
-  /// Whether an oscillation is held, or under way to the handle.
+  /// Whether an oscillation is held or pending.
   [[nodiscard]] bool shakes() const noexcept { return shakes_for_ > 0; }
-  /// Most that oscillations under way to the handle may put in [J].
+  /// Greatest energy that pending oscillations may put in [J].
   [[nodiscard]] double shakes_under_way(double dt) const noexcept {
     if (shakes_for_ == 0 || !(damping() > 0)) return 0.0;
     const double squares = shaken_.under_way(Force::Zero()).squares;
     return std::min(oscillations().level(), squares * dt / (4.0 * kShakeShare * damping()));
   }
-  /// That part, after attenuate() [N].
+  /// Held part of the oscillations, after attenuate() [N].
   [[nodiscard]] const Force& shaking() const noexcept { return shaking_; }
-  /// The force is scaled by `factor` in [0, 1] on its way to the device.
+  /// Scales the chosen force by `factor` in [0, 1] before it is written.
   void attenuate(double factor) noexcept {
     chosen_ *= factor;
     shaking_ *= factor;
   }
-  /// The device dropped the force by itself, with all forces under way.
+  /// The device dropped its force and all pending forces by itself.
   void let_go() noexcept;
-  /// Discards all energy, for the hand may have taken it; absorbed() falls by it. The debt stays.
+  /// Discards all energy, because the hand may have taken it; absorbed() falls by it. The debt
+  /// stays.
   void clear() noexcept;
 
   [[nodiscard]] double damping() const noexcept { return damping_; }
-  /// Held in the sample that ended last.
+  /// Force held in the last sample.
   [[nodiscard]] Force at_handle() const noexcept { return held_.at_handle() + shaken_.at_handle(); }
-  /// Greatest part of an E below 0 that samples longer than the dt of their hold() account for [J],
-  /// since the start. Each may take b |dx|^2 (1 / dt - 1 / its length) beyond what was reckoned. 0
-  /// for a punctual servo.
+  /// Greatest part of a negative E due to samples longer than the dt of their hold(), since the
+  /// start [J]. Each may take b |dx|^2 (1 / dt - 1 / its length) more than was assumed. 0 for a
+  /// punctual servo.
   [[nodiscard]] double late_cost() const noexcept { return late_cost_; }
   /// Greatest error of absorbed() above the truth from encoder steps [J]: half the diagonal of a
   /// step for each newton by which forces changed, in either direction. 0 without steps.
@@ -147,7 +148,7 @@ class EnergyPortOf : public EnergyLedger {
   }
 
  private:
-  /// Of the damping, what pays for an oscillation's worst motion while there is one.
+  /// Share of the damping that pays for an oscillation's worst motion while there is one.
   static constexpr double kShakeShare = 0.1;
 
   [[nodiscard]] SplitBoundOf<axes> bound_of(const Load& load, double walls,
@@ -164,28 +165,28 @@ class EnergyPortOf : public EnergyLedger {
   }
   void commit() noexcept;
   void settle_shake(const Force& dx, double held) noexcept;
-  /// Of the damping, what pays for all but oscillations.
+  /// Share of the damping that pays for all other forces.
   [[nodiscard]] double rest_share() const noexcept {
     return shakes_for_ > 0 ? 1.0 - kShakeShare : 1.0;
   }
 
   SureDampingOf<axes> sure_;
-  HeldForcesOf<axes> held_;       // all but oscillations
+  HeldForcesOf<axes> held_;       // without oscillations
   HeldForcesOf<axes> shaken_;     // oscillations
   double samples_;                // samples for which a chosen force has to be paid
-  std::vector<double> dampings_;  // [N s/m], of the last delay + 2 poses, a ring
+  std::vector<double> dampings_;  // [N s/m], of the last delay + 2 poses, a ring buffer
   std::size_t next_damping_ = 0;
-  double damping_;            // least of them
+  double damping_;            // least of dampings_
   double here_;               // [m], greatest error of the last reading
-  double unsure_;             // [m], of it and of the one before
-  double period_ = 0.0;       // [s], of the last hold
-  double late_ = 0.0;         // of what E is below 0
+  double unsure_;             // [m], error of the last two readings together
+  double period_ = 0.0;       // [s], dt of the last hold()
+  double late_ = 0.0;         // part of a negative E from late samples
   double written_off_ = 0.0;  // of late_, by clear()
   double late_cost_ = 0.0;
   double allowance_ = 0.0;
   Force chosen_ = Force::Zero();   // to be written
   Force shaking_ = Force::Zero();  // oscillation to be written
-  int shakes_for_ = 0;             // samples in which an oscillation is held, or under way
+  int shakes_for_ = 0;             // samples for which an oscillation is held or pending
   // Since the last reading, if samples were missed: time, and integrals of force and its square.
   double time_ = 0.0;
   Force impulse_ = Force::Zero();

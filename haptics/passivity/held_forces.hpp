@@ -13,17 +13,17 @@
 
 namespace reckon::haptics {
 
-/// A queue of `delay` forces that advances at each write. One thread; O(1), but under_way() is
-/// O(delay); allocates only at construction.
+/// A queue of `delay` forces that advances at each write. One thread; O(1), except under_way(),
+/// which is O(delay); allocates only at construction.
 template <int axes>
 class HeldForcesOf {
  public:
   using Force = AxisForces<axes>;
 
-  /// @param delay [samples] >= 0, between a write and the force at the handle
+  /// @param delay [samples] >= 0, from a write to the force at the handle
   explicit HeldForcesOf(int delay) : under_way_(static_cast<std::size_t>(delay), kNone) {}
 
-  /// Writes `force` [N]; the oldest force under way reaches the handle.
+  /// Writes `force` [N]; the oldest pending force reaches the handle.
   void write(const Force& force) noexcept {
     at_handle_ = force;
     if (under_way_.empty()) return;
@@ -38,7 +38,7 @@ class HeldForcesOf {
 
   [[nodiscard]] int delay() const noexcept { return static_cast<int>(under_way_.size()); }
   [[nodiscard]] const Force& at_handle() const noexcept { return at_handle_; }
-  /// Forces that reach the handle later, each less `walls` [N].
+  /// The pending forces, each minus `walls` [N].
   [[nodiscard]] UnderWayOf<axes> under_way(const Force& walls) const noexcept {
     UnderWayOf<axes> out;
     out.count = static_cast<double>(under_way_.size());
@@ -53,7 +53,7 @@ class HeldForcesOf {
   inline static const Force kNone = Force::Zero();
 
   Force at_handle_ = kNone;
-  std::vector<Force> under_way_;  // a ring, the oldest force at next_
+  std::vector<Force> under_way_;  // a ring buffer, the oldest force at next_
   std::size_t next_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kHalvings = 30;
 
-// The part of `held` that is nearest to `wanted`.
+// The fraction of `held` nearest to `wanted`.
 template <int axes>
 AxisForces<axes> fallen(const AxisForces<axes>& held, const AxisForces<axes>& wanted) noexcept {
   const double square = held.squaredNorm();

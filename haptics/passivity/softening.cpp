@@ -8,7 +8,7 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kLasting = 0.1;   // [s], smoothing of the force held back
-constexpr double kNoticed = 0.02;  // of the force; less is not felt
+constexpr double kNoticed = 0.02;  // of the force; a smaller lack is not felt
 constexpr double kFall = 3.0;      // [1/s], for each unit of force held back
 constexpr double kFastest = 1.0;   // [1/s]
 constexpr double kRise = 0.3;      // [1/s]

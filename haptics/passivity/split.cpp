@@ -56,9 +56,9 @@ std::optional<double> largest_weight(const SplitBoundOf<axes>& bound,
   return low;
 }
 
-// The share s satisfies |s - w|^2 |F|^2 + rests under way <= 4 (c0 - w k) (E - w S): a cone over
-// two lines. So the pairs (s, w) are a convex set, and the greatest s is concave in w. Outside it
-// the function is the negative deficit, so that the search finds the set.
+// The share s satisfies |s - w|^2 |F|^2 + pending rests <= 4 (c0 - w k) (E - w S): a cone over two
+// lines. So the pairs (s, w) are a convex set, and the greatest s is concave in w. Outside it the
+// function is the negative deficit, so that the search finds the set.
 template <int axes>
 std::optional<Strongest> strongest(const SplitBoundOf<axes>& bound) noexcept {
   const double size = bound.springs.norm();

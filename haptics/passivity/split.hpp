@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of a force that the present energy allows to hold for one sample. A share of its
 // potential is booked, so that it releases like a spring. The remainder is a constant force, called
-// rest. On a device with a delay the forces under way are treated together.
+// rest. On a device with a delay, the pending forces are treated together.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,11 @@
 
 namespace reckon::haptics {
 
-/// Of a device with `axes` axes: forces [N] and, where an axis turns, torques [N m]; see
-/// DampedAxes.
+/// Forces [N] of a device with `axes` axes, and torques [N m] for rotational axes; see DampedAxes.
 template <int axes>
 using AxisForces = Eigen::Matrix<double, axes, 1>;
 
-/// Forces that are written and not yet at the handle: d of them, each less the force of the walls.
+/// Pending forces, written and not yet at the handle: d of them, each minus the force of the walls.
 template <int axes>
 struct UnderWayOf {
   double count = 0.0;                               ///< d
@@ -25,8 +24,8 @@ struct UnderWayOf {
 
 /// A force with potential S, force F = -grad S and curvature of at most 2 k / (d + 1), at a port
 /// whose damping pays c0 |dx|^2 over each of the next d + 1 samples. A force A is held in the last
-/// of them, and the forces q_j under way before it. Of each, w F is booked as w S. The remainder is
-/// a rest, whose worst motion costs its square over 4 (c0 - w k):
+/// of them, and the pending forces q_j before it. The part w F of each is booked as w S. The
+/// remainder is a rest, whose worst motion costs its square over 4 (c0 - w k):
 ///   w S + (|A - w F|^2 + sum |q_j - w F|^2) / (4 (c0 - w k)) <= E
 template <int axes>
 struct SplitBoundOf {
@@ -65,7 +64,7 @@ struct Strongest {
   double weight = 0.0;
   double share = 0.0;  ///< of F, in [0, 1]
 };
-/// No value if the forces under way alone exceed the bound with any share of F.
+/// No value if the pending forces alone exceed the bound with any share of F.
 template <int axes>
 [[nodiscard]] std::optional<Strongest> strongest(const SplitBoundOf<axes>& bound) noexcept;
 

@@ -10,7 +10,7 @@ namespace {
 
 double sign_of(WallSide side) noexcept { return side == WallSide::below ? 1.0 : -1.0; }
 
-// Where its force is greatest and grows no further [m].
+// Position at which its force reaches its greatest value [m].
 double end_of(const SpringWall& wall, WallSide side) noexcept {
   return wall.stiffness > 0 ? wall.at - sign_of(side) * wall.most / wall.stiffness : wall.at;
 }
@@ -32,8 +32,8 @@ double stored_in(const SpringWall& wall, WallSide side, double x) noexcept {
   return 0.5 * wall.stiffness * grows * grows + wall.most * (depth - grows);
 }
 
-// Between places where one of the four pieces begins the difference is a parabola, whose slope is
-// the difference of the forces.
+// Between the starts of the four pieces, the difference is a parabola, whose slope is the
+// difference of the forces.
 double worst_rise(const SpringWall& old, const SpringWall& next, WallSide side,
                   PlaceRange places) noexcept {
   const auto rise = [&](double x) { return stored_in(next, side, x) - stored_in(old, side, x); };

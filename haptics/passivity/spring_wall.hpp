@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force model that a device renders by itself: along each of its axes a spring on either side.
+// The force model of a coefficient device: a spring on either side along each of its axes.
 #pragma once
 
 #include <array>
@@ -8,23 +8,22 @@
 
 namespace reckon::haptics {
 
-/// Which way a spring pushes.
+/// Direction of a spring's force.
 enum class WallSide : std::size_t {
-  below,  ///< towards +, a handle that is below its place
-  above,  ///< towards -, a handle that is above its place
+  below,  ///< towards +, on a handle below its surface
+  above,  ///< towards -, on a handle above its surface
 };
 
-/// A spring of one side, along one axis of a device. It stores what is put in and gives back no
-/// more.
+/// A spring of one side, along one axis of a device. It conserves energy.
 struct SpringWall {
-  double at = 0.0;         ///< [m], where it begins
-  double stiffness = 0.0;  ///< [N/m] >= 0; 0: there is none
-  double most = 0.0;       ///< [N] >= 0, its force grows no further
+  double at = 0.0;         ///< [m], position of its surface
+  double stiffness = 0.0;  ///< [N/m] >= 0; 0: no wall
+  double most = 0.0;       ///< [N] >= 0, greatest force
 
   friend bool operator==(const SpringWall&, const SpringWall&) = default;
 };
 
-/// All that a device is told. Walls that are not there have no stiffness.
+/// All walls of a device. A missing wall has no stiffness.
 struct SpringModel {
   static constexpr std::size_t kAxes = 2, kSides = 2;
   std::array<std::array<SpringWall, kSides>, kAxes> walls{};  ///< by axis, then by WallSide
@@ -38,20 +37,20 @@ struct SpringModel {
   friend bool operator==(const SpringModel&, const SpringModel&) = default;
 };
 
-/// [m], how far a handle at `x` [m] is in the wall; 0 outside.
+/// Depth of a handle at `x` [m] in the wall [m]; 0 outside.
 [[nodiscard]] double depth_in(const SpringWall& wall, WallSide side, double x) noexcept;
-/// [N], along the axis.
+/// Force of the wall along the axis [N].
 [[nodiscard]] double force_of(const SpringWall& wall, WallSide side, double x) noexcept;
-/// [J], that the wall gives back until the handle has left it.
+/// Energy that the wall returns until the handle has left it [J].
 [[nodiscard]] double stored_in(const SpringWall& wall, WallSide side, double x) noexcept;
 
-/// Places of a handle [m].
+/// A range of positions of a handle [m].
 struct PlaceRange {
   double from = 0.0, to = 0.0;
 };
 
-/// The most that the stored energy rises, at any of these places, where a wall becomes another [J].
-/// Below 0 where it falls at all of them. Exact but for rounding; about 50 ns.
+/// Greatest increase of the stored energy, at any of these positions, if one wall replaces another
+/// [J]. Negative if it falls at all of them. Exact within rounding; about 50 ns.
 [[nodiscard]] double worst_rise(const SpringWall& old, const SpringWall& next, WallSide side,
                                 PlaceRange places) noexcept;
 

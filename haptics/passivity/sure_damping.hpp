@@ -10,11 +10,11 @@
 
 namespace reckon::haptics {
 
-/// Over a displacement D in a time t a viscous friction b dissipates at least b |D|^2 / t, whatever
-/// the motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(axes) h: a
-/// handle that seems to jump a step now and then moved slowly meanwhile. So motion is divided into
-/// stretches of sixteen steps, and their loss is booked as it becomes certain. In slow motion a
-/// fifth is not credited. Damping and step may differ from pose to pose: of a stretch the worst.
+/// Over a displacement D in a time t, a viscous friction b dissipates at least b |D|^2 / t for any
+/// motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(axes) h: a handle
+/// whose reading jumps a step now and then moves slowly. So motion is divided into stretches of
+/// sixteen steps, and their loss is booked as it becomes certain. In slow motion a fifth is not
+/// credited. If damping and step differ from pose to pose, the worst of a stretch counts.
 template <int axes>
 class SureDampingOf {
  public:
@@ -27,7 +27,7 @@ class SureDampingOf {
         step_before_(resolution),
         longest_(resolution) {}
 
-  /// Those of the pose that the next move() leads to; until the next call.
+  /// Sets damping and step at the pose of the next move(), until the next call.
   void pose(double damping, double resolution) noexcept {
     before_ = std::exchange(damping_, damping);
     step_before_ = std::exchange(step_, resolution);
@@ -48,7 +48,7 @@ class SureDampingOf {
     if (length >= kSteps * longest_) begin();
     return gain;
   }
-  /// The path of the handle is unknown: restarts, with the way from the pose before still to come.
+  /// The path of the handle is unknown: restarts at the last pose.
   void begin() noexcept {
     way_.setZero();
     time_ = booked_ = 0.0;
@@ -59,8 +59,8 @@ class SureDampingOf {
  private:
   static constexpr double kSteps = 16.0;
 
-  double damping_, before_, least_;      // [N s/m], of this pose, the one before, the stretch
-  double step_, step_before_, longest_;  // [m], likewise
+  double damping_, before_, least_;      // [N s/m], of this pose, the last one, the stretch
+  double step_, step_before_, longest_;  // [m], the same
   Eigen::Matrix<double, axes, 1> way_ = Eigen::Matrix<double, axes, 1>::Zero();
   double time_ = 0.0;
   double booked_ = 0.0;

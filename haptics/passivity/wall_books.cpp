@@ -6,7 +6,7 @@
 
 namespace reckon::haptics {
 
-// A wall that begins where the handle cannot be stores nothing there, so it is always paid for.
+// A wall out of reach of the handle stores nothing, so it is always affordable.
 SpringWall WallBooks::payable(std::size_t axis, WallSide side, const SpringWall& wanted,
                               PlaceRange places) const noexcept {
   constexpr int kHalvings = 30;

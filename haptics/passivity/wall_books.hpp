@@ -7,32 +7,33 @@
 
 namespace reckon::haptics {
 
-/// Between two models such a device is a spring: it makes no energy, whenever it is read. What can
-/// make some is a change of the model, for nobody knows where the handle is at that instant. So a
-/// change is booked with the most that it can cost at any place where the handle may be, and one
-/// that costs more than is there is not made. Friction and damping of the device are not credited.
+/// With a fixed model, such a device is a spring and adds no energy. A change of the model can add
+/// energy, because the handle's position at that instant is unknown. So a change is booked with its
+/// greatest cost at any possible position of the handle, and is not made if it costs more than is
+/// available. Friction and damping of the device are not credited.
 ///
-/// The hand never gets more out of the device than it put in: energy() + what the shown walls store
-/// is at most what was absorbed. It holds while changes reach the device in their order, within the
-/// time for which `places` answers, and while the device renders what it was told.
+/// The hand never gets more energy from the device than it put in: energy() plus the energy stored
+/// in the walls is at most the absorbed energy. This holds if changes reach the device in order,
+/// within the time for which `places` is valid, and the device renders its model.
 ///
 /// One thread. No allocation.
 class WallBooks {
  public:
-  /// [J]: more is not kept, lest a later change draw on all that a long session put by.
+  /// Greatest energy kept [J], so that a later change cannot spend the savings of a long session.
   static constexpr double kMost = 0.02;
 
-  /// The nearest wall to `wanted` that can be paid for: as wanted, or it begins deeper. Where more
-  /// is owed than is there, what costs nothing. About 2 us.
-  /// @param places where the handle may be until the device has it
+  /// The affordable wall nearest to `wanted`: equal to it, or deeper. With a debt, a wall that
+  /// costs nothing. About 2 us.
+  /// @param places possible positions of the handle until the device has the wall
   [[nodiscard]] SpringWall payable(std::size_t axis, WallSide side, const SpringWall& wanted,
                                    PlaceRange places) const noexcept;
-  /// The device was told this wall.
+  /// Books a wall that was sent to the device.
   void book(std::size_t axis, WallSide side, const SpringWall& told, PlaceRange places) noexcept;
-  /// The device may have let go by itself, or may not have: what it stores is written off.
+  /// The device may have ended its effects by itself, or not: writes off the stored energy.
   void forget() noexcept { shown_ = {}; }
 
-  /// [J], in no wall; below 0 where a change reached the device later than its places answer for.
+  /// Energy outside the walls [J]; negative if a change reached the device later than `places`
+  /// covers.
   [[nodiscard]] double energy() const noexcept { return energy_; }
   [[nodiscard]] const SpringModel& shown() const noexcept { return shown_; }
 

@@ -13,7 +13,8 @@ WrenchCurvature curvature_of(const Eigen::Vector3d& r, const Eigen::Matrix3d& st
   motion.leftCols<3>().setIdentity();
   motion.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
   WrenchCurvature curvature = motion.transpose() * stiffness * motion;
-  // With e off the straight way u: -f e + u K e + e K e / 2, where |e| <= |r| turn^2 / 2.
+  // With the deviation e from the straight path u: -f e + u K e + e K e / 2, where |e| <= |r|
+  // turn^2 / 2.
   const double lever = r.norm(), most = stiffness.norm() * kMostTurn;
   curvature.diagonal().head<3>().array() += 0.5 * most;
   curvature.diagonal().tail<3>().array() +=

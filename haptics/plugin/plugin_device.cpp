@@ -21,7 +21,7 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr const char* kTable = "reckon_device_driver_table";
-constexpr double kUnit = 1e-6;  // of a quaternion's length
+constexpr double kUnit = 1e-6;  // tolerance of a quaternion's length
 
 Vector3d vector(const double (&v)[3]) noexcept { return {v[0], v[1], v[2]}; }
 Quaterniond quaternion(const double (&q)[4]) noexcept { return {q[0], q[1], q[2], q[3]}; }
@@ -44,7 +44,7 @@ DeviceLimits limits_of(const reckon_device_limits& from) {
   return limits;
 }
 
-/// What is impossible in them, with a bound; empty: nothing.
+/// The rule that the limits break, with its bounds; empty: none.
 std::string fault_of(const DeviceLimits& limits) {
   constexpr int kMostDelay = 1000;
   const auto is_within = [](double value, double least, double most) {

@@ -17,14 +17,14 @@
 
 namespace reckon::haptics {
 
-/// Checks all that the driver gives: a reading with a number that is not finite, or an orientation
-/// that is none, is one that failed. A driver that makes the servo wait is told. What a driver does
-/// to the memory of the program cannot be checked: load only what you trust.
+/// Checks all values from the driver: a reading fails if a number is not finite or the orientation
+/// is no unit quaternion. A driver that blocks the servo is reported. A driver can corrupt the
+/// memory of the program, which cannot be checked: load only drivers that you trust.
 class PluginDevice final : public HapticDevice {
  public:
-  /// Loads a driver and opens its device. @param options as the driver has them
-  /// @throws std::runtime_error with the file, what is wrong and the remedy: no such file, no
-  /// driver, another version of the interface, a device that does not open or has impossible limits
+  /// Loads a driver and opens its device. @param options for the driver, in its own format
+  /// @throws std::runtime_error with the file, the fault and the remedy: no such file, no driver,
+  /// another version of the interface, a device that does not open or has impossible limits
   PluginDevice(const std::filesystem::path& file, const std::string& options);
   ~PluginDevice() override;
   PluginDevice(const PluginDevice&) = delete;
@@ -38,14 +38,14 @@ class PluginDevice final : public HapticDevice {
   void write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
                     std::chrono::nanoseconds now) noexcept override;
 
-  /// Of the driver.
+  /// Name of the driver.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// Sentences for the user since the last call: a driver that is slow, readings that are none. One
-  /// thread, any.
+  /// Notices for the user since the last call: a slow driver, invalid readings. From any one
+  /// thread.
   [[nodiscard]] std::vector<std::string> take_notices();
 
-  /// Where one call of the driver in a hundred takes longer, and ten did, it is told: a call that
-  /// the host interrupts is not the driver's.
+  /// A driver is reported as slow if ten calls, and one in a hundred, have taken longer. The
+  /// threshold allows for calls that the host interrupts.
   static constexpr std::chrono::microseconds kSlow{200};
 
  private:

@@ -19,13 +19,14 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr std::uint16_t kAsksToBeHomed = 1;
-constexpr nanoseconds kStale = milliseconds(20);  // what is under way from before has come by then
+constexpr nanoseconds kStale = milliseconds(20);  // older reports have arrived by then
 constexpr nanoseconds kReportTime = milliseconds(50);
 constexpr int kAttempts = 3;
-// [rad] of a joint between two reports: more is no motion, but counters that began anew.
+// [rad] of a joint between two reports: more means that the counters were reset.
 constexpr double kMostJump = 0.5;
-constexpr double kMostAdvance = 0.05;      // [rad], that is believed of an exchange
-constexpr double kHoldUpStep = 1.0 / 250;  // of an exchange
+constexpr double kMostAdvance = 0.05;  // [rad], greatest rotation per exchange that prediction uses
+constexpr double kHoldUpStep =
+    1.0 / 250;  // growth of the share of the weights per exchange: 250 of 2 ms
 constexpr double kMilli = 1e-3;
 
 constexpr const char* kSilence = "it does not answer: is its power supply on?";
@@ -43,7 +44,7 @@ std::string refusal_of(std::size_t octets) {
 
 const UsbFacts& polhem_facts() noexcept {
   static constexpr UsbFacts kFacts{.name = "Polhem",
-                                   .vendor = 0x1234,  // as its program has it
+                                   .vendor = 0x1234,  // as in its firmware
                                    .product = 0x0006,
                                    .most_force = 5.0,
                                    .sure_share = 0.9,
@@ -81,7 +82,7 @@ std::optional<UsbPipes> PolhemDriver::pipes(libusb_device_handle* handle) const 
 
 std::string PolhemDriver::set_up(UsbSetUp& desk) {
   UsbLine& line = desk.line();
-  // It keeps a report for whoever comes, from however long ago.
+  // It keeps an old report until a host reads it.
   if (!desk.sends(octets_of(PolhemCommand{}))) return kSilence;
   const nanoseconds begin = desk.now();
   while (desk.goes_on() && desk.now() - begin < kStale) desk.wait();
@@ -98,7 +99,7 @@ std::string PolhemDriver::set_up(UsbSetUp& desk) {
   return kSilence;
 }
 
-// Without power it has forgotten what it counts from.
+// Without power it loses the reference of its counts.
 void PolhemDriver::lost(bool is_unplugged) noexcept {
   asks_ = sets_counts_ = has_set_ = false;
   if (is_unplugged) homed_ = false;
@@ -116,9 +117,9 @@ bool PolhemDriver::read(std::span<const std::uint8_t>& transfer) noexcept {
   return true;
 }
 
-// Whether the counts of the last report are angles. Joins them to those before.
+// Whether the counts of the last report are angles. Extends them beyond 16 bits.
 bool PolhemDriver::is_homed() noexcept {
-  // It asks until its counts are set: once is a damaged report.
+  // It requests homing until its counts are set: a single request is a damaged report.
   const bool asked_before = std::exchange(asks_, report_.info == kAsksToBeHomed);
   if (asks_) {
     sets_counts_ = asked_before;
@@ -141,7 +142,7 @@ bool PolhemDriver::is_homed() noexcept {
   return homed_;
 }
 
-// Whether its motors could show the largest force here.
+// Whether its motors can hold the largest force at this pose.
 bool PolhemDriver::bears(const PolhemPose& pose, const Vector3d& angles) const noexcept {
   const Vector3d torques = polhem_facts().most_force * pose.jacobian.colwise().norm().transpose() +
                            polhem_hold_up(weights_, angles).cwiseAbs();
@@ -183,7 +184,7 @@ std::span<const std::uint8_t> PolhemDriver::command(UsbStage stage,
   return octets_;
 }
 
-// What the links weigh is held up in whole, and the force has what the motors can hold besides.
+// The weight of the links is compensated first; the force gets the rest of the motors' current.
 std::array<std::int16_t, 3> PolhemDriver::currents(const UsbForce& force) noexcept {
   const Vector3d angles = angles_ + kUsbAhead * turn_;
   const auto ahead = polhem_pose(polhem_1(), angles);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a Polhem needs that other devices on USB do not: its reports, the width of its counters, its
-// start pose, its geometry and the weight of its links.
+// Driver of a Polhem: its reports, the width of its counters, its start pose, its geometry and the
+// weight of its links.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,31 +17,31 @@
 
 namespace reckon::haptics {
 
-/// What is known of every first Polhem: 5 N, by its makers' library; 0.2 N s/m are assumed, nine
-/// tenths of which the servo gets.
+/// Facts of the first Polhem: 5 N, from its makers' library; an assumed damping of 0.2 N s/m, nine
+/// tenths of it for the servo.
 [[nodiscard]] const UsbFacts& polhem_facts() noexcept;
 
-/// Least way of the handle for a turn of the joints, in its worst direction [m/rad]: nearer to a
+/// Least motion of the handle per turn of the joints, in its worst direction [m/rad]. Nearer to a
 /// singular pose there is no force.
 inline constexpr double kPolhemLeastLever = 0.05;
 
-/// Damping [N s/m] that holding the links up may cost. The torques that do are those of where the
-/// links will be in the middle of an exchange; where that is wrong by one, they make no more energy
-/// than this much damping takes.
+/// Damping [N s/m] that the compensation of the weights may cost. Its torques are computed for the
+/// predicted pose at the middle of an exchange. If the prediction is wrong by one exchange, they
+/// add no more energy than this damping dissipates.
 [[nodiscard]] double polhem_spent_damping(const PolhemWeights& weights) noexcept;
-/// The same about the joints [N m s/rad].
+/// The same per joint [N m s/rad].
 [[nodiscard]] double polhem_spent_joint_damping(const PolhemWeights& weights) noexcept;
 
-/// One Polhem, with reports of 14 octets. Its exchange takes 2 ms: a command is there with the next
-/// USB frame, and the report that answers it with the one after.
+/// Driver of a Polhem with reports of 14 octets. Its exchange takes 2 ms: a command arrives with
+/// the next USB frame, and the report that answers it with the one after.
 ///
-/// It tells counts of 16 bits, which come round: ways of less than half of that between reports
-/// join. What they count from is unknown until its button is pressed in its start pose.
+/// Its counts have 16 bits and wrap around: motions of less than half that range between reports
+/// are tracked. Their reference is unknown until the user presses its button in the start pose.
 class PolhemDriver final : public UsbDriver {
  public:
-  /// @param weights that its motors hold up while forces are shown, and more and more within the
-  /// first half second; >= 0
-  /// @throws std::invalid_argument for other weights
+  /// @param weights >= 0, which its motors compensate while it renders forces; the compensation
+  /// ramps up over the first half second
+  /// @throws std::invalid_argument if a weight is negative or no number
   explicit PolhemDriver(const PolhemWeights& weights = {});
 
   [[nodiscard]] const UsbFacts& facts() const noexcept override { return polhem_facts(); }
@@ -67,16 +67,16 @@ class PolhemDriver final : public UsbDriver {
   PolhemReport report_;
   std::uint64_t malformed_ = 0;
   std::array<std::uint8_t, 14> octets_{};
-  double held_up_ = 0;        // share of the weights
-  bool asks_ = false;         // to be homed, in its last report
-  bool sets_counts_ = false;  // with the next command
-  bool has_set_ = false;      // and a report without the request shows that it was obeyed
+  double held_up_ = 0;        // share of the weights that is compensated
+  bool asks_ = false;         // the last report requests homing
+  bool sets_counts_ = false;  // the next command sets the counts
+  bool has_set_ = false;  // a command has set the counts; a report without the request confirms it
   bool homed_ = false;
-  std::array<std::int32_t, 3> counts_{};              // of the last report, beyond 16 bits
+  std::array<std::int32_t, 3> counts_{};              // of the last report, extended beyond 16 bits
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the report before
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
-  double share_ = 1.0;  // of the last force
+  double share_ = 1.0;  // of the last force that was commanded
 };
 
 }  // namespace reckon::haptics

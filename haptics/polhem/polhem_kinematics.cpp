@@ -69,7 +69,7 @@ std::optional<Vector3d> polhem_angles(const PolhemArm& arm, const Vector3d& posi
   const double up = position.z() - arm.base;
   const double far = (out * out + up * up - arm.upper * arm.upper - arm.fore * arm.fore) /
                      (2.0 * arm.upper * arm.fore);
-  // B + C: pi where the links are in line outwards, 0 where the fore link is folded back.
+  // B + C: pi if the links are in line outwards, 0 if the fore link is folded back.
   const double both = std::acos(-far);
   const double along = arm.upper - arm.fore * std::cos(both);
   const double across = arm.fore * std::sin(both);

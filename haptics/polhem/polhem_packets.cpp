@@ -36,7 +36,7 @@ std::optional<PolhemReport> polhem_report(PolhemForm form,
 std::array<std::uint8_t, 14> octets_of(const PolhemCommand& command) noexcept {
   std::array<std::int16_t, 7> words{};
   if (command.counts) {
-    // The gimbal's counts stand where the currents do.
+    // The gimbal's counts take the place of the currents.
     std::copy_n(command.counts->begin() + 3, 3, words.begin());
     words[3] = kSetCounts;
     std::copy_n(command.counts->begin(), 3, words.begin() + 4);

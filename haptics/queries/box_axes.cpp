@@ -12,8 +12,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastSine = 1e-14;  // between edges; any direction is noise below it
-constexpr double kBetter = 1e-13;     // of the sizes; rounding must not prefer an edge to a face
+constexpr double kLeastSine = 1e-14;  // sine between edges; below it the direction is noise
+constexpr double kBetter =
+    1e-13;  // of the sizes, so that rounding does not prefer an edge to a face
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The fifteen axes along which two boxes can be parted: normals of faces, and across two edges
-// (S. Gottschalk, separating axis theorem).
+// Separating axes of two boxes: 15 axes, face normals and cross products of edges (S. Gottschalk).
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +20,10 @@ struct AxisGap {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit, from a to b
 };
 
-/// A gap below 0 is minus the least translation that parts the boxes, exact; one above 0 is a lower
-/// bound of their distance. Of axes with equal gaps the first is taken: x, y, z of a, x, y, z of b,
-/// then those across two edges, which have to be better by 1e-13 of the sizes. Where the middles
-/// coincide along the axis, the direction is the positive one. 0.3 us.
+/// A negative gap is minus the least translation that separates the boxes, exact. A positive one is
+/// a lower bound of their distance. Of equal gaps the first axis is taken: x, y, z of a, x, y, z of
+/// b, then cross products of edges, which must be better by 1e-13 of the sizes. If the centers
+/// coincide along the axis, the direction is positive. 0.3 us.
 [[nodiscard]] AxisGap widest_gap(const OrientedBox& a, const OrientedBox& b) noexcept;
 
 }  // namespace reckon::haptics

@@ -13,7 +13,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-// Farther from the origin than so many cells a place has no number.
+// Greatest distance from the origin in cells; cells beyond have no number.
 constexpr double kMostCells = 4e18;
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -31,7 +31,7 @@ CellGrid::CellGrid(std::size_t numbers) {
   pairs_.reserve(numbers);
 }
 
-// Of its lower corner, at the level whose cells are at least as large.
+// Cell of a box's lower corner, at the level whose cells are at least as large as the box.
 CellGrid::Cell CellGrid::cell_of(const AlignedBox3d& box) noexcept {
   if (!is_box(box)) return {};
   const Cell everywhere{0, 0, 0, kEverywhere};
@@ -114,7 +114,7 @@ std::span<const BoxPair> CellGrid::overlaps() {
   return pairs_;
 }
 
-// Of a box with those of its own size and of larger ones: the smaller box looks for the larger.
+// Finds pairs of a box with boxes of its own level and larger ones: the smaller box searches.
 void CellGrid::find_pairs_of(std::uint32_t number) {
   const int own = entries_[number].cell.level;
   for (std::uint64_t left = levels_ >> own << own; left != 0; left &= left - 1) {
@@ -127,7 +127,7 @@ void CellGrid::find_pairs_of(std::uint32_t number) {
   }
 }
 
-// The lower corner of a box that meets this one lies within one cell below, and not above it.
+// A box that overlaps this one has its lower corner at most one cell below, and not above it.
 CellGrid::CellRange CellGrid::range_of(const AlignedBox3d& box, int level) noexcept {
   const double scale = std::ldexp(1.0, -(level + kLeastPower));
   return {(box.min() * scale).array().floor() - 1.0, (box.max() * scale).array().floor()};
@@ -146,7 +146,7 @@ void CellGrid::find_in_level(std::uint32_t number, int level) {
   const bool same = level == entry.cell.level;
   Cell cell;
   cell.level = level;
-  // Among boxes of one size the one in the lesser cell looks for the other.
+  // Of two boxes of one level, the one in the lower cell searches.
   for (cell.x = same ? entry.cell.x : index(low.x()); cell.x <= index(high.x()); ++cell.x) {
     const bool level_x = same && cell.x == entry.cell.x;
     for (cell.y = level_x ? entry.cell.y : index(low.y()); cell.y <= index(high.y()); ++cell.y) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which of many moving boxes overlap: the broad phase before measure_pair(). A grid for each size
-// of boxes, its cells in a hash table.
+// Broad phase of collision detection, before measure_pair(): finds overlaps of many moving boxes by
+// a hierarchical hash grid, one level for each size of boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +21,13 @@ struct BoxPair {
   friend bool operator==(const BoxPair&, const BoxPair&) = default;
 };
 
-/// Axis-aligned boxes under numbers of the caller's, small ones for a small table. A box lies in
-/// one cell, of a grid whose cells are one to two times as large as it. A box that stays in its
-/// cell costs 5 ns, one that leaves it 30 ns. All pairs of 10,000 boxes that hardly overlap: 1 ms,
-/// in proportion to the boxes and to the pairs; boxes at one place are all pairs of one another.
+/// Axis-aligned boxes by the caller's numbers; small numbers keep the table small. A box is in one
+/// cell, of a level with cells one to two times its size. Moving a box costs 5 ns within its cell,
+/// 30 ns to another. All pairs of 10,000 boxes with few overlaps: 1 ms, linear in boxes and pairs;
+/// boxes at one position all form pairs.
 ///
-/// Allocates while the greatest number, or the count of pairs, is greater than ever before; then
-/// nothing. The order of the pairs depends on nothing but the calls that were made. One thread.
+/// Allocates only when the greatest number or the count of pairs reaches a new maximum. The order
+/// of the pairs depends only on the calls. One thread.
 ///
 /// Example:
 ///   CellGrid grid;
@@ -35,20 +35,21 @@ struct BoxPair {
 ///   for (const BoxPair& pair : grid.overlaps()) ..
 class CellGrid {
  public:
-  /// @param numbers so many have room from the start
+  /// @param numbers reserved from the start
   explicit CellGrid(std::size_t numbers = 0);
 
-  /// Adds a box, or moves or resizes it. @param box [m], of any size, an infinite one too; its ends
-  /// are not NaN, and its minimum not above its maximum: such a box overlaps nothing
+  /// Adds, moves or resizes a box. @param box [m], of any size, possibly infinite. A box with NaN,
+  /// or a minimum above its maximum, overlaps nothing
   void place(std::uint32_t number, const Eigen::AlignedBox3d& box);
-  /// Does nothing for one that is not there.
+  /// Removes a box, if it is there.
   void remove(std::uint32_t number) noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// All pairs of boxes that overlap or touch, each once. Valid until the next call of it.
+  /// All pairs of boxes that overlap or touch, each once. Valid until the next call.
   [[nodiscard]] std::span<const BoxPair> overlaps();
-  /// Calls visit(number) for each box that overlaps or touches `box` [m], in any order. Looks into
-  /// the cells about it, or at all boxes where these are fewer. It must not change the grid.
+  /// Calls visit(number) for each box that overlaps or touches `box` [m], in any order. Searches
+  /// the cells around it, or all boxes if there are fewer of them. `visit` must not change the
+  /// grid.
   template <class Visit>
   void visit(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     for (std::uint64_t left = levels_; left != 0; left &= left - 1)
@@ -57,10 +58,10 @@ class CellGrid {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  // Powers of two in metres, of the edges of cells: 2^-24 (60 nm) to 2^38 m.
+  // Edges of cells are powers of two [m]: 2^-24 (60 nm) to 2^38.
   static constexpr int kLeastPower = -24;
   static constexpr int kLevels = 63;
-  static constexpr int kEverywhere = kLevels;  // for boxes that no cell holds: one list
+  static constexpr int kEverywhere = kLevels;  // list of boxes larger than any cell
 
   struct Cell {
     std::int64_t x = 0, y = 0, z = 0;
@@ -70,10 +71,10 @@ class CellGrid {
   struct Entry {
     Eigen::AlignedBox3d box;
     Cell cell;
-    std::uint32_t before = kNone, after = kNone;  // in its bucket
+    std::uint32_t before = kNone, after = kNone;  // neighbours in its bucket
   };
 
-  /// Cells of a level that may hold a box which meets this one.
+  /// Cells of a level with possible overlaps.
   struct CellRange {
     Eigen::Vector3d low, high;
     [[nodiscard]] double cells() const noexcept;
@@ -116,10 +117,10 @@ class CellGrid {
   void note(std::uint32_t one, std::uint32_t other);
 
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> buckets_;  // first of each list; a power of two of them
+  std::vector<std::uint32_t> buckets_;  // heads of the lists; their number is a power of two
   std::vector<BoxPair> pairs_;
   std::array<std::uint32_t, kLevels + 1> in_level_{};
-  std::uint64_t levels_ = 0;  // with boxes, a bit each; kEverywhere is the last
+  std::uint64_t levels_ = 0;  // bit i: level i has boxes; the last bit is kEverywhere
   std::size_t size_ = 0;
 };
 

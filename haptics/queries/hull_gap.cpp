@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastHalf = 1e-150;  // [m]; its square must not vanish
-constexpr double kProven = 1e-14;      // of the farthest corner, between distance and its proof
-constexpr double kAccepted = 1e-13;    // the same, where rounding lets it get no better
+constexpr double kLeastHalf = 1e-150;  // [m]; its square must not underflow
+constexpr double kProven = 1e-14;      // of the farthest corner: difference of distance and proof
+constexpr double kAccepted = 1e-13;    // the same, if rounding prevents a better proof
 constexpr int kMostSteps = 64;
 
 // A corner of the difference of two hulls.
@@ -24,7 +24,7 @@ struct Vertex {
   std::uint8_t a, b;
 };
 
-// The part of the difference that is nearest to the origin so far: vertices and their weights.
+// The simplex of the difference nearest to the origin so far: vertices and their weights.
 struct Simplex {
   std::array<Vertex, 4> vertex;
   std::array<double, 4> weight{};
@@ -45,7 +45,7 @@ struct Simplex {
 
 Simplex of_one(const Vertex& a) { return {{a}, {1.0}, 1}; }
 
-// Nearest to the origin on a segment, with the vertices that it needs.
+// The point of a segment nearest to the origin, with the vertices that it needs.
 Simplex of_two(const Vertex& a, const Vertex& b) {
   const Vector3d ab = b.w - a.w;
   const double length = ab.squaredNorm();
@@ -137,7 +137,7 @@ Simplex first_simplex(const Hull& a, const Hull& b, const HullStart& start) {
 }
 
 void keep(const Simplex& s, HullStart& start) {
-  // Of a simplex around the origin three vertices: the fourth is found again.
+  // Stores three vertices of a simplex around the origin; the fourth is found again.
   start.count = static_cast<std::uint8_t>(std::min(s.count, 3));
   for (std::size_t i = 0; i < start.count; ++i) {
     start.a[i] = s.vertex[i].a;
@@ -195,7 +195,7 @@ void nearest_of_segments(const Vector3d& p, const Vector3d& p_end, const Vector3
   on_q = q + t * along_q;
 }
 
-// Whether the segment meets the hull, away from the hull's edges.
+// Whether the segment intersects the hull, away from the hull's edges.
 bool pierces(const Vector3d& from, const Vector3d& to, const Hull& hull, Vector3d& at) {
   const Vector3d step = to - from;
   if (hull.count < 3) return false;
@@ -291,7 +291,7 @@ Vector3d Hull::nearest(const Vector3d& p) const noexcept {
 }
 
 HullGap hull_gap(const Hull& a, const Hull& b, HullStart& start) noexcept {
-  if (a.count <= 3 && b.count <= 3) return hull_gap_by_features(a, b);  // few: as fast
+  if (a.count <= 3 && b.count <= 3) return hull_gap_by_features(a, b);  // as fast for few corners
   const double scale = farthest_corner(a) + farthest_corner(b);
   Simplex s = first_simplex(a, b, start);
   Vector3d v = s.point();

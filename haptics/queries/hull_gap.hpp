@@ -11,42 +11,42 @@
 
 namespace reckon::haptics {
 
-/// A box of three, two, one or no extents (8, 4, 2, 1 corners), or a triangle (3).
+/// A box with three, two, one or no extents (8, 4, 2, 1 corners), or a triangle (3).
 struct Hull {
-  /// Of a box: two corners whose numbers differ in one bit share an edge.
+  /// Two corners of a box whose numbers differ in one bit share an edge.
   std::array<Eigen::Vector3d, 8> corners;
   std::uint8_t count = 0;
 
-  /// @param half half edges [m], each >= 0; those below 1e-150 m count as 0
+  /// @param half half edges [m], each >= 0; values below 1e-150 m count as 0
   [[nodiscard]] static Hull of_box(const Eigen::Vector3d& centre, const Eigen::Matrix3d& axes,
                                    const Eigen::Vector3d& half) noexcept;
   [[nodiscard]] static Hull of_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                         const Eigen::Vector3d& c) noexcept;
-  /// The point of the hull that is nearest to p.
+  /// The point of the hull nearest to p.
   [[nodiscard]] Eigen::Vector3d nearest(const Eigen::Vector3d& p) const noexcept;
 };
 
-/// Where the last search of a pair ended. It makes the next one shorter and changes its result by
-/// rounding at most. One for each pair; default: none yet.
+/// Result of the last search of a pair, as start of the next one. It saves time and changes results
+/// only within rounding. One for each pair; default: none yet.
 struct HullStart {
   std::array<std::uint8_t, 4> a{}, b{};  ///< corners
   std::uint8_t count = 0;
 };
 
-/// A nearest pair of points; equal ones where the hulls meet.
+/// A nearest pair of points; they are equal if the hulls intersect.
 struct HullGap {
   double distance = 0.0;  ///< [m]
   Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
 };
 
-/// The distance within 1e-13 of the farthest corner from the origin, 0 where the hulls meet. The
-/// algorithm of Gilbert, Johnson and Keerthi (1988), with a proof: where its supporting plane does
-/// not confirm the distance, as between needles, all pairs of features are compared. 0.2 us; 4 us
-/// where features are compared. noexcept, no allocation.
+/// Distance of two hulls, 0 if they intersect, within 1e-13 of the farthest corner from the origin.
+/// The algorithm of Gilbert, Johnson and Keerthi (1988), with a proof: if its supporting plane does
+/// not confirm the distance, as between needles, all pairs of features are compared. 0.2 us, or 4
+/// us with features. noexcept, no allocation.
 [[nodiscard]] HullGap hull_gap(const Hull& a, const Hull& b, HullStart& start) noexcept;
 
-/// The same by comparing all pairs of features: corners with hulls, edges with edges and hulls.
+/// The same by comparison of all features: corners with hulls, edges with edges and hulls.
 [[nodiscard]] HullGap hull_gap_by_features(const Hull& a, const Hull& b) noexcept;
 
 }  // namespace reckon::haptics

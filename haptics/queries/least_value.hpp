@@ -15,7 +15,7 @@
 
 namespace reckon::haptics {
 
-/// Bounds of the least value, and where `most` is attained.
+/// Bounds of the least value, and the point of `most`.
 struct LeastValue {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -25,14 +25,15 @@ struct LeastValue {
 /// A function at a point.
 struct FieldSample {
   double value = 0.0;  ///< [m]
-  /// Of a convex function that nowhere exceeds this one, such as itself; not needed of others.
+  /// Sample of a convex function that nowhere exceeds this one, such as itself; needed only if
+  /// `convex`.
   SignedSample below;
 
   FieldSample(const SignedSample& own) : value(own.value), below(own) {}
   FieldSample(double own, const SignedSample& convex) : value(own), below(convex) {}
 };
 
-/// Samples of the function in one search, at most.
+/// Greatest number of samples in one search.
 inline constexpr std::size_t kMostPieces = 1024;
 
 /// A box about a middle.
@@ -40,12 +41,12 @@ struct BoxPiece {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d half = Eigen::Vector3d::Zero();
 
-  /// Whether its points belong to the set, and do not only surround a part of it.
+  /// Whether all its points belong to the set; false: it only encloses a part of the set.
   [[nodiscard]] static bool on_set() noexcept { return true; }
   [[nodiscard]] Eigen::Vector3d middle() const noexcept { return centre; }
-  /// Radius of a ball about the middle that holds the piece.
+  /// Radius of a ball around the middle that contains the piece.
   [[nodiscard]] double radius() const noexcept { return half.norm(); }
-  /// Place at which a plane of this slope is lowest.
+  /// Point of the piece at which a plane of this slope is lowest.
   [[nodiscard]] Eigen::Vector3d lowest(const Eigen::Vector3d& slope) const noexcept {
     Eigen::Vector3d at = centre;
     for (Eigen::Index i = 0; i < 3; ++i)
@@ -65,7 +66,7 @@ struct BoxPiece {
   }
 };
 
-/// Pieces by their bound; room for one more than there may be samples.
+/// Priority queue of pieces by their bound, with room for kMostPieces + 1.
 template <class Piece>
 class PieceQueue {
  public:
@@ -93,10 +94,10 @@ class PieceQueue {
 };
 
 /// @param field  p -> FieldSample, or SignedSample; |f(p) - f(q)| <= |p - q|
-/// @param convex whether FieldSample::below is of a convex function: its tangents give bounds that
-/// are far better
-/// @param tolerance [m] between the two bounds, at which the search ends; it also ends after
-/// kMostPieces samples. Then the bounds are as far apart as they are.
+/// @param convex whether FieldSample::below is set: tangents of a convex function give much better
+/// bounds
+/// @param tolerance [m], difference of the bounds that ends the search; it also ends after
+/// kMostPieces samples with wider bounds
 template <class Piece, class Field>
 [[nodiscard]] LeastValue least_value(const Piece& whole, const Field& field, bool convex,
                                      double tolerance) noexcept {

@@ -21,7 +21,7 @@ Hull hull_of(const Triangle& t, const Placement& at) {
   return Hull::of_triangle(at.to_scene(t.a), at.to_scene(t.b), at.to_scene(t.c));
 }
 
-// Lower bound of the distance of a box along the axes of the other, and along its own.
+// Lower bound of the distance of two boxes along the axes of both.
 class BoxBound {
  public:
   explicit BoxBound(const OrientedBox& box)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Distances of the surface of a mesh, by its bounding volume tree. All in the axes of the (first)
-// mesh, exact within rounding. noexcept, no allocation.
+// Distances of mesh surfaces, by bounding volume trees. In the axes of the (first) mesh, exact
+// within rounding. noexcept, no allocation.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,18 +14,18 @@
 
 namespace reckon::haptics {
 
-/// From the surface to a solid box. `triangle` is one that is probably near, and becomes the
-/// nearest; any number. Logarithmic in the triangles for a box of their size, 1 to 5 us; a box that
-/// is nearly as far from many triangles meets them all.
+/// From the surface to a solid box. `triangle` is a hint, any number, and becomes the nearest
+/// triangle. Logarithmic in the triangles for a box of their size, 1 to 5 us; a box at nearly the
+/// same distance from many triangles visits them all.
 [[nodiscard]] HullGap mesh_box_gap(const SurfaceMesh& mesh, const OrientedBox& box,
                                    std::uint32_t& triangle) noexcept;
 
-/// Between two surfaces; `b_at` is the place of b. `hint_a`, `hint_b` as above.
+/// Between two surfaces; `b_at` is the placement of b. `hint_a`, `hint_b` as above.
 [[nodiscard]] HullGap mesh_mesh_gap(const SurfaceMesh& a, const SurfaceMesh& b,
                                     const Placement& b_at, std::uint32_t& hint_a,
                                     std::uint32_t& hint_b) noexcept;
 
-/// The corner of the mesh that is lowest along `up`.
+/// The lowest corner of the mesh along `up`.
 [[nodiscard]] Eigen::Vector3d lowest_corner(const SurfaceMesh& mesh,
                                             const Eigen::Vector3d& up) noexcept;
 

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 using Mesh = std::shared_ptr<const SurfaceMesh>;
 using Solid = std::shared_ptr<const ImplicitSolid>;
 
-// As the alternatives of QueryShape::Form.
+// Index in QueryShape::Form.
 template <class S>
 constexpr int kRank = std::is_same_v<S, BelowPlane>   ? 0
                       : std::is_same_v<S, RoundedBox> ? 1
@@ -28,11 +28,11 @@ constexpr int kRank = std::is_same_v<S, BelowPlane>   ? 0
                                                       : 3;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Of the sizes: below it the direction between nearest points is noise.
+// Share of the sizes below which the direction between nearest points is noise.
 constexpr double kNoDirection = 1e-12;
-constexpr double kSure = 1e-12;  // of the size: what a candidate of depth is enlarged by
+constexpr double kSure = 1e-12;  // of the size: margin of a candidate depth
 
-// All below is in the axes of the first shape; `at` is the place of the second.
+// All functions below use the axes of the first shape; `at` is the placement of the second.
 
 OrientedBox core_of(const RoundedBox& box) {
   return {Vector3d::Zero(), Eigen::Matrix3d::Identity(), box.half};
@@ -46,7 +46,7 @@ OrientedBox around(const Eigen::AlignedBox3d& bounds, const Placement& at) {
   return {at.to_scene(bounds.center()), at.orientation, 0.5 * bounds.sizes()};
 }
 
-// A gap that is known exactly; below 0 an overlap.
+// Measure of an exact gap; below 0: overlap.
 PairMeasure exact(double gap, const Vector3d& direction) {
   PairMeasure m;
   m.overlap = gap < 0.0 ? Overlap::yes : Overlap::no;
@@ -56,7 +56,7 @@ PairMeasure exact(double gap, const Vector3d& direction) {
   return m;
 }
 
-// Nearest points of two cores, moved onto the balls around them.
+// Sets the nearest points: the ones of the cores, moved onto the balls around them.
 void set_points(PairMeasure& m, const HullGap& gap, double radius_a, double radius_b) {
   m.on_a = gap.on_a + radius_a * m.direction;
   m.on_b = gap.on_b - radius_b * m.direction;
@@ -145,7 +145,7 @@ PairMeasure measure(const Solid& a, const BelowPlane& b, const Placement& at,
   return m;
 }
 
-// Of a surface, with a ball of `radius` around the second shape.
+// Measure of a surface, with a ball of `radius` around the second shape.
 PairMeasure of_surface(const HullGap& gap, double radius, bool within) {
   if (gap.distance > 0.0 && !within) {
     PairMeasure m = exact(gap.distance - radius, (gap.on_b - gap.on_a) / gap.distance);
@@ -155,7 +155,7 @@ PairMeasure of_surface(const HullGap& gap, double radius, bool within) {
   }
   PairMeasure m = exact(-gap.distance - radius, Vector3d::UnitX());
   if (within) m.direction = (gap.on_a - gap.on_b) / gap.distance;
-  m.overlap = Overlap::yes;  // touching, at least
+  m.overlap = Overlap::yes;  // at least touching
   m.depth.most = kInfinite;
   return m;
 }
@@ -172,7 +172,7 @@ PairMeasure measure(const Mesh& a, const Mesh& b, const Placement& at, PairMemor
   return of_surface(gap, 0.0, within);
 }
 
-// Bounds of a distance, with a ball of `radius` around the second shape.
+// Measure from bounds of a distance, with a ball of `radius` around the second shape.
 PairMeasure of_solid(const ImplicitSolid& solid, const SolidGap& gap, double radius) {
   PairMeasure m;
   const double least = gap.least - radius;
@@ -202,7 +202,7 @@ PairMeasure measure(const Solid& a, const Mesh& b, const Placement& at, PairMemo
   const SolidGap gap = solid_mesh_gap(*a, *b, at);
   PairMeasure m = of_solid(*a, gap, 0.0);
   if (m.overlap != Overlap::no) return m;
-  // Apart from the surface: then the solid is within the mesh as a whole, or not at all.
+  // The solid does not touch the surface, so it is entirely inside the mesh or outside.
   if (gap.most == kInfinite) {
     m.overlap = Overlap::unknown;
   } else if (b->contains(at.to_shape(gap.on_a))) {
@@ -222,7 +222,7 @@ PairMeasure measure_forms(const QueryShape& a, const QueryShape& b, const Placem
       [&](const auto& one, const auto& other) {
         using A = std::decay_t<decltype(one)>;
         using B = std::decay_t<decltype(other)>;
-        // The order of comes_before() leads to no other pair.
+        // The order of comes_before() excludes other pairs.
         if constexpr (kRank<A> >= kRank<B>) {
           return measure(one, other, at, memory);
         } else {
@@ -232,8 +232,8 @@ PairMeasure measure_forms(const QueryShape& a, const QueryShape& b, const Placem
       a.form(), b.form());
 }
 
-// A translation by the least depth, along the way to the nearest surface: if that parts them, it is
-// the depth. Else an axis of the bounding boxes, along which they surely part.
+// Tries a translation by the least depth towards the nearest surface: if it separates the shapes,
+// it is the depth. Otherwise takes an axis of the bounding boxes, which surely separates them.
 void bound_depth(const QueryShape& a, const QueryShape& b, const Placement& at, PairMeasure& m) {
   const double size = a.bounds().sizes().norm() + b.bounds().sizes().norm();
   if (m.depth.least > 0.0) {
@@ -254,7 +254,7 @@ void bound_depth(const QueryShape& a, const QueryShape& b, const Placement& at, 
   m.depth = {0.0, 0.0};
 }
 
-// An order that does not know which shape was named first: by kind, by extents, by place.
+// An order that is independent of the order of the arguments: by kind, by extents, by placement.
 bool comes_before(const QueryShape& a, const Placement& a_at, const QueryShape& b,
                   const Placement& b_at) {
   if (a.form().index() != b.form().index()) return a.form().index() > b.form().index();
@@ -273,7 +273,7 @@ bool comes_before(const QueryShape& a, const Placement& a_at, const QueryShape& 
   return order <= 0;
 }
 
-// With the first shape's axes, from where results are as exact as the shapes are near each other.
+// Measures in the axes of the first shape, so the error scales with the distance of the shapes.
 PairMeasure measure_in_order(const QueryShape& a, const Placement& a_at, const QueryShape& b,
                              const Placement& b_at, PairMemory& memory) {
   const Placement at{a_at.to_shape(b_at.position), a_at.orientation.transpose() * b_at.orientation};

@@ -15,10 +15,10 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostInQueue = 4096;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr int kMostTangents = 8;
-// A time is early by this share of what was computed, so that rounding does not make it late.
+// Share by which a time is early, so that rounding cannot make it late.
 constexpr double kEarly = 1e-12;
 
-// Farthest that a body can be from its straight path, `age` after it was reported [m].
+// Greatest distance of a body from its straight path, `age` after its report [m].
 double stray(const BodyMotion& body, double age) {
   const double bent = 0.5 * body.most_acceleration * age * age;
   const double straight = (body.most_speed + body.velocity.norm()) * age;
@@ -34,9 +34,9 @@ double first_root(double gap, double speed, double acceleration) {
 
 }  // namespace
 
-// A distance is never less than its projection on a direction, so that along the line between the
-// middles the motion has one dimension: a bound that falls as a parabola, or with the greatest
-// speeds as a line. From its root the next one is drawn.
+// A distance is at least its projection on a direction, so the motion along the line between the
+// centers gives a one-dimensional bound: it falls as a parabola, or with the greatest speeds as a
+// line. The next bound starts at its root.
 double earliest_contact(const BodyMotion& a, const BodyMotion& b, double now) noexcept {
   const Vector3d velocity = b.velocity - a.velocity;
   const double reach = a.radius + b.radius;
@@ -47,7 +47,7 @@ double earliest_contact(const BodyMotion& a, const BodyMotion& b, double now) no
     const double distance = between.norm();
     const double gap = distance - reach - stray(a, age_a) - stray(b, age_b);
     if (!(gap > kEarly * (distance + reach))) return time;
-    // What strays from the straight paths grows by up to a age t + a t^2 / 2.
+    // The deviation from the straight paths grows by up to a age t + a t^2 / 2.
     const double closing = -velocity.dot(between) / distance +
                            a.most_acceleration * std::max(0.0, age_a) +
                            b.most_acceleration * std::max(0.0, age_b);
@@ -92,8 +92,8 @@ void PairQueue::remove(std::uint32_t body) noexcept {
     if (other != body) set_time(number_of(std::min(body, other), std::max(body, other)), kNever);
 }
 
-// A pair stays in the heap while it is looked at: it gets a later time, or it is due again with the
-// next call, for which its time is just after this one.
+// A checked pair stays in the heap: it gets a later time, or one just after this call if it is due
+// again with the next.
 std::span<const BoxPair> PairQueue::due(double now) noexcept {
   due_.clear();
   while (!heap_.empty() && heap_.front().time <= now) {
@@ -123,8 +123,8 @@ void PairQueue::put(std::size_t place, const Entry& entry) noexcept {
   places_[entry.pair] = static_cast<std::uint32_t>(place);
 }
 
-// Moves an entry up or down to its place. Equal times are in the order of the pairs, so that the
-// order does not depend on what happened before.
+// Moves an entry up or down the heap. Equal times are ordered by pair, so the order does not depend
+// on the history.
 void PairQueue::settle(std::size_t place) noexcept {
   const auto earlier = [](const Entry& one, const Entry& other) {
     return one.time != other.time ? one.time < other.time : one.pair < other.pair;

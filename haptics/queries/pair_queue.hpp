@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of moving bodies in the order of the earliest time at which they may collide
-// (thesis 2.5.6). A pair is looked at when that time has come, and not before.
+// Queue of pairs of moving bodies by the earliest time of a possible collision (thesis 2.5.6). A
+// pair is tested only at that time.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,45 +15,45 @@
 
 namespace reckon::haptics {
 
-/// What is known of a body's motion, as dead reckoning has it. Time in seconds of one clock.
+/// Motion of a body by dead reckoning. Times in seconds of one clock.
 struct BodyMotion {
-  double time = 0.0;                                   ///< [s] of what follows
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], of its middle
+  double time = 0.0;                                   ///< [s], time of the following state
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], of its center
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  double radius = 0.0;                                 ///< [m], of a ball that holds it, >= 0
+  double radius = 0.0;                                 ///< [m], >= 0, of a ball that contains it
   double most_acceleration = 0.0;                      ///< [m/s^2] from `time` on, >= 0
   double most_speed = std::numeric_limits<double>::infinity();  ///< [m/s] from `time` on
 };
 
-/// The earliest time at or after `now` [s] at which the balls of two bodies may touch: a lower
-/// bound that is exact for straight paths at a constant velocity; infinity for never.
+/// Earliest time from `now` [s] on at which the balls of two bodies may touch: a lower bound, exact
+/// for constant velocities; infinity: never.
 [[nodiscard]] double earliest_contact(const BodyMotion& a, const BodyMotion& b,
                                       double now) noexcept;
 
-/// All pairs of up to a few hundred bodies; memory for each pair. A motion holds until it is
-/// reported otherwise: a body reports when it no longer keeps to what it said (more acceleration,
-/// another velocity, larger), and need not as long as it does.
+/// All pairs of up to a few hundred bodies; memory for each pair. A motion is valid until the next
+/// report: a body must report a new motion when it violates the last one (more acceleration,
+/// another velocity, a larger radius).
 ///
-/// Cost: a pair that is due 0.1 us and the logarithm of the pairs; a report that of a pair for each
-/// other body. Allocates at construction only. One thread.
+/// Cost: 0.1 us for a due pair, plus the logarithm of the pairs; a report as much for each other
+/// body. Allocates at construction only. One thread.
 class PairQueue {
  public:
-  /// @param bodies numbers 0 to bodies - 1, at most 4096; none takes part before its first report
+  /// @param bodies at most 4096, numbers 0 to bodies - 1; each is active from its first report on
   /// @throws std::invalid_argument for more
   explicit PairQueue(std::size_t bodies);
 
-  /// The motion of a body from now on. All pairs with it get a new time.
+  /// Sets the motion of a body. All its pairs get a new time.
   void report(std::uint32_t body, const BodyMotion& motion, double now) noexcept;
-  /// Takes it out, until its next report.
+  /// Deactivates a body until its next report.
   void remove(std::uint32_t body) noexcept;
 
-  /// The pairs whose balls may touch at or before `now`, by what was reported; each of them is to
-  /// be tested by its shapes. They come back with the next call as long as that holds. Times do not
-  /// go back. Valid until the next call.
+  /// The pairs whose balls may touch at or before `now`, by their reports; the caller tests their
+  /// shapes. They are returned again while this is so. `now` never decreases. Valid until the next
+  /// call.
   [[nodiscard]] std::span<const BoxPair> due(double now) noexcept;
-  /// The time at which due() first has something to do [s]; infinity for never.
+  /// Earliest time of a due pair [s]; infinity: never.
   [[nodiscard]] double next_due() const noexcept;
-  /// Pairs whose time was computed, since the start.
+  /// Number of computed times since the start.
   [[nodiscard]] std::uint64_t tests() const noexcept { return tests_; }
 
  private:
@@ -71,9 +71,9 @@ class PairQueue {
 
   std::vector<BodyMotion> motions_;
   std::vector<bool> present_;
-  std::vector<Entry> heap_;            // the earliest first
-  std::vector<std::uint32_t> places_;  // of each pair in the heap
-  std::vector<BoxPair> bodies_of_;     // of each pair
+  std::vector<Entry> heap_;            // earliest first
+  std::vector<std::uint32_t> places_;  // index in the heap, by pair
+  std::vector<BoxPair> bodies_of_;     // by pair
   std::vector<BoxPair> due_;
   std::uint64_t tests_ = 0;
 };

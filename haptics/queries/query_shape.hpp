@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Shapes as queries between two of them take them. A box, a ball and a capsule are one form: a core
-// of box extents, some of them zero, with a ball swept over it.
+// Shapes for queries. Box, ball and capsule are one form: a box, possibly with zero extents, with a
+// ball swept over it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace reckon::haptics {
 
-/// Where a shape is: p_S = orientation * p_shape + position.
+/// Pose of a shape: p_S = orientation * p_shape + position.
 struct Placement {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< [m], S
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< shape -> S, a rotation
@@ -39,8 +39,8 @@ struct BelowPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, out of the solid
 };
 
-/// A shape in its own axes. Copies share meshes and solids. Construction may allocate; afterwards
-/// many threads may read it.
+/// A shape in its own axes. Copies share meshes and solids. Construction may allocate; then many
+/// threads may read it.
 ///
 /// Example: how far is a can of 3 cm by 10 cm from a table?
 ///   const auto can = QueryShape::capsule(0.03, 0.04);
@@ -52,27 +52,28 @@ class QueryShape {
                             std::shared_ptr<const ImplicitSolid>>;
 
   /// @param size whole edges [m], each >= 0: 0 makes a plate, a rod or a point
-  /// @throws std::invalid_argument for a size that is negative or not finite; so do those below
+  /// @throws std::invalid_argument for a size that is negative or not finite; the same for the
+  /// functions below
   [[nodiscard]] static QueryShape box(const Eigen::Vector3d& size);
   /// @param radius [m], >= 0
   [[nodiscard]] static QueryShape sphere(double radius);
-  /// Along z. @param radius [m], >= 0  @param length between the middles of its ends [m], >= 0
+  /// Along z. @param radius [m], >= 0 @param length between the centers of its ends [m], >= 0
   [[nodiscard]] static QueryShape capsule(double radius, double length);
   /// @param normal out of the solid, any length > 0
   [[nodiscard]] static QueryShape below_plane(const Eigen::Vector3d& normal);
-  /// The form that contacts use. A mesh is in its own axes, see SurfaceMesh::origin().
+  /// From a contact shape. A mesh is in its own axes, see SurfaceMesh::origin().
   explicit QueryShape(const ContactShape& shape);
 
   [[nodiscard]] const Form& form() const noexcept { return form_; }
-  /// Whether a segment between two of its points is always within it.
+  /// Whether the shape is convex.
   [[nodiscard]] bool is_convex() const noexcept { return form_.index() < 2; }
-  /// Contains the shape, own axes [m]; infinite for a plane and an unbounded solid.
+  /// Bounding box in its own axes [m]; infinite for a plane and an unbounded solid.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
   [[nodiscard]] bool is_bounded() const noexcept { return bounded_; }
-  /// Farthest that a turn by 1 rad moves any part [m]: of the core for a rounded box, for a ball
-  /// that turns stays the same ball. Infinite if unbounded.
+  /// Greatest displacement of any point by a rotation of 1 rad [m]; for a rounded box only of the
+  /// core, because a rotated ball does not change. Infinite if unbounded.
   [[nodiscard]] double turning_reach() const noexcept { return turning_reach_; }
-  /// Contains the shape where it is [m, S].
+  /// Bounding box at a placement [m, S].
   [[nodiscard]] Eigen::AlignedBox3d bounds_at(const Placement& at) const noexcept;
 
  private:

@@ -16,13 +16,13 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double kBoundsApart = 1e-10;       // of the size, between the bounds
-constexpr double kOnSurface = 1e-12;         // of the size, where a walk to the surface ends
+constexpr double kBoundsApart = 1e-10;       // of the size, difference of the bounds
+constexpr double kOnSurface = 1e-12;         // of the size, tolerance of a walk to the surface
 constexpr double kFunctionRounding = 1e-14;  // of the size and the distance, of a signed function
 constexpr double kLeastSteepness = 0.1;      // of a gradient squared, within rounded edges
 constexpr int kMostFeet = 48;
-constexpr int kMostTurns = 32;    // between a point of each shape, towards the nearest pair
-constexpr double kFarAway = 1e7;  // [sizes]: from there a ball is as good as a plane
+constexpr int kMostTurns = 32;    // alternations between the shapes, towards the nearest pair
+constexpr double kFarAway = 1e7;  // [sizes]: from this distance a ball is as good as a plane
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 // Walks down the gradient to a point of the solid. @return false if none was reached
@@ -35,7 +35,8 @@ bool walk_to(const ImplicitSolid& solid, Vector3d& p) {
   return false;
 }
 
-// Of two nearest points on other shapes, alternately: `other(p)` is the nearest of the other one.
+// Improves the nearest points by alternating projections; `other(p)` is the nearest point of the
+// other shape.
 template <class Other>
 void come_nearer(const ImplicitSolid& solid, const Other& other, SolidGap& gap) {
   Vector3d on_b = gap.on_b;
@@ -53,7 +54,7 @@ void come_nearer(const ImplicitSolid& solid, const Other& other, SolidGap& gap) 
   }
 }
 
-// The bounds of a least value as those of a distance.
+// Converts bounds of a least value to bounds of a distance.
 SolidGap gap_of(const LeastValue& value, double size) {
   const double rounding = kFunctionRounding * (size + std::abs(value.most));
   SolidGap gap{value.least - rounding, kNoBound, value.at, value.at};
@@ -64,7 +65,7 @@ SolidGap gap_of(const LeastValue& value, double size) {
 /// A part of a mesh's surface: a box of its tree, a run of triangles, or a piece of one.
 struct MeshPiece {
   const SurfaceMesh* mesh = nullptr;
-  std::array<Vector3d, 3> corners{};  // of a triangle; of a box its middle and half edges
+  std::array<Vector3d, 3> corners{};  // of a triangle, or the middle and half edges of a box
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   bool is_box = true;
@@ -113,7 +114,7 @@ struct MeshPiece {
   }
 
  private:
-  // At the middle of its longest side.
+  // Splits it at the middle of its longest side.
   template <class Take>
   void halve(Take&& take) const noexcept {
     std::size_t longest = 0;
@@ -159,13 +160,13 @@ SolidGap solid_box_gap(const ImplicitSolid& solid, const OrientedBox& box) noexc
   return gap;
 }
 
-// The mean of both functions is below the greater one, and has no edge where they are equal. At
-// the middle of the nearest points both are equal, and their gradients opposite: there its tangents
-// are as good as they can be.
+// The mean of both functions is below the greater one, and smooth where they are equal. At the
+// middle between the nearest points both are equal with opposite gradients, so its tangents are
+// best there.
 //
-// With the closest points a and b, of distance d, both functions are at most d/2 in their middle,
-// which lies in the mean of both bounds. A point of both solids lies there too. If one solid is
-// unbounded: both functions are at most d at the closest point of the other.
+// For closest points a and b at distance d, both functions are at most d/2 at their middle, which
+// is in the mean of both bounding boxes, as is any common point. If one solid is unbounded, both
+// functions are at most d at the closest point of the other.
 SolidGap solid_solid_gap(const ImplicitSolid& a, const ImplicitSolid& b,
                          const Placement& b_at) noexcept {
   const bool bounded_a = a.bounds().sizes().allFinite();
@@ -193,7 +194,7 @@ SolidGap solid_solid_gap(const ImplicitSolid& a, const ImplicitSolid& b,
   const bool convex = a.function().convex() && b.function().convex();
   LeastValue value = least_value(room, field, convex, kBoundsApart * size);
   if (value.least > 0.0) value.least *= share;
-  if (value.most < 0.0) value.most *= 2.0;  // a ball of both, of that radius, is to be parted
+  if (value.most < 0.0) value.most *= 2.0;  // a ball of that radius is in both solids
   gap = gap_of(value, size);
   if (gap.most < 0.0) return gap;
   Vector3d on_b = b_at.to_shape(value.at);
@@ -233,8 +234,8 @@ SolidGap solid_mesh_gap(const ImplicitSolid& solid, const SurfaceMesh& mesh,
   return gap;
 }
 
-// Each point x of the solid is at least f away from a place far below it. So its height there, h,
-// has h^2 + r^2 >= f^2, with its distance r from the axis.
+// Each point of the solid is at least f away from a point far below it. So its height h above that
+// point fulfils h^2 + r^2 >= f^2, with its distance r from the vertical axis.
 SolidGap lowest_of_solid(const ImplicitSolid& solid, const Vector3d& up) noexcept {
   SolidGap lowest{-kNoBound, kNoBound, Vector3d::Zero(), Vector3d::Zero()};
   const AlignedBox3d& bounds = solid.bounds();

@@ -10,13 +10,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Greatest speed of a part that turns [m/s], at `rate` [rad/s]. A shape without bounds that does
-// not turn has no such part.
+// Greatest speed of any point by rotation [m/s], at `rate` [rad/s]; 0 for an unbounded shape that
+// does not rotate.
 double turning_speed(const QueryShape& shape, double rate) {
   return rate > 0.0 ? rate * shape.turning_reach() : 0.0;
 }
 
-// Upper bound of the speed at which the distance falls, from now on [m/s].
+// Upper bound of the closing speed from now on [m/s].
 class ClosingSpeed {
  public:
   ClosingSpeed(const QueryShape& a, const Motion& a_moves, const QueryShape& b,
@@ -28,7 +28,7 @@ class ClosingSpeed {
         approach_(a_moves.velocity - b_moves.velocity),
         convex_(a.is_convex() && b.is_convex()) {}
 
-  // Between convex shapes is a slab across `direction`, and only what moves along it narrows it.
+  // A slab across `direction` separates convex shapes; only motion along `direction` narrows it.
   [[nodiscard]] double along(const Vector3d& direction) const {
     if (!convex_)
       return approach_.norm() + turning_speed(a_, turn_a_.norm()) +
@@ -75,7 +75,7 @@ ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves, const Quer
                           const Motion& b_moves, double horizon, double tolerance) noexcept {
   ImpactTime found;
   if (!is_finite(a_moves) || !is_finite(b_moves)) return found;
-  // Near the shapes, so that coordinates are as exact as their distance.
+  // An origin near the shapes, so that the error scales with their distance.
   const Vector3d origin = a_moves.start.position;
   const Motion one = from(a_moves, origin);
   const Motion other = from(b_moves, origin);
@@ -91,7 +91,7 @@ ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves, const Quer
       break;
     }
     const double closing = speed.along(found.measure.direction);
-    // Half the tolerance is left, so that rounding does not lead into the contact.
+    // Keeps half the tolerance, so that rounding does not lead into the contact.
     const double reached = found.time + (free - 0.5 * tolerance) / std::max(closing, 0.0);
     if (!(reached > found.time)) break;
     if (reached >= horizon) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When two moving shapes meet, by conservative advancement (B. Mirtich, 1996): time is advanced by
-// what the distance proves to be free, again and again.
+// Time of impact of two moving shapes, by conservative advancement (B. Mirtich, 1996): repeatedly
+// advances the time by a step that the distance proves to be free.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace reckon::haptics {
 
-/// A shape that moves: its origin at a constant velocity, turning about it at a constant rate.
+/// Constant velocity of a shape's origin, and constant rotation about it.
 struct Motion {
   Placement start;                                      ///< at time 0
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< [m/s], S
@@ -24,28 +24,28 @@ struct Motion {
 enum class Impact : std::uint8_t {
   none,     ///< free until the horizon
   hit,      ///< they come within the tolerance, or overlap from the start
-  unknown,  ///< free until `time`; nothing is known of later
+  unknown,  ///< free until `time`; later unknown
 };
 
 struct ImpactTime {
   Impact outcome = Impact::unknown;
-  double time = 0.0;    ///< [s]; until here the shapes are surely apart. Never after the contact
-  PairMeasure measure;  ///< at the last time that was looked at, `time` itself for a hit
+  double time = 0.0;    ///< [s]; the shapes are surely apart until then. Never after the contact
+  PairMeasure measure;  ///< at the last evaluated time; for a hit at `time`
 };
 
-/// Evaluations of the distance in one query, at most.
+/// Greatest number of distance evaluations in one query.
 inline constexpr int kMostAdvances = 256;
 
-/// The first contact within `horizon` [s] >= 0. A hit is at the time at which the distance has
-/// fallen below `tolerance` [m], and before the contact.
+/// The first contact within `horizon` [s] >= 0. A hit is when the distance has fallen below
+/// `tolerance` [m], before the contact.
 ///
-/// Unknown is the answer for shapes that pass one another many times nearer than they move (it
-/// needs more than kMostAdvances), for solids whose bounds of the distance are wider than the
-/// tolerance, for a plane that turns, and for what is not finite. Convex pairs need 3 to 30
-/// advances; one with a mesh or a solid needs more where it slides along, because only the speed
-/// and not its direction counts.
+/// The result is `unknown` for shapes that pass at a distance much smaller than their motion (more
+/// than kMostAdvances), for solids with distance bounds wider than the tolerance, for a rotating
+/// plane, and for values that are not finite. Convex pairs need 3 to 30 advances. Pairs with a mesh
+/// or a solid need more if they slide past each other, because their bound ignores the direction of
+/// motion.
 ///
-/// @param tolerance [m] > 0; raising it makes the answer sooner and cheaper. At least 1e-12 of the
+/// @param tolerance [m] > 0; a larger value makes hits earlier and cheaper. At least 1e-12 of the
 /// sizes. noexcept, no allocation; cost: advances x measure_pair().
 [[nodiscard]] ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves,
                                         const QueryShape& b, const Motion& b_moves, double horizon,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Searches of one or two bounding volume trees by a bound of the caller's.
+// Searches one or two bounding volume trees with the caller's bound.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace reckon::haptics {
 
-/// Entries of a search in depth, each with the lower bound of all that it leads to.
+/// Stack of a depth-first search, each entry with the lower bound of its subtree.
 template <class Entry, std::size_t kMost>
 class BoundStack {
  public:
@@ -20,7 +20,7 @@ class BoundStack {
     entries_[count_] = entry;
     bounds_[count_++] = bound;
   }
-  /// Sorts what was pushed since there were `base` entries: the least bound is popped first.
+  /// Sorts the entries from index `base` on: the least bound is popped first.
   void sort_from(std::size_t base) noexcept {
     for (std::size_t i = base + 1; i < count_; ++i) {
       for (std::size_t j = i; j > base && bounds_[j - 1] < bounds_[j]; --j) {
@@ -29,7 +29,7 @@ class BoundStack {
       }
     }
   }
-  /// @return false at the end
+  /// @return false: empty
   [[nodiscard]] bool pop(Entry& entry, double& bound) noexcept {
     if (count_ == 0) return false;
     entry = entries_[--count_];
@@ -45,8 +45,8 @@ class BoundStack {
 };
 
 /// Visits runs of items, `visit(first, count)`, whose `bound(box)` is below `limit`, roughly in the
-/// order of their bounds; visit may lower the limit. The bound of a box is at most that of all in
-/// it.
+/// order of their bounds; visit may lower the limit. The bound of a box must not exceed the bounds
+/// of its content.
 template <class Bound, class Visit>
 void search_tree(const BoundingVolumeTree& tree, const double& limit, Bound&& bound,
                  Visit&& visit) noexcept {

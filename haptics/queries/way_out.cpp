@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-6;  // [m], left between the shapes
-constexpr int kDoublings = 8;        // of a step, from the shortest to the farthest
+constexpr double kTolerance = 1e-6;  // [m], remaining distance of the shapes
+constexpr int kDoublings = 8;        // steps from the shortest to the longest, each doubled
 
 // Half the extent of a bounded shape along a direction.
 double reach_along(const QueryShape& shape, const Placement& at, const Vector3d& direction) {
@@ -23,8 +23,8 @@ Vector3d middle_of(const QueryShape& shape, const Placement& at) {
   return at.to_scene(shape.bounds().center());
 }
 
-// Goes out in steps that double, up to where the bounding boxes are apart. From the first place
-// that is free, which may be in a hole, b comes back as far as it can.
+// Moves b in doubling steps until the bounding boxes are apart. From the first free position, which
+// may be in a hole, b moves back as far as it can.
 double exit_along(const QueryShape& a, const Placement& a_at, const QueryShape& b,
                   const Placement& b_at, const Vector3d& direction) {
   const double apart = reach_along(a, a_at, direction) + reach_along(b, b_at, direction) -

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A magnet: draws the device to the region's origin, line or plane from within a distance. A scene
-// file sets it with `magnet = {..}` of a region.
+// A magnet: attracts the device to the region's origin, line or plane within a range. A scene file
+// sets it with `magnet = {..}` of a region.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,19 +16,19 @@
 
 namespace reckon::haptics {
 
-/// Of a magnet. free_x = 1 lets the device move along x: with one free axis it snaps to a line,
-/// with two to a plane.
+/// Parameters of a magnet. free_x = 1 lets the device move freely along x: with one free axis it
+/// snaps to a line, with two to a plane.
 struct Magnet {
-  double force = 1.0;   ///< [N], greatest
+  double force = 1.0;   ///< [N], greatest force
   double range = 0.02;  ///< [m]
   double free_x = 0.0;  ///< 0 or 1
   double free_y = 0.0;  ///< 0 or 1
   double free_z = 0.0;  ///< 0 or 1
 };
 
-/// F(r) = force sin(pi r / range) towards the origin, line or plane; 0 beyond the range. On
-/// entering the range it pulls as strongly as the loan for regions covers, and the energy that the
-/// hand has left in the ledger; what it pulls in comes back where it is pulled out.
+/// F(r) = force sin(pi r / range) towards the origin, line or plane; 0 beyond the range. On entry
+/// it pulls as strongly as the loan for regions and the hand's energy in the ledger cover. The
+/// energy of the pull returns when the hand pulls out.
 class Attraction : public CountedEffect<Attraction> {
  public:
   using Parameters = Magnet;
@@ -50,7 +50,7 @@ class Attraction : public CountedEffect<Attraction> {
     check_parameters(kParameters, magnet);
   }
 
-  /// Hook: force range / pi (1 - cos(pi r / range)), r of the axes that are not free.
+  /// Hook: force range / pi (1 - cos(pi r / range)), r along the axes that are not free.
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) const noexcept {
     const Eigen::Vector3d way = held_.cwiseProduct(point.place);
     const double length = way.norm();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Walls of a work space: a spring back into the region. A scene file sets it with `border = {..}`
-// of a region.
+// Walls of a workspace: a spring back into the region. A scene file sets it with `border = {..}` of
+// a region.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 
 namespace reckon::haptics {
 
-/// Of a work space.
+/// Parameters of the walls.
 struct Border {
   double stiffness = 300.0;  ///< [N/m]
 };
 
-/// F = stiffness times the way back to the nearest place inside.
+/// F = stiffness times the vector to the nearest point inside.
 class BorderSpring : public CountedEffect<BorderSpring> {
  public:
   using Parameters = Border;
@@ -40,7 +40,7 @@ class BorderSpring : public CountedEffect<BorderSpring> {
     return {0.5 * border_.stiffness * point.beyond.squaredNorm(), -border_.stiffness * point.beyond,
             border_.stiffness};
   }
-  /// Hook: at the farthest place outside [J].
+  /// Hook: potential at the farthest point outside [J].
   [[nodiscard]] double range(const RegionReach& reach) const noexcept {
     return 0.5 * border_.stiffness * reach.beyond * reach.beyond;
   }

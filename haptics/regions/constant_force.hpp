@@ -20,10 +20,10 @@ struct Push {
   double x = 0.0, y = 0.0, z = 0.0;  ///< [N]
 };
 
-/// A potential that is linear from rise() above its reference. The reference lies rise() with the
-/// force from the farthest place that the hand has been at since it entered: the loan for regions
-/// pays for that, and then the ledger. What is not stored is shown as far as the device's own
-/// damping and its ledger pay.
+/// A potential that is linear from rise() above its reference on. The reference is rise() along the
+/// force from the lowest point that the hand has reached since its entry. The loan for regions pays
+/// for that, then the ledger. The part that is not stored is rendered as far as the device's
+/// damping and ledger cover it.
 class ConstantForce : public CountedEffect<ConstantForce> {
  public:
   using Parameters = Push;
@@ -35,9 +35,9 @@ class ConstantForce : public CountedEffect<ConstantForce> {
       {"y", "N", &Push::y, -20.0, 20.0, 0.0, "Along the region's y axis."},
       {"z", "N", &Push::z, -20.0, 20.0, 0.0, "Along the region's z axis; weight is negative."},
   }};
-  /// Shortest way over which the stored part grows to the whole force [m], and the stiffness that
-  /// makes it longer for more than 0.75 N [N/m]: a higher one stores less at rest, and more devices
-  /// are too weak for it.
+  /// Shortest distance over which the stored part grows to the whole force [m], and the greatest
+  /// stiffness [N/m], which makes it longer for more than 0.75 N. A higher stiffness stores less at
+  /// rest, and more devices are too weak for it.
   static constexpr double kShortestRise = 0.005;
   static constexpr double kStiffest = 150.0;
 
@@ -50,8 +50,8 @@ class ConstantForce : public CountedEffect<ConstantForce> {
     check_parameters(kParameters, push);
   }
 
-  /// Hook: of the way h against the force from the reference: size h^2 / (2 rise), beyond it size
-  /// (h - rise / 2).
+  /// Hook: with the distance h from the reference against the force: size h^2 / (2 rise), and from
+  /// rise on size (h - rise / 2).
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) noexcept {
     if (!point.inside || !(size_ > 0.0)) return {};
     const double along = -point.place.dot(force_) / size_;
@@ -62,7 +62,7 @@ class ConstantForce : public CountedEffect<ConstantForce> {
     lowest_ = std::min(lowest_, along);
     return at(along - lowest_);
   }
-  /// Hook: the reference falls to rise() below the point, which takes kFadeSeconds from the entry.
+  /// Hook: lowers the reference to rise() below the point, over kFadeSeconds from the entry.
   [[nodiscard]] RegionPotential sink(const RegionPoint& point, double most) noexcept {
     if (!point.inside || !(size_ > 0.0)) return {};
     margin_ = std::min(rise_, margin_ + rise_ * point.dt / kFadeSeconds);
@@ -81,10 +81,10 @@ class ConstantForce : public CountedEffect<ConstantForce> {
   }
   /// Hook [N/m].
   [[nodiscard]] double stiffness() const noexcept { return size_ / rise_; }
-  /// [m], way over which the stored part grows to the whole force.
+  /// Distance over which the stored part grows to the whole force [m].
   [[nodiscard]] double rise() const noexcept { return rise_; }
 
-  /// Hook: what is not stored [N]. Called after potential().
+  /// Hook: the part that is not stored [N]. Called after potential().
   [[nodiscard]] Eigen::Vector3d force(const RegionPoint& point) const noexcept {
     return point.inside ? Eigen::Vector3d((1.0 - stored_) * force_) : Eigen::Vector3d::Zero();
   }
@@ -98,7 +98,7 @@ class ConstantForce : public CountedEffect<ConstantForce> {
     const double rising = std::min(way, rise_);
     return size_ * (0.5 * rising * rising / rise_ + way - rising);
   }
-  // The way up to rise() that stores this [m].
+  // Distance up to rise() that stores this energy [m].
   [[nodiscard]] double way_of(double energy) const noexcept {
     return std::min(rise_, std::sqrt(2.0 * rise_ * energy / size_));
   }
@@ -111,9 +111,9 @@ class ConstantForce : public CountedEffect<ConstantForce> {
   Eigen::Vector3d force_;
   double size_;
   double rise_;
-  double lowest_ = 0.0;  // [m], the reference, as a way against the force
-  double stored_ = 0.0;  // share of the force
-  double margin_ = 0.0;  // [m], of the reference below the lowest place
+  double lowest_ = 0.0;  // [m], the reference, as a coordinate against the force
+  double stored_ = 0.0;  // stored share of the force
+  double margin_ = 0.0;  // [m], distance of the reference below the lowest point
 };
 
 }  // namespace reckon::haptics

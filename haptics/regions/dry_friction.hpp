@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Dry friction of a medium, as of sand or of a joint: the same force at any speed, and a hold at
+// Dry friction of a medium, like sand or a joint: the same force at any speed, and stiction at
 // rest. A scene file sets it with `dry_friction = {..}` of a region.
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace reckon::haptics {
 
-/// Of a medium.
+/// Parameters of a medium.
 struct Yield {
   double force = 0.5;        ///< [N]
-  double stiffness = 150.0;  ///< [N/m], of the hold at rest
+  double stiffness = 150.0;  ///< [N/m], of the stiction
 };
 
-/// A bristle: a spring to an anchor that follows at the distance where the spring has this force.
+/// A bristle: a spring to an anchor, which follows so that the spring never exceeds the force.
 class DryFriction : public CountedEffect<DryFriction> {
  public:
   using Parameters = Yield;
@@ -47,8 +47,8 @@ class DryFriction : public CountedEffect<DryFriction> {
     }
     return {0.5 * yield_.stiffness * way.squaredNorm(), -yield_.stiffness * way, yield_.stiffness};
   }
-  /// Hook: of the hold [J]. The loan for regions pays for a hold that begins stretched, or a region
-  /// that has other potentials besides would wait for the hand's energy.
+  /// Hook: greatest energy of the bristle [J]. The loan for regions pays if it begins stretched;
+  /// otherwise a region with other potentials would wait for the hand's energy.
   [[nodiscard]] double range(const RegionReach& /*reach*/) const noexcept {
     return 0.5 * yield_.force * yield_.force / yield_.stiffness;
   }

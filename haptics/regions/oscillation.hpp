@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force that oscillates with time, as of an engine. A scene file sets it with
-// `oscillation = {..}` of a region.
+// A force that oscillates in time, like an engine. A scene file sets it with `oscillation = {..}`
+// of a region.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +21,8 @@ struct Shaking {
   double frequency = 50.0;           ///< [Hz]
 };
 
-/// F = (x, y, z) sin(2 pi frequency t), t since the device entered. A bucket of the port pays for
-/// it: see OscillationBucket.
+/// F = (x, y, z) sin(2 pi frequency t), with t from the entry of the device. The port's
+/// OscillationBucket pays for it.
 class Oscillation : public CountedEffect<Oscillation> {
  public:
   using Parameters = Shaking;

@@ -20,8 +20,8 @@ struct Tether {
   double most = 5.0;         ///< [N]
 };
 
-/// F = -stiffness place, of at most `most`; and -damping v. On entering away from the origin
-/// the loan for regions pays for what it stores, and beyond it the hand's motion.
+/// F = -stiffness place, at most `most`, and -damping v. On entry away from the origin, the loan
+/// for regions pays for the stored energy, and beyond it the hand's motion.
 class PointSpring : public CountedEffect<PointSpring> {
  public:
   using Parameters = Tether;
@@ -41,14 +41,14 @@ class PointSpring : public CountedEffect<PointSpring> {
     check_parameters(kParameters, tether);
   }
 
-  /// Hook: 1/2 stiffness r^2, beyond r0 = most / stiffness most (r - r0 / 2).
+  /// Hook: 1/2 stiffness r^2, and beyond r0 = most / stiffness: most (r - r0 / 2).
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) const noexcept {
     if (!point.inside) return {};
     const double length = point.place.norm(), bend = tether_.most / tether_.stiffness;
     const double pull = length > bend ? tether_.most / length : tether_.stiffness;
     return {energy(length), -pull * point.place, tether_.stiffness};
   }
-  /// Hook: at the farthest place [J].
+  /// Hook: potential at the farthest point [J].
   [[nodiscard]] double range(const RegionReach& reach) const noexcept {
     return energy(reach.farthest());
   }

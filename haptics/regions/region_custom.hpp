@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects of regions that a program brings: a class that meets the concepts of region_hooks.hpp.
-// Include this header where such a class is written; custom_effects<Fog>() then describes it as it
-// does effects of objects.
+// Custom effects of regions: classes of a program that meet the concepts of region_hooks.hpp.
+// Include this header where such a class is defined; custom_effects<Fog>() then describes it like
+// an effect of objects.
 //
 //   auto scene = load_scene_file("room.toml", custom_effects<Honey, Fog>());
 #pragma once
@@ -19,21 +19,21 @@
 
 namespace reckon::haptics {
 
-/// Declares that nothing is felt outside of the region, so that the hooks are not called there. An
-/// effect without this keeps each servo awake, wherever its hand is.
+/// Declares that the effect gives no force outside of the region, so its hooks are not called
+/// there. An effect without this keeps each servo awake, wherever its hand is.
 template <class Effect>
 concept ActsInsideOnly = requires {
   requires Effect::kInsideOnly;
 };
 
-/// The hooks that an effect of a region has.
+/// Hooks of an effect of a region.
 struct RegionHookSet {
   bool stores = false;       ///< StoresRegionEnergy
   bool gives = false;        ///< GivesRegionForce
   bool inside_only = false;  ///< ActsInsideOnly
 };
 
-/// One copy of a custom effect of a region, with its state: the hooks of region_hooks.hpp. Servo
+/// One copy of a custom effect of a region, with its state and the hooks of region_hooks.hpp. Servo
 /// thread. A hook that the effect lacks does nothing.
 class CustomRegionState {
  public:
@@ -47,13 +47,13 @@ class CustomRegionState {
   [[nodiscard]] virtual Eigen::Vector3d force(const RegionPoint& point) noexcept = 0;
 };
 
-/// A kind of effect of regions that a program brings. Immutable; any thread.
+/// A custom effect type of regions. Immutable; any thread.
 class CustomRegionEffect : public CustomEffect {
  public:
   [[nodiscard]] std::string_view section() const noexcept override { return "region"; }
   [[nodiscard]] virtual RegionHookSet hooks() const noexcept = 0;
-  /// @param values one for each row of parameters(), in its order
-  /// @throws std::invalid_argument when the effect refuses them
+  /// @param values one for each row of parameters(), in order
+  /// @throws std::invalid_argument if the effect refuses them
   [[nodiscard]] virtual std::unique_ptr<CustomRegionState> make(
       std::span<const double> values) const = 0;
 
@@ -61,13 +61,13 @@ class CustomRegionEffect : public CustomEffect {
   using CustomEffect::CustomEffect;
 };
 
-/// Declared for a region: the effect and one value for each of its parameters.
+/// A custom effect declared for a region, with a value for each of its parameters.
 struct DeclaredCustomRegionEffect {
   std::shared_ptr<const CustomRegionEffect> effect;
   std::vector<double> values;
 };
 
-/// The state of an effect by its hooks.
+/// Adapts an effect class to CustomRegionState.
 template <class Effect>
 class CustomRegionStateOf final : public CustomRegionState {
  public:
@@ -106,7 +106,7 @@ class CustomRegionStateOf final : public CustomRegionState {
   Effect effect_;
 };
 
-/// A kind of effect by its class.
+/// Adapts an effect class to CustomRegionEffect.
 template <class Effect>
 class CustomRegionEffectOf final : public CustomRegionEffect {
  public:

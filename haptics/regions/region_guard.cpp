@@ -10,11 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTriedTo = 0.1;  // [m], to both sides of the region's origin
+constexpr double kTriedTo = 0.1;  // [m], half length of the test paths through the region's origin
 constexpr int kTries = 400;
 // Rounding of an effect that computes in double precision.
 constexpr double kComputed = 1e-6;
-constexpr double kExact = 1e-9;      // of the bound that energy rests on
+constexpr double kExact = 1e-9;      // tolerance of the bound that energy relies on
 constexpr double kNoForce = 1e-12;   // [N]
 constexpr double kNoEnergy = 1e-12;  // [J]
 
@@ -36,7 +36,7 @@ GuardedRegionEffect::GuardedRegionEffect(const GuardedRegionEffect& other)
       guard_(other.guard_),
       held_(other.held_) {}
 
-// What was found of the code stays found when a servo starts anew.
+// Findings about the effect's code survive a restart of the servo.
 GuardedRegionEffect& GuardedRegionEffect::operator=(const GuardedRegionEffect& other) {
   if (this == &other) return *this;
   if (effect_ != other.effect_) return *this = GuardedRegionEffect(other);
@@ -52,7 +52,7 @@ void GuardedRegionEffect::hold_potential() noexcept {
   guard_.report().not_booked.store(true, std::memory_order_relaxed);
 }
 
-// A potential that is nowhere below zero, of curvature K, has no slope beyond sqrt(2 K energy).
+// A non-negative potential of curvature K has no slope above sqrt(2 K energy).
 bool GuardedRegionEffect::is_bounded(const RegionPotential& answer) const noexcept {
   const double stiffness = state_->stiffness();
   if (!(stiffness >= 0.0 && stiffness <= kMostStiffness)) return false;
@@ -62,8 +62,8 @@ bool GuardedRegionEffect::is_bounded(const RegionPotential& answer) const noexce
   return answer.force.allFinite() && answer.force.norm() <= (1.0 + kExact) * steepest + kNoForce;
 }
 
-// The energy may fall, but grows only by the work of the hand. The force differs along the way by
-// at most the stiffness times the way.
+// The energy may fall, but grows only by the work of the hand. Along a displacement the force
+// changes by at most the stiffness times its length.
 bool GuardedRegionEffect::is_earned(const RegionPoint& point,
                                     const RegionPotential& answer) const noexcept {
   if (point.entered || !last_.known) return true;
@@ -75,7 +75,7 @@ bool GuardedRegionEffect::is_earned(const RegionPoint& point,
   return given + growth <= slack;
 }
 
-// As a device that crosses the region's origin along three ways.
+// Tests the effect with a device that crosses the region's origin along three lines.
 void GuardedRegionEffect::try_ways() noexcept {
   const Vector3d ways[] = {Vector3d::UnitX(), Vector3d(-1, 2, 2) / 3, Vector3d(0.6, 0, -0.8)};
   const std::unique_ptr<CustomRegionState> fresh = state_->copy();
@@ -107,7 +107,7 @@ RegionPotential GuardedRegionEffect::potential(const RegionPoint& point) noexcep
       hold_potential();
       return {};
     }
-    // The stiffness that the check rests on, where anything is stored.
+    // The stiffness that the check relies on, if any energy is stored.
     if (answer.energy > 0.0) answer.stiffness = state_->stiffness();
     last_ = {point.place, answer, true};
     return answer;
@@ -124,7 +124,7 @@ Vector3d GuardedRegionEffect::force(const RegionPoint& point) noexcept {
   if (guard_.is_off() || !acts_at(point)) return Vector3d::Zero();
   return guard_.timed([&]() -> Vector3d {
     Vector3d total = Vector3d::Zero();
-    // The step in which a potential fails has asked it already.
+    // In the step in which a potential fails, its force has been requested already.
     if (held_) total += guard_.bounded(state_->potential(point).force);
     return total + guard_.bounded(state_->force(point));
   });

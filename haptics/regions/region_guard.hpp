@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A custom effect of a region as the servo runs it. Nothing that its code answers reaches the
-// energy ledger or the device unchecked.
+// Runs a custom effect of a region in the servo. Results of its code are checked before they reach
+// the energy ledger or the device.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,27 +17,27 @@ namespace reckon::haptics {
 
 /// Runs a custom effect of a region and checks it in each step:
 ///
-/// - An answer that is no number counts as zero. A force is cut to CallGuard::kMostForce.
-/// - A potential is booked as long as it is what StoresRegionEnergy asks for: nowhere below zero,
-///   of a curvature of at most stiffness() and so never steeper than sqrt(2 stiffness energy), and
-///   growing only by the work of the hand. It is tried on three ways of 0.2 m when it is made, and
-///   on the hand's own way. If it fails once, its force is a held one from then on, which the
-///   energy port bounds without knowing it.
+/// - A result that is not a number counts as zero. A force is limited to CallGuard::kMostForce.
+/// - A potential is booked while it meets StoresRegionEnergy: it is never negative, its curvature
+///   is at most stiffness(), so its slope at most sqrt(2 stiffness energy), and it grows only by
+///   the work of the hand. It is tested on three lines of 0.2 m at construction, and on the path of
+///   the hand. After a first failure its force counts as a held force, which the energy port bounds
+///   for any effect.
 /// - An effect that is often slow is switched off, see CallGuard.
 ///
-/// What is booked never gives more than it stored, not even in the step in which it is found out:
-/// a force of at most sqrt(2 stiffness energy) takes no more than the energy over any way, but for
-/// 1/2 stiffness way^2, which is the device's to pay as for every spring.
+/// A booked potential never gives more energy than it stored, not even in the step of its failure:
+/// a force of at most sqrt(2 stiffness energy) takes at most that energy over any displacement,
+/// plus 1/2 stiffness displacement^2, for which the device pays as for every spring.
 ///
 /// A copy has its own state and shares the report. Assignment between copies of one effect does not
 /// allocate.
 class GuardedRegionEffect {
  public:
   static constexpr double kMostStiffness = 1e6;  ///< [N/m]
-  static constexpr double kMostEnergy = 1e3;     ///< [J]; more would drown what others store
+  static constexpr double kMostEnergy = 1e3;     ///< [J]; more would mask the energy of others
 
-  /// @param region its name, for the report
-  /// @throws std::invalid_argument when the effect refuses its values
+  /// @param region name, for the report
+  /// @throws std::invalid_argument if the effect refuses its values
   GuardedRegionEffect(const DeclaredCustomRegionEffect& declared, const std::string& region);
   GuardedRegionEffect(const GuardedRegionEffect& other);
   GuardedRegionEffect(GuardedRegionEffect&& other) noexcept = default;
@@ -51,15 +51,15 @@ class GuardedRegionEffect {
     return guard_.shared_report();
   }
 
-  /// Hook; nothing once the potential is held.
+  /// Hook; empty once the potential has failed.
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) noexcept;
   /// Hook.
   [[nodiscard]] double stiffness() const noexcept;
-  /// Hook; with the force of a potential that is held. Called after potential().
+  /// Hook; includes the force of a failed potential. Called after potential().
   [[nodiscard]] Eigen::Vector3d force(const RegionPoint& point) noexcept;
 
  private:
-  /// Where the potential was asked last.
+  /// The last call of the potential.
   struct Last {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     RegionPotential answer{};

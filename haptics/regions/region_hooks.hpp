@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hooks of an effect of a region: a part of space, or all of it, in which a device feels a
-// force without touching anything.
+// Hooks of an effect of a region: a part of space, or all of it, where a device feels a force
+// without contact.
 //
 //   potential(point)          stores energy, as a spring does
-//   range(reach)              besides: it is a source, so that a loan pays for what it stores
-//   sink(point, most)         besides: lowers the place where it stores nothing
-//   shake(point)              a force that its own bucket of energy pays for
+//   range(reach)              with potential(): a source, whose storage a loan pays for
+//   sink(point, most)         with potential(): lowers the zero of the potential
+//   shake(point)              an oscillating force, paid for by a bucket of energy
 //   force(point)              any other force on the device
 #pragma once
 
@@ -17,14 +17,14 @@
 
 namespace reckon::haptics {
 
-/// The device in a region, once a servo step.
+/// State of the device in a region, for each servo step.
 struct RegionPoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< in the region's axes [m]
-  Eigen::Vector3d beyond = Eigen::Vector3d::Zero();    ///< from the nearest place inside [m]
+  Eigen::Vector3d beyond = Eigen::Vector3d::Zero();    ///< from the nearest point inside [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< in the region's axes [m/s]
   double dt = 0.001;                                   ///< [s], hold time of the force
   bool inside = true;
-  bool entered = false;  ///< it was not inside one step before, or the servo has just begun
+  bool entered = false;  ///< it was outside in the last step, or the servo has just started
 };
 
 /// A potential at a point.
@@ -34,10 +34,10 @@ struct RegionPotential {
   double stiffness = 0.0;                           ///< [N/m], upper bound of its curvature
 };
 
-/// Where a device may be in a region, in the region's axes.
+/// Range of a device's positions in a region, in the region's axes.
 struct RegionReach {
   Eigen::Vector3d least = Eigen::Vector3d::Zero(), most = Eigen::Vector3d::Zero();  ///< [m], inside
-  double beyond = 0.0;  ///< [m], greatest way outside
+  double beyond = 0.0;  ///< [m], greatest distance outside
 
   /// Greatest distance from the region's origin [m].
   [[nodiscard]] double farthest() const noexcept {
@@ -45,10 +45,10 @@ struct RegionReach {
   }
 };
 
-/// Stores energy. The energy may fall by itself, as where friction slides, but never grow without a
-/// motion of the device against the force, except where it enters the region: then its share begins
-/// at what the ledger covers, and for LendsRegionEnergy the loan for regions. Called once a step,
-/// inside or not.
+/// Stores energy. The energy may fall by itself, as in sliding friction, but grows only by motion
+/// of the device against the force. Exception: on entry, its share begins at the energy that the
+/// ledger covers, for LendsRegionEnergy plus the loan for regions. Called once a step, inside or
+/// not.
 template <class Effect>
 concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
                                       const RegionPoint& point) {
@@ -58,8 +58,8 @@ concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
   noexcept->std::same_as<double>;
 };
 
-/// A potential that a region brings with it: the port's loan for regions pays where it begins at
-/// more than 0. range() is the most that it can store within reach [J].
+/// A potential that the region supplies: the port's loan for regions pays if it begins above 0.
+/// range() is the greatest energy that it can store within reach [J].
 template <class Effect>
 concept LendsRegionEnergy = StoresRegionEnergy<Effect> &&
     requires(const Effect& fixed, const RegionReach& reach) {
@@ -67,16 +67,15 @@ concept LendsRegionEnergy = StoresRegionEnergy<Effect> &&
   noexcept->std::same_as<double>;
 };
 
-/// Its potential has no least place of its own: the zero of the potential goes down as the hand
-/// sinks, so that the energy at the point grows, by at most `most` [J]. @return that growth. Called
-/// after potential().
+/// A potential without a fixed zero: the zero falls with the hand, so the energy at the point
+/// grows, by at most `most` [J]. @return that growth. Called after potential().
 template <class Effect>
 concept SinksInRegion = requires(Effect& effect, const RegionPoint& point, double most) {
   { effect.sink(point, most) }
   noexcept->std::same_as<RegionPotential>;
 };
 
-/// Gives a force with time [N, region's axes], see OscillationBucket.
+/// Gives a force as a function of time [N, region's axes], see OscillationBucket.
 template <class Effect>
 concept ShakesRegion = requires(Effect& effect, const RegionPoint& point) {
   { effect.shake(point) }
@@ -94,7 +93,7 @@ template <class Effect>
 concept HookedRegionEffect =
     StoresRegionEnergy<Effect> || GivesRegionForce<Effect> || ShakesRegion<Effect>;
 
-/// Each hook whose name it has is complete and has the right types.
+/// Each hook that the effect names is complete and has the right types.
 template <class Effect>
 concept WholeRegionHooks = (StoresRegionEnergy<Effect> || !(
                                                               requires { &Effect::potential; } ||

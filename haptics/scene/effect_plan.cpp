@@ -22,7 +22,7 @@ namespace reckon::haptics {
 
 namespace {
 
-// Greatest excess of a patch's value over that of the object's own surface.
+// Greatest excess of a patch's value over the value of the object's own surface.
 double most_beyond(const SurfacePatches* patches, double Surface::*member) noexcept {
   double most = 0.0;
   if (patches == nullptr) return most;
@@ -206,7 +206,7 @@ PlannedObject plan_object(const SceneObject& object, ShapeMaker& shapes) {
                         object.matter,
                         object.grab,
                         object.carried};
-  // A mesh whose vertices are far from its origin has axes of its own.
+  // A mesh far from its origin has its own axes.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.origin = (*mesh)->origin();
     planned.position += planned.orientation * planned.origin;

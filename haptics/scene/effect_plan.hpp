@@ -22,15 +22,15 @@
 
 namespace reckon::haptics {
 
-/// Where an object that moves is, and how. Frame S.
+/// Motion of an object. Frame S.
 struct ObjectMotion {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< object -> S
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s], of its origin
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
-  double step = 0.0;  ///< [s]; its speed is that of half of it before its place
+  double step = 0.0;  ///< [s]; the velocity lags the position by half of it
 
-  /// Of the place of the object that is at `point` [m] now [m/s].
+  /// Velocity of the object's material point at `point` [m], [m/s].
   [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& point) const noexcept {
     return velocity + turn_rate.cross(point - position);
   }
@@ -38,8 +38,8 @@ struct ObjectMotion {
 
 /// One object for the servo.
 struct PlannedObject {
-  /// Share of the least mass over the period that the viscous effects of one hand may have. Three
-  /// hands together stay below 1.
+  /// Greatest viscosity of one hand's effects, as a share of least mass over period. Three hands
+  /// together stay below 1.
   static constexpr double kViscousShare = 0.3;
 
   std::string name;
@@ -48,42 +48,42 @@ struct PlannedObject {
   /// Origin of the shape's axes [m], S. It differs from the object's origin if a mesh has a
   /// SurfaceMesh::origin().
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  /// Of the shape's axes in the object's own [m], of the same orientation.
+  /// Origin of the shape's axes in the object's axes [m]; both have the same orientation.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::AlignedBox3d bounds;  ///< S; unbounded for a plane
   PlannedEffects effects;      ///< as declared; contacts copy them
-  /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
+  /// Patches of a mesh, or null. With patches, `effects` apply to triangles in no patch.
   std::shared_ptr<const SurfacePatches> patches;
   Matter matter;
   GrabSpring grab;       ///< of a body: it sticks to the hand that touches it
   bool carried = false;  ///< by an ObjectMover
-  /// Of a body, the result of least_mass_of() [kg]; infinite where no effect depends on its speed.
+  /// For a body, the result of least_mass_of() [kg]; infinite if no effect depends on its velocity.
   double least_mass = std::numeric_limits<double>::infinity();
 
-  /// Its pose here is the one that it has at the start.
+  /// Whether it moves; its pose here is then the initial one.
   [[nodiscard]] bool moves() const noexcept { return is_body() || carried; }
-  /// Moved by pushes and its weight.
+  /// Whether pushes and its weight move it.
   [[nodiscard]] bool is_body() const noexcept { return matter.mass > 0 && !carried; }
   /// Takes another pose. @param at [m], S
   void place(const Eigen::Vector3d& at, const Eigen::Matrix3d& turned) noexcept;
-  /// Stiffness of all its springs together [N/m]; that of the stiffest patch if there are any.
+  /// Stiffness of all its springs together [N/m]; with patches, of the stiffest one.
   [[nodiscard]] double stiffness() const noexcept;
-  /// Damping of the device that its effects reserve, besides the need of the springs [N s/m]; the
-  /// greatest of any patch.
+  /// Damping of the device that its effects reserve, in addition to the need of the springs [N
+  /// s/m]; with patches, the greatest value.
   [[nodiscard]] double damping() const noexcept;
-  /// Greatest coefficient of an effect that holds back by the speed of the object, for a period
-  /// [s], so that the object does not turn around within it [N s/m].
+  /// Greatest coefficient of a velocity-dependent drag [N s/m], so that the object does not reverse
+  /// within a `period` [s].
   [[nodiscard]] double most_viscosity(double period) const noexcept {
     return kViscousShare * least_mass / period;
   }
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);
   }
-  /// In the object's own axes, as its file or scene has them [m].
+  /// Position in the object's own axes, as in its file or scene [m].
   [[nodiscard]] Eigen::Vector3d place_of(const Eigen::Vector3d& p_S) const noexcept {
     return to_object(p_S) + origin;
   }
-  /// Whether one of its effects gives a force where it is not touched.
+  /// Whether one of its effects gives a force without contact.
   [[nodiscard]] bool acts_from_afar() const noexcept;
   [[nodiscard]] bool is_mesh() const noexcept {
     return std::holds_alternative<std::shared_ptr<const SurfaceMesh>>(shape);
@@ -101,9 +101,9 @@ struct PlannedRegion {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< of its origin [m], S
   PlannedRegionEffects effects;                                ///< as declared; devices copy them
 
-  /// From the nearest place inside to `place`, both in its axes [m]; zero inside.
+  /// Vector from the nearest point inside to `place`, both in its axes [m]; zero inside.
   [[nodiscard]] Eigen::Vector3d beyond(const Eigen::Vector3d& place) const noexcept;
-  /// Curvature of all its potentials together, at most [N/m].
+  /// Upper bound of the curvature of all its potentials together [N/m].
   [[nodiscard]] double stiffness() const noexcept;
 };
 
@@ -123,7 +123,7 @@ class EffectPlan {
   /// @throws std::invalid_argument or std::runtime_error naming the object, the value and the
   /// remedy.
   explicit EffectPlan(const Scene& scene);
-  /// Of parts of another plan; meshes are shared.
+  /// From parts of another plan; meshes are shared.
   EffectPlan(std::vector<PlannedObject> objects, std::vector<PlannedRegion> regions)
       : objects_(std::move(objects)), regions_(std::move(regions)) {
     plant_tree();
@@ -132,9 +132,9 @@ class EffectPlan {
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
   [[nodiscard]] const std::vector<PlannedRegion>& regions() const noexcept { return regions_; }
   [[nodiscard]] bool has_moving() const noexcept { return has_moving_; }
-  /// Calls visit(index) once for each object that stands still and whose bounds meet `box` [m, S].
-  /// It also visits those that have no bounds, or an effect that acts at a distance. Any order, no
-  /// allocation; logarithmic in the objects with bounds.
+  /// Calls visit(index) once for each static object whose bounds overlap `box` [m, S], and for
+  /// objects without bounds or with an effect that acts at a distance. Any order, no allocation;
+  /// logarithmic in the objects with bounds.
   template <class Visit>
   void visit_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     for (const std::uint32_t index : always_) visit(index);
@@ -143,15 +143,14 @@ class EffectPlan {
     });
   }
   /// Whether a surface, a region, or an effect that acts at a distance, is within `reach` [m] of
-  /// `at` [m, S].
-  /// Surely true where one is; logarithmic in the objects out of reach.
+  /// `at` [m, S]. Never false if one is; logarithmic in the objects out of reach.
   [[nodiscard]] bool has_within(const Eigen::Vector3d& at, double reach) const noexcept;
-  /// Stiffness of the stiffest surface [N/m]; 0 without objects. Compared with the device's passive
-  /// limit.
+  /// Stiffness of the stiffest surface [N/m], to compare with the device's passive limit; 0 without
+  /// objects.
   [[nodiscard]] double max_stiffness() const noexcept;
-  /// The same of the stiffest region.
+  /// The same for the stiffest region.
   [[nodiscard]] double max_region_stiffness() const noexcept;
-  /// What is seen of the program's own effects while servos run, one for each that is declared.
+  /// Reports on the program's own effects from running servos, one for each declared effect.
   [[nodiscard]] std::vector<std::shared_ptr<const GuardReport>> custom_effects() const;
   /// All stages in the order of the servo step.
   [[nodiscard]] std::vector<PlanStage> stages() const;

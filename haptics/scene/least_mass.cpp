@@ -22,11 +22,11 @@ using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
 using SolidPointer = std::shared_ptr<const ImplicitSolid>;
 
-constexpr int kCells = 20;                 // along a solid, as for its bodies
+constexpr int kCells = 20;                 // along a solid, as in BodyGeoms
 constexpr double kBallsShare = 1.0 / 3.5;  // 1 / (1 + m r^2 / (2/5 m r^2))
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// 1 / m_eff = 1/m + (r x t) . I^-1 (r x t), at its greatest over all unit t.
+// Rotational part of 1 / m_eff = 1/m + (r x t) . I^-1 (r x t), the greatest over all unit t.
 double turning_at(const Vector3d& r, const Matrix3d& inverse) {
   Matrix3d cross;
   cross << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
@@ -41,7 +41,7 @@ double share_of(const Block& block) {
   return 1.0 / (1.0 + turning_at(0.5 * block.bounds().sizes(), inverse));
 }
 
-// Convex in the place: it is greatest at a corner.
+// Convex in the position, so the greatest value is at a corner.
 double share_of(const SurfaceMesh& mesh) {
   const SolidMoments moments = moments_of(mesh);
   const Matrix3d inverse = moments.inertia.inverse();
@@ -66,7 +66,7 @@ double least_mass_of(const PlannedObject& body) {
   try {
     return share_of(SurfaceMesh(mesh_of(**solid, kCells))) * mass;
   } catch (const std::invalid_argument&) {
-    return kEndless;  // no body: BodyGeoms refuses it with the remedy
+    return kEndless;  // not a body: BodyGeoms refuses it with the remedy
   }
 }
 

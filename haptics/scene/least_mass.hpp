@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How little of a body may resist a push at its surface: forces that are held for a period and
-// depend on the body's speed must not turn it around.
+// Least effective mass of a body at its surface. Forces that depend on the body's velocity and are
+// held for a period must not reverse it.
 #pragma once
 
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::haptics {
 
-/// Least effective mass [kg] against a push anywhere on the body's surface and in any direction,
-/// moving and turning. Exact for a ball, and for a box at its corners; of a solid without
-/// closed form it is that of its mesh, and infinite where it has no end. Some milliseconds for a
-/// mesh.
+/// Least effective mass [kg], with rotation, for a push at any point of the body's surface and in
+/// any direction. Exact for a ball, and for a box at its corners. A solid without closed form uses
+/// its mesh; an unbounded solid has an infinite mass. Some milliseconds for a mesh.
 /// @param body has a mass
 [[nodiscard]] double least_mass_of(const PlannedObject& body);
 

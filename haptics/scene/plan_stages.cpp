@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a plan runs, in words: EffectPlan::stages().
+// EffectPlan::stages(): describes the stages of a plan.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -42,7 +42,7 @@ PlanStage effect_stage(const std::string& object, const Effect& effect) {
   if constexpr (TakesFile<Effect>) stage.parameters = file_text(effect.parameters().file);
   for (const auto& row : Effect::kParameters)
     append_value(stage.parameters, row.key, effect.parameters().*row.field, row.unit);
-  // Four samples in a wave show it whole.
+  // Four samples per wave render it fully.
   if constexpr (std::is_same_v<Effect, Relief>) {
     append_value(stage.parameters, "waves of", effect.wavelength(), "m");
     append_value(stage.parameters, "whole up to", effect.wavelength() / 4e-3, "m/s at 1 kHz");

@@ -32,18 +32,18 @@ struct SurfacePatch {
   std::optional<Friction> friction;  ///< none: smooth
 };
 
-/// What an object is to the bodies of its scene.
+/// Properties of an object for the simulation of bodies.
 struct Matter {
-  double mass = 0.0;         ///< [kg]; above 0: it is a body itself, and moves when it is pushed
-  double friction = 0.5;     ///< >= 0; of a pair, the geometric mean
-  double restitution = 0.0;  ///< 0 to 1; of a pair, the greater one
-  double drag = 0.0;         ///< [N s/m] >= 0, of a body's speed
+  double mass = 0.0;         ///< [kg]; above 0: it is a body, and pushes move it
+  double friction = 0.5;     ///< >= 0; a pair has the geometric mean
+  double restitution = 0.0;  ///< 0 to 1; a pair has the greater one
+  double drag = 0.0;         ///< [N s/m] >= 0, against the velocity of a body
 };
 
 /// A box that no body leaves (thesis fig. 5.6); hands do not feel it.
 struct WorkSpace {
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< [m]; there is none unless all are > 0
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], of its middle, S
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< [m]; no workspace unless all are > 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], center, S
   double restitution = 0.5;                            ///< 0 to 1, of a rebound
 
   [[nodiscard]] bool is_set() const noexcept { return (size.array() > 0.0).all(); }
@@ -55,8 +55,8 @@ struct SceneObject {
   Shape shape;
   ObjectPose pose;
   DeclaredEffects effects;            ///< effects.of<SpringDamper>().stiffness = 900.0
-  std::vector<SurfacePatch> patches;  ///< of a mesh; other triangles have `effects`
-  /// Those of the program, in the order of their keys.
+  std::vector<SurfacePatch> patches;  ///< for a mesh; other triangles have `effects`
+  /// Custom effects, in the order of their keys.
   std::vector<DeclaredCustomEffect> custom_effects{};
   Matter matter{};
   GrabSpring grab{};  ///< of a body: it sticks to the hand that touches it
@@ -70,7 +70,7 @@ struct SceneRegion {
   std::optional<Shape> shape;  ///< a plane (below it), sphere or box; none: everywhere
   ObjectPose pose;
   DeclaredRegionEffects effects;
-  /// Those of the program, in the order of their keys.
+  /// Custom effects, in the order of their keys.
   std::vector<DeclaredCustomRegionEffect> custom_effects{};
 };
 

@@ -13,7 +13,7 @@ namespace reckon::haptics {
 
 namespace {
 
-constexpr std::size_t kNamed = 6;  // names listed in a sentence
+constexpr std::size_t kNamed = 6;  // names listed in a notice
 
 PlannedPatch planned(const SurfacePatch& patch) {
   try {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Surface patches of a mesh: those that a scene declares, found among the materials and groups of
+// Surface patches of a mesh: the declared ones of a scene, matched to the materials and groups of
 // the mesh file. Made once at load.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace reckon::haptics {
 
 class SurfaceMesh;
 
-/// Felt parameters at a place of a surface. Without friction both coefficients are 0.
+/// Parameters at a point of a surface. Without friction both coefficients are 0.
 struct SurfaceFeel {
   Surface surface;
   Friction friction{0.0, 0.0};
@@ -29,14 +29,14 @@ struct PlannedPatch {
   std::size_t triangles = 0;
 };
 
-/// The patches of one mesh, numbered from 1 in the order in which its file first names them. So the
-/// numbers are the same for all readers of the file, in whatever order a scene declares the
-/// patches. Number 0 is the object's own surface, for all triangles in no patch.
+/// The patches of one mesh, numbered from 1 in the order of their first use in its file. So the
+/// numbers are the same for all readers of the file, in any order of declaration. Number 0 is the
+/// object's own surface, for all triangles in no patch.
 struct SurfacePatches {
   std::vector<PlannedPatch> patches;       ///< by number; at least one
   std::vector<std::uint16_t> of_triangle;  ///< as SurfaceMesh::triangles()
-  std::vector<std::string> missing;        ///< names that a scene declares and no triangle has
-  std::vector<std::string> in_file;        ///< names that the file has
+  std::vector<std::string> missing;        ///< declared names without triangles
+  std::vector<std::string> in_file;        ///< names in the file
 
   [[nodiscard]] const SurfaceFeel& feel_of(std::uint32_t patch) const noexcept {
     return patches[patch].feel;

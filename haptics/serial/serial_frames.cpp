@@ -27,7 +27,7 @@ SerialFrame serial_frame(std::span<const std::uint8_t> carried) noexcept {
   const std::uint16_t crc = serial_crc(carried);
   SerialFrame frame;
   auto& out = frame.octets;
-  // Each group of octets that are not zero follows one that says where the next zero would be.
+  // COBS: each group of octets other than zero follows a code octet, the distance to the next zero.
   std::size_t code = 1;
   std::size_t next = 2;
   const auto put = [&](std::uint8_t octet) {
@@ -42,11 +42,11 @@ SerialFrame serial_frame(std::span<const std::uint8_t> carried) noexcept {
   put(static_cast<std::uint8_t>(crc & 0xFF));
   put(static_cast<std::uint8_t>(crc >> 8));
   out[code] = static_cast<std::uint8_t>(next - code);
-  frame.length = next + 1;  // octets begin as zeros: the first and the last stay so
+  frame.length = next + 1;  // the array starts as zeros: the first and the last octet stay zero
   return frame;
 }
 
-// As a code the octet says that the next zero is farther away than any frame is long.
+// The octet 0xFF, as a COBS code, puts the next zero beyond the end of any frame.
 SerialFrame spoiling(const SerialFrame& frame) noexcept {
   assert(frame.length < kSerialLongest);
   SerialFrame out;
@@ -80,7 +80,7 @@ std::span<const std::uint8_t> SerialFrameParser::end() noexcept {
   return {};
 }
 
-// @return length of what was read; 0: these octets are no frame
+// @return length of the decoded frame; 0: malformed
 std::size_t SerialFrameParser::unstuff() noexcept {
   std::size_t length = 0;
   for (std::size_t at = 0; at < length_;) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How octets become frames on a serial line: COBS, which leaves no zero within a frame, a zero
-// after each, and a CRC of 16 bits at its end. docs/devices.md has it for those who write a board.
+// Frames of a serial line: payload and 16-bit CRC in COBS, which leaves no zero within a frame, and
+// a zero after each frame. docs/devices.md describes the format for authors of firmware.
 #pragma once
 
 #include <array>
@@ -11,15 +11,16 @@
 
 namespace reckon::haptics {
 
-/// Most octets that a frame carries, without its CRC.
+/// Largest payload of a frame in octets, without its CRC.
 inline constexpr std::size_t kSerialMost = 64;
-/// Most octets of a frame on the line: two of CRC, one of COBS, a zero before and one after.
+/// Largest frame on the line in octets: payload, two of CRC, one of COBS, a zero before and one
+/// after.
 inline constexpr std::size_t kSerialLongest = kSerialMost + 5;
 
-/// CRC-16/IBM-3740 ("CCITT-FALSE"): polynomial 0x1021, begins with 0xFFFF, high bit first.
+/// CRC-16/IBM-3740 ("CCITT-FALSE"): polynomial 0x1021, initial value 0xFFFF, high bit first.
 [[nodiscard]] std::uint16_t serial_crc(std::span<const std::uint8_t> octets) noexcept;
 
-/// A frame as it goes over the line.
+/// An encoded frame.
 struct SerialFrame {
   std::array<std::uint8_t, kSerialLongest> octets{};
   std::size_t length = 0;
@@ -29,23 +30,24 @@ struct SerialFrame {
   }
 };
 
-/// @param carried 1 to kSerialMost octets @return a frame that ends what came before it with a zero
-/// of its own
+/// @param carried 1 to kSerialMost octets @return a frame that starts with a zero, which ends any
+/// octets before it
 [[nodiscard]] SerialFrame serial_frame(std::span<const std::uint8_t> carried) noexcept;
 
-/// The frame after an octet that spoils what came before: of a frame that lost its last zero alone
-/// the first zero of this one would make a whole one, however much later it comes.
+/// Prefixes a frame with an octet that invalidates an unfinished frame before it. Without it, the
+/// first zero of this frame would complete an older frame that lost only its last zero, however
+/// old.
 /// @param frame of kSerialLongest - 1 octets at most
 [[nodiscard]] SerialFrame spoiling(const SerialFrame& frame) noexcept;
 
-/// Puts frames together from octets in any pieces. After octets that are lost or changed the next
-/// zero begins anew: one damaged octet costs two frames at most. No allocation; one thread.
+/// Decodes frames from a stream of octets. After lost or changed octets the next zero
+/// resynchronizes: one damaged octet costs two frames at most. No allocation; one thread.
 class SerialFrameParser {
  public:
-  /// @return what the frame that this octet ends carries, valid until the next call; empty: none
-  /// ended
+  /// @return payload of the frame that this octet completes, valid until the next call; empty: none
+  /// completed
   [[nodiscard]] std::span<const std::uint8_t> take(std::uint8_t octet) noexcept;
-  /// Frames that were too long, or whose octets or CRC were wrong, since the start.
+  /// Frames since the start that were too long, malformed or had a wrong CRC.
   [[nodiscard]] std::uint64_t damaged() const noexcept { return damaged_; }
 
  private:

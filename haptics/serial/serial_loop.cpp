@@ -14,7 +14,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kFarewell = milliseconds(10);
 constexpr microseconds kGlance{500};
-constexpr std::uint16_t kQuestions = 4'096;  // between those of one session and of the next
+constexpr std::uint16_t kQuestions = 4'096;  // by which the question numbers of two sessions differ
 
 }  // namespace
 
@@ -27,7 +27,7 @@ SerialLoop::SerialLoop(UsbExchange& exchange, const DeviceLimits& limits, Serial
       run_(exchange.ended_run + 1),
       question_(static_cast<std::uint16_t>(now().count() >> 10)) {}
 
-// The board would hold the last force until its watchdog ends it.
+// Sends a zero force: else the board would hold the last force until its watchdog ends it.
 SerialLoop::~SerialLoop() {
   if (!port_ || !session_) return;
   session_->end_run();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The session of a serial board: opens its line, asks it, and exchanges forces and readings.
+// The session of a serial board: opens its line, queries the board, and exchanges forces and
+// readings.
 #pragma once
 
 #include <atomic>
@@ -18,7 +19,7 @@
 
 namespace reckon::haptics {
 
-/// Where a board is.
+/// Serial port of a board.
 struct SerialPlace {
   static constexpr unsigned kBaud = 1'000'000;
 
@@ -26,19 +27,19 @@ struct SerialPlace {
   unsigned baud = kBaud;
 };
 
-/// One board.
+/// Session of one board, run by its thread.
 class SerialLoop final : public DeviceSession {
  public:
   static constexpr std::chrono::milliseconds kRetry{200};  ///< between attempts
-  /// The line is opened anew where it takes no octets for so long.
+  /// The line is reopened after it has accepted no octets for so long.
   static constexpr std::chrono::milliseconds kStuck{6};
 
-  /// @param exchange outlives it  @param time steady, that of the servo's writes
+  /// @param exchange outlives it @param time steady clock of the servo's writes
   SerialLoop(UsbExchange& exchange, const DeviceLimits& limits, SerialPlace place, SteadyTime time);
-  /// Sends the board a zero; waits 10 ms for it at most.
+  /// Sends the board a zero force; blocks 10 ms at most.
   ~SerialLoop() override;
 
-  /// How far it is; nothing while the line is not open. The thread of step().
+  /// Stage of the session; std::nullopt: the line is not open. Only on the thread of step().
   [[nodiscard]] std::optional<SerialStage> stage() const noexcept;
   [[nodiscard]] unsigned axes() const noexcept override { return axes_; }
 
@@ -60,9 +61,9 @@ class SerialLoop final : public DeviceSession {
   std::optional<SerialSession> session_;
   std::uint32_t run_;
   std::uint16_t question_;
-  std::chrono::nanoseconds taken_at_{0};  // when the line last took octets
+  std::chrono::nanoseconds taken_at_{0};  // when the line last accepted octets
   std::optional<SerialStage> told_;
-  bool timed_ = false;  // and reported
+  bool timed_ = false;  // the chain's delay has been reported
   std::atomic<unsigned> axes_{0};
 };
 

@@ -15,9 +15,9 @@ namespace {
 
 using Octets = std::span<const std::uint8_t>;
 
-constexpr std::size_t kGreeting = 8;  // octets before its axes
+constexpr std::size_t kGreeting = 8;  // octets before the axes
 constexpr std::size_t kAxis = 7;
-constexpr std::size_t kReport = 13;                              // octets before its counts
+constexpr std::size_t kReport = 13;                              // octets before the counts
 constexpr std::int32_t kLongestStep = 1'000'000;                 // [nm]
 constexpr std::uint16_t kLeastPeriod = 100, kMostPeriod = 2000;  // [us]
 
@@ -145,7 +145,7 @@ std::string refusal_of(const SerialGreeting& greeting, double max_force, double 
     force = std::min(force, 1e-3 * greeting.axis[i].most_force);
     step = std::max(step, 1e-9 * std::abs(1.0 * greeting.axis[i].nm_per_count));
   }
-  // A millionth over is rounding.
+  // A millionth allows for rounding.
   if (force < max_force * (1 - 1e-6))
     return "it holds less force than is asked of it: write max_force = " + in_units(force, "N") +
            " in its [[device]]";

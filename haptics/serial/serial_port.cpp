@@ -21,8 +21,8 @@ namespace {
 
 using std::chrono::microseconds;
 
-// The library's own header knows a few rates only, and does not go beside the kernel's, which knows
-// all. @return whether it was done; if not, errno says why
+// An ioctl. The header of glibc supports few baud rates and conflicts with the kernel's header,
+// which supports all. @return success; if false, errno has the reason
 template <class Argument>
 bool control(int descriptor, unsigned long request, Argument argument) noexcept {
   return syscall(SYS_ioctl, descriptor, request, argument) == 0;
@@ -42,8 +42,8 @@ Trouble trouble_of_opening(const std::string& path, int error) {
   return {path + " cannot be opened: " + std::generic_category().message(error), ""};
 }
 
-// 8N1, no control of flow, octets as they are, the modem's lines left alone. A board that is reset
-// when the line is opened is so once: the line stays up when it is closed.
+// 8N1, no flow control, raw octets, no HUPCL. A board that resets when the line is opened does so
+// only once, because close() leaves the modem lines up.
 bool make_raw(int descriptor, unsigned baud) noexcept {
   termios2 mode{};
   if (!control(descriptor, TCGETS2, &mode)) return false;
@@ -57,7 +57,8 @@ bool make_raw(int descriptor, unsigned baud) noexcept {
   return control(descriptor, TCSETS2, &mode);
 }
 
-// An FTDI chip waits 16 ms for more octets; its driver then makes that 1 ms. Not each line has it.
+// An FTDI chip collects octets for 16 ms; this flag makes its driver set 1 ms. Other lines may lack
+// the flag.
 void ask_for_low_latency(int descriptor) noexcept {
   serial_struct line{};
   if (!control(descriptor, TIOCGSERIAL, &line)) return;
@@ -79,7 +80,7 @@ SerialOpening SerialPort::open(const std::string& path, unsigned baud) {
   if (descriptor < 0) return refused(trouble_of_opening(path, errno));
   std::unique_ptr<SerialPort> port(new SerialPort(descriptor));
   if (isatty(descriptor) == 0) return refused({path + " is no serial line", ""});
-  // Who may do everything is not kept out by the first.
+  // TIOCEXCL does not exclude root, so the lock is needed too.
   if (!control(descriptor, TIOCEXCL, 0) || flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     return refused(trouble_of_opening(path, errno));
   if (!make_raw(descriptor, baud)) {
@@ -92,9 +93,9 @@ SerialOpening SerialPort::open(const std::string& path, unsigned baud) {
   return {std::move(port), {}, {}};
 }
 
-// Octets that the line did not take would keep close() for half a minute, and reach the board when
-// nobody has it any more. Where there are none, a pseudo terminal would drop those that its other
-// end has not read.
+// Unsent octets would block close() for half a minute, and reach the board after the port is
+// closed. Without unsent octets there is no flush: it would drop what the other end of a pseudo
+// terminal has not read yet.
 SerialPort::~SerialPort() {
   int waiting = 0;
   if (control(descriptor_, TIOCOUTQ, &waiting) && waiting > 0)
@@ -109,7 +110,7 @@ void SerialPort::wait(microseconds longest) noexcept {
   pollfd line{descriptor_, static_cast<short>(waits ? POLLIN | POLLOUT : POLLIN), 0};
   const timespec time = time_of(longest);
   if (ppoll(&line, 1, &time, nullptr) <= 0) return;
-  // What came before it was hung up is of no use.
+  // Octets received before a hang-up are of no use.
   if ((line.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) gone_ = true;
 }
 
@@ -117,8 +118,8 @@ std::span<const std::uint8_t> SerialPort::read() noexcept {
   if (gone_) return {};
   const ssize_t length = ::read(descriptor_, in_.data(), in_.size());
   if (length > 0) return std::span(in_).first(static_cast<std::size_t>(length));
-  // Without octets a raw line that is open reads 0, as one does that was hung up: wait() tells them
-  // apart.
+  // An open raw line without data reads 0, and so does one after a hang-up: wait() distinguishes
+  // them.
   if (length < 0 && errno != EAGAIN && errno != EINTR) gone_ = true;
   return {};
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial line of this host: octets both ways, as they are.
+// A serial line of this host: raw octets both ways.
 #pragma once
 
 #include <array>
@@ -15,33 +15,33 @@ namespace reckon::haptics {
 
 class SerialPort;
 
-/// What came of opening one.
+/// Result of opening a port.
 struct SerialOpening {
   std::unique_ptr<SerialPort> port;  ///< null: see `problem`
   std::string problem;               ///< why it cannot be used, as a sentence
-  std::string remedy;                ///< of that; may be empty
+  std::string remedy;                ///< remedy of the problem; may be empty
 };
 
-/// Opened for this program alone, without any line discipline. One thread. From construction on it
-/// allocates nothing, and only wait() waits.
+/// A port in exclusive, raw mode. One thread. After construction it allocates nothing, and only
+/// wait() blocks.
 class SerialPort {
  public:
-  /// @param path such as /dev/ttyACM0  @param baud > 0, any that the line can do; a board on USB
-  /// without a chip of its own for that is as fast as USB
+  /// @param path such as /dev/ttyACM0 @param baud > 0, any rate that the line supports; a board
+  /// with native USB ignores it and is as fast as USB
   [[nodiscard]] static SerialOpening open(const std::string& path, unsigned baud);
   ~SerialPort();
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  /// Until octets have come, room is there for those that wait, or so long at most.
+  /// Waits until data arrives, output space is free for pending octets, or the time-out.
   void wait(std::chrono::microseconds longest) noexcept;
-  /// What has come. @return empty: nothing more
+  /// Received octets, valid until the next call. @return empty: no more
   [[nodiscard]] std::span<const std::uint8_t> read() noexcept;
-  /// Where octets are on their way still, the newest have to wait.
+  /// Whether octets of the last send() are still pending. Do not send() meanwhile.
   [[nodiscard]] bool is_sending() noexcept;
-  /// Call while it is not sending. @param octets at most kMostOut
+  /// Call only while is_sending() is false. @param octets at most kMostOut
   void send(std::span<const std::uint8_t> octets) noexcept;
-  /// Hung up, unplugged, or otherwise of no use any more.
+  /// Hung up, unplugged, or otherwise failed.
   [[nodiscard]] bool is_gone() const noexcept { return gone_; }
 
   static constexpr std::size_t kMostOut = 128;
@@ -54,10 +54,10 @@ class SerialPort {
   bool gone_ = false;
   std::array<std::uint8_t, 1024> in_{};
   std::array<std::uint8_t, kMostOut> out_{};
-  std::size_t out_begin_ = 0, out_end_ = 0;  // not written yet
+  std::size_t out_begin_ = 0, out_end_ = 0;  // octets not written yet
 };
 
-/// Sleeps while there is no line.
+/// Sleeps, for use without an open port.
 void wait_without_line(std::chrono::microseconds longest) noexcept;
 
 }  // namespace reckon::haptics

@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::uint32_t kLongestPause = 1'000'000;  // [us], between reports
-constexpr int kMostLost = 1'000;                    // reports; more have come in another order
+constexpr std::uint32_t kLongestPause = 1'000'000;  // [us] between reports
+constexpr int kMostLost = 1'000;  // reports; a larger step means that reports are out of order
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void SerialSession::greet(std::span<const std::uint8_t> carried, nanoseconds now
   }
   const auto greeting = serial_greeting(carried);
   if (!greeting) return;
-  // An answer to another program's question may lie on the line still.
+  // An answer to another program may still be on the line.
   const auto back = static_cast<std::uint16_t>(question_ - 1 - greeting->answers);
   if (back >= questions_) return;
   refusal_ = refusal_of(*greeting, max_force_, resolution_);
@@ -68,7 +68,7 @@ void SerialSession::greet(std::span<const std::uint8_t> carried, nanoseconds now
   heard_at_ = now;
 }
 
-// Whether a report is news; duplicates and those that are out of their order are not.
+// Whether a report is new: no duplicate, and in order.
 bool SerialSession::follows(const SerialReport& report) noexcept {
   if (!last_) return true;
   const auto ahead = static_cast<std::uint16_t>(report.sequence - last_->sequence);
@@ -82,7 +82,7 @@ bool SerialSession::follows(const SerialReport& report) noexcept {
   return true;
 }
 
-// What damping takes is booked by the board's clock.
+// The ledger books the energy of damping by the board's clock, so a wrong clock is refused.
 bool SerialSession::keeps_time(nanoseconds now) {
   if (stage_ == SerialStage::greeted) first_heard_ = now;
   const nanoseconds ours = now - first_heard_;
@@ -109,7 +109,8 @@ void SerialSession::hear(const SerialReport& report, nanoseconds now) {
   if (runs) read(report, now);
 }
 
-// A reading is one where the board held forces of the servo's alone since the one before.
+// Makes a reading of a report if the board has held only forces of the servo since the reading
+// before.
 void SerialSession::read(const SerialReport& report, nanoseconds now) noexcept {
   const auto from = report.from ? frame_at(*report.from) : std::nullopt;
   if (!from || !are_its(*from, *from)) return leave();
@@ -137,13 +138,13 @@ void SerialSession::end_run() noexcept {
   exchange_.ended_run.store(run_++, std::memory_order_release);
 }
 
-// No reading joins those before.
+// Later readings do not continue the earlier ones: a new run begins.
 void SerialSession::leave() noexcept {
   if (held_) end_run();
   held_.reset();
 }
 
-// The oldest write that was waited for is the one after the write whose force was held until now.
+// Of the writes that now take effect, the oldest follows the write whose force was held until now.
 void SerialSession::time(const Sent& held, const Sent& next, nanoseconds now) noexcept {
   if (timed_ == kTimed) return;
   const nanoseconds written = held.at + (next.at - held.at) / (next.number - held.number);

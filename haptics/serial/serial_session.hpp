@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The talk with a serial board: it is asked what it is, and then told forces while it reports.
+// The protocol with a serial board: it identifies itself, then receives forces and sends reports.
 // Pure: octets and time are passed in.
 #pragma once
 
@@ -19,95 +19,98 @@
 
 namespace reckon::haptics {
 
-/// How far a board is.
+/// Stage of a session.
 enum class SerialStage : std::uint8_t {
-  asked,    ///< has not greeted yet: no force
-  refused,  ///< has greeted, and cannot be driven: no force
-  greeted,  ///< has not reported yet: no force
-  homing,   ///< its counts are no places yet: no force
+  asked,    ///< no greeting yet: no force
+  refused,  ///< the board has greeted and cannot be used: no force
+  greeted,  ///< no report yet: no force
+  homing,   ///< its counts are no positions yet: no force
   running,  ///< forces are shown
 };
 
-/// What is known of every serial board: nothing. 0.1 N s/m are assumed, nine tenths of which the
-/// servo gets, and steps of 0.1 mm.
+/// Assumptions about all serial boards, of which nothing is known: a damping of 0.1 N s/m, nine
+/// tenths of it for the servo, and steps of 0.1 mm.
 [[nodiscard]] const UsbFacts& serial_facts() noexcept;
-/// [N], that boards are taken to hold where nobody says more.
+/// Assumed greatest force of a board [N], unless the user states another.
 inline constexpr double kSerialAssumedForce = 1.0;
 
-/// The thread of its line alone calls it. While it runs it allocates nothing.
+/// For the thread of its line only. It allocates nothing while the stage is `running`.
 ///
-/// A board reports at its own rate, and takes up another force at the instant of a report only. It
-/// tells the numbers of the force until then and from then on, so each way of the handle between
-/// two reports that follow each other was under one force, which the servo's ledger books. Where
-/// reports were lost, the servo's reading fails, and its ledger takes the worst that forces between
-/// those numbers may have done. Where the board held a force that the servo did not write (a zero
-/// in its place, or none), readings do not join: a new run begins.
+/// A board reports at its own rate, and changes its force only at the instant of a report. A report
+/// has the numbers of the force until then and of the force from then on. So one force acts on the
+/// motion between two consecutive reports, and the servo's ledger books it. If reports were lost,
+/// the servo's reading fails, and its ledger books the worst case of the forces between those
+/// numbers. If the board held a force that the servo did not write (a zero in its place, or none),
+/// a new run of readings begins.
 class SerialSession {
  public:
-  /// Of the servo. A zero is at the board 10 ms after the servo's last write.
+  /// The servo's silence after which a zero force is sent. It is at the board 10 ms after the
+  /// servo's last write.
   static constexpr std::chrono::microseconds kSilence{6500};
-  /// Without a report for so long the board is told a zero.
+  /// Without a report for so long, the board is sent a zero force.
   static constexpr std::chrono::milliseconds kLate{6};
-  /// Without a report for so long it has to be asked anew.
+  /// Without a report for so long, the board must identify itself again.
   static constexpr std::chrono::milliseconds kLost{200};
-  /// Between questions.
+  /// Interval of ask frames.
   static constexpr std::chrono::milliseconds kAsk{100};
-  /// Boards that the opening of their line resets are silent for some two seconds.
+  /// Time for a first answer. Boards that reset when the port is opened are silent for about two
+  /// seconds.
   static constexpr std::chrono::milliseconds kPatience{4000};
-  /// A frame goes out for each report, and where none comes after this time.
+  /// A frame is sent after each report, and after this time without a report.
   static constexpr std::chrono::milliseconds kKeep{2};
-  /// After so long its clock is held against ours.
+  /// After so long, the board's clock is compared with the host's.
   static constexpr std::chrono::seconds kTrial{4};
 
-  /// @param exchange outlives it  @param limits that the servo relies on  @param run of the first
-  /// readings  @param question number of the first question  @param now of its begin
+  /// @param exchange outlives it @param limits that the servo relies on @param run of the first
+  /// readings @param question number of the first ask frame @param now start of the session
   SerialSession(UsbExchange& exchange, const DeviceLimits& limits, std::uint32_t run,
                 std::uint16_t question, std::chrono::nanoseconds now);
 
-  /// Octets that came.
+  /// Decodes received octets.
   void take(std::span<const std::uint8_t> octets, std::chrono::nanoseconds now);
-  /// What to send now, if anything. Call while the line takes octets, and send it at once.
+  /// The frame to send now, if any. Call only while the line accepts octets, and send it at once.
   [[nodiscard]] std::optional<SerialFrame> next(std::chrono::nanoseconds now);
-  /// Of the end of the program: no force.
+  /// The last frame of the program: zero force.
   [[nodiscard]] SerialFrame farewell() noexcept;
 
   [[nodiscard]] SerialStage stage() const noexcept { return stage_; }
-  /// Whether the board has to be asked anew.
+  /// Whether the board must identify itself again.
   [[nodiscard]] bool is_lost(std::chrono::nanoseconds now) const noexcept {
     return stage_ >= SerialStage::greeted && now - heard_at_ > kLost;
   }
-  /// Whether nothing answers, for kPatience.
+  /// Whether the board has not answered for kPatience.
   [[nodiscard]] bool is_unanswered(std::chrono::nanoseconds now) const noexcept {
     return stage_ == SerialStage::asked && now - began_ > kPatience;
   }
-  /// What was heard meanwhile was no frame, or none at all.
+  /// Whether damaged frames were received.
   [[nodiscard]] bool hears_noise() const noexcept { return parser_.damaged() > 0; }
-  /// Why the board cannot be driven, with its remedy, as a sentence.
+  /// Why the board cannot be used, with its remedy, as a sentence.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
-  /// Valid from `greeted` on.
+  /// Valid from stage `greeted` on.
   [[nodiscard]] const SerialGreeting& greeting() const noexcept { return greeting_; }
-  /// The line is gone: what was read tells no place any more. Its last call.
+  /// Ends the run: the connection is lost, and earlier readings are invalid. Only farewell() and
+  /// run() may follow.
   void end_run() noexcept;
-  /// Of the readings that it gives next.
+  /// Run number of the next readings.
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
 
-  /// Reports that were lost, and frames that were damaged, since the begin.
+  /// Lost reports, and damaged frames, since the start.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
   [[nodiscard]] std::uint64_t damaged() const noexcept { return parser_.damaged() + strange_; }
-  /// Longest time from a write of the servo to the report that its force, or a later one, is held,
-  /// over the first kTimed of them; 0: there were not so many yet.
+  /// Longest time from a write of the servo to the report that its force or a later one is held,
+  /// over the first kTimed writes; 0: fewer so far.
   [[nodiscard]] std::chrono::nanoseconds chain() const noexcept {
     return timed_ < kTimed ? std::chrono::nanoseconds(0) : longest_;
   }
   static constexpr int kTimed = 500;
 
  private:
-  // A frame that was sent: the write of the servo whose force it has.
+  // A sent frame and the servo's write whose force it carries.
   struct Sent {
     std::int64_t number = 0;
-    std::chrono::nanoseconds at{0};  // of the write
-    std::int64_t zero = 0;           // number of the last frame, of those to this one, that was a
-                                     // zero in the place of the servo's force
+    std::chrono::nanoseconds at{0};  // time of the write
+    std::int64_t zero =
+        0;  // the newest frame up to this one with a zero in place of the servo's force
   };
   static constexpr std::int64_t kKept = 256;  // frames
 
@@ -119,7 +122,7 @@ class SerialSession {
   void leave() noexcept;
   void time(const Sent& held, const Sent& next, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::optional<std::int64_t> frame_at(std::uint16_t number) const noexcept;
-  // Whether all frames from one to another have the servo's forces.
+  // Whether all frames of a range carry the servo's forces.
   [[nodiscard]] bool are_its(std::int64_t first, std::int64_t last) const noexcept {
     return sent(last).zero < first;
   }
@@ -140,16 +143,17 @@ class SerialSession {
   SerialGreeting greeting_;
   std::string refusal_;
 
-  std::array<Sent, kKept> frames_{};         // a ring
-  std::int64_t told_ = 0;                    // number of the last frame, from 1
-  bool answers_ = false;                     // a report came, and no frame went out since
-  bool is_its_ = false;                      // of the last frame
-  std::optional<SerialReport> last_;         // report
-  std::chrono::nanoseconds clock_{0};        // the board's, of that
-  std::chrono::nanoseconds first_heard_{0};  // of reports
-  bool is_timed_ = false;                    // its clock was judged
-  int let_go_ = 0;                           // of the last reading
-  std::optional<std::int64_t> held_;  // frame of the last reading of this run; none: none yet
+  std::array<Sent, kKept> frames_{};         // ring buffer
+  std::int64_t told_ = 0;                    // number of the last frame sent, from 1
+  bool answers_ = false;                     // a report was received, and no frame sent since
+  bool is_its_ = false;                      // the last frame carried the servo's force
+  std::optional<SerialReport> last_;         // last report in order
+  std::chrono::nanoseconds clock_{0};        // board's clock at that report
+  std::chrono::nanoseconds first_heard_{0};  // time of the first report
+  bool is_timed_ = false;                    // the board's clock has been checked
+  int let_go_ = 0;                           // let_go of the last reading
+  std::optional<std::int64_t>
+      held_;  // frame of the last reading of this run; std::nullopt: none yet
   std::uint64_t lost_ = 0, strange_ = 0;
   int timed_ = 0;
   std::chrono::nanoseconds longest_{0};

@@ -12,11 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShare = 0.1;      // of the way within
+constexpr double kShare = 0.1;      // of the length inside
 constexpr double kDeepest = 0.002;  // [m]
-constexpr int kPlaces = 7;          // of the way, at which its depth is found
+constexpr int kPlaces = 7;          // points of the segment at which the depth is evaluated
 
-// Share of the segment that is outside from its begin on.
+// Share of the segment before it first enters the shape.
 double free_part(const ContactShape& shape, const Vector3d& from, const Vector3d& way) {
   SweepHit hit;
   return sweep_shape(shape, from, way, 0.0, hit) ? hit.t : 1.0;
@@ -27,8 +27,8 @@ double depth_at(const ContactShape& shape, const Vector3d& p) {
   return point.reset(shape, p) ? (point.scp() - p).norm() : 0.0;
 }
 
-// Both in the axes of the shape. A prediction that goes too far puts a hand inside the solid, which
-// makes the segment look deeper by that much.
+// Both points are in the axes of the shape. A prediction error can put a hand inside the solid,
+// which makes the segment seem deeper by that amount.
 bool cuts(const ContactShape& shape, const Vector3d& from, const Vector3d& to, bool apart) {
   if (std::holds_alternative<HalfSpace>(shape)) return false;  // never between two points outside
   const Vector3d way = to - from;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether a solid lies between two hands: then they do not touch one another.
+// Detects a solid between two hands: then they do not touch each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,16 +11,15 @@
 
 namespace reckon::haptics {
 
-/// A solid cuts the segment between two proxies if the segment is within it deeper than 2 mm, or
-/// than a tenth of the length inside plus twice the depth of the deeper proxy if that is less. So
-/// two fingers side by side on a ball still touch, and a finger that slides along an edge does not
-/// come and go: once apart, they stay so down to half of that. Open meshes have no inside and cut
-/// nothing.
+/// A solid separates two proxies if the segment between them is deeper inside it than a limit: 2
+/// mm, or a tenth of the length inside plus twice the depth of the deeper proxy, whichever is less.
+/// So two fingers side by side on a ball still touch. Hysteresis avoids chatter along an edge: once
+/// separated, they stay so down to half the limit. Open meshes have no inside and separate nothing.
 ///
-/// Bodies far from both cost a few comparisons each, all else its place in the plan's tree. No
-/// allocation; tens of ns a solid near both, microseconds a mesh.
-/// @param bodies where those of the plan's objects that move are now  @param from, to [m], S
-/// @param apart whether they were in the call before
+/// Each body far from both costs a few comparisons; static objects cost a search of the plan's
+/// tree. No allocation; tens of ns for a solid near both, microseconds for a mesh.
+/// @param bodies present states of the plan's moving objects @param from, to [m], S
+/// @param apart result of the last call
 [[nodiscard]] bool is_between_hands(const EffectPlan& plan, std::span<const BodyState> bodies,
                                     const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                     bool apart) noexcept;

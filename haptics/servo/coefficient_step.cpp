@@ -16,15 +16,15 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr int kHoldSteps = 100;  // without walls after a trip
-constexpr double kRises = 10.0;  // steps in which the greatest force rises: each is a change
+constexpr int kHoldSteps = 100;  // steps without walls after a trip
+constexpr double kRises = 10.0;  // number of increments of the greatest force: each is an upload
 
 constexpr std::array kSides{WallSide::below, WallSide::above};
 
-// What a model does to a handle.
+// Effect of a model on the handle.
 struct Rendered {
   Vector3d force = Vector3d::Zero();    // [N], frame D
-  Vector3d surface = Vector3d::Zero();  // [m], where the handle would be outside of all walls
+  Vector3d surface = Vector3d::Zero();  // [m], position of the handle outside of all walls
   double stored = 0.0;                  // [J]
 };
 
@@ -64,7 +64,7 @@ void CoefficientStep::step(nanoseconds now) noexcept {
   sample(reading);
   others_.advance(contacts_.update() ? &contacts_.read() : nullptr, step_, count_);
   const bool enabled = safety_.admit(reading, step_.velocity) == Admission::shown;
-  // Two axes at once show no more than the limit.
+  // Two axes together stay within the limit.
   const double most = step_.force_limit / std::sqrt(limits_.axes);
   const double share = safety_.scale(Vector3d(step_.force_limit, 0, 0), Vector3d::Zero());
   const double risen = std::floor(kRises * share + 1e-9) / kRises;

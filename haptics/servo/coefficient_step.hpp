@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The step of a servo whose device renders springs by itself: read, state the walls, publish.
+// The step of a servo whose device renders springs by itself: read, request walls, publish.
 #pragma once
 
 #include <chrono>
@@ -16,12 +16,12 @@
 
 namespace reckon::haptics {
 
-/// The servo of a device of kind `coefficients`. It states the walls around the hand before the
-/// hand is in them, and the device shows what its books pay for. What others have is felt as
-/// RemoteWalls says.
+/// The servo of a device of kind `coefficients`. It requests the walls around the hand before the
+/// hand is inside them, and the device renders what its books pay for. Remote hands and bodies are
+/// RemoteWalls.
 class CoefficientStep final : public ServoCore {
  public:
-  /// As ServoLoop; @throws also for what SpringScene refuses
+  /// As ServoLoop; @throws also as SpringScene
   CoefficientStep(CoefficientDevice& device, std::shared_ptr<const EffectPlan> plan,
                   const ServoConfig& config, std::shared_ptr<BodyWorld> bodies);
 
@@ -40,7 +40,7 @@ class CoefficientStep final : public ServoCore {
   Safety safety_;
   MotionFilter motion_, scp_motion_;
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();  // [m], frame D
-  Eigen::Vector3d asked_ = Eigen::Vector3d::Zero();  // [N], of the walls stated, frame D
+  Eigen::Vector3d asked_ = Eigen::Vector3d::Zero();  // [N], of the requested walls, frame D
   std::chrono::nanoseconds sampled_at_{0}, placed_at_{0};
   bool started_ = false;
   double port_min_ = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Least and greatest energies of a servo's port since it began.
+// Least and greatest energies of a servo's port since its start.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace reckon::haptics {
 /// Servo thread.
 class EnergyExtremes {
  public:
-  /// Takes the energies of a step, and writes the extremes so far beside them.
+  /// Takes the energies of a step, and writes the extremes so far into it.
   void note(ServoSnapshot& step) noexcept {
     step.port_energy_min = port_min_ =
         std::min(port_min_, step.port_energy + step.loan + step.source_energy());

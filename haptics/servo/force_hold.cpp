@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How much of the wanted force a servo's step writes: what the energy pays for, the rate and the
-// device's limit.
+// Limits the force that a servo's step writes: by energy, rate and the device's limit.
 #include <algorithm>
 
 #include "reckon/haptics/passivity/rate_limit.hpp"
@@ -10,7 +9,7 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kToSpare = 1.05;   // times the energy that the whole force needs
+constexpr double kToSpare = 1.05;   // margin over the energy that the whole force needs
 constexpr double kShakeRate = 0.5;  // of the fastest growth of the force, for oscillations
 
 template <class Force>
@@ -22,7 +21,7 @@ Force stepped_to(const Force& from, const Force& to, double most) {
 
 }  // namespace
 
-// A contact whose force is cut to zero lets go, and fades in again from there.
+// A contact whose force is cut to zero releases, and fades in again from there.
 template <int axes>
 void ServoStepOf<axes>::reduce(double scale) noexcept {
   static_.attenuate(scale, port_);
@@ -85,7 +84,7 @@ void ServoStepOf<axes>::shake(const Load& load, const Force& wish) noexcept {
 
 // A crease, an edge or a quick blow turns the force within one sample. The force follows at a
 // limited rate, which the port accounts for like any held force. If the energy does not allow that,
-// the whole force is reduced. Its rate is that of the sum with the oscillations.
+// the whole force is reduced. The limit applies to the sum with the oscillations.
 template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::keep_rate(const Load& load,
                                                                const Force& held) noexcept {

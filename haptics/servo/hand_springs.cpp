@@ -51,7 +51,7 @@ void HandSprings<axes>::load(std::span<RemoteContact* const> hands, const PortMe
 template <int axes>
 void HandSprings<axes>::soften(double most, const ToolOf<axes>& tool, const StepContext& step,
                                ServoTally& tally, Load& sum) noexcept {
-  const bool beyond = sum.springs_slope > std::max(0.0, most);  // none has no slope
+  const bool beyond = sum.springs_slope > std::max(0.0, most);  // without springs there is no slope
   const double goal = beyond ? std::max(0.0, most) / sum.springs_slope : 1.0;
   const double most_change = step.dt / RemoteContact::kRamp;
   crowd_share_ += std::clamp(goal - crowd_share_, -most_change, most_change);

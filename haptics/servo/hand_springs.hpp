@@ -13,7 +13,7 @@
 
 namespace reckon::haptics {
 
-/// What the port has for hands after the walls.
+/// The port's capacity for hands, after the walls.
 struct PortMeans {
   double spare = 0.0;  ///< [N/m], at the first probe
   double level = 0.0;  ///< [J]
@@ -25,17 +25,17 @@ class HandSprings {
  public:
   using Load = PortLoadOf<axes>;
 
-  /// Adds springs and dampers of the touched hands to `sum`. Guests get what hands leave.
+  /// Adds springs and dampers of the touched hands to `sum`. Guests get the rest.
   void load(std::span<RemoteContact* const> hands, const PortMeans& means, const ToolOf<axes>& tool,
             const StepContext& step, ServoTally& tally, Load& sum) noexcept;
-  /// Springs that are together stiffer than the device can show would buzz at the expense of the
-  /// ledger, so all are softened by the same factor.
-  /// @param most stiffness that the device can show after the walls
+  /// Softens all springs by the same factor if they are together stiffer than the device can
+  /// render. They would buzz at the expense of the ledger.
+  /// @param most stiffness that the device can render after the walls
   void soften(double most, const ToolOf<axes>& tool, const StepContext& step, ServoTally& tally,
               Load& sum) noexcept;
 
   [[nodiscard]] const GuestShare& guests() const noexcept { return guests_; }
-  /// Share of the springs of all hands that the device can show.
+  /// Share of the springs of all hands that the device can render.
   [[nodiscard]] double crowd_share() const noexcept { return crowd_share_; }
 
  private:

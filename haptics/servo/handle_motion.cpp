@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUnit = 1e-6;        // of a quaternion's length
-constexpr double kTurnMisfit = 1e-4;  // [rad], of the filter of turns
+constexpr double kUnit = 1e-6;        // tolerance of a quaternion's length
+constexpr double kTurnMisfit = 1e-4;  // [rad], misfit of the rotation filter
 
 }  // namespace
 

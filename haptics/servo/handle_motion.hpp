@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Readings of a device as the motion of its handle in the scene.
+// Converts readings of a device to the motion of its handle in the scene.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,25 +14,25 @@
 
 namespace reckon::haptics {
 
-/// Of a device with `axes` axes, 3 or 6. Servo thread.
+/// For a device with `axes` axes, 3 or 6. Servo thread.
 template <int axes>
 class HandleMotion {
  public:
   /// @param turn_resolution [rad]
   HandleMotion(const ServoConfig& config, double turn_resolution);
 
-  /// From the device's axes to those of the scene.
+  /// Rotation from the device's axes to the scene.
   [[nodiscard]] const Eigen::Matrix3d& axes_in_scene() const noexcept { return to_scene_; }
-  /// A device that turns reads an orientation too.
+  /// Whether a reading is complete: with an orientation for a device of 6 axes.
   [[nodiscard]] static bool is_whole(const DeviceSample& reading) noexcept;
   /// @param reading is_whole()
   [[nodiscard]] HandlePose pose_of(const DeviceSample& reading) const noexcept;
-  /// Where the device dropped its force; none if that is unknown.
+  /// Pose at which the device dropped its force; std::nullopt: unknown.
   [[nodiscard]] std::optional<HandlePose> released_at(const DeviceSample& reading) const noexcept;
-  /// Gives the tool, which has moved to this reading, its velocity: as measured, or filtered.
+  /// Sets the velocity of the tool, which has moved to this reading: measured, or filtered.
   /// @param time of the step [s]
   void follow(const DeviceSample& reading, double time, ToolOf<axes>& tool) noexcept;
-  /// Of the handle, filtered [m/s^2], S.
+  /// Filtered acceleration of the handle [m/s^2], S.
   [[nodiscard]] Eigen::Vector3d acceleration() const noexcept { return motion_.acceleration(); }
 
  private:
@@ -42,8 +42,8 @@ class HandleMotion {
   Eigen::Quaterniond orientation_;
   Eigen::Matrix3d to_scene_;
   MotionFilter motion_;
-  MotionFilter turn_motion_;                          // of a device that turns
-  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all turns
+  MotionFilter turn_motion_;                          // for a device of 6 axes
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all rotations
 };
 
 }  // namespace reckon::haptics

@@ -66,7 +66,7 @@ void MotionFilter::take(const Row& sample) noexcept {
 }
 
 // The sums only ever grow by one sample, and are restarted before the origin leaves a window.
-// Nothing is subtracted, so that no rounding error accumulates.
+// Nothing is subtracted, so no rounding error accumulates.
 void MotionFilter::restart_sums() noexcept {
   origin_ = samples_[newest_];
   since_ = 0;

@@ -25,7 +25,7 @@ class MotionFilter {
   /// of up to 41 um. A higher value is smoother and follows a change of acceleration more slowly.
   explicit MotionFilter(double tolerance = 30e-6) noexcept : tolerance_(tolerance) {}
 
-  /// Restarts: velocity and acceleration are zero until three samples are in.
+  /// Restarts: velocity and acceleration are zero until there are three samples.
   void reset() noexcept {
     count_ = 0;
     whole_ = Parabola{};

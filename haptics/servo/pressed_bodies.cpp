@@ -20,16 +20,16 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
-constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
-// Of what a body can take of a spring beside the wall's, and of viscosity that is held for a
-// period.
+constexpr double kSoon = 3.0;  // periods of look-ahead for approaching bodies
+// Share of a body's stiffness limit for a grab beside the wall, and of the viscosity limit for a
+// held force.
 constexpr double kSpringShare = 0.5;
 constexpr double kViscousShare = 0.1;
 
-// At least its length and at most 1.8 times that, without a root.
+// An upper bound of the length, at most 1.8 times as long, without a square root.
 double most_length(const Vector3d& v) noexcept { return v.cwiseAbs().sum(); }
 
-// As far as device and body can take it.
+// Limits a spring to what device and body can take.
 GrabSpring held_by(GrabSpring spring, double mass, double period, double cap) {
   spring.stiffness = std::min(
       {spring.stiffness, kGrabOverWalls * cap, kSpringShare * stiffest_push(mass, period)});
@@ -90,8 +90,8 @@ void PressedBodiesOf<axes>::settle(std::chrono::nanoseconds now, bool frozen,
   pushes_.clear();
 }
 
-// A body gets all of its spring, and the hand more than is left of it where the port could not pay
-// for less.
+// A body gets the work of its full spring, but the hand feels more than the rest if the port could
+// not pay for a reduction. The body then returns energy.
 template <int axes>
 void PressedBodiesOf<axes>::repay(EnergyLedger& ledger) noexcept {
   for (const Gift& gift : gifts_) {
@@ -152,7 +152,7 @@ void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>
   }
 }
 
-// The body that pushes hardest.
+// Grabs the body with the greatest contact force.
 template <int axes>
 void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
                                  std::size_t probe, bool pressed) noexcept {

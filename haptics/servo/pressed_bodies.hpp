@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a servo does to the bodies that its tool touches and holds, and what that costs its port.
+// Pushes the bodies that a servo's tool touches and holds, and books the work at its port.
 #pragma once
 
 #include <array>
@@ -21,8 +21,7 @@
 
 namespace reckon::haptics {
 
-/// The pushes of one servo. Order of calls within a step: settle, place, grab, foresee, hold. Does
-/// nothing without bodies.
+/// Order of calls within a step: settle, place, grab, foresee, hold. Does nothing without bodies.
 template <int axes>
 class PressedBodiesOf {
  public:
@@ -33,48 +32,47 @@ class PressedBodiesOf {
   /// See ServoLoop.
   [[nodiscard]] double grab_stiffness() const noexcept;
 
-  /// Brings the bodies to `now` and books the work that the pushes did, whether or not the handle
-  /// can be read.
-  /// @param frozen they stand still
+  /// Advances the bodies to `now` and books the work of the pushes, even if the reading failed.
+  /// @param frozen the bodies stand still
   void settle(std::chrono::nanoseconds now, bool frozen, EnergyLedger& ledger) noexcept;
-  /// After the contacts have settled: where the port is in debt, the bodies give back of what they
-  /// got in the last period.
+  /// Call after the contacts have settled. If the port is in debt, the bodies return energy of the
+  /// last period.
   void repay(EnergyLedger& ledger) noexcept;
-  /// Tells the contacts where the bodies are that the tool may meet.
-  /// @param period [s], until the next step
+  /// Passes the bodies that the tool may touch to the contacts.
+  /// @param period [s] until the next step
   void place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
-  /// Where all of them are: before the contacts restart.
+  /// Passes all bodies to the contacts, before these restart.
   void place_all(StaticContactOf<axes>& contacts) const noexcept;
-  /// Takes hold of bodies that are touched, where the hand is told to or they stick to it, and lets
-  /// them go. @param pressed the buttons of the device
+  /// Grabs touched bodies, by button or because they stick, and releases them. @param pressed
+  /// buttons of the device
   void grab(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, std::uint32_t pressed,
             EnergyLedger& ledger) noexcept;
-  /// Foresees the period [s] that begins, after the contacts have settled.
+  /// Predicts the period [s] that begins. Call after the contacts have settled.
   void foresee(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
-  /// The hand gets `springs` of the springs as they were foreseen, and `effects` of the effects
-  /// that the contacts show, and so do the bodies. Where energy is short for a change within the
-  /// period the hand does without it, the bodies do not: their springs are conservative.
+  /// Hand and bodies get the share `springs` of the predicted springs, and the share `effects` of
+  /// the contacts' effects. If the energy for a change within the period is short, the hand does
+  /// not get the change, but the bodies do: their springs are conservative.
   void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
-  /// Where they are; none without a world.
+  /// States of the bodies; empty without a world.
   [[nodiscard]] std::span<const BodyState> bodies() const noexcept {
     return world_ ? world_->states() : std::span<const BodyState>();
   }
-  /// [J], since the start, less what they gave back.
+  /// Work on the bodies since the start, minus the returned energy [J].
   [[nodiscard]] double work() const noexcept { return work_; }
 
  private:
   struct Push {
-    std::size_t number = 0;  // of the world
+    std::size_t number = 0;  // number of the push in the world
     std::size_t probe = 0;
     std::uint32_t object = 0;
     bool grips = false;
   };
-  /// What a body got of a push.
+  /// Work of a push on a body.
   struct Gift {
     std::size_t body = 0;
     double energy = 0.0;  // [J] > 0
   };
-  /// What holds one body.
+  /// Grab springs of one body.
   struct Hold {
     GrabSpring by_button, by_touch;
   };
@@ -89,18 +87,18 @@ class PressedBodiesOf {
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
-  HandReach reach_;         // when the bodies were placed last
-  std::size_t placed_ = 0;  // then
-  double radius_ = 0.0;     // [m], of a probe
+  HandReach reach_;         // reach at the last place()
+  std::size_t placed_ = 0;  // number of bodies of the last place()
+  double radius_ = 0.0;     // [m], radius of a probe
   double patch_ = 0.0;
-  double pad_ = 0.0;  // [m], radius by which a grip resists turning
+  double pad_ = 0.0;  // [m], radius with which a grip resists rotation
   std::uint32_t buttons_ = 0;
-  std::vector<Hold> holds_;             // of the bodies
-  std::vector<std::uint32_t> body_of_;  // of the plan's objects; kNoBody
-  std::array<bool, kMostProbes> by_{};  // a probe holds its body by the button
+  std::vector<Hold> holds_;             // by body
+  std::vector<std::uint32_t> body_of_;  // by object of the plan; kNoBody: not a body
+  std::array<bool, kMostProbes> by_{};  // the probe holds its body by button
   std::vector<Push> pushes_;
-  bool foresaw_ = false;     // a push, in the last step
-  std::vector<Gift> gifts_;  // of the last period
+  bool foresaw_ = false;     // the last step had a push
+  std::vector<Gift> gifts_;  // by push of the last period
   double work_ = 0.0;
 };
 

@@ -8,7 +8,8 @@
 namespace reckon::haptics {
 namespace {
 
-// [N/m], of the spring to the nearest point: as it will be, or what gives the force at that depth.
+// Stiffness of the spring to the nearest point [N/m]: the initial slope outside, or force / depth
+// inside.
 double stiffness_of(const ContactParameters& theta, double depth) noexcept {
   return depth > 0 ? normal_load(theta, depth).force / depth : theta.gain * slope_at(theta, 0.0);
 }

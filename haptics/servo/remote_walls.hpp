@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hands and bodies of others as springs along the axes of a device that renders them by itself.
+// Renders remote hands and bodies as springs along the axes of a coefficient device.
 #pragma once
 
 #include <cstddef>
@@ -13,31 +13,31 @@
 
 namespace reckon::haptics {
 
-/// Each surface is shown as a spring to its nearest point: along an axis of the device a wall that
-/// begins where that point is, of the surface's stiffness. The force is right where the hand was
-/// read, and stays right as the hand goes deeper. A hand that slides drags a little until the next
-/// model. Axes that a normal meets at a flat angle have no wall of it, nor has what is far away.
+/// Each surface becomes a spring to its nearest point: a wall along an axis of the device that
+/// begins at that point, with the surface's stiffness. The force is exact at the position of the
+/// reading and along the normal. Sliding causes a slight drag until the next model. A surface gives
+/// no wall along axes nearly perpendicular to its normal, or if it is far away.
 ///
-/// What others give of energy is not used: they do not push a hand that does not press. Friction
-/// and dampers are not shown. Servo thread; no allocation.
+/// Energy from others is not used: they do not push a hand that does not press. Friction and
+/// dampers are not rendered. Servo thread; no allocation.
 class RemoteWalls {
  public:
-  /// Least part of a normal along an axis that has a wall of it.
+  /// Least component of a normal along an axis for a wall.
   static constexpr double kFlat = 0.3;
-  /// Greatest distance of a surface that is told ahead [m].
+  /// Greatest distance of a surface that has a wall [m].
   static constexpr double kAhead = 0.1;
 
   /// As ServoConfig::max_contacts.
   explicit RemoteWalls(std::size_t most) noexcept : hands_(most) {}
 
-  /// A step, with the hand where it was read. @param news a set that came since the last one; null:
-  /// none did
+  /// One step, with the hand at its reading. @param news set received since the last step; null:
+  /// none
   void advance(const ContactSet* news, const StepContext& step, std::uint64_t count) noexcept;
-  /// Adds their walls to those of the scene: of two of one side the hand meets the nearer one.
+  /// Adds their walls to the scene's walls; of two on one side the nearer one counts.
   /// @param place [m], frame D @param axes 1 or 2 @param most_force [N], of each wall
   void add(const ServoConfig& config, const Eigen::Vector3d& place, std::size_t axes,
            double most_force, SpringModel& model) const noexcept;
-  /// Their accounts. @param share of the force asked for that is shown
+  /// Writes their accounts. @param share of the requested force that is rendered
   void publish(const StepContext& step, double share, AccountList& out) noexcept;
 
   [[nodiscard]] bool empty() const noexcept { return hands_.empty(); }
@@ -45,7 +45,7 @@ class RemoteWalls {
   [[nodiscard]] bool touching() const noexcept;
 
  private:
-  struct Sink final : EnergyLedger {};  // of gifts
+  struct Sink final : EnergyLedger {};  // discards energy from others
 
   NearHands hands_;
   Sink gifts_;

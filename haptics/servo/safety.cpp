@@ -43,7 +43,7 @@ Admission Safety::admit(const DeviceSample& sample, bool finite, bool fast) noex
   return shows ? Admission::shown : Admission::cut;
 }
 
-// `excess` of force or torque over its limit.
+// @param excess ratio of force or torque to its limit
 double Safety::within_limits(double excess, double power) noexcept {
   const double most = std::min(static_cast<double>(shown_) / kRampSteps, heat_.most());
   double scale = excess > most ? most / excess : 1.0;

@@ -16,21 +16,20 @@ namespace reckon::haptics {
 /// Why a step cut the force to zero.
 enum class Trip : std::uint8_t { none, not_finite, overspeed, no_reading, watchdog };
 
-/// What forces a step may show.
+/// Admission of a step's force.
 enum class Admission : std::uint8_t {
   shown,   ///< forces are rendered
   paused,  ///< no force in this step, because its reading failed; the contacts keep their state
-  cut,     ///< no force, and the contacts let go
+  cut,     ///< no force, and the contacts release
 };
 
-/// Decides which share of a wanted force may reach the hand. It only scales, so that the direction
+/// Decides which share of a wanted force may reach the hand. It only scales, so the direction
 /// stays, and the caller scales the storage of its contacts by the same factor to keep the energy
 /// accounts exact. After a trip the force is 0 for `hold`. Then the contacts ramp up again by
-/// themselves, paid by the port. At the start, and after each cut, the greatest force that may be
-/// shown rises from 0 to its limit over kRampSteps, and where motors become warm the limit goes
-/// down (MotorHeat). A single failed reading pauses the force for that step, and the next step
-/// accounts for the motion of the hand. More than kMostMissed failed readings in half a second are
-/// a trip.
+/// themselves, paid by the port. At the start, and after each cut, the force limit rises from 0
+/// over kRampSteps. It falls when the motors become warm (MotorHeat). A single failed reading
+/// pauses the force for that step, and the next step accounts for the motion of the hand. More than
+/// kMostMissed failed readings in half a second are a trip.
 class Safety {
  public:
   /// @param max_force [N] > 0, magnitude of the total force
@@ -42,17 +41,17 @@ class Safety {
   /// Most failed readings, in a row or within kForgiven samples, that are not yet a trip.
   static constexpr int kMostMissed = 3;
   static constexpr int kForgiven = 500;
-  /// Samples after a cut in which the limits of force and torque rise, evenly.
+  /// Samples of the linear rise of the limits of force and torque after a cut.
   static constexpr int kRampSteps = 100;
 
-  /// Of a device that turns. @param max_torque [N m] > 0  @param max_turn [rad/s] > 0
+  /// For a device of 6 axes. @param max_torque [N m] > 0 @param max_turn [rad/s] > 0
   void limit_turns(double max_torque, double max_turn) noexcept {
     max_torque_ = max_torque;
     max_turn_ = max_turn;
   }
 
-  /// Of motors that do not show their greatest force for ever. @param continuous [N] > 0, that they
-  /// do  @param steps their thermal time constant in samples, see MotorHeat
+  /// Sets the thermal limit of the motors. @param continuous [N] > 0, their continuous force @param
+  /// steps their thermal time constant in samples, see MotorHeat
   void limit_heat(double continuous, double steps) noexcept {
     heat_ = MotorHeat(continuous / max_force_, steps);
   }
@@ -88,7 +87,7 @@ class Safety {
   double max_torque_ = 0.0;
   double max_turn_ = 0.0;
   MotorHeat heat_;
-  double showing_ = 0.0;  // share of the greatest force that this step shows
+  double showing_ = 0.0;  // share of the greatest force in this step
   int hold_steps_;
   int held_ = 0;
   int shown_ = 0;     // samples since the last cut, at most kRampSteps

@@ -14,7 +14,7 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or of a yielding hand
+constexpr double kSafeSpeed = 1.0;  // [m/s], of impact on the stiffest wall, or of a yielding hand
 
 }  // namespace
 

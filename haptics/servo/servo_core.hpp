@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the servos of all devices share, however many axes these have: settings, limits, inputs and
-// outputs. ServoLoop is the public face.
+// Common part of all servos: settings, limits, inputs and outputs. ServoLoop is the public
+// interface.
 #pragma once
 
 #include <chrono>
@@ -50,12 +50,12 @@ class ServoCore {
   ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
             std::shared_ptr<BodyWorld> bodies);
 
-  /// Sets the limits of stiffness, rate and power. @return that of walls [N/m]
-  /// @param probe damping that meets a spring at the first probe  @param tool that meets springs
-  /// at all of them [N s/m]  @param bend [1/s], see ToolOf
+  /// Sets the limits of stiffness, rate and power. @return the stiffness limit of walls [N/m]
+  /// @param probe damping for a spring at the first probe [N s/m] @param tool damping for springs
+  /// at all probes [N s/m] @param bend [1/s], see ToolOf
   double cap_for(double probe, double tool, double bend) noexcept;
-  /// Damping [N s/m] that the limits of stiffness for hands and bodies go by in this step, at most
-  /// that of cap_for(): they are less in proportion.
+  /// Scales the stiffness limits of hands and bodies in this step to this damping [N s/m], at most
+  /// the one of cap_for().
   void use_damping(double damping) noexcept;
   void note_time() noexcept;
   /// While the software stop is pressed, the operator's switch counts as released.
@@ -67,7 +67,7 @@ class ServoCore {
   std::shared_ptr<const EffectPlan> plan_;
   std::shared_ptr<BodyWorld> bodies_;
   double period_;                             // [s], nominal
-  double stiffness_per_damping_;              // [1/s]: K cap for 1 N s/m of damping
+  double stiffness_per_damping_;              // [1/s]: stiffness limit per damping
   double static_cap_ = 0.0;                   // [N/m]
   double remote_cap_ = 0.0, body_cap_ = 0.0;  // [N/m]
   double max_rate_ = 0.0;                     // [N/s], growth and rotation of the force
@@ -82,15 +82,16 @@ class ServoCore {
   std::chrono::nanoseconds stepped_at_{0};
   double elapsed_ = 0.0;  // [s], since the last step
   ServoTally tally_;
-  bool stopped_ = false;  // in this step
+  bool stopped_ = false;  // the stop is pressed in this step
 
  private:
   StopSwitch stop_;
-  Eigen::Vector3d seen_at_ = Eigen::Vector3d::Zero();  // [m, S], of the probe as last seen
-  std::chrono::nanoseconds seen_{0}, moved_{0};        // times of news
+  Eigen::Vector3d seen_at_ =
+      Eigen::Vector3d::Zero();                   // [m, S], position of the probe at the last news
+  std::chrono::nanoseconds seen_{0}, moved_{0};  // times of the last news and of the last motion
 };
 
-/// The servo of a device by its axes. @throws std::invalid_argument as ServoLoop
+/// Makes the servo for the device's kind and axes. @throws std::invalid_argument as ServoLoop
 [[nodiscard]] std::unique_ptr<ServoCore> make_servo(HapticDevice& device,
                                                     std::shared_ptr<const EffectPlan> plan,
                                                     const ServoConfig& config,

@@ -13,7 +13,7 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kFarthestProbe = 1.0;     // [m]
-constexpr double kMostRegionShare = 0.25;  // of the stiffness that is left for objects
+constexpr double kMostRegionShare = 0.25;  // of the stiffness limit of objects
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is reserved for remote hands
 
 void require(bool good, const std::string& text) {
@@ -110,7 +110,7 @@ std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies, con
 
 namespace {
 
-// Of all that may hold a body, the greatest numbers.
+// Greatest stiffness and viscosity of all grab springs.
 GrabSpring greatest_hold(const EffectPlan& plan, const ServoConfig& config) {
   GrabSpring out;
   for (const PlannedObject& object : plan.objects()) {

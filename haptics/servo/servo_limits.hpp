@@ -13,12 +13,12 @@
 namespace reckon::haptics {
 
 /// Returns the setting unchanged. @throws std::invalid_argument if a setting is out of range; the
-/// text says which and why.
+/// text names the setting and the reason.
 [[nodiscard]] ServoConfig checked_config(const ServoConfig& config, const DeviceLimits& limits);
 [[nodiscard]] DeviceLimits checked_limits(const DeviceLimits& limits);
 [[nodiscard]] std::shared_ptr<const EffectPlan> checked_plan(
     std::shared_ptr<const EffectPlan> plan);
-/// Null where the plan has no bodies.
+/// Null if the plan has no bodies.
 [[nodiscard]] std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies,
                                                         const EffectPlan& plan,
                                                         const ServoConfig& config);
@@ -26,7 +26,8 @@ namespace reckon::haptics {
 /// Greatest stiffness for each N s/m of damping [1/s].
 [[nodiscard]] double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits);
 /// Greatest stiffness of a surface of the static scene [N/m].
-/// @param damping [N s/m], sure, that all probes together meet  @param per_damping [1/s], see above
+/// @param damping [N s/m], guaranteed damping for all probes together @param per_damping [1/s], see
+/// above
 [[nodiscard]] double static_cap(const EffectPlan& plan, const ServoConfig& config,
                                 const DeviceLimits& limits, double damping, double per_damping);
 

@@ -20,8 +20,9 @@ class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
   /// @param plan not null; never modified, so that all servos of a process may share it
-  /// @throws std::invalid_argument when a setting is out of range; the text says which and why.
-  /// @param bodies of the plan, if it has any; shared by the servos of one thread and one rate
+  /// @throws std::invalid_argument when a setting is out of range; the text names the setting and
+  /// the reason.
+  /// @param bodies bodies of the plan, if any; shared by the servos of one thread and one rate
   ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
             std::shared_ptr<BodyWorld> bodies = nullptr);
   /// The same with a plan that no other servo shares.
@@ -32,15 +33,15 @@ class ServoLoop {
   /// reach, and the contact queries. Logarithmic in the number of objects out of reach.
   void step(std::chrono::nanoseconds now) noexcept { core_->step(now); }
 
-  /// Whether a late step could be felt: the hand feels something, or a hand or a surface is within
-  /// kSoonFelt of the probe. Servo thread; surfaces are searched in one of 8 steps.
+  /// Whether a late step could be felt: there is a force, or a hand or surface is within kSoonFelt
+  /// of the probe. Servo thread; surfaces are searched in one of 8 steps.
   [[nodiscard]] bool has_near() noexcept { return core_->has_near(); }
-  /// Farther than a hand moves before the next search, at 2 m/s and 100 Hz [m].
+  /// More than the motion of a hand until the next search, at 2 m/s and 100 Hz [m].
   static constexpr double kSoonFelt = ServoCore::kSoonFelt;
 
-  /// Whether the model loop has to see the last steps: something is near, the hand has moved by
-  /// more than `moved` [m] or did within 100 ms, or 10 ms have passed. Notes that it will; servo
-  /// thread.
+  /// Whether the model loop needs the last steps: a hand or surface is near, or the hand has moved
+  /// by more than `moved` [m], now or within the last 100 ms; or 10 ms have passed since the last
+  /// news. Then it records the news as taken. Servo thread.
   [[nodiscard]] bool take_news(double moved) noexcept { return core_->take_news(moved); }
 
   /// The model loop writes the remote hands here.
@@ -61,15 +62,15 @@ class ServoLoop {
   [[nodiscard]] double power_limit() const noexcept { return core_->power_limit(); }
   /// Stiffness that the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan().max_stiffness(); }
-  /// Of the scene's stiffest region, and of the stiffest that is shown [N/m].
+  /// Stiffness of the scene's stiffest region, and its limit [N/m].
   [[nodiscard]] double region_stiffness() const noexcept { return plan().max_region_stiffness(); }
   [[nodiscard]] double region_stiffness_limit() const noexcept {
     return kRegionsOverWalls * static_stiffness_limit();
   }
   /// The static scene; any thread.
   [[nodiscard]] const EffectPlan& plan() const noexcept { return core_->plan(); }
-  /// Stiffness limit of a remote hand [N/m]: half that of a wall, because two hands that press each
-  /// other share the energy of one spring.
+  /// Stiffness limit of a remote hand [N/m]: half the limit of a wall, because two hands that press
+  /// each other share the energy of one spring.
   [[nodiscard]] double remote_stiffness_limit() const noexcept {
     return core_->remote_stiffness_limit();
   }
@@ -77,11 +78,11 @@ class ServoLoop {
   [[nodiscard]] double body_stiffness_limit() const noexcept {
     return core_->body_stiffness_limit();
   }
-  /// By which its button holds the body that takes least [N/m]; 0: it holds none.
+  /// Least stiffness with which its button holds a body [N/m]; 0: none.
   [[nodiscard]] double grab_stiffness() const noexcept { return core_->grab_stiffness(); }
   /// Guaranteed damping of the device [N s/m].
   [[nodiscard]] double damping() const noexcept { return core_->limits().damping; }
-  /// Greatest force [N] that is written to the device.
+  /// Greatest force written to the device [N].
   [[nodiscard]] double force_limit() const noexcept { return core_->force_limit(); }
 
  private:

@@ -17,10 +17,10 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr int kHoldSteps = 100;            // of zero force after a trip
-constexpr double kStill = 0.02;            // [m/s], a hand with a tremor is at rest too
+constexpr int kHoldSteps = 100;            // steps of zero force after a trip
+constexpr double kStill = 0.02;            // [m/s]; a hand with a tremor counts as at rest
 constexpr double kRest = 1.0;              // [s]
-constexpr double kRestAfterGuests = 0.05;  // [s], guests took the energy that hands lack
+constexpr double kRestAfterGuests = 0.05;  // [s], if guests took the energy that hands lack
 constexpr double kReadFor = 0.002;         // [s]: within it an encoder step may be no motion
 constexpr std::uint64_t kPartsEach = 8;    // steps between two checks for solids between hands
 
@@ -55,7 +55,7 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
     safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
 }
 
-// What the regions may bring in: the loan that their potentials can need, and a power.
+// Limits the energy of regions: the loan that their potentials can need, and a power.
 template <int axes>
 void ServoStepOf<axes>::limit_sources() {
   Vector3d lever = Vector3d::Zero();
@@ -92,7 +92,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (step_.transfer) {
     step_.engaged = exchange(wanted);
   } else {
-    // Without forces the hand needs no energy: what others gave it would be lost.
+    // Without forces the hand needs no energy: a transfer from others would be lost.
     for (RemoteContact* remote : hands_.all()) remote->ask_nothing();
   }
   const Force force = hold(wanted);
@@ -133,7 +133,7 @@ double ServoStepOf<axes>::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - resolution_ / kReadFor);
 }
 
-// Hands that hold one thing do not feel each other through it. The other peer does the same.
+// Hands with a solid between them do not feel each other. The other peer does the same.
 template <int axes>
 void ServoStepOf<axes>::part_hands() noexcept {
   if (hands_.empty() || count_ % kPartsEach != 0) return;
@@ -144,9 +144,9 @@ void ServoStepOf<axes>::part_hands() noexcept {
   });
 }
 
-// Energy has been short for a second while the hand held still in touch, so that nobody will supply
-// it; for less where guests took it. Hands that part and meet again ring, and would go on for as
-// long as a loan pays.
+// Whether energy has been short for a second while the hand is at rest in contact, so nobody will
+// supply it; for less time if guests took it. Hands that separate and meet again ring, and would do
+// so as long as a loan pays.
 template <int axes>
 bool ServoStepOf<axes>::at_rest() noexcept {
   const bool touches = std::ranges::any_of(hands_.all(), &RemoteContact::touching);
@@ -165,7 +165,7 @@ std::size_t ServoStepOf<axes>::exchange(const Load& load) noexcept {
   return exchange_energy(hands_.all(), port_, {spare, walls, sure_speed(), rests, step_.dt});
 }
 
-// A failed reading leaves the hand where it was; the held force is cut in this step.
+// After a failed reading the hand keeps its position; the held force is cut in this step.
 template <int axes>
 bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   step_.dt = period_;
@@ -193,7 +193,7 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   return true;
 }
 
-// Of a device whose joints have the friction that is sure, pose by pose.
+// Updates damping and resolution for the pose, for a device with guaranteed joint friction.
 template <int axes>
 void ServoStepOf<axes>::note_pose(const DeviceSample& reading) noexcept {
   if (!reading.damping && !reading.resolution) return;
@@ -206,9 +206,9 @@ void ServoStepOf<axes>::note_pose(const DeviceSample& reading) noexcept {
                                     : static_cap_);
 }
 
-// The device dropped the force by itself. Up to that place the sample is a normal one, and after it
-// the hand moved without a force. If the place is unknown, the energy exchanged with the hand is
-// unknown too.
+// The device dropped the force by itself. Up to that position the sample is a normal one; after it,
+// the hand moved without a force. If the position is unknown, so is the energy exchanged with the
+// hand.
 template <int axes>
 void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& pose) noexcept {
   ++tally_.let_go;
@@ -218,7 +218,7 @@ void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& po
     settle();
     port_.let_go();
   } else {
-    tool_.reset(pose);  // nobody knows how long that way took
+    tool_.reset(pose);  // the duration of that motion is unknown
     forfeit(pose);
   }
   written_.setZero();
@@ -228,7 +228,7 @@ template <int axes>
 void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
   ToolOf<axes> there = tool_;
   there.reset(pose);
-  static_.attenuate(0.0, port_);  // what the walls store may be gone too
+  static_.attenuate(0.0, port_);  // the energy stored in the walls may be lost too
   port_.clear();
   pressed_.place_all(static_);
   static_.reset(there);
@@ -253,7 +253,7 @@ void ServoStepOf<axes>::settle() noexcept {
   if (port_.debt() > 0) pressed_.repay(port_);
 }
 
-// The force that is written may be less than the one that the port chose, or lag behind.
+// The written force may be less than the port's, or lag behind it.
 template <int axes>
 void ServoStepOf<axes>::push_bodies(double scale) noexcept {
   const double whole = held_.force.squaredNorm();

@@ -69,17 +69,17 @@ class ServoStepOf final : public ServoCore {
   StaticContactOf<axes> static_;
   EnergyPortOf<axes> port_;
   NearHands hands_;
-  double resolution_;        // [m], of the last reading
-  double held_share_ = 1.0;  // of the force, since the reading before
+  double resolution_;        // [m], resolution of the last reading
+  double held_share_ = 1.0;  // share of the force that was held since the last reading
   Softening softening_;
   HandSprings<axes> springs_;
-  PortHoldOf<axes> held_;     // shares of the load that the port held
-  double took_ = 0.0;         // [s], the handle for its last way
-  double limit_share_ = 1.0;  // share of that within the greatest force
+  PortHoldOf<axes> held_;     // shares of the load that the port holds
+  double took_ = 0.0;         // [s], duration of the handle's last motion
+  double limit_share_ = 1.0;  // share of the held force within the greatest force
   double port_rate_;          // max_rate_ in the port's coordinates
   Safety safety_;
   MotionFilter scp_motion_;
-  std::uint64_t next_search_ = 0;  // of surfaces, by count_
+  std::uint64_t next_search_ = 0;  // step count_ of the next search for surfaces
   bool near_surface_ = true;
   PressedBodiesOf<axes> pressed_;
   std::uint32_t buttons_ = 0;  // of the last good reading

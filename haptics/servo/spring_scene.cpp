@@ -16,13 +16,13 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kAlong = 1e-6;  // [rad], of a face against an axis
+constexpr double kAlong = 1e-6;  // [rad], angle between a face's normal and an axis
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw std::invalid_argument("'" + name + "' " + what);
 }
 
-// The axis along which a unit vector stands; none: along no axis.
+// The axis parallel to a unit vector; std::nullopt: none.
 std::optional<Index> axis_of(const Vector3d& direction) noexcept {
   Index axis = 0;
   const double most = direction.cwiseAbs().maxCoeff(&axis);
@@ -67,7 +67,7 @@ SpringScene::SpringScene(const EffectPlan& plan, const ServoConfig& config, int 
   }
 }
 
-// None: no place of the handle is in it.
+// std::nullopt: the handle cannot be inside it.
 std::optional<SpringScene::Solid> SpringScene::solid_of(const PlannedObject& object,
                                                         const ServoConfig& config) const {
   const char* const oblique =
@@ -100,7 +100,7 @@ std::optional<SpringScene::Solid> SpringScene::solid_of(const PlannedObject& obj
   }
   Solid solid;
   solid.stiffness = std::min(object.stiffness(), most_stiffness_);
-  bool is_walled = false;  // it has a face across an axis of the device
+  bool is_walled = false;  // it has a face perpendicular to an axis of the device
   for (std::size_t i = 0; i < 3; ++i) {
     from[i] -= config.contact_radius;
     to[i] += config.contact_radius;
@@ -125,7 +125,7 @@ bool SpringScene::has(const Solid& solid, std::size_t axis, const Vector3d& plac
   return x > solid.from[axis] && x < solid.to[axis];
 }
 
-// Of a solid that has the place: through which one leaves it soonest.
+// The nearest face of a solid that contains the position.
 std::optional<SpringScene::Face> SpringScene::nearest_face(const Solid& solid,
                                                            const Vector3d& place) const noexcept {
   std::optional<Face> nearest;
@@ -144,7 +144,7 @@ std::optional<SpringScene::Face> SpringScene::nearest_face(const Solid& solid,
   return nearest;
 }
 
-// Of two walls on one side the hand meets the nearer one.
+// Of two walls on one side, the nearer one counts.
 void SpringScene::add(const Solid& solid, Face face, double most_force,
                       SpringModel& model) const noexcept {
   const bool is_below = face.side == WallSide::below;
@@ -157,8 +157,8 @@ void SpringScene::add(const Solid& solid, Face face, double most_force,
 SpringModel SpringScene::walls_at(const Vector3d& place, double most_force) noexcept {
   SpringModel model;
   for (Solid& solid : solids_) {
-    std::size_t outside = 0;  // of its axes
-    std::size_t across = 0;   // the last of them
+    std::size_t outside = 0;  // axes on which the handle is outside
+    std::size_t across = 0;   // the last of these axes
     for (std::size_t axis = 0; axis < axes_; ++axis) {
       if (has(solid, axis, place)) continue;
       ++outside;
@@ -168,7 +168,7 @@ SpringModel SpringScene::walls_at(const Vector3d& place, double most_force) noex
       const bool is_past = place[static_cast<Index>(across)] >= solid.to[across];
       solid.entered = Face{across, is_past ? WallSide::below : WallSide::above};
     } else if (outside > 1) {
-      solid.entered.reset();  // beside an edge no face is ahead along an axis
+      solid.entered.reset();  // diagonally off an edge, no face is ahead along an axis
     } else if (!solid.entered) {
       solid.entered = nearest_face(solid, place);
     }

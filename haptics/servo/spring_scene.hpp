@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces of a scene that a device of one or two axes renders by springs along them.
+// Converts surfaces of a scene to springs along the axes of a device of one or two axes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,15 +16,15 @@
 
 namespace reckon::haptics {
 
-/// Planes and boxes that stand still, with faces along the axes of the device. Servo thread; no
+/// Static planes and boxes with faces perpendicular to the axes of the device. Servo thread; no
 /// allocation after construction.
 class SpringScene {
  public:
-  /// @param axes 1 or 2 @param most_stiffness [N/m] > 0, softer surfaces stay as they are
-  /// @throws std::invalid_argument that names what the device cannot show, and why
+  /// @param axes 1 or 2 @param most_stiffness [N/m] > 0, limit of all surfaces
+  /// @throws std::invalid_argument naming the object that the device cannot render, and why
   SpringScene(const EffectPlan& plan, const ServoConfig& config, int axes, double most_stiffness);
 
-  /// The walls around a handle. A hand that is in a box stays at the face by which it came.
+  /// The walls around a handle. A handle inside a box stays at the face by which it entered.
   /// @param place [m], frame D @param most_force [N], of each wall
   [[nodiscard]] SpringModel walls_at(const Eigen::Vector3d& place, double most_force) noexcept;
 
@@ -32,12 +32,12 @@ class SpringScene {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
   struct Face {
     std::size_t axis = 0;
-    WallSide side = WallSide::below;  // which way it pushes
+    WallSide side = WallSide::below;  // direction of its force
   };
   struct Solid {
     std::array<double, SpringModel::kAxes> from{-kFar, -kFar}, to{kFar, kFar};  // [m], frame D
     double stiffness = 0.0;
-    std::optional<Face> entered;  // ahead of the hand, or by which it is in the solid
+    std::optional<Face> entered;  // face ahead of the handle, or by which it entered
   };
 
   [[nodiscard]] std::optional<Solid> solid_of(const PlannedObject& object,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What one servo sees of the software stop, and the button of its device that presses it.
+// One servo's view of the software stop, and the button of its device that presses it.
 #pragma once
 
 #include <chrono>
@@ -12,23 +12,22 @@
 
 namespace reckon::haptics {
 
-/// The button presses the stop as it goes down, and releases it as it goes down again, where the
-/// stop was pressed kLeastHeld ago or longer: two hands that press at once, or a hand that presses
-/// twice in haste, want it pressed. It counts as down only after it was up for kSettled: the
-/// contacts of a button bounce. One that is down at the first reading presses. Readings that failed
-/// say nothing of it. Servo thread.
+/// The button presses the stop when it goes down. The next time, it releases the stop if that was
+/// pressed at least kLeastHeld ago: two hands that press at once, or one that presses twice in
+/// haste, mean to stop. A press counts only after the button was up for kSettled (contact bounce).
+/// A button that is down at the first reading presses. Failed readings are ignored. Servo thread.
 class StopSwitch {
  public:
   static constexpr std::chrono::milliseconds kSettled{50};
   static constexpr std::chrono::milliseconds kLeastHeld{500};
 
-  /// @param shared with other servos, outlives this; null: a stop of its own, for its button
+  /// @param shared with other servos, outlives this; null: a private stop for its button
   /// @param button bit number in DeviceSample::buttons, 0 to 31; none: no button stops
   StopSwitch(ForceStop* shared, std::optional<int> button) noexcept
       : shared_(shared), button_(button) {}
 
-  /// Call once in each step, in which no force may be shown where it returns true: the stop is
-  /// pressed, or was pressed and released since the last step.
+  /// Call once in each step. If true, the step must not render a force: the stop is pressed, or was
+  /// pressed and released since the last step.
   [[nodiscard]] bool look(const DeviceSample& sample, std::chrono::nanoseconds now) noexcept;
 
  private:
@@ -39,9 +38,9 @@ class StopSwitch {
   ForceStop own_;
   ForceStop* shared_;
   std::optional<int> button_;
-  std::uint32_t seen_ = 0;                     // changes of the stop
-  std::chrono::nanoseconds pressed_since_{0};  // as seen here
-  bool settled_ = true;                        // the button was up for long enough
+  std::uint32_t seen_ = 0;                     // number of changes of the stop at the last call
+  std::chrono::nanoseconds pressed_since_{0};  // when a call last saw a change of the stop
+  bool settled_ = true;                        // the button was up for kSettled
   bool up_ = false;
   std::chrono::nanoseconds up_since_{0};
 };

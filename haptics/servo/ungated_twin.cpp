@@ -79,7 +79,7 @@ void UngatedTwin::sample() noexcept {
 }
 
 bool UngatedTwin::is_lost(const Vector3d& force, const HandMotion& real) const noexcept {
-  // Written so that what is not a number is lost.
+  // Written so that NaN counts as lost.
   return !(force.norm() <= largest_) || !((probe_ - real.position).norm() <= kFarthest);
 }
 

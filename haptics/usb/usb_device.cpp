@@ -9,7 +9,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kAhead = 1.1;  // times the lever of the newest report: as it goes on, so it may be
+constexpr double kAhead =
+    1.1;  // margin over the lever of the newest report, for the motion that follows
 
 }  // namespace
 
@@ -33,7 +34,7 @@ void UsbDevice::take_readings() noexcept {
   }
 }
 
-// Whether what was read is no place of now, and the force of then was dropped.
+// Whether all readings are outdated and their force was dropped.
 bool UsbDevice::is_over(std::chrono::nanoseconds now) const noexcept {
   return (written_ > 0 && now - written_at_ > kWatchdog) ||
          run_ <= exchange_.ended_run.load(std::memory_order_acquire);
@@ -46,7 +47,7 @@ void UsbDevice::forget_readings() noexcept {
   count_ = 0;
 }
 
-// The way that a read shows was made under this force, whenever the servo reads it.
+// How long the force acted under which the motion of this reading was made.
 std::optional<std::chrono::nanoseconds> UsbDevice::held_for() const noexcept {
   const std::int64_t due = written_ - limits_.delay_samples;
   if (due < 1 || due >= written_) return std::nullopt;
@@ -59,7 +60,7 @@ std::optional<std::chrono::nanoseconds> UsbDevice::held_for() const noexcept {
 DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   take_readings();
   if (is_over(now)) forget_readings();
-  // Before the first write the device holds none, number 0.
+  // Before the first write the device holds no force: number 0.
   const std::int64_t due = std::max<std::int64_t>(0, written_ - limits_.delay_samples);
   while (count_ > 0 && waiting_[first_].before <= due) {
     shown_ = waiting_[first_];
@@ -90,7 +91,8 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   return sample;
 }
 
-// Of all reports that are here: those that are not shown yet tell where the handle is by now.
+// The lever is the longest of all reports received, including those not shown yet: they are nearer
+// to the present pose.
 void UsbDevice::note_pose(DeviceSample& sample) noexcept {
   if (shown_.step > 0) sample.resolution = shown_.step;
   if (!(limits_.lever > 0) || !(shown_.lever > 0)) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Between the servo and the thread of a device on USB: the newest force one way, every reading the
-// other.
+// Exchange between the servo and the thread of a device on USB: the newest force one way, every
+// reading the other.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,28 +21,31 @@ namespace reckon::haptics {
 /// A force as the servo wrote it.
 struct UsbForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], frame D
-  std::int64_t number = 0;                          ///< of the write, from 1
-  std::chrono::nanoseconds at{0};                   ///< of the write
-  /// [m/rad]: the torques of all joints together that are paid for are so much for each newton.
+  std::int64_t number = 0;                          ///< number of the write, from 1
+  std::chrono::nanoseconds at{0};                   ///< time of the write
+  /// [m/rad], limit of the torques: their norm over all joints, for each newton, that the damping
+  /// covers.
   double lever = std::numeric_limits<double>::infinity();
 };
 
-/// A report of the device, with the forces on both sides of its instant.
+/// A report of the device, with the forces before and after its instant.
 struct UsbReading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
-  /// Tool -> D, a unit one, where the device can tell how its handle is turned.
+  /// Tool -> D, a unit quaternion, if the device measures the orientation of its handle.
   std::optional<Eigen::Quaterniond> orientation = {};
-  std::int64_t before = 0;  ///< number of the force that was held until then
-  std::int64_t after = 0;   ///< number of the force that is held from then on
-  /// From 1 on. Grows where the force was dropped, whatever for: readings of two runs do not join.
+  std::int64_t before = 0;  ///< number of the force held until then
+  std::int64_t after = 0;   ///< number of the force held from then on
+  /// From 1. Grows each time the force was dropped. Readings of two runs do not join: nothing is
+  /// known of the motion between them.
   std::uint32_t run = 0;
   std::uint8_t buttons = 0;
-  /// By the device's own clock, where its reports have one.
+  /// By the device's clock, if its reports have timestamps.
   std::optional<std::chrono::nanoseconds> at = {};
-  std::chrono::nanoseconds heard{0};  ///< when the host had it, on the clock of the writes
-  /// [m/rad], the greatest way of the handle for a turn of its joints at this pose; 0: not known.
+  std::chrono::nanoseconds heard{0};  ///< when the host received it, on the clock of the writes
+  /// [m/rad], greatest motion of the handle per turn of its joints at this pose; 0: unknown.
   double lever = 0.0;
-  double step = 0.0;  ///< [m], of its encoders at this pose, along each axis; 0: as anywhere
+  double step =
+      0.0;  ///< [m], resolution of the encoders at this pose, along each axis; 0: as in the limits
   double held = 1.0;  ///< share of the force `before` that was held
 };
 
@@ -52,7 +55,7 @@ struct UsbExchange {
 
   TripleBuffer<UsbForce> force;
   SpscRing<UsbReading> readings{kReadings};
-  /// The last run that is over: none of its readings, shown or not, tells a place of now.
+  /// The last run that has ended: all its readings are outdated.
   std::atomic<std::uint32_t> ended_run{0};
 };
 

@@ -11,10 +11,10 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr std::uint8_t kToDevice = 0x40;  // of a vendor
+constexpr std::uint8_t kToDevice = 0x40;  // bmRequestType of vendor requests
 constexpr std::uint8_t kFromDevice = 0xC0;
-constexpr std::uint16_t kPort = 0;   // of a device with one
-constexpr unsigned kPatience = 100;  // [ms], of a request
+constexpr std::uint16_t kPort = 0;   // wIndex: the only port
+constexpr unsigned kPatience = 100;  // [ms], time-out of a request
 constexpr std::size_t kInbox = 4096;
 
 std::string reason(int code) { return libusb_strerror(static_cast<libusb_error>(code)); }
@@ -73,7 +73,7 @@ void close_usb_device(libusb_device_handle* handle) noexcept { libusb_close(hand
 
 namespace {
 
-// An interrupt each way, or none.
+// @return std::nullopt unless the interface has an interrupt endpoint each way
 std::optional<UsbPipes> pipes_of(const libusb_interface_descriptor& about) {
   if (about.bInterfaceClass != LIBUSB_CLASS_HID) return std::nullopt;
   UsbPipes pipes{true, 0, 0, about.bInterfaceNumber, 0};
@@ -108,7 +108,7 @@ void UsbLine::Free::operator()(libusb_transfer* transfer) const noexcept {
 
 UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPipes& pipes)
     : context_(context), handle_(handle), pipes_(pipes), inbox_(kInbox) {
-  // Where the kernel drives the device itself, it gives way and comes back at the end.
+  // The kernel's driver, if any, is detached and comes back when the interface is released.
   static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
   const int code = libusb_claim_interface(handle, pipes_.interface);
   if (code != 0) {
@@ -190,7 +190,7 @@ void UsbLine::note(int status) noexcept {
   if (fault_ == UsbFault::none) fault_ = fault_of(status);
 }
 
-// Nobody has read for a long time where the inbox is full: what comes then is of no use.
+// A full inbox has not been read for long, so further data is dropped.
 void UsbLine::take(const libusb_transfer& transfer) noexcept {
   const auto count = static_cast<std::size_t>(std::max(0, transfer.actual_length));
   if (transfers_ == ends_.size() || count > inbox_.size() - length_) return;
@@ -212,7 +212,8 @@ void UsbLine::ended_out(libusb_transfer* transfer) {
   UsbLine& line = *static_cast<UsbLine*>(transfer->user_data);
   line.sending_ = false;
   line.note(transfer->status);
-  // What is left of a command would be the begin of the next: the line has to be set up anew.
+  // The rest of a cut command would be taken as the start of the next, so the line must be set up
+  // again.
   if (!line.closing_ && line.fault_ == UsbFault::none &&
       transfer->actual_length != transfer->length)
     line.fault_ = UsbFault::failed;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A line to a device on USB: octets both ways by asynchronous transfers of libusb.
+// A connection to a device on USB: octets both ways by asynchronous transfers of libusb.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct libusb_transfer;
 
 namespace reckon::haptics {
 
-/// Why a line is of no use any more.
+/// Why a line has failed.
 enum class UsbFault : std::uint8_t {
   none,
   gone,     ///< unplugged, or its hub was reset
@@ -27,18 +27,18 @@ enum class UsbFault : std::uint8_t {
   failed,   ///< any other error
 };
 
-/// The library's state, one for each thread that has devices.
+/// A context of libusb, one for each thread with devices.
 class UsbContext {
  public:
-  /// @param discover whether it looks for devices itself; false: handles come from elsewhere.
-  /// @throws std::runtime_error where the host has no USB, with the library's reason
+  /// @param discover whether it enumerates devices; false: handles are passed in.
+  /// @throws std::runtime_error if the host has no USB, with libusb's reason
   explicit UsbContext(bool discover = true);
 
   [[nodiscard]] libusb_context* get() const noexcept { return context_.get(); }
-  /// Handles what has happened, and waits for it so long at most.
+  /// Handles events, and waits for one at most `longest`.
   void wait(std::chrono::microseconds longest) noexcept;
-  /// Looks for devices anew; no line may be open. Where udev does not run, as in a container, the
-  /// library finds only what was plugged in before it looked. Some ms.
+  /// Searches for devices again, in a few ms; no line may be open. Without udev, as in a container,
+  /// libusb finds only devices attached before its search.
   void look_again() noexcept;
 
  private:
@@ -48,33 +48,33 @@ class UsbContext {
   std::unique_ptr<libusb_context, End> context_;
 };
 
-/// A device that was found, or why there is none.
+/// A device that was opened, or why none was.
 struct UsbOpening {
   libusb_device_handle* handle = nullptr;
-  std::string problem;  ///< a sentence with a remedy, where there is no handle
+  std::string problem;  ///< if there is no handle: a sentence with a remedy
 };
 using UsbOpener = std::function<UsbOpening(libusb_context*)>;
 
-/// Opens the first device of these numbers that is attached.
+/// Opens the first attached device with these IDs.
 [[nodiscard]] UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor,
                                          std::uint16_t product);
-/// Gives a handle back that no UsbLine has.
+/// Closes a handle that no UsbLine owns.
 void close_usb_device(libusb_device_handle* handle) noexcept;
 
-/// Where the octets of a device go.
+/// Endpoints of a device.
 struct UsbPipes {
-  bool are_interrupts = false;  ///< of transfers; false: bulk
+  bool are_interrupts = false;  ///< interrupt transfers; false: bulk
   std::uint8_t in = 0x81, out = 0x02;
   std::uint8_t interface = 0;
-  /// Octets before the payload of each packet of 64 that came: a serial chip's own.
+  /// Octets of header before the payload of each received packet of 64, from a serial chip.
   std::size_t header = 0;
 };
 
-/// The pipes of the first interface of class HID that has an interrupt each way. @return nothing
-/// where there is none, or its descriptors cannot be read
+/// Endpoints of the first HID interface with an interrupt endpoint each way. @return std::nullopt:
+/// none, or its descriptors cannot be read
 [[nodiscard]] std::optional<UsbPipes> hid_pipes(libusb_device_handle* handle);
 
-/// Calls `each` with every octet of a transfer that is payload.
+/// Calls `each` with every payload octet of a transfer.
 template <class Each>
 void each_payload_octet(std::span<const std::uint8_t> transfer, std::size_t header, Each&& each) {
   constexpr std::size_t kUsbPacket = 64;
@@ -83,29 +83,29 @@ void each_payload_octet(std::span<const std::uint8_t> transfer, std::size_t head
   }
 }
 
-/// One line. The constructor, the destructor and requests may wait for the device, at most 0.1 s
-/// each; all else is immediate, and allocates nothing.
+/// One connection. Constructor, destructor and requests may block on the device, at most 0.1 s
+/// each; the other functions do not block, except pump(), and allocate nothing.
 class UsbLine {
  public:
-  /// Claims the device and listens from now on. @param handle of an open device, which becomes the
-  /// line's own @throws std::runtime_error if it cannot be claimed, with the reason
+  /// Claims the device and starts to receive. @param handle of an open device; the line takes
+  /// ownership @throws std::runtime_error if it cannot be claimed, with the reason
   UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPipes& pipes);
   ~UsbLine();
   UsbLine(const UsbLine&) = delete;
   UsbLine& operator=(const UsbLine&) = delete;
 
-  /// A request of its maker's. @return false if it is refused
+  /// Sends a vendor request. @return false if it is refused
   bool request(std::uint8_t request, std::uint16_t value) noexcept;
-  /// One that asks for an octet. @return nothing if it is refused
+  /// A vendor request that reads an octet. @return std::nullopt if it is refused
   [[nodiscard]] std::optional<std::uint8_t> ask(std::uint8_t request) noexcept;
 
-  /// Handles transfers that have ended, and waits for one so long at most.
+  /// Handles completed transfers, and waits for one at most `longest`.
   void pump(std::chrono::microseconds longest) noexcept { context_.wait(longest); }
-  /// Payload that came over the line since clear().
+  /// Payload received since clear().
   [[nodiscard]] std::span<const std::uint8_t> received() const noexcept {
     return {inbox_.data(), length_};
   }
-  /// The same, transfer by transfer, but for those without any.
+  /// The same, transfer by transfer; empty ones are left out.
   template <class Each>
   void each_transfer(Each&& each) const {
     std::size_t from = 0;
@@ -115,7 +115,7 @@ class UsbLine {
     }
   }
   void clear() noexcept { length_ = transfers_ = 0; }
-  /// Sends up to kMost octets. @return false while the last ones are under way, or after a fault
+  /// Sends up to kMost octets. @return false while the last transfer is pending, or after a fault
   bool send(std::span<const std::uint8_t> octets) noexcept;
   [[nodiscard]] bool is_sending() const noexcept { return sending_; }
   [[nodiscard]] UsbFault fault() const noexcept { return fault_; }
@@ -124,7 +124,7 @@ class UsbLine {
   static constexpr std::size_t kMost = 64;
 
  private:
-  static constexpr std::size_t kListeners = 2;  // one waits while the other is read
+  static constexpr std::size_t kListeners = 2;  // one receives while the other is handled
   struct Free {
     void operator()(libusb_transfer* transfer) const noexcept;
   };
@@ -149,7 +149,7 @@ class UsbLine {
   std::array<std::uint8_t, kMost> out_octets_{};
   std::vector<std::uint8_t> inbox_;
   std::size_t length_ = 0;
-  std::array<std::size_t, 256> ends_{};  // of transfers in the inbox
+  std::array<std::size_t, 256> ends_{};  // ends of the transfers in the inbox
   std::size_t transfers_ = 0;
   std::size_t listening_ = 0;
   bool sending_ = false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which devices are attached to USB, and which of them this user may open.
+// Lists the devices attached to USB, and which of them this user may open.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace reckon::haptics {
 
-/// One device.
+/// An attached device.
 struct UsbDeviceSeen {
   std::uint16_t vendor = 0, product = 0;
   int bus = 0, address = 0;
   bool is_open_to_us = false;
-  bool is_denied = false;  ///< this user lacks the right
-  std::string problem;     ///< the library's reason, where it is not open to us
+  bool is_denied = false;  ///< this user lacks the permission
+  std::string problem;     ///< libusb's reason why it cannot be opened
 };
 
-/// All devices whose descriptors can be read; only those that `is_ours` says are opened, for a
-/// moment, and none is claimed.
+/// All devices with readable descriptors. Devices that `is_ours` selects are opened briefly; none
+/// is claimed.
 [[nodiscard]] std::vector<UsbDeviceSeen> usb_devices(
     UsbContext& context, const std::function<bool(const UsbDeviceSeen&)>& is_ours);
 

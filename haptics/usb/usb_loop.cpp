@@ -34,7 +34,7 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
   }
 }
 
-// The device would hold the last force for as long as it likes.
+// Sends a zero force: else the device may hold the last force indefinitely.
 UsbLoop::~UsbLoop() {
   if (!line_) return;
   if (session_) session_->end_run();
@@ -45,7 +45,7 @@ UsbLoop::~UsbLoop() {
   drain();
   line_->send(driver_->command(UsbStage::silent, nullptr));
   drain();
-  // A device that waits for its report to be fetched obeys after that.
+  // Some devices act on a command only after their report has been fetched.
   const nanoseconds heard = std::min(end, now() + 2 * kUsbExchange);
   while (line_->fault() == UsbFault::none && now() < heard) line_->pump(kGlance);
 }
@@ -89,7 +89,7 @@ void UsbLoop::tell_stage() {
   if (stage == UsbStage::running) tell("ready: forces are shown");
 }
 
-// What is still there is set up at once: that tells it a zero.
+// A device still attached is set up again at once, which sends it a zero force.
 void UsbLoop::detach(const std::string& why) {
   const bool is_gone = line_->fault() == UsbFault::gone;
   session_->end_run();

@@ -21,22 +21,22 @@ namespace reckon::haptics {
 
 /// How a UsbLoop finds its device.
 struct UsbLoopOptions {
-  std::function<std::chrono::nanoseconds()> clock;  ///< steady, that of the servo's writes
-  UsbOpener open;                                   ///< empty: the first that is attached
+  std::function<std::chrono::nanoseconds()> clock;  ///< steady clock of the servo's writes
+  UsbOpener open;                                   ///< empty: opens the first attached device
   bool discover = true;                             ///< see UsbContext
 };
 
-/// One device on USB.
+/// Session of one device, run by its thread.
 class UsbLoop final : public DeviceSession {
  public:
   static constexpr std::chrono::milliseconds kRetry{200};  ///< between attempts
 
-  /// @param exchange outlives it @throws std::runtime_error where the host has no USB
+  /// @param exchange outlives it @throws std::runtime_error if the host has no USB
   UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLoopOptions options);
-  /// Sends the device a zero; waits 10 ms for it at most.
+  /// Sends the device a zero force; blocks 10 ms at most.
   ~UsbLoop() override;
 
-  /// How far it is; nothing while no device is set up. The thread of step().
+  /// Stage of the device; std::nullopt: none is set up. Only on the thread of step().
   [[nodiscard]] std::optional<UsbStage> stage() const noexcept;
   void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
 
@@ -59,7 +59,7 @@ class UsbLoop final : public DeviceSession {
   std::optional<UsbSession> session_;
   std::uint32_t run_;
   std::optional<UsbStage> told_;
-  bool timed_ = false;  // and reported
+  bool timed_ = false;  // the exchange time has been reported
   std::atomic<bool> stopped_{false};
 };
 

@@ -41,7 +41,7 @@ void UsbSession::end_run() noexcept {
   exchange_.ended_run.store(run_++, std::memory_order_release);
 }
 
-// The force is dropped with the next command, and no reading joins those before.
+// The next command drops the force, and a new run of readings begins.
 void UsbSession::leave(UsbStage stage) noexcept {
   if (stage_ == UsbStage::running) end_run();
   stage_ = stage;

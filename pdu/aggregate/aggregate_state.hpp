@@ -33,7 +33,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<SilentAggregateSystem> == 12);
 
-/// Appearance of a silent entity.
+/// Appearance of an entity that does not send its own state.
 struct SilentAppearance {
   std::uint32_t entity_appearance = 0;
 };
@@ -90,7 +90,8 @@ struct AggregateState {
   std::uint16_t number_of_silent_aggregate_systems = 0;
   std::uint16_t number_of_silent_entity_systems = 0;
   /// Padding, both lists of silent systems and the variable datums. They are shown by fields if
-  /// they fit: of recorded products one gives its datums a wrong length and one the whole PDU.
+  /// they fit. Among the recorded products, one states a wrong length of its datums, another a
+  /// wrong length of the whole PDU.
   RestOfPdu silent_systems_and_variable_datums;
 };
 
@@ -103,7 +104,7 @@ struct SilentSystems {
   bool datums_fit = false;            ///< else they and their number are in `behind`
   std::span<const std::byte> behind;  ///< else empty, except in PDUs of a later revision
 
-  /// False if the octets do not hold the systems that the PDU announces.
+  /// False if the octets do not hold the systems that the PDU states.
   [[nodiscard]] bool take(const AggregateState& pdu) noexcept;
 };
 

@@ -127,7 +127,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<GroupedLogistics> == 16);
 
-/// What the enhanced kinds (2, 4, 6, 8) have behind the fields of the basic ones.
+/// Additional fields of the enhanced kinds (2, 4, 6, 8), behind the fields of the basic kinds.
 struct GroupedVehicleStores {
   GroupedVehicle basic;
   std::uint8_t fuel_status = 0;

@@ -28,7 +28,7 @@ struct IsGroupOf {
 };
 
 /// Shows the descriptions as records of their category. False, with nothing done, if the category
-/// is none or its records are not all of the octets.
+/// is unknown or its records do not fill the octets exactly.
 template <typename Visitor>
 bool show_grouped_entities(Visitor& visitor, const IsGroupOf& pdu) {
   const std::size_t count = pdu.number_of_grouped_entities;

@@ -54,7 +54,8 @@ class Decoder {
       fields(*this, value);
     }
   }
-  // Announces n records. Their octets are reserved here, and checked and located by records().
+  // Takes the count n of records. Their octets are reserved here, and checked and located by
+  // records().
   template <typename Record, typename Count>
   [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte>& view,
                                     Records<Record, Count>) noexcept {
@@ -103,8 +104,8 @@ class Decoder {
   DecodeError error_ = DecodeError::none;
 };
 
-/// Visitor that adds up the octets of a PDU with its variable parts, and checks that the fields can
-/// state them.
+/// Visitor that adds up the octets of a PDU with its variable parts, and checks that counts and
+/// lengths fit into their fields.
 class WireSize {
  public:
   template <typename T>
@@ -181,7 +182,7 @@ class Encoder {
   std::byte* cursor_;
 };
 
-/// A visitor that only inspects a PDU (prints it, searches it). It may be given the records of a
+/// A visitor that only inspects a PDU (prints it, searches it). It may receive the records of a
 /// part that is encoded and decoded as octets.
 template <typename Visitor, typename Pdu>
 concept Looks = std::is_const_v<Pdu> && !std::same_as<Visitor, FixedSize> &&

@@ -10,7 +10,7 @@
 namespace reckon::pdu {
 
 /// Reason why octets are not a valid PDU. `none` is the only success, `unknown_type` is a note, and
-/// `not_finite` is a warning that only `examine()` returns. All others refuse the PDU.
+/// `not_finite` is a warning that only `examine()` returns. With all others the PDU is rejected.
 enum class DecodeError : std::uint8_t {
   none,
   truncated,     ///< fewer octets than the header needs or the length field states

@@ -59,7 +59,7 @@ inline constexpr bool kIsStdArray = false;
 template <typename T, std::size_t n>
 inline constexpr bool kIsStdArray<std::array<T, n>> = true;
 
-/// A field that is on the wire only if `present` is true, which follows from fields before it.
+/// A field that is on the wire only if `present` is true. Earlier fields determine `present`.
 /// Visitors that measure or read have their own `when`. For the others it is a normal field, or
 /// absent.
 template <typename Visitor, typename T>

@@ -285,10 +285,11 @@ struct SisoBitField {
 [[nodiscard]] SisoTable domain_table(EntityKind kind) noexcept;
 /// Table of the categories for this kind and domain.
 [[nodiscard]] SisoTable category_table(EntityKind kind, EntityDomain domain) noexcept;
-/// Appearance fields of such an entity; life forms of category 200 and above are animals.
+/// Appearance fields of an entity of this kind, domain and category; life forms of category 200 and
+/// above are animals.
 [[nodiscard]] SisoBits appearance_bits(EntityKind kind, EntityDomain domain,
                                        std::uint8_t category) noexcept;
-/// Capability fields of such an entity.
+/// Capability fields of an entity of this kind and domain.
 [[nodiscard]] SisoBits capability_bits(EntityKind kind, EntityDomain domain) noexcept;
 
 }  // namespace reckon::pdu

@@ -24,7 +24,7 @@ struct Content {
   bool whole;
 };
 
-// The fields besides motion, in the order of the PDU.
+// The fields besides motion, in the order of the Entity State PDU.
 template <typename Visitor, typename State>
 [[gnu::always_inline]] inline void rest_fields(Visitor& visitor, State& state) noexcept {
   visitor("force_id", state.force_id);
@@ -103,7 +103,7 @@ Rest take_rest(BitReader& in) noexcept {
   return rest;
 }
 
-// Bits of two's complement that suffice for all three.
+// Width in bits that holds all three numbers in two's complement.
 template <typename Number>
 unsigned width_of(const std::array<Number, 3>& numbers) noexcept {
   std::uint64_t all = 0;

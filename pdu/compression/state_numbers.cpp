@@ -21,7 +21,7 @@ std::int64_t rounded(double value) noexcept {
                                    std::bit_cast<std::uint64_t>(kShift));
 }
 
-// Whether the magnitude of all is below the limit; false for NaN.
+// Whether the magnitudes of all three are below the limit; false for NaN.
 bool within(const std::array<double, 3>& v, double most) noexcept {
   const int below =
       int{std::abs(v[0]) < most} & int{std::abs(v[1]) < most} & int{std::abs(v[2]) < most};
@@ -61,7 +61,7 @@ std::optional<StateNumbers> numbers_of(const EntityState& state, const StateScal
   numbers.timestamp = state.header.timestamp;
   numbers.algorithm = state.dead_reckoning.algorithm;
   const auto& rates = state.dead_reckoning;
-  // All are checked: a branch for each would cost more.
+  // All checks always run: a branch for each would cost more.
   const int good =
       int{round_location(state.location, scale.per_metre, numbers.location)} &
       int{round_each(state.linear_velocity, scale.per_speed, numbers.velocity)} &

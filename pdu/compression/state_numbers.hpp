@@ -87,7 +87,7 @@ struct StateNumbers {
 /// change, if numbers_of() has no value.
 bool quantise(EntityState& state, const StateScale& scale) noexcept;
 
-/// Whether all but the motion is equal: header, ID, types, appearance, marking and the rest.
+/// Whether everything but the motion is equal: header, ID, types, appearance, marking and the rest.
 [[nodiscard]] bool is_alike(const EntityState& a, const EntityState& b) noexcept;
 
 /// A timestamp from its lowest 21 bits `low`: the one from 1.5 s before `base` to 0.2 s after it.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Common records of emission PDUs: the head of an emitting system and the scan of a beam. The heads
-// for radars and sonars differ only in names, in Electromagnetic Emission and Underwater Acoustic
-// PDUs. The scan is that of a radar or of an IFF system.
+// of radars (Electromagnetic Emission PDU) and sonars (Underwater Acoustic PDU) differ only in
+// names. Radars and IFF systems share the scan.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace reckon::pdu {
 
-/// Scan of a beam; its fields are among those of the record that contains it.
+/// Scan of a beam; its fields are direct fields of the record that contains it.
 struct BeamData {
   float beam_azimuth_center = 0.0F;    ///< [rad]
   float beam_azimuth_sweep = 0.0F;     ///< half the sweep [rad]

@@ -102,8 +102,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffDataLayer> == 12);
 
-/// Layer 3: Mode 5. The basic data are those of a transponder or of an interrogator; nothing in the
-/// layer distinguishes them.
+/// Layer 3: Mode 5. The basic data have the layout of a transponder or of an interrogator; the
+/// layer does not state which.
 struct IffMode5Layer {
   SimulationAddress reporting_simulation;
   std::array<std::uint8_t, 16> mode_5_basic_data{};
@@ -182,7 +182,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffModeSTransponderLayer> == 32);
 
-/// Whether the body of a layer 4 has zeros where a transponder has its aircraft.
+/// Whether the body of a layer 4 has zeros in the octets where a transponder identifies its
+/// aircraft.
 [[nodiscard]] inline bool is_mode_s_interrogator(std::span<const std::byte> body) noexcept {
   constexpr std::size_t kAircraft = 8, kEnd = 28;
   return body.size() >= kEnd && std::ranges::all_of(body.subspan(kAircraft, kEnd - kAircraft),
@@ -222,7 +223,8 @@ bool show_iff_mode_s(Visitor& visitor, std::span<const std::byte> body) {
                                       : show_iff_layer<IffModeSTransponderLayer>(visitor, body);
 }
 
-/// Visits layers 2 to 5 field by field if the fields fill the layer, anything else as octets.
+/// Visits layers 2 to 5 field by field if the fields fill the layer exactly, all other bodies as
+/// octets.
 template <typename Visitor>
 void parts(Visitor& visitor, const IffLayer& layer, std::span<const std::byte> body) {
   const bool shown = (layer.layer_number == 2 && show_iff_emission(visitor, body)) ||

@@ -109,8 +109,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<BoxGeometry> == 48);
 
-/// Shows the geometries of recorded traffic by their fields. Others, and the state records of
-/// products, stay octets.
+/// Shows the geometries of recorded traffic by their fields. Other geometries, and state records
+/// defined by a product, stay octets.
 template <typename Visitor>
 void parts(Visitor& visitor, const EnvironmentRecord& record, std::span<const std::byte> body) {
   switch (record.record_type) {

@@ -161,8 +161,8 @@ struct GriddedData {
   RestOfPdu grid_axes_and_data;  ///< shown by fields if axes and samples fill it exactly
 };
 
-/// Shows axes and samples by their fields. False, with nothing done, if they are not all of the
-/// octets: public sources differ in the padding after samples.
+/// Shows axes and samples by their fields. False, with nothing done, if they do not fill the octets
+/// exactly: public sources differ in the padding after samples.
 template <typename Visitor>
 bool show_grid(Visitor& visitor, const GriddedData& pdu) {
   const std::span<const std::byte> all = pdu.grid_axes_and_data.bytes;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Appearance PDU (type 47): type and appearance of a live entity. The bits of its first flag octet,
 // from the lowest: force, type, alternative type, marking, capabilities, visual and infrared
-// appearance, second flag octet. Those of the second: electromagnetic and acoustic appearance. The
-// schema of opendis7 counts both octets as one field of 16 bits that is always present. Here the
-// second is read only if bit 7 is set, as in KDIS and in LE Detonation.
+// appearance, second flag octet. The bits of the second: electromagnetic and acoustic appearance.
+// The schema of opendis7 counts both octets as one field of 16 bits that is always present. Here
+// the second octet is read only if bit 7 is set, as in KDIS and in LE Detonation.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// LE Detonation PDU (type 50): a munition of a live entity detonates. The bits of its first flag
-// octet are those of LE Fire, with two differences. Bit 6 means that the location is in coordinates
-// of the target and not of the world, bit 7 that there is a second flag octet. The bits of the
-// second: munition orientation, event ID. The munition's orientation has three numbers of 16 bits
-// in the 2012 text (the schema of opendis7 marks that as odd), but of 8 bits in KDIS, as in a TSPI.
-// It is read as 16 bits if the PDU is long enough for them, else as 8.
+// LE Detonation PDU (type 50): a munition of a live entity detonates. Its first flag octet has the
+// same bits as LE Fire, with two differences. Bit 6: the location is in coordinates of the target,
+// not of the world. Bit 7: a second flag octet follows. The bits of the second: munition
+// orientation, event ID. The munition's orientation has three numbers of 16 bits in the 2012 text
+// (the schema of opendis7 marks that as odd), but of 8 bits in KDIS, as in a TSPI. Each number is
+// read as 16 bits if the PDU is long enough for them, else as 8.
 #pragma once
 
 #include <cstddef>
@@ -34,12 +34,12 @@ struct LeDetonation {
   LiveEulerAngles<std::int8_t> short_munition_orientation;
   LiveVector<std::int16_t> entity_location;  ///< bit 6
   std::uint8_t detonation_result = 0;
-  bool short_orientation = false;  ///< not on the wire: which of the two orientations the PDU has
+  bool short_orientation = false;  ///< not on the wire: an orientation has 8 bits a number
 
   [[nodiscard]] constexpr std::uint8_t more_flags() const noexcept {
     return has_flag(flags_1, 7) ? flags_2 : std::uint8_t{0};
   }
-  /// Octets of the PDU with its flags, with an orientation of 16 bits if it has one.
+  /// Octets of a PDU with these flags; an orientation, if present, counts with 16 bits a number.
   [[nodiscard]] std::size_t full_size() const noexcept;
 };
 

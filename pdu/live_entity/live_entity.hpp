@@ -3,9 +3,9 @@
 // Common records of the live entity PDUs (types 46 to 50, IEEE 1278.1-2012 clause 9). They are
 // short for radio links: IDs have 4 octets, and flag octets switch fields on and off. Order, sizes
 // and flags follow two public sources: the schema of opendis7, which follows the 2012 text, and
-// KDIS. The sources agree unless a header says otherwise. Fixed-point numbers are kept as integers,
-// because neither source is sure of their binary point. In the header of these PDUs octet 10 is a
-// subprotocol number (UID 417), not a status.
+// KDIS. Differences between the sources are noted in the C++ header of the PDU. Fixed-point numbers
+// are kept as integers, because neither source is sure of their binary point. Octet 10 of these
+// PDUs is a subprotocol number (UID 417), not a status.
 #pragma once
 
 #include <cstdint>
@@ -93,12 +93,12 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("phi", record.phi);
 }
 
-/// The parts of LE Fire and LE Detonation that their first flag octets switch in the same way.
+/// Fields of LE Fire and LE Detonation whose flag bits are the same in both PDUs.
 struct LiveShot {
   LiveEntityId target_id;                  ///< bit 0
-  LiveSimulationAddress munition_address;  ///< bits 2 and 1; else that of the firing entity
+  LiveSimulationAddress munition_address;  ///< bits 2 and 1; else the firing entity's address
   std::uint16_t munition_number = 0;       ///< bit 2: entity number of the munition
-  LiveSimulationAddress event_address;     ///< bit 3; else that of the firing entity
+  LiveSimulationAddress event_address;     ///< bit 3; else the firing entity's address
   std::uint16_t event_number = 0;
   EntityType munition_type;
   std::uint16_t warhead = 0;   ///< bit 4
@@ -107,7 +107,7 @@ struct LiveShot {
   std::uint16_t rate = 0;      ///< bit 5
 };
 
-/// Target, munition and event, according to `flags`; `event`: the event is present at all.
+/// Target, munition and event, according to `flags`; `event`: the PDU has an event.
 template <typename Visitor, Is<LiveShot> Shot>
 constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool event) {
   when(has_flag(flags, 0), visitor, "target_live_entity_id", shot.target_id);

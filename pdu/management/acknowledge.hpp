@@ -12,7 +12,7 @@
 
 namespace reckon::pdu {
 
-/// The answer; `request_id` is that of the answered PDU.
+/// The answer; `request_id` equals the request ID of the answered PDU.
 template <PduType type>
 struct BasicAcknowledge {
   static constexpr PduType kPduType = type;

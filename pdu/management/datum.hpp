@@ -43,7 +43,7 @@ using DatumIds = Records<DatumId, std::uint32_t>;
 struct VariableDatum {
   std::uint32_t datum_id = 0;
   std::uint32_t length_bits = 0;     ///< of the value, without padding
-  std::span<const std::byte> value;  ///< the octets of these bits
+  std::span<const std::byte> value;  ///< the octets that hold these bits
 };
 
 /// Iterates over variable datums: 8 octets, the value, padding to a multiple of 8 octets (the last

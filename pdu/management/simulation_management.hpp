@@ -63,12 +63,12 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 
-/// The service of a reliable version, else `Instead`. Its fields are among those of the PDU:
+/// The service of a reliable version, else `Instead`. Its fields are direct fields of the PDU:
 /// `fields(visitor, pdu.reliability)`.
 template <PduType type, typename Instead = NoService>
 using ServiceOf = std::conditional_t<is_reliable(type), ReliabilityService, Instead>;
 
-/// The header and the IDs at the start of all of them.
+/// The header and the IDs at the start of all these PDUs.
 template <typename Visitor, typename Pdu>
 constexpr void management_fields(Visitor& visitor, Pdu& pdu) {
   visitor("header", pdu.header);

@@ -119,8 +119,8 @@ struct NoColumns {
   void walked(std::string_view, const RestOfPdu&) noexcept {}
 };
 
-/// Shows the mines by their fields. False, with nothing done, if there are none, if a column is
-/// selected that the standard does not know, or if the columns are not all of the octets.
+/// Shows the mines by their fields. False, with nothing done, if there are none, if a selected
+/// column is not defined by the standard, or if the columns do not fill the octets exactly.
 template <typename Visitor>
 bool show_mines(Visitor& visitor, const MinefieldData& pdu) {
   constexpr std::uint32_t kKnown = 0x7FF;

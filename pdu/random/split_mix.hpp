@@ -12,15 +12,15 @@ namespace reckon::pdu {
 /// 2^64 over the golden ratio, odd: the increment of SplitMix64 for each draw.
 inline constexpr std::uint64_t kGoldenStep = 0x9E3779B97F4A7C15U;
 
-/// The output function: every bit of the input affects every bit of the output; a bijection with 0
-/// -> 0. Some ns.
+/// The output function, a bijection with 0 -> 0: every bit of the input affects every bit of the
+/// output. Some ns.
 [[nodiscard]] constexpr std::uint64_t mixed_bits(std::uint64_t x) noexcept {
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
   return x ^ (x >> 31);
 }
 
-/// The draw of a generator in the state `x`; the next one is that of x + kGoldenStep.
+/// Output of a generator in the state `x`; its next state is x + kGoldenStep.
 [[nodiscard]] constexpr std::uint64_t split_mix(std::uint64_t x) noexcept {
   return mixed_bits(x + kGoldenStep);
 }

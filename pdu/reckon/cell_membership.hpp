@@ -34,7 +34,7 @@ struct CellMembership {
   std::uint32_t epoch = 0;
   MembershipAction action = MembershipAction::none;
   std::uint8_t near_row = 0;  ///< of join_near: the near row; the nearest is 0
-  std::uint64_t since = 0;    ///< start of the membership, UTC since 1970 [ns]; the oldest leads
+  std::uint64_t since = 0;    ///< start of the membership, UTC since 1970 [ns]; the earliest leads
   std::span<const std::byte> cells;  ///< 8 n octets, read with records_of<CellIndex>
 };
 

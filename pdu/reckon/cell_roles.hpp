@@ -24,11 +24,11 @@ inline constexpr std::uint16_t kRoleMapped = 8;
 struct CellRole {
   std::int32_t column = 0;  ///< as in CellIndex; both -2^31: the whole scene
   std::int32_t row = 0;
-  std::uint64_t entered = 0;    ///< UTC since 1970 of the entry [ns]; the first peer leads
-  std::uint32_t successor = 0;  ///< epoch of the peer that leads after the sender; 0: none
-  std::uint32_t beacon = 0;     ///< tag under which the cell can be found; 0: none
-  std::uint16_t flags = 0;      ///< kRoleLeads ..
-  std::uint16_t serial = 0;  ///< with kRoleAsks: of the snapshot with missing parts; 0: a new one
+  std::uint64_t entered = 0;     ///< time of entry, UTC since 1970 [ns]; the earliest peer leads
+  std::uint32_t successor = 0;   ///< epoch of the peer that leads after the sender; 0: none
+  std::uint32_t beacon = 0;      ///< tag under which the cell can be found; 0: none
+  std::uint16_t flags = 0;       ///< kRoleLeads ..
+  std::uint16_t serial = 0;      ///< with kRoleAsks: of the incomplete snapshot; 0: a new one
   std::uint16_t first_part = 0;  ///< first part in `parts`
   std::uint16_t padding = 0;
   std::uint64_t parts = 0;  ///< bit i: part first_part + i is missing

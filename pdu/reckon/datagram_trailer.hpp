@@ -21,7 +21,7 @@ struct DatagramTrailer {
   PduHeader header = header_of<DatagramTrailer>();
   /// Number of the sender's datagram to one group, from 1; 2^32 - 1 is followed by 0.
   std::uint32_t sequence = 0;
-  /// Epoch of the sending process, as in its Presence; names the sender.
+  /// Epoch of the sending process, as in its Presence; identifies the sender.
   std::uint32_t epoch = 0;
   /// UTC in microseconds, modulo 2^32 (71.6 min); see trailer_time and trailer_age.
   std::uint32_t send_time = 0;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One side's account of the energy that it passed to a counterpart in contact, in a record of the
-// Attribute PDU (24 octets). It has running totals, so that a lost or duplicated PDU creates no
-// energy.
+// Account of the energy that one side passed to a counterpart in contact: a record of the Attribute
+// PDU (24 octets). Energies are running totals, so that a lost or duplicated PDU creates no energy.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +24,10 @@ struct EnergyAccountRecord {
   std::uint16_t length = kLength;
   EntityId counterpart;  ///< the receiver of the energy
   double given = 0.0;    ///< [J], total given to the counterpart since contact began; never falls
-  /// Lack of energy for the whole force of this side [uJ]; 65,535 for more too.
+  /// Energy that this side lacks for its whole force, none of it booked as a spring [uJ]; 65,535
+  /// also stands for more.
   std::uint16_t need = 0;
-  /// Lack of energy for a spring that also releases as one [uJ].
+  /// Energy that this side lacks for its springs if they release normally [uJ].
   std::uint16_t spring_need = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Group Map (experimental PDU 146): the groups of the cells, from the leader of the scene. A map
+// Group Map (experimental PDU 146): the groups of the cells, sent by the leader of the scene. A map
 // with more cells than one PDU holds is sent in parts of one version.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers Heard (experimental PDU 144): the peers that a peer receives, so that another one learns
-// that it is not received. Each peer sends it every second on the base group.
+// Peers Heard (experimental PDU 144): the peers from which a peer receives, so that a peer missing
+// in the list detects that it is not received. Each peer sends it every second on the base group.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ struct PeerEpoch {
   friend constexpr auto operator<=>(const PeerEpoch&, const PeerEpoch&) = default;
 };
 
-/// For `continues`: the sender also receives peers whose epochs are lower than the lowest in the
-/// list, or higher than the highest. The list makes no statement about them.
+/// Values of `continues`: the sender also receives peers with epochs below the lowest in the list,
+/// or above the highest. The list gives no information about peers in that range.
 inline constexpr std::uint16_t kPeersHeardBelow = 0x0001, kPeersHeardAbove = 0x0002;
 
 struct PeersHeard {

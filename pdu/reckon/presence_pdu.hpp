@@ -21,11 +21,12 @@ inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entiti
 /// Has held its simulation address for two seconds and keeps it against newcomers.
 inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
 
-/// The upper octet n: distances count as 2^(n / 16) times as long for this peer where entities are
-/// thinned out by distance. So it can limit the traffic that it receives. 0: unchanged.
+/// The upper octet n: senders that reduce the update rate of entities with distance multiply
+/// distances to this peer by 2^(n / 16). A peer can thus limit the traffic that it receives. 0:
+/// unchanged.
 inline constexpr std::uint16_t kPresenceStretch = 0xFF00;
 
-/// `scene_peer` of a peer that has none yet and will take one within seconds.
+/// `scene_peer` of a peer that has no number yet and will take one within seconds.
 inline constexpr std::uint8_t kScenePeerWanted = 255;
 
 /// A value of a chain of one-way functions.
@@ -55,18 +56,19 @@ struct Presence {
       0.0F;  ///< side of a square, or centre to corner of a hexagon; else of the smallest cell [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
   float interest_radius = 0.0F;   ///< sensing range of this peer's entities [m]
-  /// UTC second of the start of the process. If two newcomers claim an address, the older keeps it.
+  /// UTC second of the start of the process. If two newcomers claim an address, the one that
+  /// started earlier keeps it.
   std::uint32_t started = 0;
   std::array<char, 16> name{};  ///< short name for users, padded with NUL
   /// Number of the link that this announcement reveals: 16 for each second since the epoch's first
-  /// announcement (its slot), and the number of earlier announcements of that slot. The function's
-  /// value of a link is the link before. All zero: no proof.
+  /// announcement (its slot), and the number of earlier announcements of that slot. The one-way
+  /// function of a link is the previous link. All zero: no proof.
   std::uint32_t chain_number = 0;
-  std::uint32_t slot_time = 0;  ///< since the begin of the slot [us]
+  std::uint32_t slot_time = 0;  ///< since the start of the slot [us]
   ChainLink chain_link{};
-  ChainLink next_anchor{};  ///< the function's value of the first of the next 4,096 links
-  /// Binds the announcement to the address that it is sent from, with a key that the first link of
-  /// the next slot reveals. All zero: the sender does not know its address.
+  ChainLink next_anchor{};  ///< the one-way function of the first of the next 4,096 links
+  /// Binds the announcement to its source address, with a key that the first link of the next slot
+  /// reveals. All zero: the source address is unknown to the sender.
   AddressMac address_mac{};
 
   /// The characters of `name` before the first NUL.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Time exchange (experimental PDU 143): lets each peer compute the offset between its clock and
-// ours. It echoes the send time of the addressed peer's latest datagram and states when that
-// arrived.
+// ours. It repeats the send time of the addressed peer's latest datagram and states the arrival
+// time of that datagram.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Unicast frame (experimental PDU 148): precedes a datagram that is sent to each address of a list
-// where there is no multicast, and states its group.
+// Unicast frame (experimental PDU 148): precedes a datagram in networks without multicast, where it
+// is sent to each address of a list. The frame states the group of the datagram.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a Fire or Detonation PDU is about: a munition, an expendable, or an explosion of something
-// else.
+// Descriptor of a Fire or Detonation PDU: a munition, an expendable, or another object that
+// explodes.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace reckon::pdu {
 
-/// The 16 octets of every kind. Programs that look at a PDU are shown the kind that it has.
+/// The 16 octets of every kind. Visitors that only inspect a PDU get the record of its kind.
 struct MunitionDescriptor {
   EntityType munition_type;
   std::uint16_t warhead = 0;
@@ -47,12 +47,12 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<ExpendableDescriptor> == kFixedSize<MunitionDescriptor>);
 
-/// Something that explodes and is no munition.
+/// An exploding object that is no munition.
 struct ExplosionDescriptor {
   EntityType exploding_object_type;
   std::uint16_t explosive_material = 0;
   std::uint16_t padding = 0;
-  float explosive_force = 0.0F;  ///< of so much TNT [kg]
+  float explosive_force = 0.0F;  ///< equivalent mass of TNT [kg]
 };
 
 template <typename Visitor, Is<ExplosionDescriptor> Record>
@@ -64,7 +64,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<ExplosionDescriptor> == kFixedSize<MunitionDescriptor>);
 
-/// The kind of a descriptor, as the PDU status of DIS 7 says it; before DIS 7 it is a munition.
+/// Kind of a descriptor, from the PDU status of DIS 7; before DIS 7 always a munition.
 enum class DescriptorKind : std::uint8_t { munition = 0, expendable = 1, explosion = 2 };
 
 [[nodiscard]] constexpr DescriptorKind descriptor_kind(const PduHeader& header) noexcept {
@@ -82,7 +82,8 @@ void show_descriptor_as(Visitor& visitor, const MunitionDescriptor& descriptor) 
   visitor("descriptor", std::as_const(record));
 }
 
-/// The descriptor of a Fire or Detonation PDU, to visitors that look at it by its kind.
+/// Visits the descriptor of a Fire or Detonation PDU; visitors that only inspect get the record of
+/// its kind.
 template <typename Visitor, typename Pdu>
 constexpr void descriptor_field(Visitor& visitor, Pdu& pdu) {
   if constexpr (Looks<Visitor, Pdu>) {
