@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every servo step as a line of CSV, for plots and for reproducing a run.
+// Writes every servo step as a CSV line, for plots and to reproduce a run.
 #pragma once
 
 #include <cstddef>
