@@ -13,17 +13,17 @@ namespace reckon::tools {
 
 /// An attached device with a driver.
 struct AttachedDevice {
-  std::string driver;  ///< ///< as written after --device and in [[device]]
-  std::string name;  ///< ///< product name and path of the device
-  std::string use;  ///< ///< how to use it
-  std::string problem;  ///< ///< why it cannot be used now; empty: it can
-  std::string remedy;  ///< ///< for the problem
+  std::string driver;   ///< as written after --device and in [[device]]
+  std::string name;     ///< product name and path of the device
+  std::string use;      ///< how to use it
+  std::string problem;  ///< why it cannot be used now; empty: it can
+  std::string remedy;   ///< for the problem
 };
 
 /// Result of a scan of USB.
 struct UsbLook {
-  std::string problem;  ///< ///< why there is no USB here; empty: there is
-  std::size_t others = 0;  ///< ///< devices without a driver
+  std::string problem;     ///< why there is no USB here; empty: there is
+  std::size_t others = 0;  ///< devices without a driver
   std::vector<AttachedDevice> devices;
 };
 

@@ -24,7 +24,7 @@ class BodyTrace {
   void close() { file_.close(); }
 
  private:
-  std::vector<std::string> objects_;  // // names, as CSV
+  std::vector<std::string> objects_;  // names, as CSV
   CsvOutput file_;
   std::string line_;
 };

@@ -50,12 +50,12 @@ class EntityEvents final : public peer::ModelGuest {
   // fills.
   struct Letter {
     Letter();
-    std::vector<Heard> heard;  // // new or changed
+    std::vector<Heard> heard;  // new or changed
     std::vector<pdu::EntityId> removed;
   };
 
   peer::LetterBox<Letter> letters_;
-  std::map<pdu::EntityId, Heard> known_;  // // used by the reporting thread
+  std::map<pdu::EntityId, Heard> known_;  // used by the reporting thread
 };
 
 }  // namespace reckon::tools

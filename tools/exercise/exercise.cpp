@@ -19,13 +19,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kTraceSteps = 4096;  // // capacity for recorded steps until collect()
+constexpr std::size_t kTraceSteps = 4096;  // capacity for recorded steps until collect()
 // Capacity for updates of remote hands: half a second of two hands at 125 Hz each.
 constexpr std::size_t kContactSets = 128;
 constexpr std::size_t kBodySteps = 65'536;  // of all bodies
 constexpr std::size_t kLoopSteps = 16'384;  // of one peer: 20 ms of passes 5 us after one another
 constexpr nanoseconds kCollect = milliseconds(20);
-constexpr nanoseconds kTick = milliseconds(1);  // // simulated time: period at which all peers read
+constexpr nanoseconds kTick = milliseconds(1);  // simulated time: period at which all peers read
                                                 // the network
 constexpr std::uint16_t kSite = 1;
 
@@ -42,10 +42,10 @@ struct Exercise::Member {
   SimulatedHands hands;
   std::unique_ptr<peer::JoinedPeer> joined;
   std::size_t first_hand = 0;              // in hands_
-  std::vector<peer::EntityTrack> tracks;  // // of its entities without a hand, in scene order
+  std::vector<peer::EntityTrack> tracks;   // of its entities without a hand, in scene order
   pdu::SimulationAddress address;          // as of the last collect()
   std::unique_ptr<peer::LoopRing> stages;  // with trace_loops
-  bool awake = false;  // // simulated time: has work at this instant
+  bool awake = false;                      // simulated time: has work at this instant
 };
 
 /// One device of a member.
@@ -279,7 +279,7 @@ void Exercise::collect(bool all) {
   collect_bodies();
   collect_stages();
   if (!options_.measure) return;
-  std::size_t most_shown = 0;  // // each step of a hand shows all others
+  std::size_t most_shown = 0;  // each step of a hand shows all others
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const std::size_t most = all ? kTraceSteps : most_steps(hands_[i].period);
     collect_steps(i, most);

@@ -39,22 +39,22 @@ struct ExerciseOptions {
   /// No sockets and no waiting: runs as fast as the host can. Every servo steps exactly at the
   /// period of its device, followed by its model loop as in real time; all peers step each 1 ms.
   bool simulated_time = false;
-  bool transfer = true;  ///< ///< energy is transferred on demand
+  bool transfer = true;             ///< energy is transferred on demand
   bool measure = true;              ///< compare the peers with one another
   std::uint32_t epoch = 0;          ///< 0 = drawn at random
   bool impairment_changes = false;  ///< real time: change_impairment() may be called
   bool trace_contacts = false;      ///< fill contacts()
-  bool trace_bodies = false;  ///< ///< call the sink of on_body()
-  bool trace_loops = false;  ///< ///< call the sink of on_stage()
+  bool trace_bodies = false;        ///< call the sink of on_body()
+  bool trace_loops = false;         ///< call the sink of on_stage()
   /// Scripts that move the hands, one per peer, instead of the scene's operators; the operators'
   /// impedances still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool even_if_slow = false;                 ///< real time: see FederateOptions
-  haptics::ForceStop* force_stop = nullptr;  ///< ///< of all hands; outlives the exercise; null:
+  haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null:
                                              ///< none
-  bool time_servo = false;  ///< ///< simulated time: measure the duration of servo
+  bool time_servo = false;                   ///< simulated time: measure the duration of servo
                                              ///< steps
-  std::vector<std::string> plugins = {};  ///< ///< real time: driver files that may be loaded
+  std::vector<std::string> plugins = {};     ///< real time: driver files that may be loaded
 };
 
 /// A few peers in one process. Driven by one thread.

@@ -28,7 +28,7 @@ class FeltDevice {
 
  private:
   haptics::EvdevExchange exchange_;
-  std::optional<haptics::EvdevDevice> evdev_;  // // for a device that renders springs
+  std::optional<haptics::EvdevDevice> evdev_;  // for a device that renders springs
   std::unique_ptr<haptics::HapticDevice> held_;
   std::optional<haptics::MappedDevice> mapped_;
 };

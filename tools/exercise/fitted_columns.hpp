@@ -18,10 +18,10 @@ template <typename Cell>
 struct FittedColumn {
   std::string_view title;
   TextTable::Align align;
-  std::size_t width;  ///< ///< minimum
+  std::size_t width;  ///< minimum
   int rank;
   std::string (*text)(const Cell& cell);
-  std::size_t more = 0;  ///< ///< maximum extra width in a wide terminal
+  std::size_t more = 0;  ///< maximum extra width in a wide terminal
 };
 
 /// Rows of one kind: columns of the greatest rank are dropped until the rest fits.
@@ -65,7 +65,7 @@ class FittedColumns {
   template <typename Text>
   [[nodiscard]] std::string line(const Text& text_of) const {
     std::string line;
-    std::size_t end = 0;  // // end of the column if no text is too wide
+    std::size_t end = 0;  // end of the column if no text is too wide
     for (std::size_t i = 0; i < N; ++i) {
       if (!shown_[i]) continue;
       const std::string text = text_of(columns_[i]);

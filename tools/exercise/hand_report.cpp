@@ -19,7 +19,7 @@ using haptics::ServoTally;
 using haptics::Shortfall;
 using peer::HandView;
 
-constexpr std::size_t kNamed = 4;  // // hands named in a sentence
+constexpr std::size_t kNamed = 4;  // hands named in a sentence
 
 std::string text_of(const pdu::EntityId& id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
@@ -58,7 +58,7 @@ void print_softer(std::FILE* out, const Hands& hands) {
 struct Kind {
   std::string_view name;
   Shortfall ServoTally::*shortfall;
-  double ServoTally::*of;  // // [s]; null: no such time is counted
+  double ServoTally::*of;  // [s]; null: no such time is counted
   std::string_view why;
 };
 constexpr Kind kKinds[] = {

@@ -63,12 +63,12 @@ struct HandTwins::Twin {
   PointerRecorder recorder;
   haptics::ContactRing& contacts;
   haptics::ContactSet received;
-  bool is_changed = false;  // // whether `received` changed since the last step of the twin
+  bool is_changed = false;  // whether `received` changed since the last step of the twin
   haptics::UngatedTwin twin;
-  std::deque<HandMotion> steps;  // // of the hand, not yet done by the twin
+  std::deque<HandMotion> steps;  // of the hand, not yet done by the twin
   TwinTeller teller;
   std::uint64_t told = 0;
-  std::vector<TwinLine> lines;  // // one from each twin
+  std::vector<TwinLine> lines;  // one from each twin
 };
 
 HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
@@ -77,7 +77,7 @@ HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
       hand_(to_force_model(scene.hand)),
       seed_(scene.impairment.seed) {
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
-  if (plan->has_moving()) return;  // // bodies exist once, and the real hands push them
+  if (plan->has_moving()) return;  // bodies exist once, and the real hands push them
   for (std::size_t peer = 0; peer < exercise.size(); ++peer) {
     SimulatedHands hands = make_simulated_hands(scene, static_cast<std::uint32_t>(peer + 1));
     for (const PointerHand& pointer : hands.pointers) {
@@ -200,7 +200,7 @@ void HandTwins::report_others(Twin& twin) {
   for (std::size_t i = 0; i < twins_.size(); ++i) {
     if (i == own) continue;
     peer::Fate fate = networks_[i].decide(own, twin.told, update->time - begun_);
-    if (twins_[i]->peer == twin.peer) fate = {};  // // no network between them
+    if (twins_[i]->peer == twin.peer) fate = {};  // no network between them
     for (std::size_t copy = 0; copy < fate.copies; ++copy)
       twins_[i]->lines[own].send(*update, update->time + fate.delay.at(copy));
   }

@@ -79,12 +79,12 @@ class HandTwins {
 
   Exercise& exercise_;
   std::chrono::nanoseconds begun_;
-  deadreckon::ForceModel hand_;  // // force model of the scene's hands
+  deadreckon::ForceModel hand_;  // force model of the scene's hands
   std::uint64_t seed_;
   std::vector<std::unique_ptr<Twin>> twins_;
   std::vector<peer::Impairment> networks_;  // by receiver, in the order of twins_
   std::uint64_t resets_ = 0;
-  std::mutex mutex_;  // // guards new_law_
+  std::mutex mutex_;  // guards new_law_
   std::optional<peer::ImpairmentLaw> new_law_;
 };
 

@@ -72,11 +72,11 @@ class LiveDisplay {
   bool tells_status_;
   NoticeDigest digest_;
   std::string head_;
-  double strongest_ = 1;  // // [N], greatest force shown so far
+  double strongest_ = 1;              // [N], greatest force shown so far
   std::vector<std::string> notices_;  // while the table is shown: the newest, at most kMostKept
-  std::size_t dropped_ = 0;  // // older notices dropped from it
+  std::size_t dropped_ = 0;           // older notices dropped from it
   std::chrono::nanoseconds next_draw_{0};
-  std::chrono::nanoseconds next_status_{kStatusEvery};  // // in elapsed time
+  std::chrono::nanoseconds next_status_{kStatusEvery};  // in elapsed time
   bool quit_ = false;
   bool stop_key_ = false;
 };

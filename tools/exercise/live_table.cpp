@@ -44,9 +44,9 @@ struct HandCell {
   const TablePeer& peer;
   const peer::HandView* hand;  // null: the peer has none
   bool first;
-  std::size_t shown;  // // remote entities with a line
+  std::size_t shown;  // remote entities with a line
   double elapsed;
-  std::size_t bar;  // // columns of a bar for a force of `whole` [N]
+  std::size_t bar;  // columns of a bar for a force of `whole` [N]
   double whole;
 };
 struct EntityCell {
@@ -296,7 +296,7 @@ class Table {
   const LivePicture& picture_;
   FittedColumns<HandCell, kHandColumns.size()> hands_;
   FittedColumns<EntityCell, kEntityColumns.size()> entities_;
-  double whole_;  // // [N], force of a full bar
+  double whole_;  // [N], force of a full bar
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct LivePicture {
   const peer::SceneFile& scene;
   double elapsed = 0;                    ///< [s]
   std::span<const std::string> notices;  ///< the newest last
-  double strongest = 1;  ///< ///< [N], greatest force so far; scales the bars
+  double strongest = 1;                  ///< [N], greatest force so far; scales the bars
   std::string head;                      ///< ASCII, below the title; empty: none
 };
 

@@ -18,13 +18,13 @@ namespace reckon::tools {
 struct LoopReport {
   peer::Percentiles took;
   std::uint64_t passes = 0;
-  std::uint64_t overruns = 0;  ///< ///< passes longer than a servo period
+  std::uint64_t overruns = 0;  ///< passes longer than a servo period
 };
 
 /// The three loops of a peer, or of several.
 struct LoopReports {
   static constexpr std::array<std::string_view, 3> kNames{"read", "model", "write"};
-  std::array<LoopReport, kNames.size()> all{};  ///< ///< in the order of kNames
+  std::array<LoopReport, kNames.size()> all{};  ///< in the order of kNames
 
   /// Takes the worst times of both, and adds the counts.
   void add(const LoopReports& other);

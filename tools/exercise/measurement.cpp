@@ -16,9 +16,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kHistory = 8192;  // // recorded steps kept per hand
-constexpr nanoseconds kPatience = std::chrono::seconds(1);  // // for a stopped peer
-constexpr double kLargestError = 1e3;  // // replaces anything larger
+constexpr std::size_t kHistory = 8192;                      // recorded steps kept per hand
+constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a stopped peer
+constexpr double kLargestError = 1e3;                       // replaces anything larger
 
 double own_energy(const haptics::ServoSnapshot& step) {
   double energy = step.port_energy + step.loan + step.source_energy();

@@ -78,7 +78,7 @@ class DemoMeasurement {
   struct Truth {
     std::chrono::nanoseconds time{0};
     Eigen::Vector3d device, scp, velocity;
-    double energy = 0;  // // work + damping of this port
+    double energy = 0;  // work + damping of this port
   };
   struct Shown {
     std::size_t owner;
@@ -106,7 +106,7 @@ class DemoMeasurement {
   std::vector<std::size_t> peers_;
   std::vector<pdu::EntityId> ids_;
   std::vector<peer::DeviceStiffness> devices_;
-  std::vector<Place> last_;  // // last compared step
+  std::vector<Place> last_;         // last compared step
   std::vector<double> late_costs_;  // [J]
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;

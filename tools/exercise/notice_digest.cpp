@@ -19,7 +19,7 @@ namespace {
 using peer::NoticeKind;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kNamed = 4;  // // peers named in a sentence
+constexpr std::size_t kNamed = 4;  // peers named in a sentence
 
 // Orders peers by their numbers.
 using Numbers = std::pair<unsigned, unsigned>;
@@ -27,8 +27,8 @@ Numbers numbers_of(const aoim::PeerId& peer) { return {peer.site, peer.applicati
 
 struct Words {
   NoticeKind kind;
-  std::string_view many;  ///< ///< "7 peers .."
-  std::string_view each;  ///< ///< "8 peers: each .."
+  std::string_view many;  ///< "7 peers .."
+  std::string_view each;  ///< "8 peers: each .."
 };
 constexpr Words kWords[] = {
     {NoticeKind::joined, "joined", "sees {}"},

@@ -21,9 +21,9 @@ namespace reckon::tools {
 
 /// --device, --firmware and --plugin of a demo or a peer.
 struct DeviceChoice {
-  std::string device;  ///< ///< name or file of a driver, serial port with @BAUD if not the
+  std::string device;    ///< name or file of a driver, serial port with @BAUD if not the
                          ///< default, or path of an event device; empty: as in the scene
-  std::string firmware;  ///< ///< file; empty: as in the scene
+  std::string firmware;  ///< file; empty: as in the scene
   std::vector<std::string> plugins = {};  ///< files of --plugin
 };
 

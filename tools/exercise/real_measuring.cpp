@@ -39,11 +39,11 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kPeriod{1};
-constexpr milliseconds kGlance{20};  // // maximum delay of a key
-constexpr milliseconds kSettling{3000};  // // after Enter, for readings that fail now and
+constexpr milliseconds kGlance{20};            // maximum delay of a key
+constexpr milliseconds kSettling{3000};        // after Enter, for readings that fail now and
                                                // then
-constexpr milliseconds kFarewell{50};  // // for a zero force to reach the device
-constexpr std::chrono::seconds kPatience{60};  // // until it is ready, if there is no terminal
+constexpr milliseconds kFarewell{50};          // for a zero force to reach the device
+constexpr std::chrono::seconds kPatience{60};  // until it is ready, if there is no terminal
 
 void check_measurable(const RealMeasuring& wanted) {
   const std::string& name = wanted.choice.device;
@@ -72,7 +72,7 @@ class OpenedDevice {
     choose_device(wanted.choice, scene_, 1, 1);
     peer::DeviceConfig& config = scene_.devices.front();
     if (config.driver == peer::DeviceDriver::serial) {
-      config.resolution = 1e-3;  // // is measured: boards with any step are accepted
+      config.resolution = 1e-3;  // is measured: boards with any step are accepted
       if (!wanted.max_force.empty()) config.max_force = max_force_of(wanted.max_force);
     }
     try {

@@ -16,10 +16,10 @@ namespace reckon::tools {
 
 /// Options of a measurement.
 struct RealMeasuring {
-  DeviceChoice choice;  ///< ///< as for --device, not empty
-  std::string max_force;  ///< ///< --max-force, for a serial board; empty: the driver's default
-  bool is_agreed = false;  ///< ///< --yes: do not ask
-  int keys = 0;  ///< ///< descriptor of the user's keys, stdin
+  DeviceChoice choice;     ///< as for --device, not empty
+  std::string max_force;   ///< --max-force, for a serial board; empty: the driver's default
+  bool is_agreed = false;  ///< --yes: do not ask
+  int keys = 0;            ///< descriptor of the user's keys, stdin
 };
 
 /// Opens the device, waits until it is ready, warns and asks the user, pushes the device at 1 kHz
@@ -35,9 +35,9 @@ struct RealMeasuring {
 /// The limits used so far, and the measured ones.
 struct MeasuredChain {
   haptics::MeasuredDevice found;
-  haptics::DeviceLimits limits;  ///< ///< given by its driver
+  haptics::DeviceLimits limits;  ///< given by its driver
   double period = 1e-3;          ///< [s], of the servo
-  int needed_delay = 0;  ///< ///< see haptics::UsbDevice::needed_delay; 0: it sends no
+  int needed_delay = 0;          ///< see haptics::UsbDevice::needed_delay; 0: it sends no
                                  ///< reports
 };
 

@@ -16,15 +16,15 @@ namespace reckon::tools {
 
 /// Scene options of the command line.
 struct SceneOptions {
-  std::string scene;  ///< ///< file; empty: the shipped scene
-  std::string mesh;  ///< ///< replaces the first object's shape
-  std::string hand;  ///< ///< hand trace that the hands follow
+  std::string scene;   ///< file; empty: the shipped scene
+  std::string mesh;    ///< replaces the first object's shape
+  std::string hand;    ///< hand trace that the hands follow
   std::string impair;  ///< see impairment_text.hpp
   std::string iface;
   std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
   bool even_if_slow = false;         ///< see FederateOptions
-  haptics::CustomEffects effects{};  ///< ///< of the program that reads the scene
+  haptics::CustomEffects effects{};  ///< of the program that reads the scene
 };
 
 /// Declares --mesh, --hand, --impair, --seed, --iface, --key and --even-if-slow.

@@ -21,7 +21,7 @@ struct ServoReport {
   std::uint64_t steps = 0;
   std::uint64_t missed = 0;
   LoopReports loops;   ///< the worst of each
-  std::string thread;  ///< ///< scheduling of their thread; empty in simulated time
+  std::string thread;  ///< scheduling of their thread; empty in simulated time
 
   void add(const peer::PeerThreads& threads);
 };

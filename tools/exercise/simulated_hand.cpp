@@ -19,20 +19,19 @@ namespace {
 using haptics::HandTarget;
 using std::chrono::nanoseconds;
 
-constexpr double kMeshSize =
-    0.2;  // // [m], bounding diagonal of a mesh that replaces another shape
-constexpr double kDip = 0.015;  // // [m], amplitude of a fitted trace above and below the top
-constexpr double kSideBySide = 1.9;  // // radii between hands on the same trace: they press a
+constexpr double kMeshSize = 0.2;    // [m], bounding diagonal of a mesh that replaces another shape
+constexpr double kDip = 0.015;       // [m], amplitude of a fitted trace above and below the top
+constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a
                                      // little
 
 // Duration of an approach from the side: hands that appear inside each other feel nothing.
 constexpr nanoseconds kComes = std::chrono::seconds(1);
 
-constexpr double kAside = 6.0;  // // radii between hands with the same operator, upwards
+constexpr double kAside = 6.0;  // radii between hands with the same operator, upwards
 
 // State of a minimum-jerk approach.
 struct Approach {
-  double left = 1.0;  // // 1 at its begin, 0 at its end
+  double left = 1.0;  // 1 at its begin, 0 at its end
   double rate = 0.0;  // [1/s]
 };
 Approach approach(double time, double duration) {

@@ -68,11 +68,11 @@ namespace reckon::tools {
 struct PointerHand {
   std::size_t device = 0;  ///< of the peer, from 0
   haptics::PointerInbox* inbox = nullptr;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< ///< [m], origin of frame D in S
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();                 ///< [m], origin of frame D in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  PointerRecorder* recorder = nullptr;  ///< ///< receives the same samples, for a second device;
+  PointerRecorder* recorder = nullptr;  ///< receives the same samples, for a second device;
                                         ///< null: none
-  std::size_t held = 0;  ///< ///< index in SimulatedHands::devices, from 0
+  std::size_t held = 0;                 ///< index in SimulatedHands::devices, from 0
 
   /// Moves the hand to a point of S [m]; see haptics::PointerInbox::put for the thread.
   bool lead(const Eigen::Vector3d& p_S, bool grabs = false) const noexcept {
@@ -90,12 +90,12 @@ struct PointerHand {
 /// The devices of one peer, and their placement in the scene.
 struct SimulatedHands {
   std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
-  std::vector<std::unique_ptr<AdmittanceHand>> admittance;  ///< ///< not among `devices`
-  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< ///< wrap the devices that have
+  std::vector<std::unique_ptr<AdmittanceHand>> admittance;     ///< not among `devices`
+  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< wrap the devices that have
                                                                ///< a mapping
-  std::vector<peer::PeerDevice> wired;  ///< ///< all devices in scene order, or their mapping
+  std::vector<peer::PeerDevice> wired;  ///< all devices in scene order, or their mapping
                                         ///< wrappers
-  std::vector<PointerHand> pointers;  ///< ///< the pointer devices among `devices`
+  std::vector<PointerHand> pointers;    ///< the pointer devices among `devices`
 
   /// Notices since the last call, of devices that could not follow. One thread, any.
   [[nodiscard]] std::vector<std::string> take_notices();

@@ -42,8 +42,8 @@ class StopControl {
 
  private:
   haptics::ForceStop stop_;
-  std::chrono::nanoseconds pressed_at_{0};  // // press by the key
-  std::uint32_t told_ = 0;  // // reported changes
+  std::chrono::nanoseconds pressed_at_{0};  // press by the key
+  std::uint32_t told_ = 0;                  // reported changes
   struct sigaction before_ {};
 };
 

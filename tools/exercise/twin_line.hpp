@@ -17,7 +17,7 @@ namespace reckon::tools {
 /// The motion of a twin in an update.
 struct TwinUpdate {
   std::chrono::nanoseconds time{0};  ///< of the state
-  deadreckon::KinematicState state;  ///< ///< first order, frame S
+  deadreckon::KinematicState state;  ///< first order, frame S
 };
 
 /// Decides when a twin sends its motion: when the error of its last update exceeds the threshold,
