@@ -51,8 +51,8 @@ class LiveDisplay {
   /// A sentence of the program itself: shown in the table's head from now on; without a table
   /// printed to `err` at once.
   void put_in_head(std::string sentence);
-  /// Handles pressed keys; draws when kDrawEvery has passed since the last drawing, or a key was
-  /// pressed.
+  /// Handles keys; draws when kDrawEvery has passed, after a key, and after a change of the
+  /// terminal's size.
   void show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
             std::chrono::nanoseconds elapsed);
   /// Whether the user has pressed the key of the software stop since the last call.
