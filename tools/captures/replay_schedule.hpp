@@ -36,7 +36,8 @@ class ReplaySchedule {
   void set_rate(double rate, nanoseconds now);
   [[nodiscard]] double rate() const { return rate_; }
   /// Jumps by `step` within the lap, at most back to its beginning. Returns true if the capture
-  /// must be read from its beginning again. A place after its end is the beginning of the next lap.
+  /// must be read from its beginning again. A place after the end of the lap means the beginning of
+  /// the next lap.
   [[nodiscard]] bool seek(nanoseconds step, nanoseconds now);
 
   /// Position of the replay within the lap.

@@ -57,7 +57,7 @@ class CommandLine {
   void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
               const std::string& help);
 
-  /// Values that completion offers for an option or a word, which may be others too.
+  /// Values that completion offers for an option or a word; others are accepted too.
   /// @param values names with commas or blanks between them, or kInterfaces
   void offer(const std::string& name, std::string_view values);
 
@@ -85,7 +85,7 @@ class CommandLine {
   std::unique_ptr<Parser> parser_;
 };
 
-/// Instead of values to offer: the network interfaces that the host has then.
+/// Offers the network interfaces of the host, determined at completion, instead of fixed values.
 inline constexpr std::string_view kInterfaces = "@interfaces";
 
 /// Flag that makes a verb list its flags and words on out, one a line followed by its choices, for

@@ -44,8 +44,8 @@ class ContactForces {
   /// Sum of the forces on one entity [N], east, north, up; zero where there is none.
   [[nodiscard]] static Eigen::Vector3d force_on(const Listener& listener, const pdu::EntityId& id,
                                                 std::chrono::nanoseconds time);
-  /// How much the updates of the datagram at hand changed the forces of pairs that were known, at
-  /// `time`; call it before Listener::end_datagram(). Good until the next call.
+  /// The changes of force at `time` by the updates of the present datagram, for pairs that were
+  /// known before; call it before Listener::end_datagram(). Valid until the next call.
   [[nodiscard]] std::span<const ForceJump> jumps_of_datagram(const Listener& listener,
                                                              std::chrono::nanoseconds time);
 
