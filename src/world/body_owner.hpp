@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner of a scene's bodies: its first peer, by its announcement.
+// The owner of a scene's bodies: the first peer of the scene, according to its announcement.
 #pragma once
 
 #include <chrono>
@@ -19,8 +19,8 @@ struct BodyRival {
   aoim::SourceAddress from;
 };
 
-/// The epoch that owns the bodies. Of several peers that announce number 1, the one that was
-/// received first owns them, until it is gone. One thread; no allocation; linear in the peers.
+/// The epoch that owns the bodies. If several peers announce number 1, the first received one owns
+/// them until it leaves. One thread; no allocation; linear in the peers.
 class BodyOwner {
  public:
   /// Finds owner and rival among the peers. Call it some times a second.
