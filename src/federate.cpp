@@ -167,8 +167,7 @@ void Federate::resign() {
   s.joined.resign();
 }
 
-// What we say and what we want to hear
-// -----------------------------------------------------------------
+// Publish and subscribe ---------------------------------------------------------------------------
 
 void Federate::publish(const EntityClass& entities) {
   participation_->published.push_back(entities);
@@ -199,8 +198,7 @@ void Federate::on_remove(std::function<void(const RemoteObject&, Removal)> callb
   participation_->removed = std::move(callback);
 }
 
-// Our entities
-// -----------------------------------------------------------------------------------------
+// Our entities ------------------------------------------------------------------------------------
 
 ObjectHandle Federate::register_object(const EntityDescription& description,
                                        const EntityTruth& truth) {
@@ -260,8 +258,7 @@ haptics::ForceStop& Federate::force_stop() noexcept {
   return participation_->joined.peer().force_stop();
 }
 
-// The entities of others
-// --------------------------------------------------------------------------------
+// The entities of others --------------------------------------------------------------------------
 
 std::size_t Federate::size() const noexcept { return participation_->objects.rows().size(); }
 
@@ -274,8 +271,7 @@ std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
   return copy == nullptr ? std::nullopt : std::optional(RemoteObject(*copy));
 }
 
-// Interactions
-// ------------------------------------------------------------------------------------------
+// Interactions ------------------------------------------------------------------------------------
 
 void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
                            const std::optional<Eigen::Vector3d>& place) {
@@ -296,8 +292,7 @@ std::uint8_t Federate::exercise() const noexcept {
   return participation_->options().scene->network.exercise;
 }
 
-// Time and place
-// ----------------------------------------------------------------------------------------
+// Time and place ----------------------------------------------------------------------------------
 
 nanoseconds Federate::now() const noexcept { return participation_->joined.clock().now(); }
 
@@ -330,8 +325,7 @@ EntityTruth Federate::place(double latitude, double longitude, double height,
   return truth;
 }
 
-// Running
-// -----------------------------------------------------------------------------------------------
+// Running -----------------------------------------------------------------------------------------
 
 void Federate::step() {
   Participation& s = *participation_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Python values as octets of the wire: by the form of an object, without its C++ record.
+// Writes Python values as octets of the wire, by the form of an object, without its C++ record.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -21,7 +21,7 @@ namespace reckon::python {
 void put_value(PyObject* value, WireKind kind, std::size_t size, const std::string& where,
                std::vector<std::byte>& out);
 
-/// Appends octets, a record, or a list of these. @throws error_already_set
+/// Appends octets, a record, or a list of octets and records. @throws error_already_set
 void put_octets(PyObject* value, const std::string& where, std::vector<std::byte>& out);
 
 /// Appends the fields of a record from the step `from` of its form on, and its padding.

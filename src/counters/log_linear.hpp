@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE rule of buckets of all histograms: equal steps within each power of two, and the search for a
-// percentile.
+// The rule for the buckets of all histograms: equal steps within each power of two. Also the search
+// for a percentile.
 #pragma once
 
 #include <algorithm>
