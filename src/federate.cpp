@@ -66,7 +66,7 @@ SceneHolder dis_exercise(std::uint8_t exercise, double latitude, double longitud
   return scene;
 }
 
-// The joined peer, what the program has declared, and what it is called back by.
+// The joined peer, the declarations of the program, and its callbacks.
 struct Federate::Participation {
   // Over a link of its own.
   explicit Participation(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
@@ -98,7 +98,7 @@ struct Federate::Participation {
         (hand ? " is a hand, which its device moves" : " is not registered, or was deleted"));
   }
 
-  // The wishes of this thread go to the loop, unless it is busy with the last ones.
+  // Sends the requests of this thread to the loop, unless it still processes the last ones.
   void post() {
     if (side.wishes().letter().empty() || !side.wishes().is_free()) return;
     side.wishes().send();

@@ -17,7 +17,7 @@
 namespace reckon::python {
 
 /// Appends a number or a fixed array. @param where names the field in messages: "Fire.range"
-/// @throws error_already_set: TypeError for another type, ValueError where it does not fit
+/// @throws error_already_set: TypeError for another type, ValueError if it does not fit
 void put_value(PyObject* value, WireKind kind, std::size_t size, const std::string& where,
                std::vector<std::byte>& out);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Limits notices caused by others, so that nobody on the network can flood the user's terminal or
+// Limits notices caused by others, so that no host on the network can flood the user's terminal or
 // log: all strangers of a host together get one line a second, with the number of omitted ones.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The UDP endpoints of the programs of this host, as the kernel lists them for anybody.
+// The UDP endpoints of the programs of this host, as the kernel lists them for any user.
 #pragma once
 
 #include <istream>

@@ -142,7 +142,7 @@ class Link {
   virtual ~Link() = default;
 
   /// Sends one datagram to a group or to a peer's unicast endpoint. False if the kernel refused it,
-  /// which is counted; the caller goes on (the next update repairs it).
+  /// which is counted; the caller continues (the next update repairs it).
   virtual bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept = 0;
 
   /// Sends datagrams in their order, with the effect of send() for each. A link may hand many to

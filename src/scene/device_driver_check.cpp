@@ -94,7 +94,7 @@ void check_joint_damping(TomlReader& table, DeviceConfig& device) {
 
 }  // namespace
 
-// Rejects values that the driver already knows.
+// Rejects values that the driver provides itself.
 void check_device_driver(TomlReader& table, DeviceConfig& device) {
   check_keys(table, device);
   check_joint_damping(table, device);

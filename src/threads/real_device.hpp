@@ -42,7 +42,7 @@ class RealDevice {
 
 /// A USB device. @param clock the servo's clock; outlives the device, as below
 /// @param limits see haptics::usb_limits()  @param options for finding it; their clock is ignored
-/// @throws std::runtime_error where the host has no USB, std::system_error if no thread can be
+/// @throws std::runtime_error if the host has no USB, std::system_error if no thread can be
 /// created
 [[nodiscard]] std::unique_ptr<RealDevice> usb_device(const Clock& clock,
                                                      const haptics::DeviceLimits& limits,

@@ -21,9 +21,9 @@ namespace reckon::peer {
   return silence >= most && processor_time >= silence / 10;
 }
 
-/// A thread of ordinary priority that beats. Real-time threads detect by its silence that ordinary
-/// threads get no processor time, whoever uses it: a kernel reserves at best some 5 % of a core for
-/// them, in one piece each second.
+/// A thread of ordinary priority that sends regular pulses. Missing pulses show real-time threads
+/// that ordinary threads get no processor time, regardless of which thread uses it. A kernel
+/// reserves at best some 5 % of a core for ordinary threads, in one piece each second.
 class OrdinaryPulse {
  public:
   /// @param clock steady, outlives this  @param silence > 0, limit of silence; it beats ten times

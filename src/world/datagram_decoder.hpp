@@ -59,7 +59,7 @@ class DatagramDecoder {
   /// @param own whose entities' accounts are selected.
   /// @param overtaken bit i: PDU i is an overtaken state (OvertakenStates), which is only counted.
   /// @param speaker whose states may be key states, and whose compressed states may depend on them;
-  /// by default nobody's
+  /// by default of no entity
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::SimulationAddress& own,
                                                 std::uint64_t overtaken = 0,

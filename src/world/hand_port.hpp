@@ -37,7 +37,7 @@ class HandPort {
   /// touch, a peer would continue to feel us.
   static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
   /// Longest silence of a body without a device that a remote hand presses, and of that hand. The
-  /// accounts of the hand name the body, and so its owner knows of the contact.
+  /// accounts of the hand name the body, which informs its owner of the contact.
   static constexpr std::chrono::milliseconds kBodyPeriod{100};
 
   /// @param snapshots, contacts of the device's servo; outlive the port.

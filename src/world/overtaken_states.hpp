@@ -24,9 +24,9 @@ struct ArrivedDatagram {
 /// same entity, from the same sender in the same epoch and row of channels, stamped later by less
 /// than a second. The overtaken state would be shown for no time at all. States that carry more
 /// than a pose are never overtaken: states with records (force models, energy accounts); with
-/// `bodies_in_part` states with parts, which a later one may omit; farewells; and states whose
-/// stamps are equal, out of order, or of a clock that jumps. If there are more than kMostSenders at
-/// a time, all states of the further ones are taken.
+/// `bodies_in_part` states with parts, which a later one may omit; states with the deactivated bit;
+/// and states whose stamps are equal, out of order, or of a clock that jumps. If there are more
+/// than kMostSenders at a time, all states of the further ones are taken.
 ///
 /// One thread; allocates only at construction. Some 15 ns for each examined state.
 class OvertakenStates {

@@ -141,7 +141,7 @@ class OwnedEntity {
   /// Whether its last truth is at rest.
   [[nodiscard]] bool is_resting() const noexcept;
 
-  /// Null for an entity that nobody feels.
+  /// Null for an entity without a force model.
   [[nodiscard]] TouchSide* touch() noexcept { return touch_.get(); }
   [[nodiscard]] const TouchSide* touch() const noexcept { return touch_.get(); }
 

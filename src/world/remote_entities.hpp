@@ -206,7 +206,7 @@ class RemoteEntities {
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
   /// Innovations: the distance of each update from its prediction for the same instant, as pose [m]
-  /// and as force on our hand [N]. From them a receiver knows its errors. Any thread.
+  /// and as force on our hand [N]. They measure the errors of a receiver. Any thread.
   [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return motion_.pose_jumps(); }
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 

@@ -32,7 +32,7 @@ class RadioAudio {
   RadioAudio(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {}
 
   /// Takes a PDU; ignores PDUs other than Signal.
-  /// @throws UsageError with the frame where rate or encoding change, or the file gets too long
+  /// @throws UsageError with the frame if rate or encoding change, or the file gets too long
   void take(const PduRow& row);
   /// Completes the file. @throws UsageError with the radios and the remedy if there are several.
   void finish();

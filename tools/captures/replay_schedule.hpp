@@ -20,7 +20,7 @@ class ReplaySchedule {
 
   /// Sets the next datagram of the lap, recorded at `time`; the very first one is due at start.
   void next(nanoseconds time);
-  /// Whether that datagram lies before the target of a jump, and is not to be sent.
+  /// Whether that datagram comes before the target of a jump, and is not to be sent.
   [[nodiscard]] bool is_skipped() const { return at_ < sought_; }
   /// Steady time at which that datagram is due. Not to be called while paused.
   [[nodiscard]] nanoseconds due() const;

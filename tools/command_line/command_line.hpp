@@ -36,7 +36,7 @@ class CommandLine {
 
   /// A switch: "--json" or "-j,--json".
   void flag(const std::string& name, bool& target, const std::string& help);
-  /// A switch that may have a value behind "=": --view or --view=9000; "true" where it has none.
+  /// A switch that may have a value behind "=": --view or --view=9000; "true" if it has none.
   void flag(const std::string& name, std::string& target, const std::string& help);
 
   /// Options with a value. Durations have a unit ("10s", "5 ms"; without one: seconds). A number

@@ -11,7 +11,7 @@
 
 namespace reckon::tools {
 
-/// `given` unchanged, or, where it is empty, the shipped scene `fallback`: in share/reckon/scenes
+/// `given` unchanged, or, if it is empty, the shipped scene `fallback`: in share/reckon/scenes
 /// of the installation, else in the sources of the build. @throws UsageError with the searched
 /// folders.
 [[nodiscard]] std::filesystem::path scene_path(const std::string& given, std::string_view fallback);

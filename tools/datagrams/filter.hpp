@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then evaluated
-// for each PDU. Its fields are THE list in filter_fields.cpp, where a new one is one row, and then
+// for each PDU. Its fields are the list in filter_fields.cpp, where a new one is one row, and then
 // all fields of the field tables: "frequency > 2e8", "systems.beams.beam_function == search".
 #pragma once
 

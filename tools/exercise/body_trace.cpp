@@ -21,7 +21,7 @@ std::string csv(const std::string& name) {
   return out + '"';
 }
 
-// Names of all objects. @throws UsageError where none of them moves
+// Names of all objects. @throws UsageError if none of them moves
 std::vector<std::string> names_of(const haptics::Scene& scene) {
   const auto moves = [](const haptics::SceneObject& object) {
     return object.matter.mass > 0 || object.carried;

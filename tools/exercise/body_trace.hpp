@@ -16,7 +16,7 @@ namespace reckon::tools {
 /// A CSV file with a header line; SI units, scene frame. A sleeping body has no lines.
 class BodyTrace {
  public:
-  /// @throws UsageError where the file cannot be written, or nothing in the scene moves.
+  /// @throws UsageError if the file cannot be written, or nothing in the scene moves.
   BodyTrace(const std::filesystem::path& file, const haptics::Scene& scene);
 
   void write(const haptics::BodyStep& step);

@@ -14,12 +14,12 @@ namespace reckon::tools {
 /// An open CSV file; an existing file is replaced.
 class CsvOutput {
  public:
-  /// @param header without line end  @throws UsageError where the file cannot be written.
+  /// @param header without line end  @throws UsageError if the file cannot be written.
   CsvOutput(const std::filesystem::path& file, std::string_view header);
 
   /// @param line with its line end
   void write(std::string_view line);
-  /// Flushes the file. @throws EnvironmentError where the disk is full.
+  /// Flushes the file. @throws EnvironmentError if the disk is full.
   void close();
 
  private:

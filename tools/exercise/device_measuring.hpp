@@ -20,7 +20,7 @@ namespace reckon::tools {
 [[nodiscard]] std::string_view sentence_of(haptics::MeasurementProblem problem) noexcept;
 
 /// Measures a simulated device of `device` in simulated time. @throws std::runtime_error with the
-/// reason where it cannot be measured
+/// reason if it cannot be measured
 [[nodiscard]] haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device);
 
 /// The text of a descriptor: the measured values, and all others from `known`. @param remarks

@@ -33,8 +33,8 @@ class FeltDevice {
   std::optional<haptics::MappedDevice> mapped_;
 };
 
-/// @throws std::invalid_argument that names an effect which a device of the scene cannot show, if
-/// that device renders springs by itself
+/// @throws std::invalid_argument with the name of an effect that a device of the scene cannot show,
+/// if that device renders springs by itself
 void check_felt(const peer::SceneFile& scene, const haptics::EffectPlan& plan);
 
 }  // namespace reckon::tools

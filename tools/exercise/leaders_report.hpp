@@ -11,12 +11,12 @@
 namespace reckon::tools {
 
 /// "scene by 1:1, map 3 has 4 cells; cells by 1:1: 3, by 1:2: 1" for all cells that contain one of
-/// these peers; followed by "; beacon gate in cell 7,0" for each followed beacon. Empty where the
+/// these peers; followed by "; beacon gate in cell 7,0" for each followed beacon. Empty if the
 /// scene has no leaders. @param views not null
 [[nodiscard]] std::string leaders_text(std::span<const peer::PeerView* const> views);
 
 /// `,"leaders":{..}`, a member of a peer's JSON object; docs/json_lines.md lists its keys. Empty
-/// where the scene has no leaders.
+/// if the scene has no leaders.
 [[nodiscard]] std::string leaders_json(const peer::LeadersView& leaders);
 
 }  // namespace reckon::tools

@@ -68,7 +68,7 @@ class LiveDisplay {
   const Console& console_;
   NoticeLog log_;
   peer::SteadyClock clock_;
-  std::unique_ptr<TerminalScreen> screen_;  // null where none can be drawn
+  std::unique_ptr<TerminalScreen> screen_;  // null if none can be drawn
   bool tells_status_;
   NoticeDigest digest_;
   std::string head_;

@@ -16,7 +16,7 @@ namespace reckon::tools {
 
 /// @param bar_end [N], force of a full bar
 [[nodiscard]] std::string title_of(const LivePicture& picture, double bar_end);
-/// Sentences of all peers, each once; empty where all is shown as asked.
+/// Sentences of all peers, each once; empty if all is shown as asked.
 [[nodiscard]] std::string softer_text(const LivePicture& picture);
 /// Text of the peer that simulates the bodies; empty without bodies.
 [[nodiscard]] std::string bodies_text(const LivePicture& picture);

@@ -179,7 +179,7 @@ bool DemoMeasurement::compare_force(std::size_t observer, std::size_t owner,
                                     const haptics::ServoSnapshot& step) {
   const auto other = truth(owner, step.time);
   if (!other) return false;
-  // The owner's full model: its sphere where its device really is.
+  // The owner's full model: its sphere at the true position of its device.
   deadreckon::Pose pose;
   pose.position = other->device;
   pose.velocity = other->velocity;

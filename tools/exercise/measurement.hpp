@@ -58,7 +58,7 @@ class DemoMeasurement {
   /// [N] the same against the part of that model that the two devices can show: limited to the
   /// stiffness of the softer one and to the greatest force of the one that shows it.
   [[nodiscard]] peer::Spread possible_force_error() const { return possible_error_.spread(); }
-  /// [N] RMS of the same; 0 where no hands touched.
+  /// [N] RMS of the same; 0 if no hands touched.
   [[nodiscard]] double force_error_rms() const;
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }

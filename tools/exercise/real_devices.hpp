@@ -54,7 +54,7 @@ class RealDevices {
 
   /// Replaces the simulated devices of peer `number` that have a driver by real ones.
   /// @param wired from make_simulated_hands() for that peer
-  /// @throws std::runtime_error with the remedy where a plugin is refused, the host has no USB, a
+  /// @throws std::runtime_error with the remedy if a plugin is refused, the host has no USB, a
   /// firmware cannot be read, or a second device of a kind, or on a serial port, is requested
   /// @throws UsageError for a plugin that is not trusted
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
@@ -79,7 +79,7 @@ class RealDevices {
   [[nodiscard]] std::unique_ptr<peer::RealDevice> open_plugin(const peer::DeviceConfig& config);
   [[nodiscard]] std::unique_ptr<peer::RealDevice> open_evdev(const peer::DeviceConfig& config);
   [[nodiscard]] std::unique_ptr<peer::RealDevice> open_by_forces(const peer::DeviceConfig& config);
-  /// @throws std::runtime_error where another device of this process already uses its place
+  /// @throws std::runtime_error if another device of this process already uses its place
   void check_free(const peer::DeviceConfig& config) const;
   /// The device, with the mapping from handle to hand if there is one.
   [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,

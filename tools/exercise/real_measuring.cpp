@@ -213,7 +213,7 @@ class Conversation {
     tell_notices();
   }
 
-  /// @throws EnvironmentError where there is no result
+  /// @throws EnvironmentError if there is no result
   [[nodiscard]] const haptics::MeasuredDevice& found() const {
     const MeasuringStage stage = servo_.stage();
     if (stage == MeasuringStage::halted)

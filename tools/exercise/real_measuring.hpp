@@ -25,8 +25,8 @@ struct RealMeasuring {
 /// Opens the device, waits until it is ready, warns and asks the user, pushes the device at 1 kHz
 /// from a servo thread, and returns its descriptor. Messages go to console.err. A key, Ctrl-C,
 /// SIGUSR1 or a fault ends it with zero force.
-/// @throws UsageError for a device that cannot be measured, or where the user cannot be asked;
-/// EnvironmentError where it was ended, with the reason and the remedy
+/// @throws UsageError for a device that cannot be measured, or if the user cannot be asked;
+/// EnvironmentError if it was ended, with the reason and the remedy
 [[nodiscard]] std::string measure_real(const RealMeasuring& wanted, const Console& console);
 
 /// The warning before anything moves. @param asks whether Enter is required

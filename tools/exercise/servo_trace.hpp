@@ -16,7 +16,7 @@ namespace reckon::tools {
 class ServoTrace {
  public:
   /// @param turns with columns of torque, orientation and turn rate
-  /// @throws UsageError where the file cannot be written.
+  /// @throws UsageError if the file cannot be written.
   explicit ServoTrace(const std::filesystem::path& file, bool turns = false);
 
   /// @param peer, device numbered from 0; from 1 in the file

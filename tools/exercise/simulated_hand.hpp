@@ -112,7 +112,7 @@ struct SimulatedHands {
 void check_files(const peer::SceneFile& scene, std::size_t hands);
 
 /// Replaces the first object's shape by the mesh in `file`, centred there and scaled to the same
-/// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or
+/// size (0.2 m if the object is no mesh). @throws std::runtime_error if there is no object or
 /// the mesh cannot be read.
 void put_mesh(peer::SceneFile& scene, const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ namespace reckon::tools {
 /// A CSV file with a header line; a peer's stages are in the order in which they ran.
 class StageTrace {
  public:
-  /// @throws UsageError where the file cannot be written.
+  /// @throws UsageError if the file cannot be written.
   explicit StageTrace(const std::filesystem::path& file);
 
   /// @param peer numbered from 0; from 1 in the file

@@ -41,7 +41,7 @@ class ContactForces {
   /// call. A model whose validity has ended gives no force; call Listener::forget_silent() before.
   [[nodiscard]] std::span<const ContactForce> forces_at(const Listener& listener,
                                                         std::chrono::nanoseconds time);
-  /// Sum of the forces on one entity [N], east, north, up; zero where there is none.
+  /// Sum of the forces on one entity [N], east, north, up; zero if there is none.
   [[nodiscard]] static Eigen::Vector3d force_on(const Listener& listener, const pdu::EntityId& id,
                                                 std::chrono::nanoseconds time);
   /// The changes of force at `time` by the updates of the present datagram, for pairs that were

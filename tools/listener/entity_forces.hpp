@@ -20,7 +20,7 @@ class EntityForces {
  public:
   /// Limit of other entities at whose probes a force is evaluated.
   static constexpr std::size_t kMostProbes = 64;
-  /// A model is new where a coefficient differs by this share, or the force by this [N].
+  /// A model is new if a coefficient differs by this share, or the force by this [N].
   static constexpr double kNewShare = 1e-3;
   static constexpr double kNewForce = 0.01;
 

@@ -52,7 +52,7 @@ struct EntityRow {
   std::array<std::uint64_t, 2> window_updates{};
 
   /// Updates per second of the row's entity over the last 5 to 10 s, or over the last 4 to 8
-  /// updates where these took longer; decreases during silence. 0 before the second update.
+  /// updates if these took longer; decreases during silence. 0 before the second update.
   [[nodiscard]] double rate(const ReceivedEntity& entity,
                             std::chrono::nanoseconds now) const noexcept;
   /// The last jumps, at most 64, oldest first [m].
@@ -100,7 +100,7 @@ class EntityTable {
   }
   /// PDUs of entities for which there was no room.
   [[nodiscard]] std::uint64_t others() const noexcept { return listener_.refusals().crowded; }
-  /// Force changes of its model [N]; null where it has none.
+  /// Force changes of its model [N]; null if it has none.
   [[nodiscard]] const JumpHistogram* force_jumps(const ReceivedEntity& entity) const noexcept;
   /// The largest force [N] of its model at the probe of another haptic entity.
   [[nodiscard]] double contact_force(const ReceivedEntity& entity,

@@ -77,7 +77,7 @@ std::size_t Listener::place_of(std::uint8_t exercise, const pdu::EntityId& id) c
   return place_of_key(key_of(exercise, id));
 }
 
-// The place of an entity, known or new; kNone where there is no room.
+// The place of an entity, known or new; kNone if there is no room.
 std::size_t Listener::admit(std::uint8_t exercise, const pdu::EntityId& id) {
   const std::uint64_t key = key_of(exercise, id);
   if (const std::size_t known = place_of_key(key); known != kNone) return known;
@@ -185,13 +185,13 @@ bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate
   return encode(read_, update.octets) == update.octets.size();
 }
 
-// Restores into read_ and restored_. @return false where its key is missing, or it cannot be read
+// Restores into read_ and restored_. @return false if its key is missing, or it cannot be read
 bool Listener::restore(const pdu::CompressedStates& states, const pdu::CompressedState& state) {
   const auto verdict = keys_.restore(states, state, read_);
   return verdict == peer::RestoreVerdict::good && encode(read_, restored_) == restored_.size();
 }
 
-// Finds the entity and checks the state. @return false where the rules ignore such an entity
+// Finds the entity and checks the state. @return false if the rules ignore such an entity
 bool Listener::place_state(StateUpdate& update) {
   const pdu::PduHeader& header = update.pdu->header;
   const pdu::EntityId& id = update.pdu->entity_id;

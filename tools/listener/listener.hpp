@@ -4,7 +4,6 @@
 // at which each state was valid, and the present pose of each entity. Views evaluate it further:
 // forces between pairs (ContactForces), causes of updates (EntityTable), the difference of two
 // streams (MotionDifference). Pure: PDUs and times in, no I/O.
-// pictures lie apart (MotionDifference). Pure: PDUs and times in, no I/O.
 #pragma once
 
 #include <array>
@@ -199,24 +198,24 @@ class Listener {
 
   [[nodiscard]] std::span<const ReceivedEntity> entities() const noexcept { return entities_; }
   [[nodiscard]] std::span<const ReceivedModel> models() const noexcept { return models_; }
-  /// An entity; null where it is unknown. The exercise is ignored unless the rules distinguish it.
+  /// An entity; null if it is unknown. The exercise is ignored unless the rules distinguish it.
   [[nodiscard]] const ReceivedEntity* find_entity(const pdu::EntityId& id,
                                                   std::uint8_t exercise = 0) const noexcept {
     const std::size_t place = place_of(exercise, id);
     return place == kNone ? nullptr : &entities_[place];
   }
-  /// The place of an entity; kNone where it is unknown.
+  /// The place of an entity; kNone if it is unknown.
   [[nodiscard]] std::size_t place_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept;
   /// The same by ReceivedEntity::key.
   [[nodiscard]] std::size_t place_of_key(std::uint64_t key) const noexcept;
-  /// Its force model; null where it has none.
+  /// Its force model; null if it has none.
   [[nodiscard]] const ReceivedModel* model_of(const ReceivedEntity& entity) const noexcept {
     return entity.is_haptic() ? &models_[entity.model] : nullptr;
   }
   /// The entities of the present datagram, at most 128.
   [[nodiscard]] std::span<const TouchedEntity> touched() const noexcept { return touched_; }
 
-  /// Last account of `from` for `to`; zeros where there is none.
+  /// Last account of `from` for `to`; zeros if there is none.
   [[nodiscard]] StatedEnergy stated_energy(const pdu::EntityId& from,
                                            const pdu::EntityId& to) const noexcept;
   /// `given` and `need` of `from`, summed over all counterparts.

@@ -21,7 +21,7 @@ namespace reckon::tools {
 struct ReceivedEntity {
   static constexpr std::size_t kNoModel = ~std::size_t{0};
 
-  std::uint64_t key = 0;  ///< entity_key; without the exercise where the rules ignore it
+  std::uint64_t key = 0;  ///< entity_key; without the exercise if the rules ignore it
   pdu::EntityId id;
   std::uint8_t exercise = 0;
   bool has_state = false;     ///< a state was taken

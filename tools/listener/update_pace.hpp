@@ -37,7 +37,7 @@ class UpdatePace {
   void note_late() noexcept { ++late_in_a_row_; }
 
  private:
-  double stated_time_ = 0;          // elapsed by timestamps, where they advanced [s]
+  double stated_time_ = 0;          // elapsed by timestamps, if they advanced [s]
   double arrival_time_ = 0;         // elapsed by arrivals in the same updates [s]
   std::uint8_t late_in_a_row_ = 0;  // consecutive earlier timestamps
 };

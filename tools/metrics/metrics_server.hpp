@@ -37,7 +37,7 @@ class MetricsServer {
   /// Interval between new texts.
   static constexpr std::chrono::nanoseconds kEvery = std::chrono::milliseconds(500);
 
-  /// @throws EnvironmentError with the remedy where it cannot listen there
+  /// @throws EnvironmentError with the remedy if it cannot listen there
   explicit MetricsServer(const MetricsAddress& at);
   ~MetricsServer();
   MetricsServer(const MetricsServer&) = delete;
@@ -63,7 +63,7 @@ class MetricsServer {
   std::thread thread_;
 };
 
-/// The requested server, null where `typed` is empty. @throws as metrics_address() and
+/// The requested server, null if `typed` is empty. @throws as metrics_address() and
 /// MetricsServer
 [[nodiscard]] std::unique_ptr<MetricsServer> metrics_server(const std::string& typed);
 

@@ -38,7 +38,7 @@ struct SvgPlot {
   static constexpr std::size_t kMostCurves = 6;
 };
 
-/// The whole file. Values that are not finite, or below 0 where the plot is not signed, are drawn
+/// The whole file. Values that are not finite, or below 0 if the plot is not signed, are drawn
 /// as 0; accepts texts of any octets.
 [[nodiscard]] std::string svg_text(const SvgPlot& plot);
 

@@ -38,7 +38,7 @@ class JsonObject {
     fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
     return *this;
   }
-  /// A number; null where there is none or it is not finite.
+  /// A number; null if there is none or it is not finite.
   JsonObject& number(std::string_view key, std::optional<double> number) {
     if (number && std::isfinite(*number)) return value(key, *number);
     return value(key, "null");

@@ -126,7 +126,7 @@ std::unique_ptr<TerminalScreen> TerminalScreen::open(std::FILE* out, bool colour
   const int descriptor = fileno(out);
   if (isatty(descriptor) != 1 || isatty(STDIN_FILENO) != 1) return nullptr;
   if (!in_foreground(descriptor) || !can_draw(descriptor)) return nullptr;
-  std::setlocale(LC_CTYPE, "");  // tells ncurses whether the terminal uses UTF-8
+  std::setlocale(LC_CTYPE, "");  // for ncurses: whether the terminal uses UTF-8
   set_escdelay(kEscapeDelay_ms);
   shared.descriptor = descriptor;
   tcgetattr(descriptor, &shared.before);

@@ -28,7 +28,7 @@ void add_trace_options(CommandLine& line, TraceFiles& files);
 class DemoTraces {
  public:
   /// @param exercise has trace_bodies and trace_loops set for the requested files; outlives it
-  /// @throws UsageError where a file cannot be written, or would be empty.
+  /// @throws UsageError if a file cannot be written, or would be empty.
   DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise);
   DemoTraces(const DemoTraces&) = delete;
   DemoTraces& operator=(const DemoTraces&) = delete;
@@ -39,7 +39,7 @@ class DemoTraces {
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
     if (servo_) servo_->write(peer, device, step);
   }
-  /// Flushes the files; call it after the exercise has stopped. @throws EnvironmentError where the
+  /// Flushes the files; call it after the exercise has stopped. @throws EnvironmentError if the
   /// disk is full.
   void close();
 

@@ -18,7 +18,7 @@ using SettingRows = std::vector<std::pair<std::string, std::string>>;
 /// has a sample of positions. Queries the host for the number of groups that it can join.
 [[nodiscard]] SettingRows scene_settings(const peer::SceneFile& file);
 
-/// Capacities, and what is dropped beyond them.
+/// Capacities, and the items that are dropped beyond them.
 [[nodiscard]] SettingRows scene_limits(const peer::SceneFile& file);
 
 }  // namespace reckon::tools

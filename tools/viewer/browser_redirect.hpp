@@ -14,7 +14,7 @@ class BrowserRedirect {
  public:
   /// Writes the file, mode 0600 in a folder of mode 0700 below $XDG_RUNTIME_DIR, else below the
   /// folder for temporary files. Then starts xdg-open with it, if xdg-open exists.
-  /// @throws std::system_error where the file cannot be written
+  /// @throws std::system_error if the file cannot be written
   explicit BrowserRedirect(const std::string& address);
   ~BrowserRedirect();
   BrowserRedirect(const BrowserRedirect&) = delete;

@@ -15,7 +15,7 @@ struct PageFile {
   std::string_view text;  ///< the same, plain
 };
 
-/// The file that a request names; null where the page has none.
+/// The file that a request names; null if the page has none.
 [[nodiscard]] const PageFile* find_page_file(std::string_view path);
 
 }  // namespace reckon::tools

@@ -28,7 +28,7 @@ class PeersReception {
 
   /// @param peer outlives it
   void add(const peer::Peer& peer) { peers_.push_back(&peer); }
-  /// A sample where one is due; nothing without peers, and in the first second.
+  /// A sample if one is due; nothing without peers, and in the first second.
   /// @param now of any monotonic clock
   [[nodiscard]] std::optional<ReceptionSample> look(std::chrono::nanoseconds now);
 

@@ -39,7 +39,7 @@ class SelfView {
   static constexpr std::chrono::nanoseconds kLookEvery = std::chrono::milliseconds(33);
 
   /// Starts to serve. @param hands of the program, as of now
-  /// @throws EnvironmentError where the network or the port cannot be used
+  /// @throws EnvironmentError if the network or the port cannot be used
   SelfView(const ViewFlags& flags, const peer::SceneFile& scene, const SelfViewOptions& options,
            OwnHands hands);
 
@@ -52,7 +52,7 @@ class SelfView {
   void note(std::string_view text) { thread_->put_note("info", std::string(text)); }
   /// URL for this user.
   [[nodiscard]] const std::string& address() const noexcept { return thread_->address(); }
-  /// URLs for users of other hosts; none where it serves this host only.
+  /// URLs for users of other hosts; none if it serves this host only.
   [[nodiscard]] const std::vector<std::string>& addresses_for_others() const noexcept {
     return thread_->addresses_for_others();
   }

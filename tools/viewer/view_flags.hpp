@@ -32,12 +32,12 @@ void add_view_flags(CommandLine& line, ViewFlags& flags);
 /// The flags of a verb that can serve its own page, as typed.
 struct ViewSwitch {
   std::string view;  ///< "true" or a port; empty: not given
-  ViewFlags page;    ///< the port is that of --view
+  ViewFlags page;    ///< with the port of --view
 };
 
 /// Declares --view[=PORT], --listen, --tls, --behind-tunnel and --open.
 void add_view_switch(CommandLine& line, ViewSwitch& typed);
-/// Parses them; none where --view was not given.
+/// Parses them; none if --view was not given.
 /// @throws UsageError for an invalid port, and for a flag of the page without --view
 [[nodiscard]] std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed);
 

@@ -168,7 +168,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     watcher_.reset();
   }
 
-  // @return false where nothing more can be read
+  // @return false if nothing more can be read
   bool take_in() {
     if (is_answered_) return false;
     return is_tab() ? take_frames() : take_request();

@@ -79,7 +79,7 @@ class ViewServer {
   static constexpr std::chrono::nanoseconds kTick = std::chrono::nanoseconds(1'000'000'000 / 30);
 
   /// Starts to listen. @param stage outlives it. @throws std::runtime_error with the value and the
-  /// remedy where it cannot.
+  /// remedy if it cannot.
   ViewServer(ViewStage& stage, const ViewServerOptions& options);
   /// The same without a page: answers GET kMetricsPath from options.metrics, and nothing else.
   explicit ViewServer(const ViewServerOptions& options);
@@ -99,7 +99,7 @@ class ViewServer {
   [[nodiscard]] std::string origin() const;
   /// URL for the user: "http://127.0.0.1:8642/#word=1f2e..".
   [[nodiscard]] std::string address() const;
-  /// URLs for other hosts; none where only this host can reach it.
+  /// URLs for other hosts; none if only this host can reach it.
   [[nodiscard]] std::vector<std::string> addresses_for_others() const;
   [[nodiscard]] std::size_t tabs() const noexcept;
   [[nodiscard]] const ViewServerCounts& counts() const noexcept;

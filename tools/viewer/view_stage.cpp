@@ -138,7 +138,7 @@ nanoseconds ViewStage::shown_time(const Watcher& watcher) const {
   return std::clamp(watcher.time, history_.begin(), std::max(history_.begin(), live_end()));
 }
 
-// Advances a playing tab; where it reaches the present it becomes live, at the end of a capture it
+// Advances a playing tab; if it reaches the present it becomes live, at the end of a capture it
 // stops.
 void ViewStage::advance(Watcher& watcher) const {
   const Time passed = now_ - std::exchange(watcher.advanced, now_);

@@ -86,7 +86,7 @@ class ViewStage {
   /// Reads the scene's meshes.
   explicit ViewStage(const StageOptions& options);
 
-  /// Takes a datagram of the source. @return false where a capture's history is full
+  /// Takes a datagram of the source. @return false if a capture's history is full
   bool take(const peer::SourceDatagram& datagram) { return history_.take(datagram); }
   void set_touch(const std::vector<TouchHand>& hands);
   void take_hands(HandFrame frame);
@@ -156,7 +156,7 @@ class ViewStage {
   peer::OriginConfig origin_;
   std::optional<ShownThresholds> thresholds_;
   std::unique_ptr<SubscribedCells> cells_;  // null without a scene
-  std::unique_ptr<DrawnGroups> groups_;     // null where the scene has none
+  std::unique_ptr<DrawnGroups> groups_;     // null if the scene has none
   Text touch_;
   std::vector<DrawnSolid> solids_, regions_;
   std::deque<HandFrame> hands_;

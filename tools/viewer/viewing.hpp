@@ -42,7 +42,7 @@ class Viewing {
  public:
   /// Opens the server, then reads a capture to its end.
   /// @param source may be null: then only hands are shown
-  /// @throws EnvironmentError where the address cannot be used, UsageError for the key
+  /// @throws EnvironmentError if the address cannot be used, UsageError for the key
   Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source);
 
   /// One round: takes arrived datagrams, serves the tabs, and waits up to 10 ms for more.

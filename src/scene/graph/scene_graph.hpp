@@ -86,7 +86,7 @@ class SceneGraph {
   [[nodiscard]] const NodePose& rest(NodeIndex node) const noexcept;
   /// Pose in S.
   [[nodiscard]] const NodePose& world(NodeIndex node) const noexcept { return world_[at(node)]; }
-  /// Exact velocity of world() by the time functions; zero where moves() is false.
+  /// Exact velocity of world() by the time functions; zero if moves() is false.
   [[nodiscard]] const NodeVelocity& velocity(NodeIndex node) const noexcept {
     return velocity_[at(node)];
   }

@@ -16,7 +16,7 @@ namespace reckon::tools {
 /// Angles out of their range, once per entity; else an orientation that contradicts the turn rates,
 /// or flips back and forth under a model without a turn rate, found with the third update in a row.
 [[nodiscard]] std::optional<RuleFault> wrong_orientation(const CheckedPdu& checked);
-/// A float64 in the place of an articulated part's float32 and its padding.
+/// A float64 instead of an articulated part's float32 and its padding.
 [[nodiscard]] std::optional<RuleFault> float64_parameter(const CheckedPdu& checked);
 
 /// Stores the motion of an Entity State in the memory of its entity.

@@ -25,7 +25,7 @@ struct TieredGroup {
 class GroupTiers {
  public:
   GroupTiers() = default;
-  /// @throws std::invalid_argument where the groups of the scene are invalid
+  /// @throws std::invalid_argument if the groups of the scene are invalid
   GroupTiers(const peer::NetworkConfig& network, const peer::AoimConfig& aoim);
 
   /// The tier of an address. Ignores the port, which differs in a sealed exercise. Some ns.

@@ -52,7 +52,7 @@ class History {
 
   explicit History(const HistoryOptions& options);
 
-  /// Takes a datagram, in the order of arrival. @return false where it found no room: a history
+  /// Takes a datagram, in the order of arrival. @return false if it found no room: a history
   /// without a span is full
   bool take(const peer::SourceDatagram& datagram);
   /// Advances the time to `now`: adds samples, and drops old segments.

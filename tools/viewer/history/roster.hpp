@@ -26,12 +26,12 @@ class Roster {
   /// @param most limit of entities at a time, below kNoNumber
   explicit Roster(std::size_t most) : most_(most) {}
 
-  /// The slot of an entity of the listener; assigns a new one where it has none, kNoNumber where
+  /// The slot of an entity of the listener; assigns a new one if it has none, kNoNumber if
   /// there is no room. Keeps the properties from the newest state.
   std::uint16_t admit(const Listener& listener, const StateUpdate& update);
   /// Notes the force model of an entity that has a slot, unless a newer state was received.
   void note_model(std::uint64_t key, double radius, std::chrono::nanoseconds arrival);
-  /// By ReceivedEntity::key; kNoNumber where the entity has none.
+  /// By ReceivedEntity::key; kNoNumber if the entity has none.
   [[nodiscard]] std::uint16_t slot_of(std::uint64_t key) const noexcept;
   /// The same by ID only, for any exercise.
   [[nodiscard]] std::uint16_t slot_of(const pdu::EntityId& id) const noexcept;

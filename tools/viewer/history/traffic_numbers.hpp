@@ -36,7 +36,7 @@ class TrafficNumbers {
   void pdu(const PduRow& row, const peer::SourceDatagram& datagram);
   /// Ends the present datagram.
   void datagram(const peer::SourceDatagram& datagram, const UpdateJumps& jumps);
-  /// Advances the time to `now`: adds a sample where one is due.
+  /// Advances the time to `now`: adds a sample if one is due.
   void pass(std::chrono::nanoseconds now);
   void forget_before(std::chrono::nanoseconds time);
 

@@ -68,7 +68,7 @@ struct HandMark {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of the handle
   Eigen::Vector3f contact_point = Eigen::Vector3f::Zero();
   Eigen::Vector3f force = Eigen::Vector3f::Zero();   ///< [N], on the hand
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit; zero where the scene is not touched
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit; zero if the scene is not touched
   float true_force = 0;                              ///< [N]
   float energy = 0;                                  ///< [J], at the port
   float loan = 0;                                    ///< [J]

@@ -20,7 +20,7 @@ namespace reckon::tools {
 /// One thread; immutable.
 class DrawnGroups {
  public:
-  /// @throws std::invalid_argument where the scene's cells are invalid
+  /// @throws std::invalid_argument if the scene's cells are invalid
   explicit DrawnGroups(const peer::SceneFile& scene);
 
   /// Whether a scene has any of these; without them there is no message.

@@ -24,7 +24,7 @@ class ShownThresholds {
   /// The different thresholds [m], ascending; of more than kMost the least, the middle and the
   /// greatest.
   [[nodiscard]] const std::vector<double>& told() const noexcept { return told_; }
-  /// Threshold of an entity by its marking [m]; none where the scene does not identify it.
+  /// Threshold of an entity by its marking [m]; none if the scene does not identify it.
   [[nodiscard]] std::optional<double> of(std::string_view marking, bool is_haptic) const;
 
  private:

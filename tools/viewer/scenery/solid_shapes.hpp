@@ -28,7 +28,7 @@ struct DrawnSolid {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint16_t> patches;    ///< of each triangle, 0: none; empty: no patches
   std::vector<std::string> patch_names;  ///< from patch 1 on
-  /// Number of its patch 0 in the numbering over all solids, >= 1; 0 where it has none.
+  /// Number of its patch 0 in the numbering over all solids, >= 1; 0 if it has none.
   std::uint16_t first_patch = 0;
   std::optional<std::uint16_t> body;  ///< of a moving solid: its number among the bodies
   double stiffness = 0;               ///< [N/m]
@@ -45,7 +45,7 @@ struct DrawnSolid {
 [[nodiscard]] std::vector<DrawnSolid> drawn_regions(const haptics::Scene& scene);
 
 /// The number, over all solids, of patch `patch` of a mesh that is touched at `point` [m, S]; 0
-/// where there is none. If several meshes have a patch of this number, the nearest mesh counts; the
+/// if there is none. If several meshes have a patch of this number, the nearest mesh counts; the
 /// search costs some ns for each of their corners.
 [[nodiscard]] std::uint16_t touched_patch(std::span<const DrawnSolid> solids, std::uint32_t patch,
                                           const Eigen::Vector3d& point);

@@ -23,7 +23,7 @@ class SubscribedCells {
   /// Limit of cells in one message.
   static constexpr std::size_t kMostSent = 512;
 
-  /// @throws std::invalid_argument where the scene's cells are invalid
+  /// @throws std::invalid_argument if the scene's cells are invalid
   explicit SubscribedCells(const peer::AoimConfig& config);
 
   /// Sets the cell of each mark. Some 50 ns each.

@@ -37,7 +37,7 @@ class ByteStream {
   void close();
 
   [[nodiscard]] bool is_open() const { return socket().is_open(); }
-  /// Address of the client; empty where it has closed.
+  /// Address of the client; empty if it has closed.
   [[nodiscard]] const std::string& from() const noexcept { return from_; }
 
  private:

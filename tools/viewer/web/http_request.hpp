@@ -36,7 +36,7 @@ enum class RequestVerdict : std::uint8_t {
 /// Whether a list field contains this word, ignoring case: "keep-alive, Upgrade".
 [[nodiscard]] bool lists_word(std::string_view list, std::string_view word) noexcept;
 
-/// The value of `name` in a query, "" where it has none: "1f2e" for "word" in "a=1&word=1f2e".
+/// The value of `name` in a query, "" if it has none: "1f2e" for "word" in "a=1&word=1f2e".
 [[nodiscard]] std::string_view value_in_query(std::string_view query,
                                               std::string_view name) noexcept;
 
