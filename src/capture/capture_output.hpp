@@ -61,7 +61,7 @@ class CaptureOutput {
 
   std::string path_;
   int file_{-1};
-  dev_t device_{};  ///< with inode_: the file that was created, whatever its name is
+  dev_t device_{};  ///< with inode_: the file that was created, under any name
   ino_t inode_{};
   std::uint64_t position_{0};  ///< octets passed to the kernel
   std::uint64_t packets_{0};

@@ -22,7 +22,7 @@ struct ClockEvidence {
   std::optional<std::chrono::nanoseconds> ahead;
 };
 
-/// Maps one sender's DIS timestamps to local steady time, without a jump whatever the clocks do.
+/// Maps one sender's DIS timestamps to local steady time, without a jump even if the clocks jump.
 ///
 /// The packet with the shortest transit relates the two clocks (LeastTransit). Its transit is known
 /// from an exchange of times, or from two absolute clocks; else the last known value is used, at

@@ -88,7 +88,7 @@ class StateRestorer {
   std::size_t capacity_;
   std::unordered_map<std::uint64_t, std::size_t> places_;  // by the entity's key
   std::vector<Known> known_;
-  std::vector<deadreckon::ResidualDecoder> residuals_;  // beside it
+  std::vector<deadreckon::ResidualDecoder> residuals_;  // parallel to it
   std::map<Host, std::size_t> counts_;                  // of known_, by the host of `home`
   std::size_t cursor_ = 0;  // in known_: start of the search for the next to remove
 };

@@ -38,9 +38,10 @@ struct KnownSources {
 /// ms. A sender above the limits is muted until it has a window with less than kCalm. One thread,
 /// fixed memory, no allocation; about 20 ns per datagram.
 ///
-/// A known source has its own share beside its address: the limit of the address, divided by the
-/// number of known sources there. Datagrams within this share are read even if the rest of its host
-/// is muted. All sources of an address together are thus limited to twice the limit of the address.
+/// A known source has its own share besides the share of its address: the limit of the address,
+/// divided by the number of known sources there. Datagrams within this share are read even if the
+/// rest of its host is muted. All sources of an address together are thus limited to twice the
+/// limit of the address.
 ///
 /// An honest peer introduces itself with up to 15,000 datagrams/s. The table has room for some
 /// 1,000 sources and their addresses at a time; further new ones are not counted.

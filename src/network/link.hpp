@@ -61,7 +61,7 @@ class GroupPool {
   /// one that every switch floods (33:33:00:00:00:xx).
   [[nodiscard]] static GroupPool ipv6_default() noexcept;
 
-  /// The broadcast address has no further groups, whatever `size` is: only its base is used.
+  /// The broadcast address has no further groups, regardless of `size`: only its base is used.
   /// @throws std::invalid_argument if base is neither a multicast group nor the broadcast address,
   /// its port is 0, size is 0 or above 65535, or the last group would leave the multicast range.
   GroupPool(const GroupAddress& base, std::size_t size);

@@ -24,7 +24,7 @@ class DatagramTap;
 inline constexpr std::chrono::nanoseconds kLongestStall = std::chrono::milliseconds(50);
 
 /// SO_RCVBUF [octets] that loses nothing if the reader pauses for `stall` at this rate of datagrams
-/// with up to `payload` octets. The kernel charges a buffer not for the octets but for their
+/// with up to `payload` octets. The kernel charges a buffer not by the octets but by their
 /// memory: the next power of two above the octets, their headers and its own data; and it takes
 /// twice the requested size. Measured, see docs/transport.md.
 [[nodiscard]] std::size_t receive_room(double datagrams_per_second, std::chrono::nanoseconds stall,

@@ -27,7 +27,7 @@ class BodyOwner {
   void look(const aoim::Presence& presence) noexcept;
   /// Epoch of the owner; 0 if it is this peer or not known.
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
-  /// The last peer to announce number 1 beside the owner, if there is one.
+  /// The last peer other than the owner to announce number 1, if there is one.
   [[nodiscard]] const std::optional<BodyRival>& rival() const noexcept { return rival_; }
 
  private:

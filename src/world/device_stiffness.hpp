@@ -35,7 +35,8 @@ struct DeviceStiffness {
   [[nodiscard]] double damper_shown(double damper) const noexcept {
     return std::min(damper, 0.5 * damping);
   }
-  /// Share of `hands` and `bodies` that remains beside a damper, which uses up a part of the limit.
+  /// Share of `hands` and `bodies` that remains in addition to a damper, which uses up a part of
+  /// the limit.
   [[nodiscard]] double left_beside(double damper) const noexcept {
     return damping > 0 ? 1.0 - damper_shown(damper) / damping : 1.0;
   }

@@ -18,8 +18,8 @@
 
 namespace reckon::peer {
 
-/// Owners of rows, beside the state table. A sender is an address with a port, or a boot in a
-/// sealed exercise. A host is an address, whatever the port; for a boot, its first address. One
+/// Owners of rows, parallel to the state table. A sender is an address with a port, or a boot in a
+/// sealed exercise. A host is an address with any port; for a boot, its first address. One
 /// thread; no allocation after construction.
 class RowOwners {
  public:

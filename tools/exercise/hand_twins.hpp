@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Hidden twins of an exercise's hands that follow pointers: the forces these hands would feel
-// without the gate, computed beside the peers from recorded steps.
+// without the gate, computed separately from the peers, from recorded steps.
 #pragma once
 
 #include <chrono>

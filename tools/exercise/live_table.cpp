@@ -188,7 +188,7 @@ constexpr std::array<FittedColumn<EntityCell>, 10> kEntityColumns{{
      }},
 }};
 
-// Lines that a peer needs beside its first one.
+// Lines that a peer needs in addition to its first one.
 std::size_t hand_lines(const PeerView& view) {
   return view.hand_count - std::min<std::size_t>(view.hand_count, 1);
 }
@@ -200,7 +200,7 @@ std::size_t wanted(const PeerView& view) {
   return hand_lines(view) + view.count + static_cast<std::size_t>(emitting) + (remark ? 1 : 0);
 }
 
-// Lines of each peer beside its first, distributed round-robin until none is left.
+// Lines of each peer after its first, distributed round-robin until none is left.
 std::vector<std::size_t> shares(std::span<const TablePeer> peers, std::size_t room) {
   std::vector<std::size_t> share(peers.size(), 0);
   for (bool given = true; given && room > 0;) {

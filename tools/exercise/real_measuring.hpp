@@ -45,7 +45,7 @@ struct MeasuredChain {
 /// lag of the motors behind them, which is the measured delay beyond the declared one. Lags up to
 /// half a period are treated as error.
 [[nodiscard]] double delay_to_state(const MeasuredChain& chain);
-/// Comment lines for a descriptor: assumed values beside measured ones.
+/// Comment lines for a descriptor: assumed values and measured ones.
 [[nodiscard]] std::vector<std::string> remarks_of(const MeasuredChain& chain);
 
 }  // namespace reckon::tools

@@ -58,8 +58,8 @@ namespace reckon::tools {
 [[nodiscard]] std::unique_ptr<haptics::HapticDevice> make_held_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
 
-/// One device of a scene that follows a pointer, whatever its `source`; it follows its operator
-/// while no pointer is active. @throws as above.
+/// One device of a scene that follows a pointer, regardless of its `source`; it follows its
+/// operator while no pointer is active. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::PointerDevice> make_pointer_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
 

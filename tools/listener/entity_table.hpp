@@ -21,7 +21,7 @@
 
 namespace reckon::tools {
 
-/// Counters of one entity beside the listener's state, some 1.7 kB.
+/// Counters of one entity in addition to the listener's state, some 1.7 kB.
 struct EntityRow {
   bool last_is_bad = false;               ///< its last PDU was unusable
   UpdateCause cause = UpdateCause::none;  ///< of the last update

@@ -35,7 +35,7 @@ struct Softened {
   double shown = 0.0;  ///< [N/m]
   double asked = 0.0;  ///< [N/m]; 0: a slope that increases by k3 up to the device's limit
   double from = 0.0;   ///< [m], depth from which the device cannot show it
-  double alone = 0.0;  ///< [N/m], shown stiffness without the damper beside it; 0: there is none
+  double alone = 0.0;  ///< [N/m], shown stiffness without its damper; 0: there is none
   /// Whether it is a damper: `asked` and `shown` are in [N s/m].
   bool damps = false;
   bool has_limit = false;  ///< as SceneDevice::has_limit

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Reception statistics of a program's own peers, from the counters of their loops. They include the
-// impairment of the scene, which a listener beside the peers does not see.
+// impairment of the scene, which a separate listener does not receive.
 #pragma once
 
 #include <chrono>

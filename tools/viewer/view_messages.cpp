@@ -218,7 +218,7 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   return out;
 }
 
-// Text for every tab, however slow: sent once, or as the answer to a request.
+// Text for every tab, even a slow one: sent once, or as the answer to a request.
 ViewStage::Text ViewStage::next_text(Watcher& watcher) {
   const auto text = [](std::string&& message) {
     return std::make_shared<const std::string>(std::move(message));

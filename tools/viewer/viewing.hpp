@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Combines a source, a stage and a server: `reckon view` runs it directly, demo and peer in a
-// thread beside them.
+// separate thread.
 #pragma once
 
 #include <atomic>

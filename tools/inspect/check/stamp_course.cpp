@@ -32,7 +32,7 @@ struct Unit {
 constexpr std::array kUnits{Unit{1, "seconds"}, Unit{1e3, "milliseconds"},
                             Unit{1e6, "microseconds"},
                             Unit{kCountsPerSecond / 2, "units that are not shifted over bit 0"}};
-constexpr double kUnitError = 0.01;  // of the rate, beside one count
+constexpr double kUnitError = 0.01;  // of the rate, in addition to one count
 
 /// The unit that matches `counts` in this time; null if there is none.
 const Unit* unit_of(double counts, double passed) {

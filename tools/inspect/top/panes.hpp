@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Further panes of `top` beside its table: one entity in detail, the fill of datagrams, and
+// Further panes of `top` next to its table: one entity in detail, the fill of datagrams, and
 // violated rules.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// State beside the entities: the near or contact group by which each entity was last received, and
-// the cell of each beacon.
+// State in addition to the entities: the near or contact group by which each entity was last
+// received, and the cell of each beacon.
 #pragma once
 
 #include <array>
