@@ -157,7 +157,7 @@ void Federate::resign() {
   if (s.resigned) return;
   s.resigned = true;
   s.joined.stop_loops();
-  // What was wished last is still done: the loop may hold one letter, the program another.
+  // Executes the last requests: the loop may have one letter with requests, the program another.
   for (int letter = 0; letter < 2; ++letter) {
     s.post();
     const Clock& clock = s.joined.clock();

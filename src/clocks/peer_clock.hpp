@@ -114,7 +114,7 @@ class PeerClocks {
 
   aoim::EpochIndex places_;
   std::vector<std::uint32_t> epochs_;  // by place
-  std::vector<Row> rows_;              // likewise
+  std::vector<Row> rows_;              // by place
   std::size_t turn_ = 0;
   std::array<std::byte, kMostEchoes * pdu::kFixedSize<pdu::TimeEcho>> echoes_{};
   std::uint64_t taken_ = 0;
