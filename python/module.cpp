@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The part of the Python package that is C++: reckon._native. reckon/__init__.py names what users
-// call.
+// The C++ part of the Python package: reckon._native. reckon/__init__.py lists the names for users.
 #include <pybind11/pybind11.h>
 
 #include "reckon/python/captures/bind_captures.hpp"

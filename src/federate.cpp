@@ -66,7 +66,7 @@ SceneHolder dis_exercise(std::uint8_t exercise, double latitude, double longitud
   return scene;
 }
 
-// The joined peer, what the program has declared, and what it is called back by.
+// The joined peer, the declarations of the program, and its callbacks.
 struct Federate::Participation {
   // Over a link of its own.
   explicit Participation(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
@@ -98,7 +98,7 @@ struct Federate::Participation {
         (hand ? " is a hand, which its device moves" : " is not registered, or was deleted"));
   }
 
-  // The wishes of this thread go to the loop, unless it is busy with the last ones.
+  // Sends the requests of this thread to the loop, unless it still processes the last ones.
   void post() {
     if (side.wishes().letter().empty() || !side.wishes().is_free()) return;
     side.wishes().send();
@@ -157,7 +157,7 @@ void Federate::resign() {
   if (s.resigned) return;
   s.resigned = true;
   s.joined.stop_loops();
-  // What was wished last is still done: the loop may hold one letter, the program another.
+  // Executes the last requests: the loop may have one letter with requests, the program another.
   for (int letter = 0; letter < 2; ++letter) {
     s.post();
     const Clock& clock = s.joined.clock();
@@ -167,8 +167,7 @@ void Federate::resign() {
   s.joined.resign();
 }
 
-// What we say and what we want to hear
-// -----------------------------------------------------------------
+// Publish and subscribe ---------------------------------------------------------------------------
 
 void Federate::publish(const EntityClass& entities) {
   participation_->published.push_back(entities);
@@ -199,8 +198,7 @@ void Federate::on_remove(std::function<void(const RemoteObject&, Removal)> callb
   participation_->removed = std::move(callback);
 }
 
-// Our entities
-// -----------------------------------------------------------------------------------------
+// Our entities ------------------------------------------------------------------------------------
 
 ObjectHandle Federate::register_object(const EntityDescription& description,
                                        const EntityTruth& truth) {
@@ -260,8 +258,7 @@ haptics::ForceStop& Federate::force_stop() noexcept {
   return participation_->joined.peer().force_stop();
 }
 
-// The entities of others
-// --------------------------------------------------------------------------------
+// The entities of others --------------------------------------------------------------------------
 
 std::size_t Federate::size() const noexcept { return participation_->objects.rows().size(); }
 
@@ -274,8 +271,7 @@ std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
   return copy == nullptr ? std::nullopt : std::optional(RemoteObject(*copy));
 }
 
-// Interactions
-// ------------------------------------------------------------------------------------------
+// Interactions ------------------------------------------------------------------------------------
 
 void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
                            const std::optional<Eigen::Vector3d>& place) {
@@ -296,8 +292,7 @@ std::uint8_t Federate::exercise() const noexcept {
   return participation_->options().scene->network.exercise;
 }
 
-// Time and place
-// ----------------------------------------------------------------------------------------
+// Time and place ----------------------------------------------------------------------------------
 
 nanoseconds Federate::now() const noexcept { return participation_->joined.clock().now(); }
 
@@ -330,8 +325,7 @@ EntityTruth Federate::place(double latitude, double longitude, double height,
   return truth;
 }
 
-// Running
-// -----------------------------------------------------------------------------------------------
+// Running -----------------------------------------------------------------------------------------
 
 void Federate::step() {
   Participation& s = *participation_;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The interface of the library: HLA's terms over DIS packets. A program states where its entities
-// truly are, as often as it likes. The library decides what is sent, when and to whom. The program
-// reads the entities of others at any instant, and sends and receives interactions.
+// The interface of the library: the terms of HLA over DIS packets. A program states the true motion
+// of its entities, at any rate. The library decides which updates are sent, when, and to which
+// peers. The program reads the entities of others at any instant, and sends and receives
+// interactions.
 #pragma once
 
 #include <Eigen/Core>
@@ -56,9 +57,10 @@ struct ObjectHandle {
 ///   options.scene = peer::dis_exercise(1, 0.82, 0.145);
 ///   peer::Federate federate(options);
 ///   federate.publish(peer::EntityClass{truck.type});
-///   const peer::ObjectHandle handle = federate.register_object(truck, federate.place(0.82,
-///   0.145)); federate.subscribe<pdu::Fire>([](const pdu::Fire& fire) { ... }); for (;;)
-///   federate.update_attributes(handle, where_it_is()), federate.step(), sleep();
+///   const peer::ObjectHandle handle =
+///       federate.register_object(truck, federate.place(0.82, 0.145));
+///   federate.subscribe<pdu::Fire>([](const pdu::Fire& fire) { ... });
+///   for (;;) federate.update_attributes(handle, true_motion()), federate.step(), sleep();
 ///
 /// One thread of the program calls all functions. Callbacks run inside step() on that thread. They
 /// may call any function except step() and resign(). Frame S (east, north, up at the scene's
@@ -116,8 +118,8 @@ class Federate {
   void on_discover(std::function<void(const RemoteObject&)> callback);
   /// Calls back after each step() with updates, once for each updated entity.
   void on_reflect(std::function<void(const RemoteObject&)> callback);
-  /// Calls back with each entity that is gone, as it was last, and why. Its ID finds nothing any
-  /// more, and may be discovered again later. The object is valid within the callback.
+  /// Calls back with each removed entity, in its last state, and the reason. Its ID is then
+  /// unknown, and may be discovered again later. The object is valid within the callback.
   ///
   ///   federate.on_remove([](const peer::RemoteObject& object, peer::Removal cause) {
   ///     log(object.marking(), cause == peer::Removal::silent ? "fell silent" : "is gone");
@@ -146,9 +148,9 @@ class Federate {
   [[nodiscard]] pdu::EntityId id_of(ObjectHandle object) const noexcept;
   /// The hand that device `index` of the options moves, counted from 0.
   [[nodiscard]] ObjectHandle hand(std::size_t index) const noexcept;
-  /// Takes the force off all hands of this federate while it is pressed, from the next servo step
-  /// on. What it refers to lives as long as the federate, and any thread or signal handler may use
-  /// it.
+  /// The software stop of this federate: takes the force off all its hands while it is pressed,
+  /// from the next servo step on. The returned object lives as long as the federate, and any thread
+  /// or signal handler may use it.
   ///
   ///   federate.force_stop().press(haptics::StopCause::program);
   [[nodiscard]] haptics::ForceStop& force_stop() noexcept;
@@ -187,7 +189,7 @@ class Federate {
 
   // Time and place --------------------------------------------------------------------------------
 
-  /// Steady time; what RemoteObject::shown() takes.
+  /// Steady time; the argument of RemoteObject::shown().
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
   /// UTC since 1970, without the discontinuities of the host's clock.
   [[nodiscard]] std::chrono::nanoseconds utc() const noexcept;
@@ -203,7 +205,7 @@ class Federate {
 
   // Running ---------------------------------------------------------------------------------------
 
-  /// Runs what is due, and calls back. Call it often: at 60 Hz for graphics, at 1 kHz with devices
+  /// Runs all due work, and calls back. Call it often: at 60 Hz for graphics, at 1 kHz with devices
   /// and FederateLoops::in_step. Never waits.
   void step();
 

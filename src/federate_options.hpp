@@ -22,7 +22,7 @@ namespace reckon::peer {
 class DatagramTap;
 class ServoThread;
 
-/// Who runs the loops.
+/// The thread on which the loops run.
 enum class FederateLoops : std::uint8_t {
   in_step,  ///< step() runs one pass of each on the caller's thread; also for simulated time
   threads,  ///< the federate has threads; step() only calls back. Needed for haptic devices
@@ -37,7 +37,7 @@ struct FederateOptions {
   /// scene_file.hpp reads one. A default scene has a radius of 2 m; use dis_exercise() for
   /// vehicles.
   SceneHolder scene;
-  std::string interface;  ///< name, address or index; empty: that of the scene, else chosen
+  std::string interface;  ///< name, address or index; empty: from the scene, else chosen
   FederateLoops loops = FederateLoops::in_step;
   /// The federate owns the scene's [[entity]] tables with this `peer`; 0: none. They follow their
   /// tracks.
@@ -50,12 +50,13 @@ struct FederateOptions {
   /// Site of the entity IDs. Absent: from the host's address, or 1 with a link of the caller.
   std::optional<std::uint16_t> site;
   /// Application of the entity IDs, 1 to 65534. In an interop scene (plain DIS) it is never
-  /// changed, and joining fails if another program of this host has it; absent: the smallest that
-  /// none has. In other scenes peers settle a conflict of IDs by taking the next free one; absent:
-  /// 1 at first.
+  /// changed, and joining fails if another program of this host has it; absent: the smallest free
+  /// one. In other scenes peers settle a conflict of IDs by taking the next free one; absent: 1 at
+  /// first.
   std::optional<std::uint16_t> application;
   /// Joins although this host cannot make a servo step of the scene within its period, and reports
-  /// that as a notice. Otherwise joining a LAN with devices throws StepTooDear then.
+  /// that as a notice. If this is false, joining a LAN with devices throws StepTooDear in this
+  /// case.
   bool even_if_slow = false;
   /// The software stop of its hands, shared with other federates of the program; must outlive the
   /// federate. Null: one of its own.

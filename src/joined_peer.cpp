@@ -46,7 +46,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   if (!lan.peers.empty()) {
     lan.udp.framed = lan.pool;
     lan.udp.max_datagram += pdu::kUnicastFrameSize;
-    lan.udp.unicast_port = lan.pool.base().port;  // the others know no other
+    lan.udp.unicast_port = lan.pool.base().port;  // the only port that others know
   }
   lan.law = scene.impairment.law;
   lan.changes = options.impairment_changes;
@@ -73,7 +73,7 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 
 JoinedPeer::~JoinedPeer() { resign(); }
 
-// Peers of a scene of Reckon's agree on their IDs by datagrams, and plain DIS has none for that.
+// Reckon peers of a scene agree on their IDs by datagrams; plain DIS has no such datagrams.
 std::uint16_t JoinedPeer::application(std::uint16_t site) {
   const NetworkConfig& network = options_.scene->network;
   if (lan_ && network.interop)
@@ -82,7 +82,7 @@ std::uint16_t JoinedPeer::application(std::uint16_t site) {
   return hold_ ? hold_->number() : options_.application.value_or(PeerOptions{}.application);
 }
 
-// The link that the peer talks to: `link` itself, or sealed around it.
+// The link that the peer uses: `link` itself, or a sealed link around it.
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene->network;
   if (network.key.empty()) {
@@ -140,14 +140,14 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   begun_ = clock_->now();
   peer_->start(begun_);
   if (roll) {
-    // The number is ours without a gap: the peer says so before the one that called the roll goes.
+    // Keeps the number without a gap: the peer announces it before the roll call ends.
     peer_->model_step(begun_, clock_->utc_now());
     peer_->write_step();
     roll->leave();
   }
 }
 
-// On a LAN time is real. What a caller's clock says may be any.
+// Only on a LAN, where time is real. A caller's clock may show any time.
 void JoinedPeer::check_step_cost() {
   if (!peer_->has_devices()) return;
   const SceneFile& scene = *options_.scene;

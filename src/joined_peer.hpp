@@ -68,8 +68,8 @@ class JoinedPeer {
   [[nodiscard]] const Clock& clock() const noexcept { return *clock_; }
   /// Since construction.
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept { return clock_->now() - begun_; }
-  /// Changes what the network does to what this peer receives. By one thread, any, while it runs.
-  /// @throws std::logic_error without FederateOptions::impairment_changes or with a link of the
+  /// Changes the impairment of the datagrams that this peer receives. By one thread, any, while it
+  /// runs.
   /// caller, std::invalid_argument with law.problem()
   void change_impairment(const ImpairmentLaw& law);
   /// LanLink::report(); empty with a link of the caller.

@@ -35,7 +35,7 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.patch_radius = scene.hand.patch_radius;
   config.grab = scene.hand.grab;
   config.grab_buttons = std::uint32_t{1} << device.grab_button % 32;
-  // What stops all forces holds nothing.
+  // A button that stops all forces cannot hold a body.
   if (device.stop_button == static_cast<int>(device.grab_button)) config.grab_buttons = 0;
   config.continuous_force = device.continuous_force;
   config.thermal_time = device.thermal_time;
@@ -49,7 +49,7 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   return config;
 }
 
-// The first peer of a scene moves its bodies; to all others it carries them.
+// The first peer of a scene moves its bodies; for all other peers they are carried.
 haptics::Scene felt_by(const SceneFile& scene, const PeerOptions& options) {
   haptics::Scene felt = scene.scene;
   if (options.scene_peer <= 1) return felt;
@@ -195,9 +195,6 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
 
 Peer::~Peer() = default;
 
-// Due within half the shortest period is due now: steps come a little early and late. The next is
-// due a period after this one was, so that the rate is right also where the shortest period is no
-// part of it; after a pause a period from now.
 void Peer::servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept {
   servos_[device]->step(now);
 }
@@ -206,6 +203,10 @@ void Peer::trace(haptics::TraceRing* ring, std::size_t device) noexcept {
   if (device < servos_.size()) servos_[device]->trace(ring);
 }
 
+// A servo that is due within half of the shortest period is due now, because steps come slightly
+// early or late. Its next step is due one period after this one was due, so that the rate is right
+// even if the shortest period does not divide its period. After a pause, it is due one period from
+// now.
 void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     ServoDue& due = servo_due_[i];
@@ -233,7 +234,7 @@ bool Peer::take_servo_news() noexcept {
 
 void Peer::start(std::chrono::nanoseconds now) {
   model_.start(now);
-  read_.step(now);  // the base group is joined before the first word is said
+  read_.step(now);  // joins the base group before the first datagram is sent
 }
 
 void Peer::stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {

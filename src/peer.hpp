@@ -82,10 +82,10 @@ class Peer {
   /// Joins the base group and announces itself at the next model step.
   void start(std::chrono::nanoseconds now);
 
-  /// The force loops of all devices that are due, one after the other. Never waits on the network:
-  /// each reads its newest contact set.
+  /// Runs the force loops of all due devices, one after the other. Never waits on the network: each
+  /// loop reads its newest contact set.
   void servo_step(std::chrono::nanoseconds now) noexcept;
-  /// How often to call it: the shortest period of a device.
+  /// Period of its calls: the shortest period of a device.
   [[nodiscard]] std::chrono::nanoseconds servo_period() const noexcept { return servo_period_; }
   /// The force loop of one device, numbered from 0, due or not. For callers that step each device
   /// at its own period, servo_period_of().
@@ -95,8 +95,8 @@ class Peer {
   }
   /// Whether a late servo_step() could be felt; servo thread.
   [[nodiscard]] bool has_near_servo() noexcept;
-  /// Whether model_step() has to see the last servo_step()s now: a resting hand with nothing near
-  /// is looked at 100 times a second. Servo thread.
+  /// Whether model_step() has to process the last servo_step()s now. A resting hand with nothing
+  /// near is checked 100 times a second. Servo thread.
   [[nodiscard]] bool take_servo_news() noexcept;
   /// Reads datagrams from the link while the ring has room. Returns their number.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
@@ -114,7 +114,7 @@ class Peer {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return model_.next_step(); }
   /// Whether there is a device, so that servo_step() has to be called.
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
-  /// What the servos run; null without devices.
+  /// The plan of the servos; null without devices.
   [[nodiscard]] const haptics::EffectPlan* plan() const noexcept;
   /// Whether more datagrams are pending for model_step().
   [[nodiscard]] bool has_inbound() const noexcept {
@@ -131,16 +131,16 @@ class Peer {
   /// Whether the last read_step() took a datagram whose delay can be felt; read thread.
   [[nodiscard]] bool has_taken_felt() const noexcept { return read_.has_taken_felt(); }
 
-  /// Whether what arrives may be felt, so that its delay counts: a body is within reach of a hand
-  /// or a moving body of this peer; model thread.
+  /// Whether arriving updates may be felt, so that their delay matters: a body is within reach of a
+  /// hand or a moving body of this peer; model thread.
   [[nodiscard]] bool has_near() const noexcept { return model_.has_near(); }
 
   /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and
   /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
-  /// Takes the force off all its hands while it is pressed, from each one's next servo step on. Any
-  /// thread, and signal handlers.
+  /// The software stop: takes the force off all its hands while it is pressed, from the next servo
+  /// step of each hand on. Any thread, and signal handlers.
   [[nodiscard]] haptics::ForceStop& force_stop() noexcept { return *force_stop_; }
 
   /// Newest view of the peer; one reader thread.
@@ -152,8 +152,8 @@ class Peer {
   /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
   /// loop runs.
   void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept;
-  /// Records the contact sets that one servo finds, each that differs from the last, into `ring`;
-  /// call while no loop runs. The model loop writes them; the servo does nothing for it.
+  /// Records the contact sets of one servo into `ring`, each that differs from the previous one;
+  /// call while no loop runs. The model loop writes them, without work for the servo.
   void trace_contacts(haptics::ContactRing* ring, std::size_t device = 0) noexcept {
     model_.trace_contacts(ring, device);
   }

@@ -24,22 +24,24 @@ using std::chrono::nanoseconds;
 
 constexpr int kPriority = ServoThread::kPriority - 10;
 
-// The reader looks so often whether a group that was refused can be joined by now.
+// Interval at which the reader tries again to join a refused group.
 constexpr nanoseconds kRetry = std::chrono::seconds(1);
-// A deadline of the model loop may come no sooner than this after a step, so that one which is
-// always due cannot take a core.
+// Least time from a step of the model loop to its next deadline, so that a permanently due deadline
+// cannot occupy a core.
 constexpr nanoseconds kLeastSleep = microseconds(100);
-// After a pass of the model loop that took longer, as where bodies crowd a hand, a loop of
-// real-time priority rests for as long, so that it takes half a core at most; but no longer than
-// the second.
+// After a pass of the model loop longer than kLongPass, for example when bodies crowd a hand, a
+// loop of real-time priority rests for the same time, so that it takes at most half of a core. The
+// rest is at most kLongestRest.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
-// Where the model loop reads: it takes together what arrives within this.
+// If the model loop reads the link, it takes all arrivals within this time together.
 constexpr nanoseconds kTogether = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams
-// News at least so often is the servo's, of a hand that moves; arrivals wait for them.
+// If notifications of the model loop come at least this often, they come from the servo of a moving
+// hand. Arrivals then wait for the next of them.
 constexpr nanoseconds kPace = microseconds(1500);
-// For so long after something was near, or more had come than a pass takes, the reader reads.
+// The reader thread reads for this time after a body was near, or after more had arrived than a
+// pass takes.
 constexpr nanoseconds kUrgent = std::chrono::seconds(1);
 
 bool may_lock_memory() noexcept {
@@ -51,8 +53,8 @@ bool may_lock_memory() noexcept {
          (data[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-// Under a limit it would make later allocations fail. On fault: tables that are reserved for what
-// may come take no memory before it comes.
+// With a limit, locking would make later allocations fail. With MCL_ONFAULT, reserved tables take
+// no memory until it is used.
 bool lock_memory() noexcept {
   return may_lock_memory() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
@@ -84,7 +86,7 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
 }
 
 void PeerThreads::start() {
-  // Several peers of one process differ by their applications.
+  // Several peers of one process have different application numbers.
   const auto named = [number = peer_.own_id().application](std::string_view loop) {
     return fmt::format("rk-{} {}", loop, number);
   };
@@ -133,15 +135,15 @@ void PeerThreads::wake() noexcept {
   if (at_link_.load(std::memory_order_relaxed)) peer_.link().wake();
 }
 
-// Sleeps at the link until something arrives, or, while the ring is full, until there is room; the
-// kernel keeps what arrives meanwhile.
+// Sleeps at the link until something arrives. While the ring is full, it sleeps until there is
+// room, and the kernel keeps the arrivals.
 void PeerThreads::run_read(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
     LinkReader reads = reads_.load(std::memory_order_acquire);
     if (reads == LinkReader::asked_back) {
       reads_.store(reads = LinkReader::model, std::memory_order_release);
-      news_.notify();  // it may sleep elsewhere than at the link
+      news_.notify();  // the model loop may sleep elsewhere than at the link
     }
     if (reads == LinkReader::model) {
       room_.wait(nanoseconds::max());
@@ -159,8 +161,8 @@ void PeerThreads::run_read(Priority& priority) noexcept {
   }
 }
 
-// What cannot be felt waits for the servo's next step where each is news; the model loop waits no
-// longer than kPace for that.
+// Arrivals that cannot be felt wait for the servo's next step if each step notifies the model loop.
+// The model loop waits at most kPace for that.
 void PeerThreads::announce_arrivals() noexcept {
   std::atomic_thread_fence(std::memory_order_seq_cst);
   if (peer_.has_taken_felt() || !paced_.load(std::memory_order_relaxed)) news_.notify();
@@ -177,7 +179,7 @@ void PeerThreads::run_model(Priority& priority) noexcept {
     model_times_.record(begun, clock_.now());
     if (peer_.has_near() || peer_.has_inbound()) urgent_until_ = ended + kUrgent;
     choose_reader(ended);
-    // The kernel's own thread, which delivers what arrives, is an ordinary one.
+    // The rest is for the kernel's thread that delivers datagrams, which has ordinary priority.
     if (priority && priority->held() && took > kLongPass)
       std::this_thread::sleep_for(std::min(took, kLongestRest));
     std::atomic_thread_fence(std::memory_order_seq_cst);
@@ -227,7 +229,7 @@ void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   if (!reads_in_model_loop()) {
     note_pace(news_.wait(of_servo - now));
   } else if (taken > 1) {
-    news_.wait(together - now);  // more will have come
+    news_.wait(together - now);  // collects further datagrams
   } else if (paced) {
     note_pace(news_.wait(of_servo - now));
   } else {
@@ -235,7 +237,7 @@ void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   }
 }
 
-// What arrives soon after the last pass waits for others.
+// An arrival soon after the last pass waits for others.
 void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexcept {
   at_link_.store(true, std::memory_order_relaxed);
   std::atomic_thread_fence(std::memory_order_seq_cst);
@@ -247,7 +249,7 @@ void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexce
   note_pace(news);
 }
 
-// The servo's steps pace the model loop as long as each is news.
+// The servo's steps pace the model loop as long as each of them notifies it.
 void PeerThreads::note_pace(bool news) noexcept {
   const nanoseconds now = clock_.now();
   paced_.store(news && now - last_news_ < kPace, std::memory_order_relaxed);
@@ -267,7 +269,7 @@ void PeerThreads::run_write(Priority& priority) noexcept {
   }
 }
 
-// Each thread judges for itself: of many, those that ran while others starved give way.
+// Each thread checks for itself: a thread that ran while others starved gives up its priority.
 void PeerThreads::leave_time(Priority& priority) noexcept {
   if (priority && priority->starves_others(clock_.now())) priority->give_up();
 }

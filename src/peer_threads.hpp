@@ -21,55 +21,57 @@ namespace reckon::peer {
 
 /// How the threads run.
 struct PeerThreadsOptions {
-  /// The thread that serves the servo, with those of other peers; it outlives the threads. Null: a
-  /// thread of its own, as `own_servo` says.
+  /// The thread for the servo, shared with servos of other peers; it outlives the threads. Null: a
+  /// separate thread with the options `own_servo`.
   ServoThread* servo = nullptr;
   ServoThreadOptions own_servo = {};
-  /// Ask for SCHED_FIFO, below the servo, for the loops between a device and the network: on a busy
-  /// host they otherwise wait for milliseconds behind programs that compute. It is given up where
-  /// it starves ordinary threads (ServoThreadOptions::starvation). Needs own_servo.real_time.
+  /// Requests SCHED_FIFO, below the servo, for the loops between a device and the network. On a
+  /// busy host they otherwise wait for milliseconds behind programs that compute. The priority is
+  /// given up if it starves ordinary threads (ServoThreadOptions::starvation). Needs
+  /// own_servo.real_time.
   bool real_time = true;
-  /// Keep the process's memory from being swapped out, where the right is there: a page that comes
-  /// back from a disk is milliseconds late.
+  /// Prevents the process's memory from being swapped out, if permitted: a page that comes back
+  /// from a disk is milliseconds late.
   bool lock_memory = true;
 };
 
 /// Runs a peer from construction to stop() or destruction. The peer must have been started.
 ///
-/// The threads are named after their loop and the peer's application when they start: "rk-read 1",
-/// "rk-write 1", "rk-model 1", and the servo's, where it is the peer's own, "rk-servo 1".
+/// The threads are named after their loop and the peer's application at their start: "rk-read 1",
+/// "rk-write 1", "rk-model 1", and "rk-servo 1" if the peer has its own servo thread.
 ///
-/// The model loop runs when a datagram has come, when the servo has made a step, and when
-/// Peer::next_step() says. Waking a thread costs more than a datagram, so one thread does all where
-/// a delay is not felt: while no body is within reach of a hand and passes are short, the model
-/// loop itself reads and sends. It then takes what arrives within 1 ms together. Otherwise the
-/// reader waits at the link and wakes the model loop for each arrival that can be felt, and the
-/// writer sends; what else arrives waits for the next step of a servo that paces the model loop.
+/// The model loop runs when a datagram has arrived, after a step of the servo, and at the time of
+/// Peer::next_step(). Waking a thread costs more than a datagram. If delays cannot be felt, because
+/// no body is within reach of a hand and passes are short, the model loop itself therefore reads
+/// and sends. It then takes all arrivals within 1 ms together. Otherwise the reader waits at the
+/// link and wakes the model loop for each arrival that can be felt, and the writer sends. Other
+/// arrivals then wait for the next step of a servo that paces the model loop.
 class PeerThreads {
  public:
-  /// @param peer, clock outlive the threads. @throws std::system_error with the remedy where a
-  /// thread cannot be made; those made before it have ended then.
+  /// @param peer, clock outlive the threads. @throws std::system_error with the remedy if a thread
+  /// cannot be made; the threads made before it have then ended.
   PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOptions& options);
   ~PeerThreads() { stop(); }
 
   PeerThreads(const PeerThreads&) = delete;
   PeerThreads& operator=(const PeerThreads&) = delete;
 
-  /// Ends and joins all threads. The peer's own stop(), which says good-bye, is the caller's.
+  /// Ends and joins all threads. The caller has to call the peer's own stop(), which announces the
+  /// end.
   void stop() noexcept;
 
-  /// Makes the model loop run soon, as when a caller has queued work for it. Any thread.
+  /// Makes the model loop run soon, for example after a caller has queued work for it. Any thread.
   void wake() noexcept;
 
   /// Lateness, step time and missed periods of the servo, readable while it runs.
   [[nodiscard]] const DutyCycle& servo_duty() const noexcept { return duty_; }
-  /// What passes of the loops take, waiting for a processor included, readable while they run. One
-  /// that is longer than a period of the servo is an overrun. Passes of the model loop contain
-  /// reading and sending where it does both.
+  /// Durations of the passes of the loops, including the wait for a processor, readable while they
+  /// run. A pass longer than a period of the servo is an overrun. Passes of the model loop include
+  /// reading and sending if it does both.
   [[nodiscard]] const PassTimes& read_times() const noexcept { return read_times_; }
   [[nodiscard]] const PassTimes& model_times() const noexcept { return model_times_; }
   [[nodiscard]] const PassTimes& write_times() const noexcept { return write_times_; }
-  /// The thread that serves the servo, also after stop(); null for a peer without a device.
+  /// The thread that runs the servo, also after stop(); null for a peer without a device.
   [[nodiscard]] const ServoThread* servo() const noexcept { return servo_; }
   /// Whether that thread got real-time priority.
   [[nodiscard]] bool real_time() const noexcept { return servo_ != nullptr && servo_->real_time(); }
@@ -77,7 +79,8 @@ class PeerThreads {
   [[nodiscard]] bool memory_locked() const noexcept { return memory_locked_; }
 
  private:
-  /// Which thread reads the link. The reader returns it when the model loop has asked.
+  /// The thread that reads the link. The reader returns the task when the model loop has asked for
+  /// it.
   enum class LinkReader : std::uint8_t { model, reader, asked_back };
 
   void start();
@@ -106,11 +109,11 @@ class PeerThreads {
   const bool felt_;  // the peer has a device, so these threads are urgent
   std::atomic<bool> stop_{false};
   WakeSignal news_;   // for the model loop: something arrived, the servo made a step
-  WakeSignal room_;   // for the reader: the model loop has made room, or is to read no longer
+  WakeSignal room_;   // for the reader: the model loop has made room, or takes over reading
   WakeSignal ready_;  // for the writer: something is to be sent
   std::atomic<LinkReader> reads_{LinkReader::model};
   std::atomic<bool> at_link_{false};  // the model loop waits at the link
-  std::mutex sending_;                // of what is queued for the link
+  std::mutex sending_;                // of the datagrams that are queued for the link
   // Of the model loop.
   std::chrono::nanoseconds urgent_until_{0}, next_look_{0}, last_news_{0};
   std::atomic<bool> paced_{false};  // by the servo

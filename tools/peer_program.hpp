@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon-peer`, which `reckon` starts for the verbs that verb_rows.hpp says.
+// The program `reckon-peer`, which `reckon` starts for the verbs that verb_rows.hpp assigns to it.
 #pragma once
 
 #include <span>

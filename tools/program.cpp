@@ -19,7 +19,7 @@
 namespace reckon::tools {
 namespace {
 
-/// The verbs of all programs, and the two that need the list itself.
+/// The verbs of all programs, and the two verbs that need the list itself.
 class Front {
  public:
   explicit Front(StartVerb start) : start_(std::move(start)) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon`: starts the program of each verb. It has no verb of its own but help and
+// The program `reckon`: starts the program of each verb. Its own verbs are only help and
 // completion. THE list of verbs is in command_line/verb_rows.hpp; a new verb is one file in verbs/,
 // a row of that list and one of its program.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace reckon::tools {
 
-/// All verbs, in the order in which help lists them.
+/// All verbs, in the order of help.
 [[nodiscard]] std::span<const Verb> verbs();
 
-/// start_program(), or what a test puts in its place.
+/// start_program(), or a substitute in a test.
 using StartVerb =
     std::function<int(const VerbRow& row, Arguments arguments, const Console& console)>;
 

@@ -15,7 +15,7 @@ namespace reckon::python {
 namespace py = pybind11;
 namespace {
 
-/// 11 characters a row as an array of dtype S11: what numpy shows ends before the first NUL.
+/// 11 characters a row as an array of dtype S11: numpy shows each text up to the first NUL.
 py::array markings(std::vector<char>&& text) {
   const py::array octets = array_of(std::move(text));
   return octets.attr("view")("S11");
@@ -69,7 +69,7 @@ class Reader {
         py::bytes(reinterpret_cast<const char*>(datagram.bytes.data()), datagram.bytes.size()));
   }
   [[nodiscard]] std::string problem() const { return source_->report().problem; }
-  /// PDUs of a datagram of this capture, which messages name.
+  /// Decodes the PDUs of a datagram of this capture; messages contain its path and frame.
   [[nodiscard]] py::list decode(std::uint64_t frame, const py::object& octets) const {
     return decode_datagram(OctetBuffer(octets).octets(),
                            path_ + ", frame " + std::to_string(frame) + ", ");

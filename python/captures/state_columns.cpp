@@ -17,7 +17,8 @@ namespace reckon::python {
 namespace {
 
 constexpr std::size_t kLeastFrame = 16 + 42 + 144;  // of a capture with one Entity State [octets]
-constexpr std::size_t kLarge = 4 << 20;             // [octets], from which large pages pay
+constexpr std::size_t kLarge = 4 << 20;             // smallest size that is worth large pages
+                                                    // [octets]
 constexpr std::size_t kMostReserved = 16'000'000;   // rows; a greater file grows its columns
 
 template <typename Vector, typename Three>
@@ -47,7 +48,7 @@ void add_datagram(const peer::SourceDatagram& datagram, StateColumns& columns) {
   }
 }
 
-// Asks the kernel for large pages: the first touch of small ones takes a third of the time.
+// Requests large pages from the kernel: the first access to small pages takes a third of the time.
 template <typename T>
 void reserve_large(std::vector<T>& column, std::size_t count) {
   column.reserve(count);

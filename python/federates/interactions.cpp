@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The part of a session that knows every PDU type.
+// The part of a session that handles every PDU type.
 #include <stdexcept>
 
 #include "reckon/pdu/pdu_types.hpp"

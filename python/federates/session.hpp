@@ -22,7 +22,7 @@ namespace reckon::python {
 using Triple = std::array<double, 3>;
 using Quadruple = std::array<double, 4>;
 
-/// What Python sees of a remote entity, as of one instant. Frame S.
+/// A remote entity at one instant, for Python. Frame S.
 struct Seen {
   std::array<std::uint16_t, 3> id{};
   std::string type, marking;
@@ -33,7 +33,7 @@ struct Seen {
   double age = 0;           ///< since its last update [s]
 };
 
-/// Where an entity of the program is. Frame S.
+/// Pose and motion of an entity of the program. Frame S.
 struct Motion {
   Triple position{}, velocity{}, acceleration{};
   Quadruple orientation{0, 1, 0, 0};  ///< w, x, y, z; body to S
@@ -50,16 +50,17 @@ struct JoinOptions {
   haptics::CustomEffects effects{};  ///< that the scene may declare
 };
 
-/// All calls by the thread that made it, but for the destructor; callbacks within tick() alone.
+/// The thread that made it makes all calls, except the destructor; callbacks run only within
+/// tick().
 class Session {
  public:
-  /// @throws what peer::Federate throws
+  /// @throws the exceptions of peer::Federate
   explicit Session(const JoinOptions& options);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Says good-bye; once is enough.
+  /// Leaves the exercise; further calls do nothing.
   void resign();
   [[nodiscard]] bool is_joined() const noexcept { return federate_ != nullptr; }
 
@@ -79,7 +80,7 @@ class Session {
   /// @param octets one PDU
   void send(std::span<const std::byte> octets);
 
-  /// Runs what is due. An exception of a callback goes on when all have been called.
+  /// Runs all due work. An exception of a callback is raised after all callbacks were called.
   void tick();
   [[nodiscard]] std::vector<Seen> entities();
   [[nodiscard]] std::optional<Seen> find(const std::array<std::uint16_t, 3>& id);

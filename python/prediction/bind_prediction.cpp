@@ -59,14 +59,14 @@ void add(const deadreckon::Pose& pose, Outputs& out) {
                       {pose.velocity.x(), pose.velocity.y(), pose.velocity.z()});
 }
 
-/// A state that receivers refuse has no pose.
+/// Fills in a result without a pose, for a state that receivers refuse.
 void add_nothing(Outputs& out) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (std::vector<double>* column : {&out.location, &out.orientation, &out.velocity})
     column->insert(column->end(), 3, kNan);
 }
 
-/// As many times as states, or one state and any times.
+/// Either one time for each state, or one state with any number of times.
 Outputs predict(const Inputs& inputs, const double* tau, std::size_t times, std::size_t states) {
   Outputs out;
   for (std::vector<double>* column : {&out.location, &out.orientation, &out.velocity})

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     ]
     __all__ += _pdu_names
 
-# Each part is loaded when a name of it is first used. The classes of PDUs are _pdus, whoever else needs them imports it.
+# Each part is loaded when one of its names is first used. The classes of PDUs are in _pdus, which other parts import as needed.
 _PARTS = {
     "_captures": ("Capture", "CaptureError", "Datagram", "States", "read_capture"),
     "_federates": ("Entity", "Exercise", "Federate", "RemoteEntity", "heading"),

@@ -28,7 +28,7 @@ def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = 
     default that of PATH. It takes as long as on the command line, and other threads of Python run meanwhile. StudyError
     where the program fails or is not there.
     """
-    # Here, for an import of reckon need not wait for them.
+    # Imported here, so that an import of reckon does not wait for them.
     import csv
     import pathlib
     import shutil

@@ -34,7 +34,7 @@ constexpr std::string_view python_type() {
 
 constexpr std::array<std::byte, 16> kZeros{};
 
-/// The first record of a list in an object, which is given up; new reference.
+/// The first record of a list in an object. Consumes the reference to the object; new reference.
 PyObject* first_of(PyObject* object, const char* list) {
   const py::object all = py::reinterpret_steal<py::object>(object);
   return py::object(all.attr(list)[py::int_(0)]).release().ptr();
@@ -62,7 +62,7 @@ PyObject* initial_attribute_record() {
   return first_of(first_of(make_object(pdu), "attribute_record_sets"), "attribute_records");
 }
 
-/// Octets behind a head at which all its parts are there, without values.
+/// Least number of octets behind a head that contain all its parts, without values.
 template <typename Head>
 constexpr std::size_t kEmptyBody = std::is_same_v<Head, pdu::GridAxis>      ? 16
                                    : std::is_same_v<Head, pdu::GridSamples> ? 2

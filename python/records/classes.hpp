@@ -7,8 +7,8 @@
 
 namespace reckon::python {
 
-/// Once, when the module is imported. The classes stand in `module`. @param base what they derive
-/// from, with slots `_form` and `_padding`. @param pdu_base the same for PDUs
+/// Called once, when the module is imported. Adds the classes to `module`. @param base their base
+/// class, with slots `_form` and `_padding`. @param pdu_base the same for PDUs
 void make_classes(pybind11::module_& module, const pybind11::object& base,
                   const pybind11::object& pdu_base);
 

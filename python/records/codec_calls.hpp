@@ -15,8 +15,8 @@
 
 namespace reckon::python {
 
-/// One PDU that begins `octets`, or nothing with an error other than none. A type without a field
-/// table becomes an UnknownPdu.
+/// Decodes the PDU at the begin of `octets`; nothing with an error other than none. A type without
+/// a field table becomes an UnknownPdu.
 [[nodiscard]] pybind11::object decode_pdu(std::span<const std::byte> octets,
                                           pdu::DecodeError& error);
 
@@ -33,7 +33,7 @@ namespace reckon::python {
                                      std::size_t octet, const pdu::PduHeader& header,
                                      std::size_t given);
 
-/// What stands in a buffer of Python: bytes, bytearray, memoryview, a numpy array.
+/// A view of a Python buffer: bytes, bytearray, memoryview, a numpy array.
 class OctetBuffer {
  public:
   /// @throws error_already_set: TypeError

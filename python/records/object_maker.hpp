@@ -19,7 +19,7 @@
 namespace reckon::python {
 
 /// A number or an array as a Python object; new reference. Text keeps its characters up to the last
-/// that is not NUL, each an octet.
+/// one other than NUL, each an octet.
 template <typename T>
 [[nodiscard]] PyObject* to_python(const T& value) {
   if constexpr (pdu::kIsStdArray<T>) {
@@ -40,8 +40,8 @@ template <typename T>
   }
 }
 
-/// Makes one object with all that is in it. With the interpreter's lock; throws
-/// error_already_set where Python has no memory.
+/// Makes one object with all its contents. Requires the interpreter's lock; throws
+/// error_already_set if Python has no memory.
 class ObjectMaker {
  public:
   static constexpr bool kExamples = false;
@@ -95,7 +95,7 @@ class ObjectMaker {
   PyObject* made_ = nullptr;
 };
 
-/// One PDU of which the octets are given, or made in code (then no octets), as an object; new
+/// Makes an object of one PDU from its octets, or of a PDU made in code (then without octets); new
 /// reference.
 template <typename Pdu>
 [[nodiscard]] PyObject* make_object(const Pdu& pdu, std::span<const std::byte> octets = {}) {

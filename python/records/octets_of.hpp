@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Python values as octets of the wire: by the form of an object, without its C++ record.
+// Writes Python values as octets of the wire, by the form of an object, without its C++ record.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -17,11 +17,11 @@
 namespace reckon::python {
 
 /// Appends a number or a fixed array. @param where names the field in messages: "Fire.range"
-/// @throws error_already_set: TypeError for another type, ValueError where it does not fit
+/// @throws error_already_set: TypeError for another type, ValueError if it does not fit
 void put_value(PyObject* value, WireKind kind, std::size_t size, const std::string& where,
                std::vector<std::byte>& out);
 
-/// Appends octets, a record, or a list of these. @throws error_already_set
+/// Appends octets, a record, or a list of octets and records. @throws error_already_set
 void put_octets(PyObject* value, const std::string& where, std::vector<std::byte>& out);
 
 /// Appends the fields of a record from the step `from` of its form on, and its padding.

@@ -23,9 +23,9 @@ namespace reckon::python {
 /// Octets that the views of a PDU point into.
 using OctetArena = std::deque<std::vector<std::byte>>;
 
-/// Counts of lists and of octets follow what the object holds, whatever its count fields say. A
-/// field that is a record of another kind, as the wire format allows at some places, is taken by
-/// its octets. Throws error_already_set with the field and the reason.
+/// Counts of lists and of octets are computed from the object's content; its own count fields are
+/// ignored. A field with a record of another kind, which the wire format allows at some places, is
+/// taken as octets. Throws error_already_set with the field and the reason.
 class PduFiller {
  public:
   PduFiller(PyObject* object, const Shape& shape, OctetArena& arena)
@@ -87,7 +87,7 @@ class PduFiller {
   [[nodiscard]] std::string where(std::string_view name) const;
   [[noreturn]] void refuse_size(std::string_view name, std::size_t is, std::size_t wanted) const;
   std::span<const std::byte> octets_of(std::string_view name, PyObject* given);
-  /// All fields behind the last that was found: an object shows what the codec takes as octets.
+  /// All fields behind the last one found: an object shows fields that the codec takes as octets.
   std::span<const std::byte> rest();
 
   template <typename Count>

@@ -46,7 +46,7 @@ std::string class_name(const char* type_name) {
   return name;
 }
 
-/// Where the slot of a class holds its value in an object.
+/// Offset of a slot's value in an object of the class.
 Py_ssize_t slot_offset(PyTypeObject* type, const std::string& name) {
   const py::object slot =
       py::reinterpret_borrow<py::object>(reinterpret_cast<PyObject*>(type)).attr(name.c_str());

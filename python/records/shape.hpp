@@ -21,7 +21,7 @@
 
 namespace reckon::python {
 
-/// What a field is on the wire, big-endian.
+/// The type of a field on the wire, big-endian.
 enum class WireKind : std::uint8_t {
   unsigned_number,
   signed_number,
@@ -36,7 +36,7 @@ enum class WireKind : std::uint8_t {
 struct FormStep {
   std::string_view name{};
   WireKind kind = WireKind::octets;
-  std::size_t size = 0;   ///< of a number or a fixed array [octets]; 0: what there is
+  std::size_t size = 0;   ///< of a number or a fixed array [octets]; 0: variable
   Py_ssize_t offset = 0;  ///< of its value in the object
 
   friend bool operator==(const FormStep&, const FormStep&) = default;
@@ -44,7 +44,7 @@ struct FormStep {
 
 class Shape;
 
-/// The fields that an object has, in wire order: a step behind those of `before`.
+/// The fields of an object, in wire order: the fields of `before` and one more.
 class Form {
  public:
   Form(const Shape& shape, const Form* before, const FormStep& last);
@@ -53,7 +53,7 @@ class Form {
   /// All fields, in wire order.
   [[nodiscard]] const std::vector<FormStep>& steps() const noexcept { return steps_; }
   [[nodiscard]] Py_ssize_t last_offset() const noexcept { return steps_.back().offset; }
-  /// What an object keeps to know its form; borrowed.
+  /// The value that an object keeps to identify its form; borrowed.
   [[nodiscard]] PyObject* token() const noexcept { return token_; }
   /// The form of a token; nullptr with a Python error if it is none.
   [[nodiscard]] static const Form* of_token(PyObject* token);
@@ -75,9 +75,9 @@ class Shape {
 
   explicit Shape(const char* type_name);
 
-  /// Names the class by "entity_state", in the place of the C++ type.
+  /// Names the class by "entity_state", which replaces the C++ type.
   void rename(std::string_view snake_name);
-  /// Declares a field; once more is no fault, another type joins the first.
+  /// Declares a field. It may be declared again; a different type is added to the first.
   void declare(std::string_view name, std::string_view type);
   /// Makes the class, a subclass of `base` with a slot for each field.
   void make_class(const pybind11::object& base);

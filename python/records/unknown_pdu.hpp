@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A PDU of a type without a field table: its header, and the rest as it is.
+// A PDU of a type without a field table: its header, and the rest as octets.
 #pragma once
 
 #include "reckon/pdu/codec/octet_block.hpp"

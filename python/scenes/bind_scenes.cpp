@@ -94,7 +94,7 @@ py::dict columns_of_trace(Trace&& trace) {
   return all;
 }
 
-/// Percentiles of what was measured, by name; in SI units.
+/// Percentiles of the measurements, by name; in SI units.
 py::dict numbers_of(const tools::Exercise& exercise) {
   const tools::DemoMeasurement& measured = exercise.measurement();
   py::dict all;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects written in C++ by others, as they come through Python.
+// Effects written in C++ outside this project, passed through Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,7 +12,7 @@ namespace reckon::python {
 /// Name of the capsule that holds a haptics::CustomEffects.
 inline constexpr const char* kEffectsCapsule = "reckon.CustomEffects";
 
-/// The effects of a capsule; none of None. @throws py::type_error for anything else
+/// The effects of a capsule; no effects for None. @throws py::type_error for anything else
 [[nodiscard]] inline haptics::CustomEffects effects_of(const pybind11::object& effects) {
   if (effects.is_none()) return {};
   if (PyCapsule_IsValid(effects.ptr(), kEffectsCapsule) == 0)

@@ -61,7 +61,7 @@ std::size_t ArchiveDecompressor::decompress(std::span<std::byte> out) {
   return count;
 }
 
-// Only the one method is allowed, and only once: else a small file could ask for any number of
+// Only this method is allowed, and only once: else a small file could request any number of
 // decompressors.
 bool ArchiveDecompressor::open() {
   is_open_ = true;

@@ -17,8 +17,8 @@ namespace reckon::peer {
 /// The method of a file with these first octets: "gzip", "bzip2", "xz" or "lz4"; else empty.
 [[nodiscard]] std::string_view archive_method(std::span<const std::byte> head) noexcept;
 
-/// Decompresses a stream of any length. One thread. Memory is what the method needs: 64 MiB for
-/// most of xz, 1 GiB at the utmost, less for the others.
+/// Decompresses a stream of any length. One thread. Memory depends on the method: 64 MiB for most
+/// xz files, 1 GiB at most, less for the others.
 class ArchiveDecompressor {
  public:
   /// The next octets of the file, valid until the next call; none at its end.
@@ -30,7 +30,7 @@ class ArchiveDecompressor {
   ArchiveDecompressor(const ArchiveDecompressor&) = delete;
   ArchiveDecompressor& operator=(const ArchiveDecompressor&) = delete;
 
-  /// Returns the number of octets put into `out`; 0 at the end and after an error.
+  /// Returns the number of octets written to `out`; 0 at the end and after an error.
   std::size_t decompress(std::span<std::byte> out);
   /// Empty without an error, else a sentence about the stream.
   [[nodiscard]] const std::string& error() const noexcept { return error_; }

@@ -83,14 +83,14 @@ SourceEvent CaptureSource::next(SourceDatagram& out, nanoseconds patience) {
   return SourceEvent::end;
 }
 
-// On a quiet interface no frame's time says that a datagram's other fragments are overdue.
+// On a quiet interface no frame advances the time, so the clock must expire incomplete datagrams.
 void CaptureSource::wait_no_longer() {
   if (!is_live_) return;
   reassembler_.advance(clock_.utc_now());
   report_.fragments = reassembler_.counts();
 }
 
-// The true end of a file, or a damaged place: what came before it remains valid.
+// The regular end of a file, or a damaged place; earlier datagrams remain valid.
 void CaptureSource::finish(FrameEvent event) {
   ended_ = true;
   reassembler_.give_up_all();
@@ -98,7 +98,7 @@ void CaptureSource::finish(FrameEvent event) {
   std::string reason;
   if (stream_) {
     tell_compression();
-    reason = stream_->problem();  // the error of the stream causes that of the reader
+    reason = stream_->problem();  // an error of the stream causes the reader's error
   }
   if (reason.empty() && event == FrameEvent::damaged) reason = frames_->problem();
   if (!reason.empty())

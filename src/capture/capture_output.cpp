@@ -67,7 +67,7 @@ CaptureOutput::~CaptureOutput() {
   try {
     finish();
   } catch (const CaptureWriteError&) {
-    // The file was cut back; finish() would have reported it.
+    // The file was truncated to a whole block; finish() would have reported it.
   }
 }
 
@@ -130,8 +130,8 @@ void CaptureOutput::append_frame(std::span<const std::byte> blocks, bool end) {
   frame_packets_ = 0;
 }
 
-// Writes the safe blocks of the frame once more, as a frame with an end, in place: this needs no
-// further room on the disk. If that fails, the frame is lost.
+// Rewrites the safe blocks of the frame in place, as a complete frame: this needs no further disk
+// space. If it fails, the frame is lost.
 bool CaptureOutput::cut_back_frame() {
   compressed_.clear();
   compressor_->reset();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One growing file of a capture, plain or in zstd frames: in every case it ends with a whole block.
-// Private to the peer library.
+// One growing capture file, plain or in zstd frames; it always ends with a whole block. Private to
+// the peer library.
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,8 @@
 namespace reckon::peer {
 
 /// A file of whole pcapng blocks. One thread. Frames also hold whole blocks, and each can be
-/// decompressed separately; inside a frame everything that append() took can be.
+/// decompressed separately; all blocks passed to append() can be decompressed, even within an
+/// unfinished frame.
 class CaptureOutput {
  public:
   /// Creates the file.
@@ -30,12 +31,12 @@ class CaptureOutput {
   CaptureOutput& operator=(const CaptureOutput&) = delete;
 
   /// Passes blocks to the kernel.
-  /// @throws CaptureWriteError if it takes no more: the file is then cut back to a whole block and
+  /// @throws CaptureWriteError if a write fails: the file is then truncated to a whole block and
   /// closed, and accepts no more blocks.
   void append(std::span<const std::byte> blocks);
   /// Ends the frame and closes the file.  @throws CaptureWriteError as append().
   void finish();
-  /// Removes the file. Leaves it if it has moved, or if another has its name by now.
+  /// Removes the file. Leaves it if it was moved, or if another file now has its name.
   /// @returns whether it was removed.  @throws CaptureWriteError if it may not be removed.
   bool remove() const;
 
@@ -45,7 +46,7 @@ class CaptureOutput {
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
 
  private:
-  /// Octets that the kernel took, and its error if these are not all.
+  /// Octets that the kernel accepted, and its error if not all.
   struct Written {
     std::size_t octets;
     int error;
@@ -60,9 +61,9 @@ class CaptureOutput {
 
   std::string path_;
   int file_{-1};
-  dev_t device_{};  ///< with inode_: the file that was created, whatever its name is
+  dev_t device_{};  ///< with inode_: the file that was created, under any name
   ino_t inode_{};
-  std::uint64_t position_{0};  ///< octets that the kernel has
+  std::uint64_t position_{0};  ///< octets passed to the kernel
   std::uint64_t packets_{0};
   std::optional<ZstdCompressor> compressor_;
   std::vector<std::byte> compressed_;

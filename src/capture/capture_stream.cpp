@@ -47,7 +47,7 @@ CaptureStream::~CaptureStream() {
   if (file_ != STDIN_FILENO) ::close(file_);
 }
 
-// Reads only as much as identifies the file; on a pipe the rest may come much later.
+// Reads only enough to identify the file; on a pipe the rest may come much later.
 void CaptureStream::look_at_head() {
   struct stat status {};
   if (fstat(file_, &status) == 0 && S_ISDIR(status.st_mode))
@@ -117,7 +117,7 @@ std::size_t CaptureStream::read_content(std::span<std::byte> out) {
   return archive_ ? archive_->decompress(out) : read_as_is(out);
 }
 
-// The next octets of the file as they are; none at its end.
+// The next octets of the file, unchanged; none at its end.
 std::span<const std::byte> CaptureStream::read_buffer() {
   if (input_.empty()) input_ = std::span(buffer_).first(read_file(buffer_));
   return std::exchange(input_, {});
@@ -131,7 +131,7 @@ std::size_t CaptureStream::read_as_is(std::span<std::byte> out) {
   return count;
 }
 
-// A damaged or truncated stream just ends; problem() gives the reason.
+// A damaged or truncated stream ends early; problem() gives the reason.
 std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
   while (true) {
     const std::size_t count = zstd_->decompress(input_, out);
@@ -143,7 +143,7 @@ std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
   }
 }
 
-// 0 at the end, and after an error, which is kept.
+// Returns 0 at the end, and after an error, which is stored.
 std::size_t CaptureStream::read_file(std::span<std::byte> out) {
   ssize_t count = -1;
   do {

@@ -44,7 +44,7 @@ class CaptureStream {
   [[nodiscard]] bool is_plain_file() const noexcept { return is_plain_file_ && !is_compressed(); }
   /// Whole zstd frames; 0 if the file has none.
   [[nodiscard]] std::uint64_t zstd_frames() const noexcept;
-  /// Octets read so far, of the file and of its content.
+  /// Octets read so far: of the file, and of its decompressed content.
   [[nodiscard]] std::uint64_t octets() const noexcept { return octets_; }
   [[nodiscard]] std::uint64_t content() const noexcept { return content_; }
 

@@ -21,15 +21,15 @@ using std::chrono::nanoseconds;
 constexpr std::uint32_t kSnapLength = 262144;
 constexpr std::uint32_t kPacketOverhead = 32;
 
-/// Size at which the buffer goes to the kernel [octets].
+/// Buffer size at which it is passed to the kernel [octets].
 constexpr std::size_t kFlushSize = std::size_t{1} << 16;
 
-/// Files that together reach the bound on all, where their size is not given.
+/// Number of files for `rotate_total`, if their size is not given.
 constexpr std::uint64_t kFilesOfTotal = 10;
 
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
-/// The part of a file's name behind the number: its extension, or two if the last is .zst.
+/// The part of a file's name after the number: its extension, or two if the last is .zst.
 std::string extension_of(const std::filesystem::path& path) {
   const std::string last = path.extension().string();
   return last == ".zst" ? path.stem().extension().string() + last : last;
@@ -55,7 +55,7 @@ CaptureWriter::~CaptureWriter() {
   try {
     flush();
   } catch (const CaptureWriteError&) {
-    // The file was cut back to its last whole block; finish() would have reported it.
+    // The file was truncated to its last whole block; finish() would have reported it.
   }
 }
 
@@ -76,7 +76,7 @@ void CaptureWriter::write(const SourceDatagram& datagram) {
 }
 
 void CaptureWriter::flush() {
-  // If this throws, the rest is not to be written again.
+  // If this throws, the rest must not be written again.
   std::swap(buffer_, flushing_);
   buffer_.clear();
   if (file_) file_->append(flushing_);
@@ -121,7 +121,7 @@ void CaptureWriter::open_next() {
   flush();
 }
 
-// The finished file.
+// Adds the finished file to the totals.
 void CaptureWriter::put_away() {
   earlier_octets_ += file_->octets();
   earlier_packets_ += file_->packets();
@@ -129,8 +129,7 @@ void CaptureWriter::put_away() {
   file_.reset();
 }
 
-// Room for the next file: of those that are there the oldest go. One that was moved does not count
-// any more.
+// Makes room for the next file by removing the oldest ones. A file that was moved no longer counts.
 void CaptureWriter::make_room() {
   while (!finished_.empty() && earlier_octets_ + options_.rotate_octets > options_.rotate_total) {
     const std::unique_ptr<CaptureOutput> oldest = std::move(finished_.front());
@@ -177,8 +176,8 @@ void CaptureWriter::begin_section() {
   (void)interface_of(options_.link_type);
 }
 
-// The number of the interface with that link type, which is described if it is new; its times count
-// in units of 10^-9 s.
+// The number of the interface with that link type; a new one gets a description block. Its times
+// are in units of 10^-9 s.
 std::uint32_t CaptureWriter::interface_of(std::uint16_t link_type) {
   const auto known = std::find(link_types_.begin(), link_types_.end(), link_type);
   const auto number = static_cast<std::uint32_t>(known - link_types_.begin());

@@ -20,35 +20,37 @@ namespace reckon::peer {
 
 class CaptureOutput;
 
-/// A capture could not be continued. The text has the file, the reason and what is safe.
+/// A capture could not be continued. The text has the file, the reason and the number of safe
+/// datagrams.
 struct CaptureWriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a capture is written.
+/// Options of a capture file.
 struct CaptureWriterOptions {
   std::string path;
   bool overwrite{false};
   bool compress{false};  ///< in zstd frames
-  /// Of the first interface, that of the source whose frames are written; frames of other link
-  /// types get interfaces of their own, which not all programs read in one file.
+  /// Link type of the first interface, equal to the source's; frames of other link types get
+  /// additional interfaces, which not all programs can read in one file.
   std::uint16_t link_type{kLinkTypeRawIp};
   std::string interface {};  ///< name of the first interface; empty: unknown
-  /// A file of this size [octets on the disk] is followed by the next; 0 = one file of any size. A
-  /// compressed file may exceed it by up to 64 KiB of blocks.
+  /// A file that reaches this size [octets on the disk] is followed by the next; 0 = one file of
+  /// any size. A compressed file may exceed it by up to 64 KiB of blocks.
   std::uint64_t rotate_octets{0};
   /// A file whose first datagram is this old is followed by the next; 0 = never.
   std::chrono::nanoseconds rotate_after{0};
-  /// Bound on all files together [octets on the disk], at least twice `rotate_octets`; 0 = none.
-  /// Before the next file is begun, the oldest of this writer are removed until there is room for
-  /// it. Needs one of the two above. Without `rotate_octets` a file ends at a tenth of the bound.
+  /// Limit of all files together [octets on the disk], at least twice `rotate_octets`; 0 = none.
+  /// Before the next file, the oldest files of this writer are removed until there is room.
+  /// Requires one of the two options above. Without `rotate_octets` a file ends at a tenth of the
+  /// limit.
   std::uint64_t rotate_total{0};
 };
 
-/// What a writer removed to keep its files within `rotate_total`.
+/// Files that a writer removed to stay within `rotate_total`.
 struct RemovedFiles {
   std::uint64_t files{0};
-  std::uint64_t datagrams{0};  ///< that were in them
+  std::uint64_t datagrams{0};  ///< datagrams in these files
   std::uint64_t octets{0};
 };
 
@@ -72,17 +74,17 @@ class CaptureWriter {
   /// Passes all to the kernel, so that nothing is lost if the program is killed.
   /// @throws CaptureWriteError as write().
   void flush();
-  /// Ends the file with the source's counts (interface statistics) and closes it. Nothing may be
-  /// written after it.  @throws CaptureWriteError as write().
+  /// Ends the file with the source's counts (interface statistics) and closes it. No call of
+  /// write() may follow.  @throws CaptureWriteError as write().
   void finish(std::uint64_t received, std::uint64_t dropped);
   /// The same without counts.
   void close();
 
   /// Datagrams that are safe in the files.
   [[nodiscard]] std::uint64_t datagrams() const noexcept;
-  /// Octets of all files on the disk.
+  /// Octets of all files on disk.
   [[nodiscard]] std::uint64_t octets() const noexcept;
-  /// The files made so far and not removed, in their order.
+  /// The files created so far and not removed, in their order.
   [[nodiscard]] const std::vector<std::string>& paths() const noexcept { return paths_; }
   [[nodiscard]] const RemovedFiles& removed() const noexcept { return removed_; }
 
@@ -104,7 +106,8 @@ class CaptureWriter {
   CaptureWriterOptions options_;
   std::vector<std::string> paths_;
   std::unique_ptr<CaptureOutput> file_;  ///< null only if the next one could not be created
-  std::deque<std::unique_ptr<CaptureOutput>> finished_;  ///< with a bound: those that count for it
+  std::deque<std::unique_ptr<CaptureOutput>> finished_;  ///< with rotate_total: the files that
+                                                         ///< count for it
   RemovedFiles removed_;
   std::vector<std::byte> buffer_;  ///< whole blocks not passed to the kernel yet
   std::vector<std::byte> flushing_;
@@ -117,9 +120,9 @@ class CaptureWriter {
   std::chrono::nanoseconds last_time_{};
 };
 
-/// Fills `out` with the IP packet that carries the datagram: IPv4 (do not fragment) or IPv6 by the
-/// group's family, then UDP, both with correct checksums. IPv4 has room for 65,507 octets of
-/// payload, IPv6 for 65,527; the rest is omitted.
+/// Fills `out` with the IP packet of the datagram: IPv4 (do not fragment) or IPv6 by the group's
+/// family, then UDP, both with correct checksums. IPv4 has room for 65,507 octets of payload, IPv6
+/// for 65,527; the rest is omitted.
 void make_ip_packet(const SourceDatagram& datagram, std::vector<std::byte>& out);
 
 }  // namespace reckon::peer

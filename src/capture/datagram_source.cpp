@@ -24,7 +24,7 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kMaxRawFile = 65535;
 constexpr std::size_t kBatch = 32;
 
-// A file that holds one bare datagram.
+// A file with one bare datagram.
 class RawSource final : public DatagramSource {
  public:
   explicit RawSource(const std::string& path) {
@@ -112,15 +112,14 @@ class GroupsSource final : public DatagramSource {
     for (const NetworkInterface& interface : listener_.interfaces()) interface_of(interface.index);
   }
 
-  // A datagram may come over another interface than one that is listened to: an own address is
-  // reached by lo.
+  // A datagram may arrive on an interface outside the list: an own address is reached through lo.
   ListenedInterface& interface_of(unsigned index) {
     const auto found = std::find_if(rows_.begin(), rows_.end(),
                                     [&](const Row& one) { return one.index == index; });
     if (found != rows_.end()) return report_.interfaces[found->place];
     std::array<char, IF_NAMESIZE> name{};
     if (if_indextoname(index, name.data()) == nullptr) name = {'?'};
-    // An interface that went and came back has a new index and its old row.
+    // An interface that was removed and added again has a new index and its old row.
     auto& rows = report_.interfaces;
     const auto row = std::find_if(rows.begin(), rows.end(),
                                   [&](const auto& one) { return one.name == name.data(); });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sources of datagrams for the inspector behind one interface: a capture file, one raw file, stdin,
-// an interface or the live groups.
+// Sources of datagrams for the inspector, with a common interface: a capture file, one raw file,
+// stdin, an interface or live groups.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@ enum class Portion : std::uint8_t {
   cut                    ///< the capture kept less of the frame than was on the wire
 };
 
-/// True without a UDP header: the octets are no beginning of a datagram, and the ports are 0.
+/// True without a UDP header: the octets are not the beginning of a datagram, and the ports are 0.
 [[nodiscard]] constexpr bool is_headless(Portion portion) noexcept {
   return portion == Portion::later_fragment || portion == Portion::overlapping_fragment;
 }
@@ -34,9 +34,9 @@ enum class Portion : std::uint8_t {
 /// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
 inline constexpr std::uint16_t kLinkTypeRawIp = 101;
 
-/// One datagram of a source. `bytes` is valid until the next call of next(). Of a datagram that was
-/// put together from IP fragments, frame and time are those of the fragment that completed it, and
-/// of one that remained incomplete, those of its first fragment to come.
+/// One datagram of a source. `bytes` is valid until the next call of next(). For a reassembled
+/// datagram, frame and time come from the fragment that completed it; for an incomplete one, from
+/// the first fragment that arrived.
 struct SourceDatagram {
   std::uint64_t frame{0};  ///< 1, 2, ... as in other tools; counts skipped frames too
   /// Since 1970-01-01 UTC; 0 for a raw file. In a damaged capture the year is 1901 to 2160.
@@ -45,9 +45,9 @@ struct SourceDatagram {
   GroupAddress group;  ///< destination, perhaps no group; unspecified for a raw file
   std::span<const std::byte> bytes;
   Portion portion{Portion::whole};
-  std::string_view interface;  ///< live groups: the one over which it came; else empty
-  /// The captured frame, from its link layer on; empty if the source is no capture. Of a datagram
-  /// that was put together, the frame that would have carried it whole.
+  std::string_view interface;  ///< live groups: the receiving interface; else empty
+  /// The captured frame, beginning with its link layer; empty if the source is no capture. For a
+  /// reassembled datagram, an equivalent unfragmented frame.
   std::span<const std::byte> captured;
   std::size_t captured_on_wire{0};          ///< its length before the capture truncated it [octets]
   std::uint16_t link_type{kLinkTypeRawIp};  ///< its LINKTYPE_... of pcap
@@ -57,24 +57,24 @@ struct SourceDatagram {
 enum class SourceEvent : std::uint8_t {
   datagram,
   nothing_yet,  ///< a live source was quiet for the given time
-  end           ///< no more will come; report() states whether that was the true end
+  end           ///< no more will come; report() states whether this was the regular end
 };
 
-/// What became of IP fragments.
+/// Counts of IP fragments by result.
 struct FragmentCounts {
-  std::uint64_t frames{0};       ///< that were fragments
-  std::uint64_t whole{0};        ///< datagrams put together
-  std::uint64_t lost{0};         ///< datagrams given up, because fragments are missing
-  std::uint64_t waiting{0};      ///< datagrams that still wait for fragments
-  std::uint64_t overlapping{0};  ///< datagrams refused, because fragments contradict each other
-  std::uint64_t late{0};         ///< fragments that came after their datagram was given up
+  std::uint64_t frames{0};       ///< frames with a fragment
+  std::uint64_t whole{0};        ///< reassembled datagrams
+  std::uint64_t lost{0};         ///< datagrams given up because of missing fragments
+  std::uint64_t waiting{0};      ///< incomplete datagrams
+  std::uint64_t overlapping{0};  ///< datagrams refused because of contradicting fragments
+  std::uint64_t late{0};         ///< fragments that arrived after their datagram was given up
   std::uint64_t duplicate{0};    ///< copies of fragments
 };
 
-/// An interface of this host that live groups are listened to on.
+/// An interface of this host on which live groups are received.
 struct ListenedInterface {
   std::string name;
-  std::uint64_t datagrams{0};  ///< first heard there
+  std::uint64_t datagrams{0};  ///< received there first
 };
 
 /// Counts and errors of a source.
@@ -90,8 +90,8 @@ struct SourceReport {
   /// octets of the file and of its content, whole zstd frames.
   std::string_view compression;
   std::uint64_t compressed_octets{0}, compressed_content{0}, zstd_frames{0};
-  /// Live groups: what came over each interface, copies of a datagram that came over several of
-  /// them and were left out, and sentences about what cannot be heard.
+  /// Live groups: counts of each interface, copies received over further interfaces and dropped,
+  /// and sentences about groups that cannot be received.
   std::vector<ListenedInterface> interfaces;
   std::uint64_t copies{0};
   std::vector<std::string> unheard;
@@ -126,34 +126,34 @@ class DatagramSource {
   [[nodiscard]] virtual SourceEvent next(SourceDatagram& out,
                                          std::chrono::nanoseconds patience) = 0;
   [[nodiscard]] virtual const SourceReport& report() const noexcept = 0;
-  /// True if more may come at any time (groups, interface).
+  /// True if more may arrive at any time (groups, interface).
   [[nodiscard]] virtual bool is_live() const noexcept = 0;
-  /// The link type of the first captured frames by pcap (LINKTYPE_...).
+  /// LINKTYPE_... of pcap, of the first captured frames.
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept { return kLinkTypeRawIp; }
-  /// The interface that captured the last datagram, where the capture names it; else empty.
+  /// The interface that captured the last datagram, if the capture names it; else empty.
   [[nodiscard]] virtual std::string_view interface_name() const noexcept { return {}; }
   /// Makes next() return `end` soon.
   virtual void stop() noexcept = 0;
 };
 
-/// One file, whole, as one datagram of frame 1 (at most 65535 octets; the rest is cut off and
-/// reported).  @throws std::system_error with the path if it cannot be read.
+/// A whole file as one datagram of frame 1 (at most 65535 octets; more are cut off and reported).
+/// @throws std::system_error with the path if it cannot be read.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_raw_file(const std::string& path);
 
 /// Options of open_groups().
 struct GroupsOptions {
   std::string interface;             ///< name, address or index; empty: every interface
   std::vector<GroupAddress> groups;  ///< or broadcast or own addresses, see UdpListenerOptions
-  bool skips_failures{false};        ///< hears what can be heard
+  bool skips_failures{false};        ///< skips groups and interfaces that fail
 };
 
-/// Live groups, heard on one interface or on all. A datagram that comes over several interfaces is
+/// Live groups, received on one interface or on all. A datagram received over several interfaces is
 /// returned once.
 /// @throws std::system_error or std::runtime_error with the value and the remedy if the interface
 /// or a group cannot be used.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options);
 
-/// A source from its text: "raw:FILE", "-" (a pcap or pcapng on stdin), "iface:NAME" (all UDP of an
+/// A source by its text: "raw:FILE", "-" (a pcap or pcapng on stdin), "iface:NAME" (all UDP of an
 /// interface, needs CAP_NET_RAW), else a pcap or pcapng file, which may be growing with `follow`.
 /// @throws the exceptions of the open functions.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_source(std::string_view text,

@@ -26,7 +26,7 @@ struct FrameOctets {
   [[nodiscard]] FrameOctets from(std::size_t at) const {
     return {at_hand.subspan(at), on_wire - at};
   }
-  /// Only the first `count` octets of the wire: the rest is padding.
+  /// Only the first `count` octets on the wire; the rest is padding.
   [[nodiscard]] FrameOctets first(std::size_t count) const {
     return {at_hand.first(std::min(count, at_hand.size())), std::min(count, on_wire)};
   }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint8_t kProtocolUdp = 17;
 constexpr std::size_t kUdpHeader = 8;
 constexpr int kMostExtensionHeaders = 16;  // of IPv6
-constexpr int kMostTunnels = 4;            // one in another
+constexpr int kMostTunnels = 4;            // nested
 
 /// The payload as described by the IP headers.
 struct IpPayload {
@@ -34,7 +34,7 @@ Carried behind_link_layer(LinkLayer layer, const FrameOctets& frame) {
       return behind_ether_type(frame, 14, 16);
     case LinkLayer::linux_cooked_2:
       return behind_ether_type(frame, 0, 20);
-    // The family number differs between systems and octet orders; the IP version identifies the
+    // The family number differs between systems and byte orders; the IP version identifies the
     // family too.
     case LinkLayer::bsd_loopback:
       if (!frame.has(4)) return {Carried::Kind::malformed, {}, {}};
@@ -55,7 +55,7 @@ FrameContent read_ipv4(const FrameOctets& ip, SourceDatagram& out, IpPayload& pa
   if (!ip.has(20)) return FrameContent::malformed;
   const std::size_t header = std::size_t{4} * (ip.u8(0) & 0x0f);
   std::size_t total = ip.u16(2);
-  if (total == 0) total = ip.on_wire;  // filled in later by a network card that segments
+  if (total == 0) total = ip.on_wire;  // zero with segmentation offload, which sets it later
   if (header < 20 || total < header || total > ip.on_wire || !ip.has(header)) {
     return FrameContent::malformed;
   }
@@ -75,7 +75,7 @@ FrameContent read_ipv4(const FrameOctets& ip, SourceDatagram& out, IpPayload& pa
   return FrameContent::udp;
 }
 
-// An IPv6 fragment header at the front of `rest`; none if it covers the whole datagram.
+// Reads an IPv6 fragment header at the start of `rest`; none if it covers the whole datagram.
 std::optional<IpFragment> read_fragment_header(const FrameOctets& rest) {
   const std::uint16_t field = rest.u16(2);
   if ((field & 0xfff9) == 0) return std::nullopt;
@@ -94,7 +94,7 @@ bool is_extension(std::uint8_t header) {
   return header == 0 || header == 43 || header == 44 || header == 51 || header == 60;
 }
 
-// Walks through the extension headers to UDP or a tunnel, or to the octets of a later fragment.
+// Follows the extension headers to UDP, a tunnel, or the octets of a later fragment.
 FrameContent read_ipv6(const FrameOctets& ip, SourceDatagram& out, IpPayload& payload) {
   if (!ip.has(40)) return FrameContent::malformed;
   const std::size_t total = std::size_t{40} + ip.u16(4);
@@ -103,7 +103,7 @@ FrameContent read_ipv6(const FrameOctets& ip, SourceDatagram& out, IpPayload& pa
   read_address(ip, 24, true, out.group);
   FrameOctets rest = ip.first(total).from(40);
   payload = {};
-  std::size_t next_at = 6;  // octet of the packet that names the next header
+  std::size_t next_at = 6;  // offset of the field with the next header's number
   std::uint8_t next = ip.u8(next_at);
   for (int i = 0; i < kMostExtensionHeaders && !is_read(next); ++i) {
     if (!is_extension(next)) return FrameContent::not_udp;
@@ -119,7 +119,7 @@ FrameContent read_ipv6(const FrameOctets& ip, SourceDatagram& out, IpPayload& pa
     if (!rest.has(length)) return FrameContent::malformed;
     next_at = total - rest.on_wire;
     rest = rest.from(length);
-    // What follows the extension headers stands in the first fragment alone.
+    // Only the first fragment has headers after the fragment header.
     if (payload.is_later_fragment()) break;
   }
   payload.octets = rest;
@@ -130,7 +130,7 @@ FrameContent read_ipv6(const FrameOctets& ip, SourceDatagram& out, IpPayload& pa
 
 FrameContent read_udp(const IpPayload& payload, SourceDatagram& out) {
   const FrameOctets& udp = payload.octets;
-  // The beginning of a tunnel has no ports either.
+  // A fragment of a tunnel has no ports either.
   if (payload.is_later_fragment() || payload.protocol != kProtocolUdp) {
     out.portion = Portion::later_fragment;
     out.bytes = udp.at_hand;
@@ -157,12 +157,12 @@ FrameContent read_ip(const FrameOctets& ip, SourceDatagram& out, IpPayload& payl
   if (version != 4 && version != 6) return FrameContent::not_udp;
   const FrameContent content =
       version == 4 ? read_ipv4(ip, out, payload) : read_ipv6(ip, out, payload);
-  // The content of a tunnel is there with its last fragment.
+  // The content of a tunnel is available with its last fragment.
   const bool is_datagram = payload.protocol == kProtocolUdp || payload.fragment.has_value();
   return content == FrameContent::udp && is_datagram ? read_udp(payload, out) : content;
 }
 
-/// What a whole IP packet carries where it is a tunnel; none where it is the datagram itself.
+/// Content of a whole IP packet that is a tunnel; none if it is the datagram itself.
 std::optional<Carried> behind_ip(const IpPayload& payload, const SourceDatagram& datagram) {
   if (payload.protocol == kProtocolGre) return open_gre(payload.octets);
   if (is_tunnel(payload.protocol)) return Carried{Carried::Kind::ip, payload.octets, {}};

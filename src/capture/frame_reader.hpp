@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a capture, whatever its format. Private to the peer library.
+// Reads the frames of a capture in any format. Private to the peer library.
 #pragma once
 
 #include <sys/types.h>
@@ -24,7 +24,7 @@ struct CapturedFrame {
   std::span<const std::byte> octets;
   std::size_t on_wire{0};          ///< length before the capture truncated it [octets]
   std::uint16_t link_type{0};      ///< LINKTYPE_... of pcap
-  std::optional<LinkLayer> layer;  ///< none if frames of this link type are not read
+  std::optional<LinkLayer> layer;  ///< none if frames of this link type are not supported
 };
 
 /// Result of FrameReader::next().
@@ -42,10 +42,10 @@ class FrameReader {
 
   [[nodiscard]] virtual FrameEvent next(CapturedFrame& out) = 0;
   [[nodiscard]] virtual std::string problem() const { return {}; }
-  /// Of the first interface.
+  /// Link type of the first interface.
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept = 0;
-  /// The interface that captured the last frame, before that the first interface of the file, where
-  /// it has a name (pcapng if_name).
+  /// The interface that captured the last frame, or the first interface of the file before any
+  /// frame; empty if unnamed (pcapng if_name).
   [[nodiscard]] virtual std::string_view interface_name() const noexcept { return {}; }
   /// Waits after nothing_yet; true if there may be a frame before the time has passed.
   virtual bool wait(std::chrono::nanoseconds patience);
@@ -53,26 +53,27 @@ class FrameReader {
   [[nodiscard]] virtual std::uint64_t dropped() { return 0; }
 };
 
-/// Second and nanosecond as a time. Damaged files have times beyond 63 bits of nanoseconds; they
-/// are held in the years 1901 to 2160, so that sums are possible.
+/// A time from seconds and nanoseconds. Damaged files have times beyond 63 bits of nanoseconds;
+/// they are limited to the years 1901 to 2160, so that sums cannot overflow.
 [[nodiscard]] std::chrono::nanoseconds bounded_time(std::int64_t second,
                                                     std::int64_t nanosecond) noexcept;
 
-/// The first layer of frames of a LINKTYPE_... of pcap; none if they are not read.
+/// The first layer for a LINKTYPE_... of pcap; none if it is not supported.
 [[nodiscard]] std::optional<LinkLayer> link_layer_of(int link_type) noexcept;
 
 /// "link type 220 (USB_LINUX_MMAPPED) is not read here; .." for a message.
 [[nodiscard]] std::string unread_link_type(int link_type);
 
-/// At the end of a growing file: back to `position`, the begin of the incomplete part. False if it
+/// At the end of a growing file: seeks to `position`, the start of the incomplete part. False if it
 /// is not at its end.
 bool step_back(std::FILE* file, off_t position);
 
-/// A pcap or pcapng file, which it closes. With `grows` its end, or an incomplete frame, is
-/// nothing_yet.  @throws std::runtime_error with the reason if it is neither; `file` is closed.
+/// Opens a pcap or pcapng file, and takes ownership. With `grows`, its end or an incomplete frame
+/// gives nothing_yet.  @throws std::runtime_error with the reason if it is neither; `file` is
+/// closed.
 [[nodiscard]] std::unique_ptr<FrameReader> open_frames(std::FILE* file, bool grows);
 
-/// The same, of a file that begins as a pcapng file does.
+/// The same for a file that begins as pcapng.
 [[nodiscard]] std::unique_ptr<FrameReader> open_pcapng_frames(std::FILE* file, bool grows);
 
 /// All UDP frames of an interface.

@@ -10,7 +10,7 @@
 
 namespace reckon::peer {
 
-/// Sum of 16-bit words in the host's octet order: by RFC 1071 2 (B) the order does not matter.
+/// Sum of 16-bit words in the host's byte order: by RFC 1071 2 (B) the order does not matter.
 [[nodiscard]] inline std::uint64_t word_sum(std::span<const std::byte> octets) noexcept {
   std::uint64_t sum = 0;
   std::size_t at = 0;
@@ -24,7 +24,7 @@ namespace reckon::peer {
   return sum + rest;
 }
 
-/// The checksum of RFC 1071, to be stored in the host's octet order.
+/// The checksum of RFC 1071, to be stored in the host's byte order.
 [[nodiscard]] inline std::uint16_t folded(std::uint64_t sum) noexcept {
   while (sum > 0xffff) sum = (sum & 0xffff) + (sum >> 16);
   return static_cast<std::uint16_t>(~sum);

@@ -70,7 +70,7 @@ void make_ip_packet(const SourceDatagram& datagram, std::vector<std::byte>& out)
   const std::size_t addresses = ipv6 ? 8 : 12;
   std::uint16_t sum =
       folded(word_sum(ip.subspan(addresses, header - addresses)) + word_sum(tail) + word_sum(udp));
-  if (sum == 0) sum = 0xffff;  // zero means: no checksum
+  if (sum == 0) sum = 0xffff;  // zero would mean: no checksum
   std::memcpy(udp.data() + 6, &sum, 2);
 }
 

@@ -18,17 +18,19 @@ constexpr std::size_t kMaxPacket = 65535;
 constexpr std::size_t kFragmentHeader = 8;  // of IPv6
 constexpr std::size_t kIpv6Header = 40;
 
-/// Gaps of a datagram; one with more is given up. Fragments of an MTU of 1280 make 51 at most.
+/// Limit of gaps of a datagram; with more it is given up. An MTU of 1280 makes at most 51
+/// fragments.
 constexpr std::size_t kMaxRanges = 256;
 
-/// Fragments of a datagram whose copies are known as such.
+/// Limit of fragments per datagram whose copies are detected.
 constexpr std::size_t kMaxPieces = 64;
 
-/// Copies come so soon after a datagram is complete. Some senders use one identifier for all.
+/// Age limit of copies after a complete datagram. Some senders use one identifier for all
+/// datagrams.
 constexpr std::chrono::nanoseconds kCopyAge = std::chrono::milliseconds(100);
 
-/// Finished datagrams that are remembered; they are not given by the user, as they only tell copies
-/// and late fragments from new datagrams.
+/// Limit of finished datagrams that are kept. It is no option, as they only distinguish copies and
+/// late fragments from new datagrams.
 constexpr std::size_t kMaxFinished = 4096;
 
 void put_u16(std::byte* at, std::size_t value) {
@@ -46,21 +48,21 @@ IpEndpoint without_port(IpEndpoint endpoint) {
   return endpoint;
 }
 
-/// Whether its length and place can be those of a fragment.
+/// Whether its length and offset are valid for a fragment.
 bool is_sound(const IpFragment& fragment) {
   const bool fills_words = !fragment.has_more || fragment.size % 8 == 0;
   return fragment.size > 0 && fills_words && fragment.offset + fragment.size <= kMaxPacket;
 }
 
-/// The part of a datagram that a frame carries.
+/// The part of a datagram in a frame.
 struct CarriedPart {
   bool is_whole{true};
   std::size_t offset{0};
   bool has_more{false};
 };
 
-/// Sets the lengths and the fragment field of the headers in `frame`. False if the packet is longer
-/// than one can be.
+/// Sets the lengths and the fragment field of the headers in `frame`. False if the packet is too
+/// long.
 bool set_headers(std::vector<std::byte>& frame, const IpFragment& head, bool is_v6,
                  const CarriedPart& carried) {
   std::byte* const ip = frame.data() + head.ip_at;
@@ -162,8 +164,8 @@ void IpReassembler::bound() {
     give_up(incomplete_.begin());
 }
 
-// A copy of a fragment of a completed datagram, or one that fills a gap of a datagram given up. All
-// else with its key begins a new datagram.
+// Whether it is a copy of a fragment of a completed datagram, or fills a gap of a datagram given
+// up. Any other fragment with this key begins a new datagram.
 bool IpReassembler::belongs_to_finished(const Key& key, const IpFragment& fragment,
                                         std::chrono::nanoseconds time) {
   const auto found = finished_by_key_.find(key);
@@ -171,7 +173,7 @@ bool IpReassembler::belongs_to_finished(const Key& key, const IpFragment& fragme
   const Finished& finished = *found->second;
   const std::size_t end = fragment.offset + fragment.octets.size();
   if (finished.ranges.empty()) {
-    // A datagram that is in progress again is newer.
+    // A datagram in progress with this key is newer.
     if (by_key_.contains(key) || time - finished.time > kCopyAge) return false;
     const auto is_copied = [&](const Piece& piece) {
       return piece.range.begin == fragment.offset && piece.range.end == end &&
@@ -231,7 +233,7 @@ IpReassembler::Added IpReassembler::add(Incomplete& to, const IpFragment& fragme
             to.octets.begin() + static_cast<std::ptrdiff_t>(fragment.offset));
 
   const bool joins_next = hit != to.ranges.end() && hit->begin == range.end;
-  if (next != hit) {  // continues the one before
+  if (next != hit) {  // continues the previous range
     next->end = joins_next ? hit->end : range.end;
     if (joins_next) to.ranges.erase(hit);
   } else if (joins_next) {
@@ -303,13 +305,13 @@ void IpReassembler::remember(Finished finished) {
   finished_.pop_front();
 }
 
-// Out of the books, before it is moved or erased.
+// Removes it from the counts and the index, before it is moved or erased.
 void IpReassembler::release(Place place) {
   octets_ -= place->octets.capacity() + place->head.capacity();
   by_key_.erase(place->key);
 }
 
-// Fills frame_ with the frame that would carry the whole packet.
+// Fills frame_ with the equivalent unfragmented frame.
 bool IpReassembler::build_whole(const Incomplete& from) {
   const bool is_v6 = std::get<0>(from.key).is_v6;
   frame_ = from.head;
@@ -319,7 +321,7 @@ bool IpReassembler::build_whole(const Incomplete& from) {
   return set_headers(frame_, from.head_fragment, is_v6, {});
 }
 
-// Fills frame_ with the fragment that would carry the octets up to the first gap.
+// Fills frame_ with a fragment of the octets up to the first gap.
 bool IpReassembler::build_part(const Incomplete& from) {
   const Range range = from.ranges.front();
   const bool has_more = !from.end || range.end < *from.end;

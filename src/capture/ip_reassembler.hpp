@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Puts IP fragments of captured frames together. Private to the peer library.
+// Reassembles IP fragments of captured frames. Private to the peer library.
 #pragma once
 
 #include <chrono>
@@ -17,43 +17,43 @@
 
 namespace reckon::peer {
 
-/// What became of a fragment.
+/// Result for a fragment.
 enum class FragmentFate : std::uint8_t {
   held,         ///< nothing to return yet, or nothing new
   whole,        ///< its datagram is complete
   overlapping,  ///< its datagram is refused
-  not_udp,      ///< its packet is complete and carries no UDP
+  not_udp,      ///< its packet is complete and contains no UDP
   malformed     ///< it, or its completed packet, is broken
 };
 
-/// Bounds of an IpReassembler.
+/// Limits of an IpReassembler.
 struct ReassemblyLimits {
   /// A datagram is given up this long after its first fragment, by the times of the frames. IPv4
   /// identifiers repeat after 65,536 datagrams: a longer time would mix fragments of different
   /// datagrams of a fast sender.
   std::chrono::nanoseconds age{std::chrono::seconds(5)};
-  std::size_t octets{std::size_t{16} << 20};  ///< held; beyond them the oldest datagram is given up
-  std::size_t datagrams{4096};                ///< incomplete ones; beyond them likewise
+  std::size_t octets{std::size_t{16} << 20};  ///< held; above it the oldest datagram is given up
+  std::size_t datagrams{4096};                ///< incomplete ones; above it the oldest is given up
 };
 
-/// Holds incomplete datagrams. Fragments come in any order; copies of them do no harm, also those
-/// that come up to 0.1 s after their datagram was completed. A datagram whose fragments contradict
-/// each other or overlap is refused as a whole (RFC 8200 4.5, here for IPv4 too).
-/// Memory is bounded by the limits. One thread.
+/// Holds incomplete datagrams. Fragments may arrive in any order; copies of them are harmless, also
+/// up to 0.1 s after their datagram was completed. A datagram with contradicting or overlapping
+/// fragments is refused as a whole (RFC 8200 4.5, here for IPv4 too). Memory is bounded by the
+/// limits. One thread.
 class IpReassembler {
  public:
   explicit IpReassembler(const ReassemblyLimits& limits = {}) : limits_(limits) {}
 
-  /// Takes a fragment of `datagram`, as parse_frame() left it. With `whole` and `overlapping`,
-  /// `datagram` is what to return, valid until the next call of take() or take_lost().
+  /// Takes a fragment of `datagram`, as filled by parse_frame(). For `whole` and `overlapping`,
+  /// `datagram` becomes the datagram to return, valid until the next call of take() or take_lost().
   FragmentFate take(LinkLayer layer, const IpFragment& fragment, SourceDatagram& datagram);
-  /// Gives up what is too old at the time of a frame. take() does it too.
+  /// Gives up datagrams that are too old at the time of a frame. take() does it too.
   void advance(std::chrono::nanoseconds now);
   /// The oldest datagram that was given up and not yet returned: its octets up to the first gap.
   /// False if there is none. Call it until then before the next take().
   bool take_lost(SourceDatagram& out);
   [[nodiscard]] bool has_lost() const noexcept { return !lost_.empty(); }
-  /// Gives up what is incomplete: nothing more will come.
+  /// Gives up all incomplete datagrams, when no more fragments can arrive.
   void give_up_all();
 
   [[nodiscard]] FragmentCounts counts() const noexcept {
@@ -71,7 +71,7 @@ class IpReassembler {
   struct Range {
     std::uint32_t begin, end;
   };
-  /// A fragment, to know its copies by.
+  /// A fragment, to detect its copies.
   struct Piece {
     Range range;
     std::size_t hash;  ///< of its octets
@@ -79,21 +79,21 @@ class IpReassembler {
   /// An incomplete datagram.
   struct Incomplete {
     Key key;
-    SourceDatagram first;         ///< frame and time of the first fragment to come
-    LinkLayer layer{};            ///< of the frame that gave `head`, as is first's link type
-    IpFragment head_fragment;     ///< the fragment of that frame: at offset 0 if it has come
-    std::vector<std::byte> head;  ///< octets of that frame before its fragment's own
+    SourceDatagram first;         ///< frame and time of the first fragment that arrived
+    LinkLayer layer{};            ///< of the frame that gave `head`, as first.link_type
+    IpFragment head_fragment;     ///< fragment of that frame: the one at offset 0 if it has arrived
+    std::vector<std::byte> head;  ///< octets of that frame before the fragment's content
     std::vector<std::byte> octets;
     std::vector<Range> ranges;  ///< ascending, with gaps between them
-    std::vector<Piece> pieces;  ///< the fragments, as many as are remembered
+    std::vector<Piece> pieces;  ///< fragments, up to kMaxPieces
     std::optional<std::size_t> end;
   };
-  /// A datagram of which fragments may still come.
+  /// A finished datagram, of which further fragments may arrive.
   struct Finished {
     Key key;
     std::chrono::nanoseconds time{};
-    std::vector<Range> ranges;  ///< of one that was given up; empty if it was completed
-    std::vector<Piece> pieces;  ///< of one that was completed
+    std::vector<Range> ranges;  ///< of a datagram given up; empty if it was completed
+    std::vector<Piece> pieces;  ///< of a completed datagram
   };
   using Place = std::list<Incomplete>::iterator;
   enum class Added : std::uint8_t { added, duplicate, overlapping };
@@ -113,14 +113,14 @@ class IpReassembler {
   bool build_part(const Incomplete& from);
 
   ReassemblyLimits limits_;
-  FragmentCounts counts_;             ///< without those that are incomplete
+  FragmentCounts counts_;             ///< without the incomplete ones
   std::list<Incomplete> incomplete_;  ///< the oldest first
   std::list<Incomplete> lost_;        ///< given up, not yet returned
   std::list<Finished> finished_;      ///< the oldest first
   std::map<Key, Place> by_key_;
   std::map<Key, std::list<Finished>::iterator> finished_by_key_;
   std::size_t octets_{0};
-  std::vector<std::byte> frame_;  ///< the one returned
+  std::vector<std::byte> frame_;  ///< octets of the returned frame
 };
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Frames by libpcap: of pcap files and of interfaces.
+// Frames by libpcap: from pcap files and from interfaces.
 #include <poll.h>
 
 // libpcap's own header uses the BSD names u_int and u_char.
@@ -22,8 +22,8 @@ using PcapHandle = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
 
 constexpr int kSnapLength = 65535;
 
-/// The kernel keeps a frame of any length in a slot of kSnapLength: 500 of them, where libpcap's
-/// own choice of 2 MiB has 32, fewer than the fragments of one long datagram [octets].
+/// The kernel keeps a frame of any length in a slot of kSnapLength: 500 slots here, while libpcap's
+/// default of 2 MiB has 32, fewer than the fragments of one long datagram [octets].
 constexpr int kInterfaceBuffer = 32 << 20;
 
 int milliseconds_of(nanoseconds patience) {
@@ -32,7 +32,7 @@ int milliseconds_of(nanoseconds patience) {
 
 class PcapFrames final : public FrameReader {
  public:
-  /// `grows` is the file that is followed, else null.
+  /// `grows` is the followed file, else null.
   PcapFrames(PcapHandle handle, bool is_interface, std::FILE* grows)
       : handle_(std::move(handle)), is_interface_(is_interface), grows_(grows) {
     const int type = pcap_datalink(handle_.get());
@@ -82,8 +82,8 @@ class PcapFrames final : public FrameReader {
   bool has_nanoseconds_{false};
 };
 
-// Passes only what may be UDP: the kernel drops the rest. Later fragments have no ports to filter
-// by, and tunnels (IP in IP, GRE, MPLS, PPPoE) have theirs inside.
+// Passes only frames that may contain UDP; the kernel drops the rest. Later fragments have no ports
+// to filter by, and tunnels (IP in IP, GRE, MPLS, PPPoE) have their ports inside.
 void set_udp_filter(pcap_t* handle) {
   bpf_program program{};
   const char* text =
@@ -105,7 +105,7 @@ std::string interface_problem(const std::string& name, int status, const std::st
   return name + ": " + reason + "; take another interface, `ip link` lists them";
 }
 
-/// Whether the file begins as a pcapng file does; nothing of it is consumed.
+/// Whether the file begins as pcapng; consumes nothing.
 bool begins_pcapng(std::FILE* file) {
   constexpr std::array<unsigned char, 4> kSectionHeader{0x0a, 0x0d, 0x0d, 0x0a};
   std::array<unsigned char, 4> head{};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Block types of pcapng files, and the number that tells their order of octets
+// Block types of pcapng files, and the number that indicates their byte order
 // (draft-ietf-opsawg-pcapng). Private to the peer library.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Frames of pcapng files (draft-ietf-opsawg-pcapng), with any number of interfaces, of different
-// link types, snapshot lengths and clocks: libpcap reads only those with one of each.
+// Frames of pcapng files (draft-ietf-opsawg-pcapng) with any number of interfaces, of different
+// link types, snapshot lengths and clocks; libpcap supports only one of each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,20 +20,20 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kBlockOverhead = 12;
-constexpr std::size_t kMaxBlock = std::size_t{16} << 20;  // as libpcap has it
-constexpr std::size_t kPiece = std::size_t{1} << 16;      // read at once
+constexpr std::size_t kMaxBlock = std::size_t{16} << 20;  // as in libpcap
+constexpr std::size_t kPiece = std::size_t{1} << 16;      // octets per read
 constexpr std::size_t kMaxInterfaces = 65536;
-constexpr std::size_t kLongestName = 64;  // of an interface; longer ones are not kept
+constexpr std::size_t kLongestName = 64;  // of an interface; longer names are dropped
 
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
 /// The clock of an interface.
 struct Resolution {
-  std::uint64_t units{1'000'000};  ///< in a second
-  std::int64_t offset{0};          ///< [s] to be added
+  std::uint64_t units{1'000'000};  ///< per second
+  std::int64_t offset{0};          ///< [s] to add
 };
 
-/// From if_tsresol; false if no 64-bit number has so many units.
+/// Sets the clock from if_tsresol; false if the number of units exceeds 64 bits.
 bool set_resolution(std::uint8_t code, Resolution& out) {
   const unsigned power = code & 0x7fU;
   const bool is_binary = (code & 0x80U) != 0;
@@ -49,7 +49,7 @@ nanoseconds time_of(std::uint64_t stamp, const Resolution& resolution) {
   const auto second = static_cast<std::int64_t>(std::min(stamp / resolution.units, kMost));
   std::uint64_t rest = stamp % resolution.units;
   std::uint64_t units = resolution.units;
-  // So few bits that the product fits into 64; the rest is below a nanosecond.
+  // Reduces the bits so that the product fits into 64; the lost part is below a nanosecond.
   if (units > kNano && units % kNano == 0) {
     rest /= units / kNano;
     units = kNano;
@@ -106,7 +106,7 @@ class PcapngFrames final : public FrameReader {
   }
 
  private:
-  /// A block without its two lengths; `body` is in buffer_.
+  /// A block without its two length fields; `body` is in buffer_.
   struct Block {
     std::uint32_t type{0};
     std::span<const std::byte> body;
@@ -144,14 +144,14 @@ class PcapngFrames final : public FrameReader {
   bool is_swapped_{false};
   std::vector<Interface> interfaces_;  ///< of this section
   std::size_t captured_on_ = 0;        ///< interface of the last frame
-  nanoseconds latest_{};               ///< time of the frame before, which a simple packet takes
+  nanoseconds latest_{};               ///< time of the previous frame, used for a simple packet
   std::uint16_t link_type_{0};
   std::vector<std::byte> buffer_;
   std::string problem_;
 };
 
-// Appends to the buffer; false at the end of the file. Memory grows with what is there, not with
-// what a length field announces.
+// Appends to the buffer; false at the end of the file. Memory grows with the octets present, not
+// with the value of a length field.
 bool PcapngFrames::read_into_buffer(std::size_t count) {
   while (count > 0) {
     const std::size_t held = buffer_.size();
@@ -165,7 +165,7 @@ bool PcapngFrames::read_into_buffer(std::size_t count) {
   return true;
 }
 
-// The file ends after `held` of `wanted` octets of the block that begins at `begin`.
+// Handles an end of file after `held` of `wanted` octets of the block that begins at `begin`.
 FrameEvent PcapngFrames::at_end(off_t begin, std::size_t held, std::size_t wanted) {
   if (grows_ && step_back(file_.get(), begin)) return FrameEvent::nothing_yet;
   if (held == 0) return FrameEvent::end;
@@ -183,14 +183,14 @@ bool PcapngFrames::read_byte_order() {
   return true;
 }
 
-// `frame` if there is one.
+// Returns `frame` if there is a block.
 FrameEvent PcapngFrames::read_block(Block& out) {
   const off_t begin = grows_ ? ftello(file_.get()) : 0;
   buffer_.clear();
   if (!read_into_buffer(8)) return at_end(begin, buffer_.size(), kBlockOverhead);
   out.type = number<std::uint32_t>(buffer_, 0);
   std::size_t least = kBlockOverhead;
-  if (out.type == kSectionHeader) {  // the same in either order of octets
+  if (out.type == kSectionHeader) {  // the same in both byte orders
     least = 28;
     if (!read_into_buffer(4)) return at_end(begin, buffer_.size(), least);
     if (!read_byte_order()) return FrameEvent::damaged;

@@ -25,7 +25,7 @@ bool is_mpls(std::uint16_t type) { return type == 0x8847 || type == 0x8848; }
 constexpr Carried kMalformed{Kind::malformed, {}, {}};
 Carried unread(std::string_view name) { return {Kind::unread, {}, name}; }
 
-/// What stands behind the first `header` octets, as its EtherType says.
+/// The content after the first `header` octets, by its EtherType.
 Carried by_type(const FrameOctets& frame, std::uint16_t type, std::size_t header) {
   Kind kind = Kind::nothing;
   if (type == kEtherIpv4 || type == kEtherIpv6) kind = Kind::ip;
@@ -46,8 +46,8 @@ Carried open_mpls(const FrameOctets& labels) {
   }
   if (!is_bottom) return unread("MPLS");
   if (!labels.has(at + 1)) return kMalformed;
-  // Labels do not name what they carry. Its first four bits distinguish IPv4, IPv6 and the control
-  // word before Ethernet (RFC 4385).
+  // Labels do not identify their content. Its first four bits distinguish IPv4, IPv6 and the
+  // control word before Ethernet (RFC 4385).
   const unsigned version = labels.u8(at) >> 4;
   if (version == 4 || version == 6) return {Kind::ip, labels.from(at), {}};
   if (version != 0) return unread("MPLS");
@@ -72,11 +72,11 @@ Carried open_pppoe(const FrameOctets& session) {
     case 0x00fd:
       return unread("compressed or encrypted PPPoE");
     default:
-      return {};  // the control of the link
+      return {};  // link control
   }
 }
 
-/// A mirrored frame behind the header of ERSPAN type II or III; type I has none.
+/// A mirrored frame after the header of ERSPAN type II or III; type I has no header.
 Carried open_erspan(const FrameOctets& mirrored, std::uint16_t type, bool has_sequence) {
   if (type == kEtherErspan && !has_sequence) return behind_ethernet(mirrored);
   if (!mirrored.has(12)) return kMalformed;
@@ -94,7 +94,7 @@ Carried behind_ether_type(const FrameOctets& frame, std::size_t type_at,
   for (int tags = 0; tags <= kMostVlanTags; ++tags) {
     if (!frame.has(std::max(type_at + 2, header))) return kMalformed;
     const std::uint16_t type = frame.u16(type_at);
-    // A tag has two octets, and again a type.
+    // A tag has two octets, followed by another type.
     if (!is_vlan(type)) return by_type(frame, type, header);
     type_at = header + 2;
     header += 4;

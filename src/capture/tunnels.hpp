@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The headers between a link layer and an IP packet, and those of tunnels and mirrors, which carry
-// a further frame or packet. Private to the peer library.
+// Headers between a link layer and an IP packet, and headers of tunnels and mirrors around a
+// further frame or packet. Private to the peer library.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,20 @@ inline constexpr std::uint8_t kProtocolIpv6 = 41;
 inline constexpr std::uint8_t kProtocolGre = 47;
 inline constexpr std::uint16_t kVxlanPort = 4789;
 
-/// Protocol of IP that carries a further frame or packet.
+/// Whether this IP protocol contains a further frame or packet.
 [[nodiscard]] constexpr bool is_tunnel(std::uint8_t protocol) noexcept {
   return protocol == kProtocolIpv4 || protocol == kProtocolIpv6 || protocol == kProtocolGre;
 }
 
-/// The content behind one or more headers.
+/// The content after one or more headers.
 struct Carried {
   enum class Kind : std::uint8_t {
-    ip,         ///< a packet of IPv4 or IPv6, as its first octet says
+    ip,         ///< an IPv4 or IPv6 packet, by its first octet
     mpls,       ///< a stack of labels
     pppoe,      ///< a PPPoE session
     nothing,    ///< no IP
-    malformed,  ///< a header is cut or contradicts itself
-    unread      ///< it may hold IP, but is not read
+    malformed,  ///< a header is truncated or inconsistent
+    unread      ///< it may contain IP, but is not supported
   };
   Kind kind = Kind::nothing;
   FrameOctets octets;     ///< ip, mpls, pppoe
@@ -41,21 +41,21 @@ struct Carried {
   }
 };
 
-// None of these functions allocates or reads beyond its octets.
+// None of these functions allocates, or reads beyond the given octets.
 
-/// The content by its EtherType, which is at `type_at`, behind the first `header` octets and up to
-/// 4 VLAN tags.
+/// The content by the EtherType at `type_at`, after the first `header` octets and up to 4 VLAN
+/// tags.
 [[nodiscard]] Carried behind_ether_type(const FrameOctets& frame, std::size_t type_at,
                                         std::size_t header) noexcept;
-/// The same of a frame that begins with its Ethernet addresses.
+/// The same for a frame that begins with its Ethernet addresses.
 [[nodiscard]] Carried behind_ethernet(const FrameOctets& frame) noexcept;
 /// The content of a tunnel for which is_tunnel() is true.
 [[nodiscard]] Carried open_tunnel(const Carried& tunnel) noexcept;
 /// The content of a GRE packet (RFC 2784, 2890): IP, Ethernet, MPLS, or a mirrored frame of ERSPAN.
 [[nodiscard]] Carried open_gre(const FrameOctets& gre) noexcept;
-/// Whether a datagram to kVxlanPort begins as VXLAN does (RFC 7348).
+/// Whether a datagram to kVxlanPort begins as VXLAN (RFC 7348).
 [[nodiscard]] bool is_vxlan(const FrameOctets& datagram) noexcept;
-/// The content of such a datagram.
+/// The content of a VXLAN datagram.
 [[nodiscard]] Carried open_vxlan(const FrameOctets& datagram) noexcept;
 
 }  // namespace reckon::peer

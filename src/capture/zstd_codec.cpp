@@ -16,7 +16,7 @@ constexpr int kMaxWindowLog = 27;
 /// The magic numbers of RFC 8878, 3.1: frames, and skippable frames.
 constexpr std::uint32_t kFrameMagic = 0xfd2fb528;
 constexpr std::uint32_t kSkippableMagic = 0x184d2a50;
-/// Least octets of a frame's header.
+/// Minimum size of a frame header [octets].
 constexpr std::size_t kFrameHeader = 5;
 constexpr std::size_t kBlockHeader = 3;
 
@@ -53,7 +53,7 @@ ZstdDecompressor::ZstdDecompressor()
 std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
                                          std::span<std::byte> out) noexcept {
   if (!error_.empty()) return 0;
-  // One block at a time, because a call that ends in an error loses what it has decompressed.
+  // One block at a time, because a call that ends in an error discards its decompressed output.
   ZSTD_inBuffer from{in.data(), std::min(in.size(), step_), 0};
   ZSTD_outBuffer to{out.data(), out.size(), 0};
   const std::size_t left = ZSTD_decompressStream(context_.get(), &to, &from);
@@ -62,7 +62,7 @@ std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
     error_ = ZSTD_getErrorName(left);
     return to.pos;
   }
-  if (from.pos == 0 && to.pos == 0) return 0;  // asked at the end: not the beginning of a frame
+  if (from.pos == 0 && to.pos == 0) return 0;  // called at the end: no new frame begins
   inside_ = left != 0;
   step_ = inside_ ? left : kFrameHeader;
   // libzstd expects the next block's header together with this one's end.

@@ -19,7 +19,7 @@ class ZstdCompressor {
  public:
   ZstdCompressor();
 
-  /// Appends the compressed form of `raw` to `out`, so that all of it can be decompressed at once;
+  /// Appends the compressed form of `raw` to `out`, flushed so that all of it can be decompressed;
   /// `end_frame` also ends the frame.  @throws std::bad_alloc.
   void compress(std::span<const std::byte> raw, bool end_frame, std::vector<std::byte>& out);
   /// Discards the frame in progress.
@@ -29,13 +29,13 @@ class ZstdCompressor {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_;
 };
 
-/// Decompresses zstd frames of any origin and number. One thread; a window of 128 MiB bounds the
+/// Decompresses zstd frames of any origin and number. One thread; a window of 128 MiB limits the
 /// memory: frames that need more are refused.
 class ZstdDecompressor {
  public:
   ZstdDecompressor();
 
-  /// Decompresses from the front of `in`, which it shortens, into `out`; returns the number of
+  /// Decompresses from the front of `in`, which is advanced, into `out`; returns the number of
   /// octets. Never throws: error() has the reason.
   std::size_t decompress(std::span<const std::byte>& in, std::span<std::byte> out) noexcept;
   /// Empty without an error, else the text of libzstd.

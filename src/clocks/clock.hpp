@@ -40,7 +40,7 @@ class ManualClock final : public Clock {
 
   /// Moves forward by `step`, which must not be negative (assert).
   void advance(std::chrono::nanoseconds step) noexcept;
-  /// Jumps to `time`, which must not lie before now() (assert).
+  /// Jumps to `time`, which must not be before now() (assert).
   void set(std::chrono::nanoseconds time) noexcept;
 
  private:

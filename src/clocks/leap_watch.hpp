@@ -19,13 +19,13 @@ class LeapWatch {
   static constexpr std::chrono::nanoseconds kOdd = std::chrono::seconds(1);
 
   /// Records a packet that does not fit. True if enough of them agree: three over a quarter of a
-  /// second or more, or two over a second or more (senders of few updates). A packet that is no
-  /// newer than another one that agrees is a copy, or was overtaken, and proves nothing.
+  /// second or more, or two over a second or more (senders of few updates). A packet that is not
+  /// newer than another agreeing one is a copy, or was overtaken, and proves nothing.
   /// @param now must not fall.
-  /// @param ahead whether it arrived sooner after its sending than any network explains. Two of
-  /// these in a row, the second newer than the first, are enough: such a clock was set forward or
-  /// runs fast, as in a replay at four times the speed, whose packets need not agree with each
-  /// other.
+  /// @param ahead whether it arrived sooner after its sending than any network can explain. Two
+  /// such packets in a row, the second newer than the first, are enough. Such a clock was set
+  /// forward or runs fast, as in a replay at four times the speed, whose packets need not agree
+  /// with each other.
   [[nodiscard]] bool confirms(std::chrono::nanoseconds difference, std::chrono::nanoseconds now,
                               bool ahead = false) noexcept {
     const bool newer = count_ == 0 || now - difference > last_sent_;
@@ -44,7 +44,7 @@ class LeapWatch {
     return runs_on || (count_ >= 3 && now - since_ >= std::chrono::milliseconds(250)) ||
            (count_ >= 2 && now - since_ >= std::chrono::seconds(1));
   }
-  /// Records a packet that fits, so that those that did not were strays.
+  /// Records a packet that fits; earlier packets that did not fit were strays.
   void clear() noexcept { count_ = 0; }
 
   /// Smallest difference of the packets that agree.

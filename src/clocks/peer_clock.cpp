@@ -52,7 +52,7 @@ bool PeerClock::take(const pdu::TimeEcho& echo, std::uint32_t answered, nanoseco
   return true;
 }
 
-// After a jump of the clock both directions are measured anew.
+// After a jump of the clock, both directions are measured again.
 void PeerClock::note(LeastTransit& way, LeapWatch& watch, nanoseconds difference,
                      nanoseconds now) noexcept {
   if (!way.is_empty() && std::chrono::abs(difference - way.at(now)) > LeapWatch::kOdd) {
@@ -162,8 +162,8 @@ std::optional<nanoseconds> PeerClocks::ahead(std::uint32_t epoch, bool aligned,
   if (place == epochs_.size()) return std::nullopt;
   const auto known = rows_[place].clock.difference(now);
   if (!known) return std::nullopt;
-  // With equal clocks the transits are round_trip / 2 -+ ahead. Short ones consist mostly of the
-  // waits for the loops at both ends, which may differ in any way.
+  // With equal clocks the transits are round_trip / 2 -+ ahead. Short transits consist mainly of
+  // the waiting times for the loops at both ends, which may be unequal in any way.
   const nanoseconds lopsided =
       std::max(known->round_trip / 4, std::min(known->round_trip / 2, kLoopWait));
   const bool plausible = std::chrono::abs(known->ahead) <= lopsided + kResolution;

@@ -62,9 +62,9 @@ class PeerClock {
   std::optional<std::chrono::nanoseconds> last_echo_;
 };
 
-/// The clocks of all peers, by the epoch of their process. Fixed capacity: the peer silent for the
-/// longest makes room. One thread; allocates only at construction; recording a datagram and a query
-/// cost 16 ns for one peer, 30 ns among 1,000.
+/// The clocks of all peers, by the epoch of their process. Fixed capacity: a new peer replaces the
+/// one that was silent for the longest. One thread; allocates only at construction; recording a
+/// datagram and a query cost 16 ns for one peer, 30 ns among 1,000.
 class PeerClocks {
  public:
   static constexpr std::size_t kCapacity = 1024;
@@ -78,8 +78,8 @@ class PeerClocks {
   /// Records a datagram of another peer, which arrived at steady time `now` = UTC `utc`.
   void hear(const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
-  /// Takes an exchange for the process of epoch `own` from such a datagram, which was recorded
-  /// already; counts good echoes and refused ones.
+  /// Takes an exchange for the process of epoch `own` from a datagram that was already recorded;
+  /// counts good echoes and refused ones.
   void take(const pdu::TimeExchange& exchange, std::uint32_t own,
             const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
@@ -88,9 +88,9 @@ class PeerClocks {
   [[nodiscard]] bool fill(pdu::TimeExchange& exchange, std::chrono::nanoseconds now) noexcept;
 
   /// Lead of a peer's UTC over ours, for its timestamps. Exactly zero if both clocks are stated to
-  /// be UTC (`aligned` for us) and the exchanges do not contradict: zero makes neither transit
-  /// negative, nor longer than the other by both 8 ms and a factor of three. Nullopt if nothing is
-  /// known.
+  /// be UTC (`aligned` for us) and the exchanges do not contradict: with a lead of zero, neither
+  /// transit is negative, nor longer than the other by both 8 ms and a factor of three. Nullopt if
+  /// nothing is known.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> ahead(
       std::uint32_t epoch, bool aligned, std::chrono::nanoseconds now) const noexcept;
   /// The estimate itself.
@@ -114,7 +114,7 @@ class PeerClocks {
 
   aoim::EpochIndex places_;
   std::vector<std::uint32_t> epochs_;  // by place
-  std::vector<Row> rows_;              // likewise
+  std::vector<Row> rows_;              // by place
   std::size_t turn_ = 0;
   std::array<std::byte, kMostEchoes * pdu::kFixedSize<pdu::TimeEcho>> echoes_{};
   std::uint64_t taken_ = 0;

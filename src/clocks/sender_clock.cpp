@@ -52,7 +52,8 @@ nanoseconds SenderClock::by_arrival(nanoseconds now) noexcept {
   return last_mapped_;
 }
 
-// Of all instants with this timestamp, an hour apart, the one that fits the preceding silence.
+// Of all instants with this timestamp, which are an hour apart, the one that fits the preceding
+// silence.
 nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) const noexcept {
   const nanoseconds passed = pdu::difference(timestamp, last_timestamp_);
   const nanoseconds rest = now - last_heard_ - passed;

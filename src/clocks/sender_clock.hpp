@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Converts a state's timestamp by its sender's clock into the time of our clock at which it was
-// true. Between the decoded PDU and the state table.
+// Converts a state's timestamp from its sender's clock to the time of our clock at which the state
+// was true. Used between the decoded PDU and the state table.
 #pragma once
 
 #include <chrono>
@@ -22,12 +22,12 @@ struct ClockEvidence {
   std::optional<std::chrono::nanoseconds> ahead;
 };
 
-/// Maps one sender's DIS timestamps to local steady time, without a jump whatever the clocks do.
+/// Maps one sender's DIS timestamps to local steady time, without a jump even if the clocks jump.
 ///
-/// The packet with the shortest transit ties the two clocks together (LeastTransit). Its transit is
-/// known from an exchange of times, or from two absolute clocks; else the last known value is used,
-/// at first zero. The tie follows its estimate slowly (kTimeConstant), times of newer states never
-/// fall and are never in the future.
+/// The packet with the shortest transit relates the two clocks (LeastTransit). Its transit is known
+/// from an exchange of times, or from two absolute clocks; else the last known value is used, at
+/// first zero. The relation in use follows this estimate slowly (kTimeConstant). Times of newer
+/// states never fall and are never in the future.
 ///
 /// A state that is not newer than the last one, or that is off by more than a second, is refused.
 /// If several such states agree (LeapWatch), the sender's clock has jumped, and its time continues
@@ -39,19 +39,19 @@ class SenderClock {
   /// Longest transit of the fastest packet of two absolute clocks; if it is longer, one of them is
   /// wrong, and they are treated as relative.
   static constexpr std::chrono::nanoseconds kMostTransit = std::chrono::milliseconds(300);
-  /// Largest time by which it may arrive before it was sent.
+  /// Largest time by which a packet may appear to arrive before it was sent.
   static constexpr std::chrono::nanoseconds kMostAhead = std::chrono::milliseconds(128);
   /// The same as kMostTransit if an exchange has measured it.
   static constexpr std::chrono::nanoseconds kMostMeasuredTransit = std::chrono::seconds(2);
-  /// A sender known for less than this is mapped by the newest estimate at once.
+  /// A sender known for less than this time is mapped by the newest estimate at once.
   static constexpr std::chrono::nanoseconds kYoung = std::chrono::seconds(2);
-  /// After that a change is followed like a low-pass with this time constant, and by at least 1 and
-  /// at most 100 ms/s. A change of 8 ms moves the shown pose of a vehicle at 20 m/s by 1 mm a frame
-  /// of 60 Hz, the largest change by a tenth of its speed.
+  /// After that, a change is followed by a low-pass filter with this time constant, at a rate of at
+  /// least 1 and at most 100 ms/s. A change of 8 ms moves the shown pose of a vehicle at 20 m/s by
+  /// 1 mm a frame of 60 Hz, the largest change by a tenth of its speed.
   static constexpr std::chrono::nanoseconds kTimeConstant = std::chrono::seconds(4);
 
-  /// A clock that was once found to run ahead is followed ahead at once for this time: a replay at
-  /// another speed, with silences in it.
+  /// A clock that was once found to run ahead is followed immediately to a further lead for this
+  /// time. This occurs in a replay at another speed with pauses.
   static constexpr std::chrono::nanoseconds kRunsAhead = std::chrono::seconds(60);
 
   /// Local steady time of the stamped instant, never after `now`; nullopt if it is refused as

@@ -18,7 +18,7 @@ class SteadyUtc {
   /// by this much (the reader was preempted between the two clocks); NTP corrects smaller
   /// differences by slewing, which is followed.
   static constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(128);
-  /// Least duration of a jump, so that one late reading is none.
+  /// Least duration of a jump, so that one late reading does not count as a jump.
   static constexpr std::chrono::nanoseconds kHold = std::chrono::milliseconds(500);
   /// Greatest rate at which the difference to the host is reduced [ppm], NTP's own.
   static constexpr std::int64_t kSlewPpm = 500;

@@ -53,7 +53,7 @@ class TimeKeeper {
   [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;
 
   [[nodiscard]] const PeerClocks& peers() const noexcept { return peers_; }
-  /// Of all datagrams that were heard; any thread may read them.
+  /// Transit times of all received datagrams; any thread may read them.
   [[nodiscard]] const TransitTimes& transits() const noexcept { return transits_; }
 
  private:

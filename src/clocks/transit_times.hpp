@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How long datagrams were on their way, by the send times in their trailers: counted by the loop
-// that reads them, and readable by any other thread while it runs.
+// Transit times of datagrams, from the send times in their trailers. The loop that reads the
+// datagrams counts them, and any other thread may read the counts while it runs.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace reckon::peer {
 
-/// One-way delays in buckets of at most 1/16 relative width, 1 us to 134 s, with the difference of
-/// the two clocks in them. 3 KB, no allocation. add() by one thread, counts() by any: it may lack
-/// the newest.
+/// One-way delays in buckets of at most 1/16 relative width, 1 us to 134 s. They include the
+/// difference of the two clocks. 3 KB, no allocation. add() by one thread, counts() by any,
+/// possibly without the newest.
 class TransitTimes {
  public:
   using Buckets = LogLinear<4>;
   static constexpr std::size_t kBuckets = Buckets::bucket_of((std::uint64_t{1} << 27) - 1) + 1;
   using Counts = std::array<std::uint64_t, kBuckets>;
 
-  /// One below zero, as a clock that is behind gives it, counts as zero. About 2 ns.
+  /// A negative delay, caused by a difference of the clocks, counts as zero. About 2 ns.
   void add(std::chrono::nanoseconds delay) noexcept {
     const std::int64_t us = std::max<std::int64_t>(delay.count() / 1000, 0);
     auto& bucket =

@@ -17,10 +17,10 @@ namespace reckon::peer {
 
 /// One entity of ours. One thread; no allocation.
 ///
-/// The residual form depends on a key state: a plain Entity State, or one of the compact form. One
-/// is sent first, again after 1, 4 and 16 updates, then every 32 updates or 10 s. One is also sent
-/// after a change of the entity's group or of anything besides its motion, and for a newcomer; the
-/// gaps then begin anew.
+/// The residual form depends on a key state: a plain Entity State, or one of the compact form. A
+/// key state is sent first, again after 1, 4 and 16 updates, then every 32 updates or 10 s. One is
+/// also sent after a change of the entity's group or of anything besides its motion, and for a new
+/// peer; after that the gaps start again with the shortest.
 class StateCompressor {
  public:
   explicit StateCompressor(pdu::CompressedForm form) noexcept : form_(form) {}
@@ -39,9 +39,10 @@ class StateCompressor {
                               std::chrono::nanoseconds now,
                               std::span<std::byte, kRoom> out) noexcept;
 
-  /// The same for the listeners of a tier's group besides that of the cell, in the compact form,
-  /// which depends on nothing. Returns its octets. 0 if it has parts, and in the residual form,
-  /// whose key states the cell's group carries: then all receive the whole state.
+  /// The same for the listeners of a tier's group other than the cell's group, in the compact form,
+  /// which depends on no key state. Returns its octets. Returns 0 if the state has parts, and in
+  /// the residual form, because only the cell's group gets its key states: then all receive the
+  /// whole state.
   [[nodiscard]] std::size_t compress_independent(const pdu::EntityState& state,
                                                  std::span<std::byte, kRoom> out) const noexcept;
 

@@ -38,14 +38,14 @@ enum class RestoreVerdict : std::uint8_t {
 };
 
 /// All entities of others. One thread, never throws. Allocates for a new entity, 0.6 KiB each in
-/// scenes of the residual form, up to `capacity` of them. Then an entity of the host (address) with
-/// the most is removed and awaits a key state, so that a host that invents entities displaces none
-/// of another host.
+/// scenes of the residual form, up to `capacity` of them. If it is full, an entity of the host
+/// (address) with the most is removed and awaits a key state, so that a host that invents entities
+/// cannot displace entities of another host.
 ///
-/// Key states are kept by entity, epoch and address, so a state from any other sender is none,
-/// whatever its octets are. An epoch that continues from another address keeps its key states. One
-/// that returns to a former address needs new ones, because another sender may have sent in
-/// between.
+/// Key states are kept by entity, epoch and address, so a state from any other sender is never a
+/// key state, regardless of its octets. An epoch that continues from another address keeps its key
+/// states. If it returns to a former address, it needs new ones, because another sender may have
+/// sent in between.
 class StateRestorer {
  public:
   /// @param form of the scene; compact ones are accepted in any scene.  @param capacity at least 1
@@ -88,7 +88,7 @@ class StateRestorer {
   std::size_t capacity_;
   std::unordered_map<std::uint64_t, std::size_t> places_;  // by the entity's key
   std::vector<Known> known_;
-  std::vector<deadreckon::ResidualDecoder> residuals_;  // beside it
+  std::vector<deadreckon::ResidualDecoder> residuals_;  // parallel to it
   std::map<Host, std::size_t> counts_;                  // of known_, by the host of `home`
   std::size_t cursor_ = 0;  // in known_: start of the search for the next to remove
 };

@@ -28,14 +28,14 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// Counters that are shares of one number, by something that each has of its own.
+/// Counters that are shares of one number, distinguished by a property.
 struct CounterGroup {
   std::string_view name;     ///< of the number
-  std::string_view label;    ///< of what tells its counters from each other
+  std::string_view label;    ///< name of the property that distinguishes its counters
   std::string_view meaning;  ///< one sentence
 };
 
-/// What arrived and was not taken. A datagram counts in one of its counters.
+/// Arrived datagrams that were not taken. A datagram counts in one of these counters.
 inline constexpr CounterGroup kRefusedDatagrams{"datagrams_refused", "cause",
                                                 "datagrams that arrived and were not taken"};
 /// Shares of `updates_out`.
@@ -48,7 +48,7 @@ inline constexpr CounterGroup kUpdatesByTier{"updates_sent_by_tier", "tier",
 struct CounterReading {
   std::string_view name, meaning;
   std::uint64_t value = 0;
-  bool is_level = false;                ///< may fall: a number of now, not of all that was
+  bool is_level = false;                ///< may fall: a present number, not a total
   const CounterGroup* group = nullptr;  ///< null: none
   std::string_view member;              ///< within its group
 };
@@ -59,7 +59,8 @@ class Counters {
  public:
   /// The counter `name`, made by the first call. `meaning` is one sentence for a reader.
   [[nodiscard]] Counter& make(std::string_view name, std::string_view meaning);
-  /// The same of a number that may fall. Where several make one counter, one of them says so.
+  /// The same for a number that may fall. If several callers make one counter, one such call is
+  /// enough.
   [[nodiscard]] Counter& make_level(std::string_view name, std::string_view meaning);
   /// The same of a share of `group`, which outlives the counters. @param member of the group
   [[nodiscard]] Counter& make_in(const CounterGroup& group, std::string_view member,

@@ -23,7 +23,7 @@ void DutyCycle::record(std::chrono::nanoseconds scheduled, std::chrono::nanoseco
   const std::chrono::nanoseconds taken = finished - scheduled;
   if (taken <= period_) return;
   overruns_.fetch_add(1, std::memory_order_relaxed);
-  // One that is due just now has a step of its own.
+  // a step that is due at this moment is still made
   const auto left_out = (taken - std::chrono::nanoseconds{1}) / period_;
   missed_.fetch_add(static_cast<std::uint64_t>(left_out), std::memory_order_relaxed);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Punctuality of a loop: lateness, step time and misses, counted by the loop's thread and readable
-// by any other while it runs.
+// Punctuality of a loop: lateness, step time and misses. The loop's thread counts them, and any
+// other thread may read them while it runs.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,9 @@ class DutyCycle {
   explicit DutyCycle(std::chrono::nanoseconds period) noexcept;
 
   /// Records one step that was due at `scheduled`, began at `started` and ended at `finished`. Its
-  /// lateness is started - scheduled. One that ends after the next was due is an overrun, and each
-  /// that was due before it ended is missed: the loop leaves it out. Only by the loop's thread.
+  /// lateness is started - scheduled. A step that ends after the next was due is an overrun. Each
+  /// step that was due before it ended is missed, because the loop omits it. Only by the loop's
+  /// thread.
   void record(std::chrono::nanoseconds scheduled, std::chrono::nanoseconds started,
               std::chrono::nanoseconds finished) noexcept;
 
@@ -73,7 +74,7 @@ class DutyCycle {
   std::atomic<std::uint64_t> overruns_{0};
 };
 
-/// The passes of a loop that runs when there is work. As DutyCycle, by one thread and any.
+/// The passes of a loop that runs when there is work. Threads as for DutyCycle.
 class PassTimes {
  public:
   /// @param limit a longer pass is an overrun

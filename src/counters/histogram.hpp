@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE histogram: percentiles of durations, errors and jumps without storing each one.
+// The common histogram: percentiles of durations, errors and jumps without storing each value.
 #pragma once
 
 #include <algorithm>

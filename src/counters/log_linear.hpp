@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE rule of buckets of all histograms: equal steps within each power of two, and the search for a
-// percentile.
+// The rule for the buckets of all histograms: equal steps within each power of two. Also the search
+// for a percentile.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,9 @@ struct LogLinear {
   }
 };
 
-/// The first bucket at or below which at least `share` (0 to 1) of `all` values lie, that is index
-/// ceil(share all) - 1 of a sorted list; `buckets` if their counts are fewer than that.
+/// The first bucket that together with all lower ones contains at least `share` (0 to 1) of `all`
+/// values, that is index ceil(share all) - 1 of a sorted list; `buckets` if their counts are fewer
+/// than that.
 /// @param count_of(bucket) number of its values
 template <typename CountOf>
 [[nodiscard]] std::size_t bucket_of_share(std::size_t buckets, std::uint64_t all, double share,

@@ -25,14 +25,14 @@ inline constexpr std::chrono::nanoseconds kRadioHeartbeat = std::chrono::seconds
 
 /// A beam of an emitter system.
 struct EmittedBeam {
-  /// Targets that are kept. A sender names no more in one beam: beyond EE_HIGH_DENSITY_THRSH (IEEE
-  /// 1278.1-2012, table 25) it sets high_density_track_jam and names none.
+  /// Limit of stored targets. A sender names no more in one beam: beyond EE_HIGH_DENSITY_THRSH
+  /// (IEEE 1278.1-2012, table 25) it sets high_density_track_jam and names none.
   static constexpr std::size_t kTargets = 10;
 
-  /// As sent; a beam of DIS 5 or 6 is active, and its jamming mode is that of the same octets.
+  /// As sent; a DIS 5 or 6 beam is set active, and its jamming mode is read from the same octets.
   pdu::EmitterBeam beam;
   std::array<pdu::TrackJamTarget, kTargets> targets{};
-  std::chrono::nanoseconds since{0};  ///< when it became active or inactive
+  std::chrono::nanoseconds since{0};  ///< last change between active and inactive
 
   [[nodiscard]] bool is_active() const noexcept { return (beam.jamming.beam_status & 1U) == 0; }
   [[nodiscard]] std::span<const pdu::TrackJamTarget> known_targets() const noexcept {
@@ -42,9 +42,9 @@ struct EmittedBeam {
 
 /// An emitter system.
 struct EmitterState {
-  static constexpr std::size_t kBeams = 8;  ///< that are kept
+  static constexpr std::size_t kBeams = 8;  ///< stored beams
 
-  pdu::EmitterSystem system;  ///< as sent; number_of_beams is that of the last PDU
+  pdu::EmitterSystem system;  ///< as sent; number_of_beams from the last PDU
   std::array<EmittedBeam, kBeams> beams{};
   std::uint8_t count = 0;     ///< beams; 0: the system has no beam
   std::uint8_t left_out = 0;  ///< beams of the last PDU for which there was no room
@@ -54,21 +54,22 @@ struct EmitterState {
   }
 };
 
-/// What an entity emits by one of its systems. A value.
+/// Emissions of one system of an entity. A value.
 struct Emission {
-  /// In the order of `state`.
+  /// In the order of the alternatives of `state`.
   enum class Kind : std::uint8_t { emitter, iff, radio };
 
   pdu::EntityId entity;
-  std::uint16_t number = 0;  ///< of the emitter, or of the radio; of an IFF system its designator
-  std::chrono::nanoseconds since{0};       ///< when it began, or ceased, to emit
+  std::uint16_t number = 0;  ///< number of the emitter or of the radio; for an IFF system its
+                             ///< designator
+  std::chrono::nanoseconds since{0};       ///< last start or end of emission
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last PDU about it
   std::uint64_t updates = 0;               ///< PDUs about it
   /// IFF and Transmitter PDUs as sent, without their variable parts.
   std::variant<EmitterState, pdu::Iff, pdu::Transmitter> state = {};
 
   [[nodiscard]] Kind kind() const noexcept { return static_cast<Kind>(state.index()); }
-  /// Whether an emitter has an active beam, an IFF system is on, a radio transmits.
+  /// Whether an emitter has an active beam, an IFF system is on, or a radio transmits.
   [[nodiscard]] bool emits() const noexcept;
   /// Whether two heartbeats and their tolerance (deadreckon::kTimeoutMultiplier) have passed
   /// without a PDU.

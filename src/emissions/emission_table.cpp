@@ -26,14 +26,14 @@ EmittedBeam beam_of(const pdu::SizedRecord<pdu::EmitterBeam>& sent, bool has_sta
   return beam;
 }
 
-// The beam of that number, or the end of the known ones.
+// The beam with this number, or the end of the known ones.
 EmittedBeam* find_beam(EmitterState& state, std::uint8_t number) {
   EmittedBeam* begin = state.beams.data();
   return std::find_if(begin, begin + state.count,
                       [&](const EmittedBeam& beam) { return beam.beam.beam_number == number; });
 }
 
-// @param next the new state: begins as a copy of `before` for changed data, else empty
+// @param next the new state: initially a copy of `before` for changed data, else empty
 void add_beam(EmitterState& next, EmittedBeam beam, EmitterState& before) {
   const std::uint8_t number = beam.beam.beam_number;
   const EmittedBeam* known = find_beam(before, number);
@@ -151,7 +151,7 @@ void EmissionTable::take_whole(const Emission& sent, const EmissionSource& sourc
   if (Emission* row = find_or_add(sent, source)) update(*row, sent.state, source.now);
 }
 
-// Gives the row only to the host that made it; a row that is over is replaced.
+// Returns the row only to the host that made it; a row that has timed out is replaced.
 Emission* EmissionTable::find_or_add(const Emission& wanted,
                                      const EmissionSource& source) noexcept {
   std::size_t of_entity = 0;
@@ -219,7 +219,7 @@ void EmissionTable::drop(const pdu::SimulationAddress& simulation) noexcept {
     if (rows_[place].entity.simulation() == simulation) erase(place);
 }
 
-// The owner is known by now, so what others have said of the entity does not count.
+// Once the owner of the entity is known, rows from other hosts are dropped.
 void EmissionTable::drop_of_others(const pdu::EntityId& entity,
                                    const EmissionSource& source) noexcept {
   if (!source.owns) return;

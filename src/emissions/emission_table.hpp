@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The emitters, IFF systems and radios of all remote entities: one row each. Fed with the PDUs of a
+// The emitters, IFF systems and radios of all remote entities: one row each. Input is the PDUs of a
 // network or a capture.
 #pragma once
 
@@ -17,50 +17,50 @@
 
 namespace reckon::peer {
 
-/// Where a PDU about emissions comes from.
+/// Origin of a PDU about emissions.
 struct EmissionSource {
   aoim::SourceAddress from;
-  std::chrono::nanoseconds now{0};  ///< arrival; of a capture: its time
-  bool guest = true;                ///< of a plain DIS program, or unknown
-  bool owns = false;                ///< it owns the entity, see RemoteEntities::hear
+  std::chrono::nanoseconds now{0};  ///< arrival; for a capture: its time
+  bool guest = true;                ///< from a plain DIS program, or unknown
+  bool owns = false;                ///< whether it owns the entity, see RemoteEntities::hear
 };
 
-/// What was not taken, since construction.
+/// Data not taken, since construction.
 struct EmissionRefusals {
   std::uint64_t damaged = 0;   ///< PDUs
-  std::uint64_t disputed = 0;  ///< states of a system that another host has sent
+  std::uint64_t disputed = 0;  ///< states of a system whose row belongs to another host
   std::uint64_t no_room = 0;   ///< states of further systems
 
   [[nodiscard]] std::uint64_t all() const noexcept { return damaged + disputed + no_room; }
 };
 
-/// The table. One thread; allocates only at construction. Memory is touched as rows come, 1.3 kB
-/// each. A system costs some 0.3 us.
+/// The table. One thread; allocates only at construction. Memory pages are used as rows are added,
+/// 1.3 kB each. A system costs some 0.3 us.
 ///
-/// A row is changed only by the host that made it, until it is over, or by the owner of the entity,
-/// whose first PDU removes the rows that others made. In a full table a row of the host with the
-/// most rows makes room, as in the table of entities (RowOwners).
+/// A row is changed only by the host that made it, until it times out, or by the owner of the
+/// entity. The owner's first PDU removes rows of other hosts. In a full table a row of the host
+/// with the most rows is replaced, as in the table of entities (RowOwners).
 ///
-/// The systems of an Electromagnetic Emission PDU replace those known by their numbers. In one with
-/// changed data (state update indicator 1) each beam replaces the one of its number, and the others
-/// stay. A system without beams has none from then on. Systems that a PDU does not name stay as
-/// they are: a sender may use one PDU for each.
+/// The systems of an Electromagnetic Emission PDU replace the known systems with their numbers. In
+/// a PDU with changed data (state update indicator 1) each beam replaces the beam with its number,
+/// and other beams stay. A system sent without beams has none from then on. Systems that a PDU does
+/// not name stay unchanged: a sender may use one PDU for each.
 class EmissionTable {
  public:
   static constexpr std::size_t kRows = 1024;
   static constexpr std::size_t kRowsOfEntity = 16;
 
-  /// @param rows most rows in all
+  /// @param rows limit of rows in total
   explicit EmissionTable(std::size_t rows = kRows);
 
-  /// Takes one PDU; those of other types do nothing.  @param octets any
+  /// Takes one PDU; ignores other types.  @param octets any
   void take(std::span<const std::byte> octets, const EmissionSource& source) noexcept;
-  /// Drops rows that are over. Some ns if there are none.
+  /// Drops rows that have timed out. Some ns if there are none.
   void expire(std::chrono::nanoseconds now) noexcept;
   /// Drops the rows of all entities of a simulation.
   void drop(const pdu::SimulationAddress& simulation) noexcept;
 
-  /// All rows, in no order. Valid until the next take, expire or drop.
+  /// All rows, in no particular order. Valid until the next take, expire or drop.
   [[nodiscard]] std::span<const Emission> rows() const noexcept { return rows_.all(); }
   [[nodiscard]] const EmissionRefusals& refusals() const noexcept { return refusals_; }
   /// Sets EntityView::emits of each row.  @param entities in the order of their IDs
@@ -82,10 +82,11 @@ class EmissionTable {
   void erase(std::size_t place) noexcept;
 
   RowColumn<Emission> rows_;
-  // Beside it, row by row.
-  RowColumn<std::uint64_t> entities_;  // keys of their IDs
+  // Further columns, row by row.
+  RowColumn<std::uint64_t> entities_;  // keys of the rows' entity IDs
   RowOwners owners_;
-  std::chrono::nanoseconds next_over_ = std::chrono::nanoseconds::max();  // or earlier
+  std::chrono::nanoseconds next_over_ = std::chrono::nanoseconds::max();  // lower bound of the next
+                                                                          // time-out
   EmissionRefusals refusals_;
 };
 

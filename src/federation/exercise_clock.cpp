@@ -11,7 +11,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Limit of accepted hours since 1970, either way: 228 years. More is an error, or malice.
+// Limit of accepted hours since 1970, in both directions: 228 years. Larger values are errors or
+// attacks.
 constexpr std::int32_t kMostHours = 2'000'000;
 
 nanoseconds to_time(const pdu::ClockTime& time) {

@@ -19,7 +19,8 @@ class ExerciseClock {
   void take(const pdu::StartResume& order, std::chrono::nanoseconds utc) noexcept;
   void take(const pdu::StopFreeze& order, std::chrono::nanoseconds utc) noexcept;
 
-  /// Simulation time since 1970 at `utc`, not before that of the last order. Constant while frozen.
+  /// Simulation time since 1970 at `utc`, not before the time of the last order. Constant while
+  /// frozen.
   [[nodiscard]] std::chrono::nanoseconds at(std::chrono::nanoseconds utc) const noexcept;
   [[nodiscard]] bool is_running(std::chrono::nanoseconds utc) const noexcept {
     return span_at(utc).running;

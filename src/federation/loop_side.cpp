@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kTimestampOffset = 4;  // in every PDU, IEEE 1278.1 PDU Header
 
-// So that the program may use another clock than the peer.
+// Sets missing and future times to `now`, so that the program may use another clock than the peer.
 EntityTruth dated(const EntityTruth& truth, std::chrono::nanoseconds now) {
   EntityTruth result = truth;
   if (truth.time <= std::chrono::nanoseconds(0) || truth.time > now) result.time = now;
@@ -68,7 +68,7 @@ void LoopSide::hear(const pdu::PduHeader& header, std::span<const std::byte> oct
   news.octets.insert(news.octets.end(), octets.begin(), octets.end());
 }
 
-// While the program reads the last letter, the table collects changes: for each entity the newest.
+// While the program reads the last letter, the table collects the newest change of each entity.
 void LoopSide::end_pass(ModelLoop& loop) noexcept {
   if (!news_.is_free()) return;
   News& news = news_.letter();

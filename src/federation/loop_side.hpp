@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A federate's part in the model loop: carries out the program's requests and collects what has
-// happened.
+// A federate's part in the model loop: carries out the program's requests and collects events for
+// it.
 #pragma once
 
 #include <array>

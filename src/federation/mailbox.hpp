@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two letters between a program and the model loop: the program's requests, and what has happened.
-// Neither side ever waits. While a letter is in use, further content is collected for the next one;
-// of an entity's updates only the newest is kept.
+// Two letters between a program and the model loop: the program's requests, and the events for the
+// program. Neither side ever waits. While a letter is in use, further content is collected for the
+// next one; only the newest update of an entity is kept.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ struct Wishes {
   void clear() noexcept;
 };
 
-/// What has happened since the last letter.
+/// Events since the last letter.
 struct News {
   struct Heard {
     pdu::PduType type;
@@ -102,7 +102,7 @@ class LetterBox {
     sent_.store(&copies_[next_], std::memory_order_release);
     next_ = 1 - next_;
   }
-  /// Reader: the letter, null if there is none. It is the reader's until give_back().
+  /// Reader: the letter, null if there is none. It belongs to the reader until give_back().
   [[nodiscard]] Letter* take() const noexcept { return sent_.load(std::memory_order_acquire); }
   void give_back() noexcept { sent_.store(nullptr, std::memory_order_release); }
 

@@ -34,7 +34,7 @@ class RemoteObject {
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
   /// Time since its last update was received.
   [[nodiscard]] std::chrono::nanoseconds age(std::chrono::nanoseconds now) const noexcept;
-  /// What hands feel of it, body axes; nullptr if it is not felt.
+  /// The model of the force that hands feel, body axes; nullptr if it is not felt.
   [[nodiscard]] const deadreckon::ForceModel* force_model() const noexcept;
   /// Updates received so far.
   [[nodiscard]] std::uint64_t updates() const noexcept;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Remote entities for a program: a copy of each predictor on the program's own thread, so that it
-// can ask for any pose at any instant while the loops go on.
+// can ask for any pose at any instant while the loops run.
 #pragma once
 
 #include <cstddef>

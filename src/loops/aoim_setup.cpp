@@ -31,7 +31,7 @@ void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig&
 
 aoim::TierTable tiers_of(const SceneFile& scene) { return {tier_kinds_of(scene), scene.aoim.pool}; }
 
-// [s]. Members have the same scene, so none of them states a longer one.
+// [s]. All members have the same scene, so none of them states a longer one.
 double longest_validity(const SceneFile& scene) {
   double longest = pdu::to_seconds(scene.hand.validity);
   for (const EntityConfig& entity : scene.entities) {
@@ -141,7 +141,7 @@ std::optional<GroupPool> urgent_pool_of(const SceneFile& scene) {
 GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   if (scene.network.interop) return {};
-  // Assigned groups: as many as there are cells, until none is left.
+  // Assigned groups: one for each cell, as long as there are free ones.
   const aoim::CellPartition cells = cells_of(scene.aoim);
   std::vector<std::size_t> within_tiers;
   for (const TierConfig& tier : scene.aoim.tiers) {

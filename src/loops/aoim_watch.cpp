@@ -79,8 +79,8 @@ void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept
   if (turn == Turn::ends) end(NoticeKind::numberings_full, "all lost datagrams are counted again");
 }
 
-// If plain DIS comes in one group, only the radius keeps an entity from being shown. Else what is
-// outside is not even received, and its distance is unknown.
+// If plain DIS uses one group, only the radius excludes an entity from view. Else entities outside
+// are not received, and their distance is unknown.
 void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (!begun_) window_end_ = now_ + kFirstWindow;
   begun_ = true;
@@ -91,7 +91,7 @@ void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   const double nearest = aoim.sight().take_nearest_outside();
   const bool inside =
       counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
-  // What rests is heard once a minute or less: only who has never shown anything is told.
+  // Entities at rest are received once a minute or less: report only if none was ever shown.
   const bool has_shown = counts.accepted + counts.lingering > 0;
   const bool outside = scene_.network.interop ? counts.outside > at_begin_.outside
                                               : !has_shown && std::min(peers, peers_at_begin_) > 0;

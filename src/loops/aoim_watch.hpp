@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the user what the area-of-interest layer leaves out: each condition once when it
-// begins and once when it is over.
+// Reports to the user what the area-of-interest layer excludes: each condition once when it begins
+// and once when it ends.
 #pragma once
 
 #include <chrono>
@@ -24,8 +24,8 @@ class AoimWatch {
   /// `counters` outlive it.
   AoimWatch(const SceneFile& scene, Counters& counters);
 
-  /// Call it after each listen() of the manager for the cells, with its result. Notices go to
-  /// `out`.
+  /// Call it after each listen() of the manager for the cells, with its result. Notices are added
+  /// to `out`.
   void look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
@@ -51,9 +51,9 @@ class AoimWatch {
   std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
   Nanoseconds window_end_{0};          // end of the window in which entities are counted
-  aoim::InterestCounts at_begin_;      // of that window
-  std::size_t peers_at_begin_ = 0;     // of it
-  bool all_outside_reported_ = false;  // and none came inside since
+  aoim::InterestCounts at_begin_;      // at the begin of that window
+  std::size_t peers_at_begin_ = 0;     // at the begin of that window
+  bool all_outside_reported_ = false;  // and none has come inside since
 };
 
 }  // namespace reckon::peer

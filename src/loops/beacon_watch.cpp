@@ -53,7 +53,8 @@ void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& bef
   }
 }
 
-// If two peers carry one tag, followers go to the one that the scene's leader received first.
+// If two peers have beacons with one tag, followers use the one that the scene's leader received
+// first.
 void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
                                haptics::SpscRing<Notice>& out) noexcept {
   for (Carried& one : carried_) {

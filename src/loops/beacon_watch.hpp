@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the user the beacons that this peer follows and carries: when they are found, move,
-// are lost, or belong to another peer.
+// Reports to the user when beacons that this peer follows or has are found, move, are lost, or
+// belong to another peer.
 #pragma once
 
 #include <chrono>
@@ -21,13 +21,14 @@ namespace reckon::peer {
 /// One thread; allocates at set-up, and when entities with beacons are new.
 class BeaconWatch {
  public:
-  /// A beacon of ours that the map has in another cell for this long is reported as another peer's.
+  /// A beacon of ours that the map shows in another cell for this long is reported as another
+  /// peer's.
   static constexpr std::chrono::nanoseconds kDisputed = std::chrono::seconds(3);
 
   /// @param follow names, as for beacon_names
   explicit BeaconWatch(std::string_view follow);
 
-  /// Adds the beacon of an entity of ours, or removes it.
+  /// Adds the beacon of an entity of ours.
   void add(EntityNumber number, std::string_view name);
   void remove(EntityNumber number) noexcept;
   /// Calls visit(EntityNumber, tag) for each of ours.
@@ -37,7 +38,7 @@ class BeaconWatch {
   }
   [[nodiscard]] bool carries() const noexcept { return !carried_.empty(); }
 
-  /// Call it some twenty times a second. Notices go to `out`, followed beacons to `view`.
+  /// Call it some twenty times a second. Notices are added to `out`, followed beacons to `view`.
   void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out, LeadersView& view) noexcept;
 
@@ -51,7 +52,7 @@ class BeaconWatch {
     EntityNumber number;
     std::uint32_t tag;
     std::string name;
-    std::chrono::nanoseconds ours{};  ///< when the map last had it in our cell, or lacked it
+    std::chrono::nanoseconds ours{};  ///< last time that the map had it in our cell, or had none
     bool reported = false;            ///< as another peer's
   };
   void report_followed(const aoim::FollowedBeacon& now, Followed& before,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies of the scene in a pass of the model loop: the owner sends them, the others show them.
+// The bodies of the scene in a pass of the model loop: their owner sends them, other peers show
+// them.
 #pragma once
 
 #include <chrono>
@@ -22,7 +23,7 @@ class BodyStage {
  public:
   explicit BodyStage(const ModelWiring& wiring);
 
-  /// Makes entities of the bodies that this peer owns, by add(number, description), under numbers
+  /// Makes entities of the bodies that this peer owns, by add(number, description), with numbers
   /// from `first` on.
   template <typename Add>
   void add_own(EntityNumber first, Add&& add) {
@@ -35,7 +36,7 @@ class BodyStage {
       if (is_body) add(static_cast<EntityNumber>(first + number), description_of(object, number));
     }
   }
-  /// Moves these entities, by move(number, truth). One that sleeps keeps its last state, which its
+  /// Moves these entities, by move(number, truth). A sleeping one keeps its last state, which its
   /// heartbeat repeats.
   template <typename Move>
   void move_own(const OwnedEntities& owned, Move&& move) noexcept {
@@ -51,17 +52,17 @@ class BodyStage {
     }
   }
 
-  /// An update that the table of remote entities has taken.
+  /// Takes an update that the table of remote entities has accepted.
   void note(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
             RemoteEntities& remote) noexcept;
-  /// Publishes the bodies that others own. @param offset universal time less that of the servos
+  /// Publishes the bodies of other owners. @param offset universal time minus the servos' time
   void publish(std::chrono::nanoseconds offset, RemoteEntities& remote) noexcept;
   /// Finds the owner of the bodies among the peers, if the scene has any.
   void look(const aoim::Presence& presence) noexcept {
     if (has_any_) owner_.look(presence);
   }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
-  /// Writes how many there are, and how many are awake.
+  /// Writes their number, and the number of awake ones.
   void show(PeerView& view) const noexcept;
 
  private:
@@ -69,10 +70,10 @@ class BodyStage {
                                                  std::size_t number) const;
 
   const SceneFile& scene_;
-  haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: there are none of ours
+  haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours
   EntityNumber first_ = 0;
   BodyMover* mover_;  // null: nothing is carried
-  bool has_any_;      // the scene, whoever owns them
+  bool has_any_;      // whether the scene has bodies, of any owner
   BodyOwner owner_;
   std::optional<RemoteBodies> remote_;
 };

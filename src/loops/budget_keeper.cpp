@@ -31,8 +31,8 @@ void BudgetKeeper::look(const RemoteEntities& remote, aoim::AreaOfInterestManage
   report_reach(now, out);
 }
 
-// Others send as much as their nearest receiver asks for. If that is not us, we may get more than
-// we ask for.
+// A sender's rate follows its nearest receiver. If that is another peer, we may receive more than
+// requested.
 void BudgetKeeper::ask_for_less(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
                                 Nanoseconds now, haptics::SpscRing<Notice>& out) {
   clients_.clear();
@@ -56,7 +56,7 @@ void BudgetKeeper::ask_for_less(const RemoteEntities& remote, aoim::AreaOfIntere
   }
 }
 
-// While the limit still closes in there is nothing to say yet.
+// While the limit is still being reduced there is no result to report.
 void BudgetKeeper::report_reach(Nanoseconds now, haptics::SpscRing<Notice>& out) {
   most_heard_ = limit_.is_cut() ? std::max(most_heard_, limit_.heard()) : limit_.heard();
   if (unmet_.turn(limit_.is_unmet(), now) == NoticeCondition::Turn::begins) {

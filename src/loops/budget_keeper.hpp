@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The budget of a peer ([aoim] budget): the octets a second that it accepts.
+// The budget of a peer ([aoim] budget): the octets per second that it accepts.
 #pragma once
 
 #include <chrono>
@@ -18,11 +18,11 @@
 
 namespace reckon::peer {
 
-/// Keeps to the budget in two ways. With tiers by distance it asks the owners for less, by counting
-/// distances as longer; they comply as far as no other receiver needs more. Where more is heard
-/// nevertheless it leaves cells, the most distant ones first, but never those of our own entities
-/// nor what hands can reach. One thread; allocates when more entities are received than ever
-/// before.
+/// Enforces the budget in two ways. With tiers by distance it requests less from owners, by
+/// reporting greater distances; they comply unless another receiver needs more. If the received
+/// rate is still too high it leaves cells, the most distant first, but never cells of our own
+/// entities or within reach of hands. One thread; allocates when more entities are received than
+/// ever before.
 class BudgetKeeper {
  public:
   /// @param scene with a budget
@@ -30,8 +30,8 @@ class BudgetKeeper {
 
   /// Counts a received datagram.
   void note_heard(std::size_t octets) noexcept { heard_ += octets; }
-  /// Call it some twenty times a second. What the budget costs, and that it cannot be met, is
-  /// reported to `out`.
+  /// Call it some twenty times a second. Reports to `out` the effect of the budget, and whether it
+  /// cannot be met.
   void look(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
@@ -46,7 +46,7 @@ class BudgetKeeper {
   aoim::ReachLimit limit_;
   Nanoseconds next_ask_ = Nanoseconds::min();
   std::vector<aoim::ChannelClient> clients_;
-  double most_heard_ = 0.0;  // [B/s], since all fitted
+  double most_heard_ = 0.0;  // [B/s], since the rate last met the budget
   NoticeCondition stretched_, cut_, unmet_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tiers by distance ([[aoim.tier]]): the places of those that receive this peer's updates.
+// Tiers by distance ([[aoim.tier]]): the positions of the receivers of this peer's updates.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The distance from which our entities can be touched, and so the contact groups that this peer
+// The distance at which our entities can be touched, and from it the contact groups that this peer
 // subscribes to. Part of the model loop.
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace reckon::peer {
 
 /// Distance from an entity's surface within which the contact groups of cells are subscribed to
-/// [m], for a probe of this radius: the reach of contact, and the way of another hand while a group
-/// is joined.
+/// [m], for a probe of this radius: the reach of contact, plus the path of another hand while a
+/// group is being joined.
 [[nodiscard]] double contact_reach(const HandModel& hand) noexcept;
 
 /// The foci for AreaOfInterestManager::listen(). One thread; allocates if there are more than ever
@@ -27,9 +27,9 @@ class ContactFoci {
   explicit ContactFoci(const SceneFile& scene);
 
   void clear() noexcept { balls_.clear(); }
-  /// Adds an entity of ours, unless it cannot be felt. A plane is felt as far as its owner senses.
+  /// Adds an entity of ours if it can be felt. A plane is felt as far as its owner senses.
   void add(const OwnedEntity& entity);
-  /// Adds the position of a remote entity that one of ours could touch, however large it is.
+  /// Adds the position of a remote entity that one of ours could touch, regardless of its size.
   void add_near(const Eigen::Vector3d& position);
   /// Valid until the next call.
   [[nodiscard]] std::span<const aoim::Focus> foci() noexcept { return cover_.cover(balls_); }

@@ -12,7 +12,7 @@ namespace {
 using haptics::RemoteHand;
 using std::chrono::nanoseconds;
 
-// Plain DIS programs have no hands: what they call one neither feels ours nor keeps accounts.
+// Plain DIS programs have no hands: their life forms neither feel ours nor keep energy accounts.
 void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, bool interop,
                  RemoteHand& hand) {
   hand.id = row.id;
@@ -29,7 +29,7 @@ void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, bool i
   hand.has_device = row.type.kind == pdu::EntityKind::life_form && (row.epoch != 0 || interop);
 }
 
-// An own body: its prediction is not older than the last pass, and no update is lost.
+// A body of ours: its state is at most one pass old, and no update is lost.
 void fill_own(const NearBody& body, nanoseconds at, const ContactSources& sources,
               RemoteHand& hand) {
   hand.id = body.own->id();
@@ -41,7 +41,7 @@ void fill_own(const NearBody& body, nanoseconds at, const ContactSources& source
   hand.epoch = sources.epoch;
 }
 
-// Our other hand: both servos keep accounts, as across the network.
+// Another hand of ours: both servos keep accounts, as across the network.
 void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand& out) {
   const haptics::ServoSnapshot& servo = other.servo();
   out.neighbours = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies that a hand can touch, for its servo: remote ones by their predictors, our own as they
-// are. Part of the model loop.
+// Publishes the bodies within reach of a hand to its servo: remote ones with their predictors, our
+// own with their true states. Part of the model loop.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace reckon::peer {
 
-/// Inputs of contacts; all valid until the pass ends.
+/// Inputs of contacts; all must remain valid until the pass ends.
 struct ContactSources {
   const EnergyBooks& books;
   std::span<const HandPort> hands;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the user what is wrong with a program's own effects: each fault of each effect once.
+// Reports faults of a program's own effects to the user: each fault of each effect once.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ class CustomEffectWatch {
  private:
   struct Watched {
     std::shared_ptr<const haptics::GuardReport> report;
-    unsigned told = 0;  ///< bits of the faults
+    unsigned told = 0;  ///< bits of the reported faults
   };
   std::vector<Watched> watched_;
 };

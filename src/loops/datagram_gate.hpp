@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Refuses datagrams that cannot belong to this exercise. The reader refuses them at once, which
-// costs less than to queue them.
+// costs less than queueing them.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace reckon::peer {
 
-/// Why a datagram is refused.
+/// Reason to refuse a datagram.
 enum class Refusal : std::uint8_t {
   none,
   version,    ///< its first octet is not a supported DIS version
-  length,     ///< it is shorter than a PDU header, or its PDU length is
+  length,     ///< it, or the length in its PDU header, is shorter than a PDU header
   exercise,   ///< its first PDU belongs to another exercise
   sealed,     ///< it is sealed, and the link has no key
   no_length,  ///< the length field of its first PDU is 0

@@ -15,13 +15,13 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kMostTaken = 512;  // datagrams decoded in a step, about 1 ms
-// Datagrams searched together for states that a later one replaces. The greater number, as many
-// large datagrams as the ring holds, is for a backlog in which most are replaced.
+// Number of datagrams searched together for states that a later one replaces. The larger number,
+// the capacity of the ring in large datagrams, is for a backlog in which most are replaced.
 constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
-constexpr std::size_t kMostSeen = 4096;  // datagrams read in a step, replaced ones included
+constexpr std::size_t kMostSeen = 4096;  // datagrams read in a step, including replaced ones
 constexpr std::size_t kBacklog = 16;     // fewer pending datagrams are no backlog
 
-// Whether an update of this form can be decoded only with the key state that was sent before it.
+// Whether updates of this form depend on a key state sent before.
 bool needs_key_states(pdu::CompressedForm form) { return form == pdu::CompressedForm::residual; }
 
 // By aoim::IncomingVerdict.
@@ -79,7 +79,7 @@ void DatagramIntake::drain(DatagramRing& ring, const Reading& reading) noexcept 
   }
 }
 
-// Returns the number of datagrams of which something was taken.
+// Returns the number of datagrams that were read.
 std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
                                       const Reading& reading) noexcept {
   std::size_t count = 0, taken = datagrams.size();
@@ -105,14 +105,14 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
   return taken;
 }
 
-// Senders whose states may be key states: peers, for their own entities.
+// Peers may send key states, for their own entities.
 KeySpeaker DatagramIntake::key_speaker(const Arrival& arrival) const noexcept {
   if (arrival.epoch == 0 || !needs_key_states(scene_.network.compression)) return {};
   const auto id = aoim_.presence().id_of(arrival.epoch);
   return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
 }
 
-// False if a datagram is not to be read.
+// False if the datagram is dropped.
 bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
                            ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entry of datagrams into the model loop: the area-of-interest manager judges them, then they are
-// decoded and handed on update by update. If many are pending, overtaken states are left out.
+// Entry of datagrams into the model loop: the area-of-interest manager filters them, then they are
+// decoded and passed on update by update. With a backlog, states with a newer one pending are
+// skipped.
 #pragma once
 
 #include <cstddef>
@@ -38,12 +39,12 @@ class DatagramIntake {
   DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, TimeKeeper& time,
                  RemoteEntities& remote, ModelCounters& counted);
 
-  /// Reads pending datagrams, those of urgent tiers first. The number in a step is bounded, so that
+  /// Reads pending datagrams, beginning with urgent tiers. The number in a step is limited, so that
   /// a flood does not delay the own hand's updates.  @param own the simulation of this peer
   void read(const Pass& pass, const aoim::PeerId& own, UpdateHandler& handler) noexcept;
-  /// Reports pending datagrams to the tap, because nobody will read them.
+  /// Reports pending datagrams to the tap as unread, at shutdown.
   void report_unread() noexcept;
-  /// The key states of this epoch are not used any more.
+  /// Drops the key states of this epoch.
   void forget_keys(std::uint32_t epoch) noexcept { decoder_.forget_keys(epoch); }
 
  private:
@@ -74,8 +75,8 @@ class DatagramIntake {
   DatagramDecoder decoder_;
   OvertakenStates overtaken_;
   std::vector<QueuedDatagram> queued_;     // datagrams taken at a time
-  std::vector<ArrivedDatagram> admitted_;  // those of queued_ that are read
-  bool looks_far_ = false;                 // nearly all pending datagrams were overtaken
+  std::vector<ArrivedDatagram> admitted_;  // the admitted part of queued_
+  bool looks_far_ = false;                 // nearly all pending datagrams were replaced
 };
 
 }  // namespace reckon::peer

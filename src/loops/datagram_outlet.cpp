@@ -32,7 +32,7 @@ void DatagramOutlet::drop_stale(aoim::GroupIndex group,
   note(group, octets, DatagramFate::stale_unsent);
 }
 
-// Notifies the tap that the datagram has a number, and of an immediate fate.
+// Reports to the tap that the datagram has a number, and an immediate fate if any.
 void DatagramOutlet::note(aoim::GroupIndex group, std::span<const std::byte> octets,
                           DatagramFate more) noexcept {
   if (tap_ == nullptr) return;

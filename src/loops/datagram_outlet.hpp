@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Exit of datagrams from the model loop into the ring of the writer. A tap is notified of each.
+// Exit of datagrams from the model loop into the writer's ring. Reports each to the tap.
 #pragma once
 
 #include <chrono>
@@ -13,9 +13,10 @@
 
 namespace reckon::peer {
 
-/// Sends no more than others read of one sender (SenderBudget), however many entities are new: at
-/// most kRate datagrams a second and kBurst at once, of which updates of one pass may be kAhead
-/// times as many if none share a datagram; the later ones wait for that. One thread; no allocation.
+/// Limits the send rate to the rate that others read from one sender (SenderBudget), even for many
+/// new entities: kRate datagrams a second and kBurst at once. Within one pass kAhead times as many
+/// updates are allowed, as they may not share datagrams; later passes make up for the excess. One
+/// thread; no allocation.
 class DatagramOutlet {
  public:
   /// References outlive this.
@@ -25,7 +26,7 @@ class DatagramOutlet {
   static constexpr double kRate = 9000.0, kBurst = 100.0;
   static constexpr std::size_t kAhead = 4;
 
-  /// A pass begins.
+  /// Begins a pass.
   void begin(std::chrono::nanoseconds now) noexcept;
   /// Datagrams that the ring has room for.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
@@ -46,7 +47,7 @@ class DatagramOutlet {
   DatagramRing& ring_;
   DatagramTap* tap_;
   ModelCounters& counted_;
-  double tokens_ = kBurst;  // datagrams that may be sent now; below 0: too many were
+  double tokens_ = kBurst;  // datagrams that may be sent now; below 0: too many were sent
   std::chrono::nanoseconds filled_{0};
 };
 

@@ -21,7 +21,7 @@ constexpr std::size_t kLongest = stride(kMaxDatagram);
 
 }  // namespace
 
-// Takes kAlign octets, so that a header fits before the end wherever an entry ends.
+// Occupies kAlign octets, so that a header fits before the end after any entry.
 struct DatagramRing::Header {
   GroupAddress group;
   IpEndpoint sender;
@@ -63,7 +63,7 @@ bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arri
   return true;
 }
 
-// Starting over wastes once less than one entry of the greatest length.
+// A wrap-around wastes at most one entry of the greatest length.
 std::size_t DatagramRing::room() const noexcept {
   const std::uint64_t used =
       head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire);
@@ -73,7 +73,7 @@ std::size_t DatagramRing::room() const noexcept {
 
 std::size_t DatagramRing::most() const noexcept { return capacity() / kLongest - 1; }
 
-// Moves `position` behind the entry.
+// Moves `position` past the entry.
 QueuedDatagram DatagramRing::entry_at(std::uint64_t& position) const noexcept {
   Header header = header_at(position);
   if (header.size == kStartOver) {

@@ -24,25 +24,25 @@ struct QueuedDatagram {
 };
 
 /// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread. Each
-/// takes 64 octets more than its own size, rounded up to 64. Wait-free on both sides. The memory is
-/// reserved at construction and taken from the system at its first use.
+/// entry takes 64 octets more than its datagram, rounded up to 64. Wait-free on both sides. The
+/// memory is reserved at construction and committed by the system at first use.
 class DatagramRing {
  public:
-  /// @param octets are rounded up to a power of two, of 64 KiB at least.  @throws std::bad_alloc.
+  /// @param octets rounded up to a power of two, at least 64 KiB.  @throws std::bad_alloc.
   explicit DatagramRing(std::size_t octets);
 
-  /// Writer: copies one in; false if there is no room for it or it is longer than kMaxDatagram.
+  /// Writer: copies a datagram; false if there is no room or it is longer than kMaxDatagram.
   bool push(const GroupAddress& group, std::chrono::nanoseconds arrival,
             std::span<const std::byte> octets, const IpEndpoint& sender = {},
             std::uint64_t boot = 0) noexcept;
-  /// Writer: number of datagrams that fit at any length.
+  /// Writer: number of datagrams of any length that fit.
   [[nodiscard]] std::size_t room() const noexcept;
   /// room() of an empty ring.
   [[nodiscard]] std::size_t most() const noexcept;
 
-  /// Reader: the oldest one, or nullptr if there is none.
+  /// Reader: the oldest datagram, or nullptr if there is none.
   [[nodiscard]] const QueuedDatagram* front() noexcept;
-  /// Reader: the oldest ones, as far as `out` has room; returns their number.
+  /// Reader: the oldest datagrams, as many as `out` can hold; returns their number.
   std::size_t front(std::span<QueuedDatagram> out) noexcept;
   /// Frees the room of all datagrams of the last front().
   void pop() noexcept;
@@ -58,7 +58,7 @@ class DatagramRing {
   [[nodiscard]] QueuedDatagram entry_at(std::uint64_t& position) const noexcept;
   [[nodiscard]] Header header_at(std::uint64_t position) const noexcept;
   void store_header(std::uint64_t position, const Header& header) noexcept;
-  // Octets from a position to the end of the memory: a longer entry starts over.
+  // Octets from a position to the end of the memory; a longer entry is written at its start.
   [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept {
     return capacity() - (position & mask_);
   }
@@ -67,7 +67,7 @@ class DatagramRing {
   std::unique_ptr<std::byte[]> octets_;
   alignas(64) std::atomic<std::uint64_t> head_{0};  // octets written since the start
   alignas(64) std::atomic<std::uint64_t> tail_{0};  // octets freed since the start
-  std::uint64_t next_tail_ = 0;                     // reader's own, set by front()
+  std::uint64_t next_tail_ = 0;                     // used by the reader, set by front()
   QueuedDatagram front_;
 };
 

@@ -15,8 +15,8 @@ namespace {
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// An update of a slightly wrong pose or a repetition may wait for a bundle; new states and those of
-// a contact may not.
+// A small pose error or a heartbeat may wait for a bundle; new states and states in contact may
+// not.
 bool is_patient(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation ||
          reason == SendReason::heartbeat;
@@ -27,10 +27,10 @@ bool is_by_distance(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation;
 }
 
-// A receiver may approach meanwhile.
+// A receiver may approach in the meantime.
 constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
-// The number of urgent tiers, and so the innermost tier with a row of channels.
+// Number of urgent tiers, and so index of the innermost tier with a row of channels.
 std::size_t urgent_of(const Audiences* audiences) noexcept {
   return audiences != nullptr ? audiences->urgent() : 0;
 }
@@ -52,7 +52,7 @@ std::optional<std::size_t> EntitySender::asked_tier(const OwnedEntity& entity,
   return {};
 }
 
-// A new listener of a row has been a listener of the outer one.
+// A new listener of a row has been a listener of the outer row.
 bool EntitySender::is_asked_in(std::size_t tier, const OwnedEntity& entity,
                                const Pass& pass) const noexcept {
   const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
@@ -61,7 +61,7 @@ bool EntitySender::is_asked_in(std::size_t tier, const OwnedEntity& entity,
                          {entity.last_sent_at(audience), {}}, pass.now);
 }
 
-// Whether somebody requests it. The next decision for the requesting tiers is then `event`.
+// Whether a tier requests it. The next decision for the requesting tiers is then `event`.
 bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
   const std::optional<std::size_t> tier = asked_tier(entity, pass);
   if (!tier) return false;
@@ -91,8 +91,8 @@ bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audienc
       audience, pdu::to_seconds(entity.last_sent_at(audience - 1)), pdu::to_seconds(pass.now));
 }
 
-// The records of an entity in company are sent at once to peers nearby, to an urgent tier if there
-// is one; all others receive as much as they need to see.
+// Records of an entity near others are sent at once to nearby peers, in an urgent tier if there is
+// one; other peers receive only the updates for display.
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
@@ -118,7 +118,7 @@ Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds
   return {waits ? SendReason::none : inmost, in_company};
 }
 
-// The outermost tier with a due update determines how far the update goes.
+// The outermost tier with a due update determines the recipients.
 Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                                        SendReason inmost, bool in_company) noexcept {
   const Audiences& audiences = *entity.audiences();
@@ -147,7 +147,7 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const n
   return channel != nullptr ? channel : &kNothing;
 }
 
-// The row of a tier: its own if rows have groups, but not for a receiver that gets everything
+// The row of a tier: its own if rows have groups, except for a receiver that gets all updates
 // regardless of its budget.
 const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
                                               std::size_t audience) const noexcept {
@@ -171,7 +171,7 @@ bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t a
   const aoim::Channel* channel = channel_of(entity, std::max(audience, urgent_of(audiences)));
   if (channel == nullptr || channel->kept) return false;
   const nanoseconds last = by_rows ? entity.last_sent_at(audience) : entity.last_sent;
-  // What has stopped is at rest for its receivers, too, only when they know.
+  // A stopped entity is at rest for its receivers only after they received that state.
   const bool rests =
       entity.is_resting() && !entity.is_shown_moving(by_rows ? audience : 0, pass.now);
   const double rate = rests ? channel->passive_hz : channel->active_hz;
@@ -260,7 +260,7 @@ std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position&
   return size;
 }
 
-// Octets of the state as sent. After an event, and for newcomers, it is plain.
+// Octets of the state as sent. After an event, and for newcomers, it is uncompressed.
 EntitySender::Written EntitySender::send_to_all(OwnedEntity& entity, const aoim::Position& position,
                                                 std::span<const std::byte> records,
                                                 const aoim::BundleTerms& terms, bool is_event,

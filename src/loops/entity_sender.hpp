@@ -19,18 +19,18 @@ namespace reckon::peer {
 /// The pass in which an update is sent.
 struct Pass {
   std::chrono::nanoseconds now{0};
-  std::chrono::nanoseconds utc{0};  ///< the same instant; without jumps
+  std::chrono::nanoseconds utc{0};  ///< the same instant in UTC; without jumps
 };
 
 /// Reason and manner of an update.
 struct Dispatch {
   deadreckon::SendReason reason = deadreckon::SendReason::event;
-  bool in_company = false;  ///< somebody nearby may feel it, so it does not wait
+  bool in_company = false;  ///< a nearby hand may feel it, so it does not wait
   std::size_t audience = kAllAudiences;
-  bool is_asked = false;  ///< a newcomer has not received it
+  bool is_asked = false;  ///< requested by a newcomer
 };
 
-/// The sending half of the model loop. One thread; no allocation.
+/// The sending part of the model loop. One thread; no allocation.
 class EntitySender {
  public:
   /// References outlive this.
@@ -38,13 +38,13 @@ class EntitySender {
                const TimeKeeper& time, Counters& counters)
       : network_(network), aoim_(aoim), time_(time), counters_(counters, aoim.tiers()) {}
 
-  /// The outermost tier for which the entity is requested, whatever its predictor says: by a
+  /// The outermost tier for which the entity is requested, independent of its predictor: by a
   /// newcomer, a change of cell, or a new listener of a tier.
   [[nodiscard]] std::optional<std::size_t> asked_tier(const OwnedEntity& entity,
                                                       const Pass& pass) const noexcept;
 
-  /// Decides by the truth at `at`, and sends if an update is due. True if it was sent.
-  /// @param probes at which its force has to be right  @param accounts sent with it
+  /// Decides by the true state at `at`, and sends if an update is due. True if it was sent.
+  /// @param probes at which its force must be accurate  @param accounts sent with it
   bool consider(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at,
                 std::span<const deadreckon::ProbeState> probes = {},
                 std::span<const EnergyAccount> accounts = {}) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sources of what can be felt, for the read loop: only what they send wakes the model loop at
-// once.
+// Publishes the sources of felt bodies to the read loop: only their datagrams wake the model loop
+// at once.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace reckon::peer {
 
-/// Source addresses of the remote bodies in reach of a hand.
+/// Source addresses of the remote bodies within reach of a hand.
 struct FeltSources {
   static constexpr std::size_t kMost = 16;
-  std::array<IpEndpoint, kMost> sources{};  ///< none twice
+  std::array<IpEndpoint, kMost> sources{};  ///< without duplicates
   std::size_t count = 0;
-  bool all = true;  ///< what any source sends may be felt
+  bool all = true;  ///< datagrams of any source may be felt
 
-  /// Whether a delay of what this source sends can be felt. An unspecified one may be any.
+  /// Whether a delay of this source's datagrams can be felt. An unspecified source may be any.
   [[nodiscard]] bool contains(const IpEndpoint& source) const noexcept {
     const auto end = sources.begin() + static_cast<std::ptrdiff_t>(count);
     return all || source.is_unspecified() || std::find(sources.begin(), end, source) != end;
@@ -36,8 +36,9 @@ class FeltSourcesPublisher {
   /// @param out outlives it; null: not published
   explicit FeltSourcesPublisher(haptics::TripleBuffer<FeltSources>* out) noexcept : out_(out) {}
 
-  /// Publishes the sources of these bodies when they have changed. Beyond FeltSources::kMost it is
-  /// all.  @param bodies in reach of each hand  @param all whether more than these can be felt
+  /// Publishes the sources of these bodies if they changed. With more than FeltSources::kMost,
+  /// `all` is set.  @param bodies within reach of each hand  @param all whether further bodies can
+  /// be felt
   void publish(std::span<const NearBodies> bodies, bool all, const RemoteEntities& remote) noexcept;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sources of known peers, for the read loop: each has its own share of the arriving traffic.
+// Publishes the sources of known peers to the read loop: each has its own share of the arriving
+// traffic.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,8 @@ class KnownSourcesPublisher {
   /// @param out outlives it; null: not published
   explicit KnownSourcesPublisher(haptics::TripleBuffer<KnownSources>* out);
 
-  /// Publishes the addresses of joined and confirmed peers when they have changed: a peer that has
-  /// announced itself only once may be invented.
+  /// Publishes the addresses of joined and confirmed peers if they changed: a peer that has
+  /// announced itself only once may be forged.
   void publish(const aoim::Presence& presence) noexcept;
 
  private:

@@ -18,14 +18,14 @@ namespace reckon::peer {
 /// Watches the leaders of one manager. One thread; allocates when cells are new.
 class LeaderWatch {
  public:
-  /// Changes of cells within this time are one sentence for each leader.
+  /// Changes of cells within this time are reported in one sentence for each leader.
   static constexpr std::chrono::nanoseconds kGather = std::chrono::milliseconds(500);
 
   /// Makes the counters leader_changes, cells_led, group_map_version, states_relayed_in and
   /// snapshot_parts_out if `on`. `counters` outlives it.
   LeaderWatch(Counters& counters, bool on);
 
-  /// Call it some twenty times a second. Notices go to `out`.
+  /// Call it some twenty times a second. Notices are added to `out`.
   void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
   /// Records a state that a leader relayed to us.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Functions by which an epoch proves itself (aoim/presence/life_chain.hpp): BLAKE2b, by libsodium.
+// Functions that prove an epoch (aoim/presence/life_chain.hpp): BLAKE2b, by libsodium.
 #pragma once
 
 #include <cstdint>

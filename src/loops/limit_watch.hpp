@@ -24,14 +24,14 @@ class LimitWatch {
   LimitWatch(std::size_t capacity, Counters& counters);
 
   /// Call it some times a second.
-  /// @param unfelt bodies nearby that a servo leaves out now, the largest number of all servos.
+  /// @param unfelt bodies nearby that a servo omits now, the largest number of all servos.
   /// @param crowder host of most of the bodies nearby.
-  /// @param refused owner of the force model refused last.  @param out receives notices.
+  /// @param refused owner of the last refused force model.  @param out receives notices.
   void look(std::size_t unfelt, const aoim::SourceAddress& crowder, const pdu::EntityId& refused,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
  private:
-  /// A counter that grows while something is lost or held up.
+  /// A counter that increases while something is lost or delayed.
   struct Growing {
     const Counter& counter;
     std::uint64_t before = 0;

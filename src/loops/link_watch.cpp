@@ -14,7 +14,7 @@ namespace {
 
 using Turn = NoticeCondition::Turn;
 
-/// An errno in words and its remedy, without an allocation.
+/// Text and remedy of an errno, without an allocation.
 struct Reason {
   std::string_view what, separator, remedy;
 };
@@ -25,7 +25,7 @@ Reason reason_of(int error, std::string_view (*remedy)(const std::error_code&) n
   return {what == nullptr ? "an unknown error" : what, to_do.empty() ? "" : "; ", to_do};
 }
 
-// A refusal that stays alone is reported after this time.
+// A single refusal is reported after this time.
 constexpr std::chrono::nanoseconds kLoneRefusal = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -42,7 +42,7 @@ LinkWatch::LinkWatch(Link& link, const GroupAddress& base, std::size_t longest_b
 void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   now_ = now;
   out_ = &out;
-  // The reading thread goes on meanwhile, so the missing count is read before its reason.
+  // The reading thread continues meanwhile, so the missing count is read before its reason.
   const bool is_deaf = base_unjoined_.value() > 0;
   const std::uint64_t unjoined = groups_unjoined_.value();
   at_ = link_.statistics();
@@ -80,7 +80,7 @@ void LinkWatch::report_base(bool is_deaf) noexcept {
     end(NoticeKind::base_unjoined, "the base group {} is joined: peers can be heard", base_.data());
 }
 
-// Confirmed by a second look: the two counts are written one after the other, and the base group
+// Confirmed in the next call: the two counts are written one after the other, and the base group
 // may be in only one of them.
 void LinkWatch::report_groups(std::uint64_t count) noexcept {
   const bool were_any = std::exchange(any_unjoined_, count > 0);
@@ -95,8 +95,8 @@ void LinkWatch::report_groups(std::uint64_t count) noexcept {
   if (turn == Turn::ends) end(NoticeKind::groups_unjoined, "all groups could be joined");
 }
 
-// Whether all sends fail is known only after the look that finds the first failure, which also
-// contains earlier successes.
+// Whether all sends fail is known only after the call that finds the first failure, because that
+// call also contains earlier successes.
 void LinkWatch::report_sends() noexcept {
   bool fails = at_.send_errors > before_.send_errors;
   if (fails && !refusal_) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Reports the condition of a peer's link to the user: interfaces that appear and disappear, groups
-// that cannot be joined, sends that fail, datagrams that the kernel drops.
+// that cannot be joined, failed sends, datagrams dropped by the kernel.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ namespace reckon::peer {
 class LinkWatch {
  public:
   /// `link` and `counters` outlive it; it watches base_unjoined and groups_unjoined.
-  /// @param longest_bundle that the scene asks for [octets]
+  /// @param longest_bundle in the scene [octets]
   LinkWatch(Link& link, const GroupAddress& base, std::size_t longest_bundle, Counters& counters);
 
   /// Call it some times a second. Each problem is reported with its remedy when it begins, and
-  /// again when it is over. Notices go to `out`.
+  /// again when it is over. Notices are added to `out`.
   void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
   /// Present source address of sent datagrams.
   [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
@@ -44,20 +44,20 @@ class LinkWatch {
 
   Link& link_;
   std::array<char, 64> base_{};  ///< "239.192.1.0:3000"
-  std::size_t longest_bundle_;   ///< until it was compared, then 0
+  std::size_t longest_bundle_;   ///< 0 after its comparison
   const Counter& base_unjoined_;
   const Counter& groups_unjoined_;
-  LinkStatistics before_, at_;  ///< at the last look, and during this one
+  LinkStatistics before_, at_;  ///< in the last call, and in this one
   std::chrono::nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  // The first failed send: its time, and the number of datagrams sent by the end of that look.
+  // The first failed send: its time, and the number of datagrams sent by the end of that call.
   struct Refusal {
     std::chrono::nanoseconds since;
     std::uint64_t sent;
     bool reported;
   };
   std::optional<Refusal> refusal_;
-  bool any_unjoined_ = false;  ///< at the last look, besides the base group
+  bool any_unjoined_ = false;  ///< in the last call, other than the base group
   NoticeCondition deaf_, unjoined_, unsent_, held_, dropped_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The stages of each pass of the model loop, as a record.
+// Records the stages of each pass of the model loop.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace reckon::peer {
 
-/// Stages of a pass of the model loop, in the order in which they run: the simulation loop of the
-/// thesis (5.4, Fig 5.5), which renders where this one publishes.
+/// Stages of a pass of the model loop, in their order: the simulation loop of the thesis (5.4, Fig
+/// 5.5), where this one publishes instead of rendering.
 enum class LoopStage : std::uint8_t {
-  sensors,  ///< what has arrived: datagrams, the hands and bodies of the servos
-  actions,  ///< what the program wants: entities added, moved, removed, PDUs
-  tasks,    ///< of each entity: its track, what is near it, updates that are due
+  sensors,  ///< input: datagrams, and the hands and bodies of the servos
+  actions,  ///< actions of the program: entities added, moved, removed, PDUs
+  tasks,    ///< for each entity: its track, bodies nearby, due updates
   publish   ///< contacts to the servos, bundles to the network, views
 };
 
@@ -27,21 +27,22 @@ enum class LoopStage : std::uint8_t {
 inline constexpr std::array<std::string_view, 4> kLoopStages = {"sensors", "actions", "tasks",
                                                                 "publish"};
 
-/// One stage of one pass, as it ran.
+/// One executed stage of one pass.
 struct LoopStep {
   std::uint64_t pass = 0;            ///< from 1
   std::chrono::nanoseconds time{0};  ///< instant of the pass, by the clock of the loops
   LoopStage stage = LoopStage::sensors;
-  std::chrono::nanoseconds begin{0};  ///< since the pass began, by the host's steady clock
+  std::chrono::nanoseconds begin{0};  ///< since the begin of the pass, by the host's steady clock
   std::chrono::nanoseconds took{0};   ///< by the host's steady clock, also in simulated time
 };
 
 using LoopRing = haptics::SpscRing<LoopStep>;
 
-/// Records stages where a ring is given. One thread; allocates nothing; 40 ns a stage, 1 without.
+/// Records stages if there is a ring. One thread; allocates nothing; 40 ns per stage, 1 ns without
+/// a ring.
 class LoopTrace {
  public:
-  /// @param ring outlives it; nullptr: none. A full ring misses steps.
+  /// @param ring outlives it; nullptr: none. Steps are dropped while the ring is full.
   void record(LoopRing* ring) noexcept { ring_ = ring; }
 
   void begin_pass(std::chrono::nanoseconds now) noexcept {
@@ -49,7 +50,7 @@ class LoopTrace {
     step_.time = now;
     if (ring_ != nullptr) begun_ = ended_ = clock_.now();
   }
-  /// Call it as a stage ends.
+  /// Call it at the end of a stage.
   void end(LoopStage stage) noexcept {
     if (ring_ == nullptr) return;
     const std::chrono::nanoseconds now = clock_.now();

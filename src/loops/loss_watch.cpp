@@ -11,7 +11,7 @@ namespace reckon::peer {
 void LossWatch::look(const aoim::SequenceCounts& counts, Nanoseconds now,
                      haptics::SpscRing<Notice>& out) noexcept {
   if (window_ >= Nanoseconds(0) && now - window_ < kWindow) return;
-  // `lost` falls when a late datagram comes.
+  // `lost` decreases when a late datagram arrives.
   const std::uint64_t lost = counts.lost > lost_ ? counts.lost - lost_ : 0;
   const std::uint64_t sent = counts.received - received_ + lost;
   const bool first = window_ < Nanoseconds(0);

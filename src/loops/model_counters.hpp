@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The model loop's own counters, with the names under which they are published.
+// The counters of the model loop, with their published names.
 #pragma once
 
 #include "reckon/peer/counters/counters.hpp"

@@ -74,8 +74,8 @@ void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
     report(NoticeKind::clock_leap, "this host's clock leapt by {:+.3f} s", *leap);
 }
 
-// Datagrams that became due while this process was suspended are stale and dropped: the predictors
-// send later changes, and heartbeats the rest.
+// Datagrams that became due while this process was suspended are stale and dropped: later updates
+// replace them.
 void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const std::optional<nanoseconds> due = aoim_.aggregator().next_deadline();
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
@@ -169,8 +169,8 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
   hand.force_id = pdu::ForceId::friendly;
   hand.dead_reckoning = scene_.dead_reckoning;
   hand.model = to_force_model(scene_.hand);
-  // Both sides of a contact show the softer of two hands, else one would feel what the other
-  // cannot.
+  // Both sides of a contact show the softer of two hands; else one would feel a force that the
+  // other cannot.
   hand.model->k1 = std::min(hand.model->k1, stiffness.hands);
   report_softened(hand.marking, stiffness, watches_.notices());
   owned_.add(number, hand);
@@ -312,7 +312,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   bodies_.note(update, arrival, aoim_.presence(), remote_);
 }
 
-// In another's name it is neither obeyed nor delivered.
+// A forged PDU is neither obeyed nor delivered.
 void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
   const bool order = update.kind != Inbound::Kind::other;
   if (order && !orders_.obeys(update, arrival, pass_)) return;
@@ -374,8 +374,8 @@ void ModelLoop::doubt_the_silent() noexcept {
   if (again) heard_again_ = pass_.now;
 }
 
-// A peer that was cut off from us feels nothing of ours until it receives a new state. However many
-// peers return, updates are not more frequent than those of hands in contact.
+// A peer that was disconnected does not feel our entities until it receives a new state. Even if
+// many peers return, the rate is limited to the rate of hands in contact.
 void ModelLoop::send_what_is_felt() noexcept {
   if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
   for (const EntityNumber number : owned_.touchable()) {

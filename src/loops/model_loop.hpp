@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop between the servos and the network. It keeps the state table and the entities of this
-// peer, decides on updates and their recipients, and publishes to each servo what its hand can
-// touch. It is the only writer of all of these. A pass has the stages of LoopStage.
+// The loop between the servos and the network. It owns the state table and the entities of this
+// peer, decides on updates and their recipients, and publishes the touchable bodies to each servo.
+// It is the only writer of this data. A pass has the stages of LoopStage.
 #pragma once
 
 #include <algorithm>
@@ -39,19 +39,18 @@ namespace reckon::peer {
 
 class ModelLoop;
 
-/// A program that takes part in each pass. Called by the model loop's thread within step(); must
-/// not throw.
+/// A program's part of each pass. Called by the model loop's thread within step(); must not throw.
 class ModelGuest {
  public:
   virtual ~ModelGuest() = default;
-  /// The actions of a pass: entities may now be added, moved and removed, and PDUs sent. What has
-  /// arrived and where the hands are is known.
+  /// Action stage of a pass: the program may add, move and remove entities, and send PDUs.
+  /// Datagrams and hands of this pass have been read.
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
-  /// Receives PDUs for the program: fires, detonations, comments, and orders too. None that was
-  /// sent in another's name.  @param octets of the whole PDU, valid until the call returns
+  /// Receives PDUs for the program: fires, detonations, comments, and orders too; none with a
+  /// forged issuer.  @param octets of the whole PDU, valid until the call returns
   virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
                     const InteractionSender& sender) noexcept = 0;
-  /// A pass publishes: remote() contains all that has arrived, and all that is due was sent.
+  /// Publish stage of a pass: remote() contains all received updates, and due updates were sent.
   virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
 
@@ -60,29 +59,29 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
  public:
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
-  /// Adds a hand: an entity of the scene's [hand] that a device moves. Only before start(); at most
+  /// Adds a hand: an entity of the scene's [hand] moved by a device. Only before start(); at most
   /// kMaxDevices.
   /// @param stiffness limits of its device: others feel no more of it, and the next view shows if
-  /// that is less than the scene asks
+  /// that is less than in the scene
   EntityNumber add_hand(std::string_view marking,
                         haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                         haptics::TripleBuffer<haptics::ContactSet>& contacts,
                         const DeviceStiffness& stiffness = {});
   /// Adds an entity that the program moves, under a free number; false if it is in use. Others see
-  /// it from its first truth on.
+  /// it from its first true state on.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
-  /// Adds the bodies of the scene, under numbers from `first` on, of which the wiring tells the
-  /// motion. Only before start().
+  /// Adds the bodies of the scene, with numbers from `first` on; the wiring supplies their motion.
+  /// Only before start().
   void add_bodies(EntityNumber first);
-  /// The peer itself moves it along its track from now on. Only before start().
+  /// Moves the entity along its track from now on. Only before start().
   void follow(EntityNumber number, const EntityTrack& track);
-  /// Sets its present truth. False if there is no such entity, or the truth is not finite or older
+  /// Sets its true state. False if there is no such entity, or the state is not finite or older
   /// than the last.
   bool move(EntityNumber number, const EntityTruth& truth) noexcept;
-  /// Removes it from the exercise with a last state. False if there is none.
+  /// Removes it from the exercise with a final state. False if there is none.
   bool remove(EntityNumber number) noexcept;
-  /// For changes of its other properties; nullptr if there is none. Call look_at() after.
+  /// Gives access to its other properties; nullptr if there is none. Call look_at() after changes.
   [[nodiscard]] OwnedEntity* find_own(EntityNumber number) noexcept { return owned_.find(number); }
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
   /// Queues an encoded PDU, for the peers that can sense `place` [m, S] or for all.
@@ -101,25 +100,25 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void start(std::chrono::nanoseconds now);
   /// One pass.  @param utc the same instant as `now` by the host's clock, which may jump.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
-  /// When step() is due at the latest if nothing arrives and no servo steps. By the thread of
+  /// Latest time for the next step() if nothing arrives and no servo steps. By the thread of
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due()});
   }
-  /// Whether the delay of what arrives counts: a body is in reach of a hand or a moving body of
-  /// ours.
+  /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
+  /// body of ours.
   [[nodiscard]] bool has_near() const noexcept { return touch_.has_near(); }
-  /// Queues last Entity States (deactivated), as far as the writer has room, and finally the
-  /// farewell. True once all are queued; until then call it again when the writer has made room.
+  /// Queues final Entity States (deactivated), as far as the writer has room, and then the leaving
+  /// announcement. True once all are queued; until then call it again when the writer has room.
   bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
-  /// Reports pending datagrams from the network to the tap, because nobody will read them.
+  /// Reports pending datagrams from the network to the tap as unread, at shutdown.
   void report_unread() noexcept { intake_.report_unread(); }
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return view_.views(); }
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return watches_.notices(); }
   [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
   [[nodiscard]] RemoteEntities& remote() noexcept { return remote_; }
-  /// What remote entities emit. Rows that are over are dropped before each view.
+  /// Emissions of remote entities. Rows that have timed out are dropped before each view.
   [[nodiscard]] const EmissionTable& emissions() const noexcept { return emissions_; }
   [[nodiscard]] const OwnedEntities& owned() const noexcept { return owned_; }
   [[nodiscard]] const TimeKeeper& time() const noexcept { return time_; }
@@ -179,8 +178,9 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   OrderStage orders_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
-  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // when a silent peer was last received again
-  std::size_t goodbyes_ = 0;  // entities up to this number have sent their farewell
+  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // last time that a silent peer was received
+                                                      // again
+  std::size_t goodbyes_ = 0;  // entities up to this number have sent their final state
 };
 
 }  // namespace reckon::peer

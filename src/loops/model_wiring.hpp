@@ -33,17 +33,18 @@ struct ModelWiring {
   Link& link;  ///< for its condition; the loop sends and receives by the rings
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
-  std::size_t capacity = 100'000;                       ///< of the table of remote entities
+  std::size_t capacity = 100'000;                       ///< limit of remote entities
   bool record_changes = false;                          ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;      ///< from the read loop; may be null
-  haptics::SpscRing<RefusedSender>* refused = nullptr;  ///< likewise
+  haptics::SpscRing<RefusedSender>* refused = nullptr;  ///< from the read loop; may be null
   DatagramTap* tap = nullptr;      ///< receives the fate of each datagram; may be null
   DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
-  haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< likewise
-  haptics::TripleBuffer<haptics::BodyStates>* own_bodies = nullptr;  ///< that we send, or null
-  BodyMover* mover = nullptr;  ///< of what is carried, or null
-  /// What servos see of the program's own effects.
+  haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< for the read loop; may be null
+  haptics::TripleBuffer<haptics::BodyStates>* own_bodies = nullptr;  ///< bodies that this peer
+                                                                     ///< sends; may be null
+  BodyMover* mover = nullptr;  ///< moves carried objects; may be null
+  /// Fault reports of the program's own effects, from the servos.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
 };
 

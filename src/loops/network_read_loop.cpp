@@ -104,7 +104,7 @@ void NetworkReadLoop::count_unjoined() noexcept {
 }
 
 // A limit on open files or memory usually applies to all groups, so the first refusal ends the
-// attempt. The refused group goes to the end, because the refusal may be its own.
+// attempt. The refused group is moved to the end, because the cause may be the group itself.
 void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   if (unjoined_.empty() || now < next_retry_) return;
   next_retry_ = now + kRetry;
@@ -139,7 +139,7 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
 }
 
 bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept {
-  // A link without sender addresses cannot mute anybody.
+  // Without sender addresses no sender can be muted.
   if (!datagram.sender.is_unspecified() && !budget_.admit(datagram.sender, came, pressed_)) {
     drop(DatagramFate::muted, datagram, muted_in_);
     return false;
@@ -151,7 +151,7 @@ bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanosecon
   return false;
 }
 
-// A datagram of UDP fits into the room that is reserved.
+// A UDP datagram fits into the reserved capacity.
 std::span<const std::byte> NetworkReadLoop::mended(std::span<const std::byte> bytes) noexcept {
   const auto at = bytes.size() <= mended_.capacity() ? pdu::find_zero_length(bytes) : std::nullopt;
   if (!at) return bytes;

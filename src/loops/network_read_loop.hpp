@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Takes datagrams off the link as they arrive, as far as the model loop has room; the rest stays
-// with the kernel. Useless datagrams and those of flooding senders are dropped before they take
-// room. Joins and leaves happen here too, because a link has one reader.
+// Reads datagrams from the link as they arrive, as long as the model loop's ring has room; the rest
+// stays in the kernel. Useless datagrams and datagrams of flooding senders are dropped before they
+// are queued. Joins and leaves are also executed here, because a link has one reader.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct GroupCommand {
   bool join = true;
 };
 
-/// A separate ring for the datagrams of some groups, those behind the base of the pool.
+/// A separate ring for the datagrams of some groups, those after the pool's base.
 struct UrgentRing {
   GroupPool groups;
   DatagramRing& ring;
@@ -47,33 +47,31 @@ class NetworkReadLoop {
 
   /// All references outlive the loop. The first group that it joins is the base group.
   /// @param exercise of accepted datagrams; nothing: any octets are accepted
-  /// @param lenient a PDU whose length field is 0 is taken as the rest of its datagram
+  /// @param lenient takes a PDU with length field 0 as the rest of its datagram
   /// @param tap receives dropped datagrams with the reason; may be null
   /// @param urgent separate ring for the groups of an urgent tier, so that their datagrams do not
-  /// wait behind others; nothing: all use one ring. While one of the two rings is full nothing is
-  /// taken.
+  /// wait behind others; nothing: all use one ring. While either ring is full nothing is read.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {},
                   bool lenient = false, DatagramTap* tap = nullptr,
                   std::optional<UrgentRing> urgent = {});
 
-  /// Carries out joins and leaves, then takes arrived datagrams until the ring is full. Returns the
-  /// number put there: the model loop has to wake only for these. A failed join is repeated each
+  /// Executes joins and leaves, then reads arrived datagrams until the ring is full. Returns the
+  /// number of queued ones: the model loop must wake only for these. A failed join is retried each
   /// second, the base group first.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended because the ring was full: then wait for the model loop, not for
   /// the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
-  /// Whether the last step took a datagram whose delay can be felt.
+  /// Whether the last step read a datagram whose delay can be felt.
   [[nodiscard]] bool has_taken_felt() const noexcept { return taken_felt_; }
-  /// Senders that were muted or are received again, oldest first; one reader thread.
+  /// Senders that were muted or unmuted, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
   /// Senders whose datagrams are refused at once; one reader thread.
   [[nodiscard]] haptics::SpscRing<RefusedSender>& refused() noexcept { return refused_out_; }
-  /// Source addresses of members, which the model loop publishes when they change; one writer
-  /// thread.
+  /// Source addresses of members, published by the model loop when they change; one writer thread.
   [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
-  /// Sources of what can be felt, likewise.
+  /// Sources of felt bodies; one writer thread.
   [[nodiscard]] haptics::TripleBuffer<FeltSources>& felt() noexcept { return felt_; }
 
  private:
@@ -93,7 +91,8 @@ class NetworkReadLoop {
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
   bool lenient_;
-  std::vector<std::byte> mended_;  ///< the datagram at hand, if a length field of it is 0
+  std::vector<std::byte> mended_;  ///< the present datagram with a corrected length field, if that
+                                   ///< was 0
   DatagramTap* tap_;
   std::optional<UrgentRing> urgent_;
   haptics::SpscRing<MutedSender> muted_{64};
@@ -107,7 +106,7 @@ class NetworkReadLoop {
   bool full_ = false;
   bool taken_felt_ = false;
   std::optional<GroupAddress> base_;
-  std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
+  std::vector<GroupAddress> unjoined_;  ///< requested, but refused by the link
   std::chrono::nanoseconds next_retry_{0};
   Counter& datagrams_;
   Counter& octets_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Puts finished datagrams on the link, so that a slow send never delays the model loop.
+// Writes finished datagrams to the link, so that a slow send never delays the model loop.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ class NetworkWriteLoop {
  public:
   NetworkWriteLoop(Link& link, DatagramRing& in, Counters& counters);
 
-  /// Sends all pending datagrams, in batches; returns their number. One that the kernel refuses is
-  /// counted and lost: the next update repairs it.
+  /// Sends all pending datagrams, in batches; returns their number. A datagram that the kernel
+  /// refuses is counted and lost: the next update repairs it.
   std::size_t step() noexcept;
 
  private:

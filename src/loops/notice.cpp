@@ -10,7 +10,7 @@
 namespace reckon::peer {
 namespace {
 
-// Of addresses that claim the name of a peer.
+// Sentences about addresses that claim a peer's name.
 Notice sentence_of_addresses(const aoim::PresenceEvent& event) noexcept {
   const aoim::PeerId peer = event.peer();
   const AddressText source(event.source), other(event.other);

@@ -14,7 +14,7 @@
 
 namespace reckon::peer {
 
-/// Subject of a notice. docs/notices.md has what each means.
+/// Subject of a notice. docs/notices.md explains each.
 enum class NoticeKind : std::uint8_t {
   other,
   joined,
@@ -82,16 +82,16 @@ enum class NoticeKind : std::uint8_t {
 
 enum class Severity : std::uint8_t { info, warning, error };
 
-/// What is the same for all notices of a kind.
+/// Properties common to all notices of a kind.
 struct NoticeFacts {
   std::string_view id;  ///< stable, for programs that read notices
-  Severity severity;    ///< of the notice that begins a condition; the one that ends it is `info`
+  Severity severity;    ///< of the notice that begins a condition; the one that ends it has `info`
   std::string_view meaning;
 };
 
 [[nodiscard]] const NoticeFacts& facts_of(NoticeKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(Severity severity) noexcept;
-/// All of them, in the order of NoticeKind.
+/// All rows, in the order of NoticeKind.
 [[nodiscard]] std::span<const NoticeFacts> all_notice_facts() noexcept;
 
 /// A sentence for the user.
@@ -99,15 +99,15 @@ struct Notice {
   std::array<char, 240> text{};  ///< printable ASCII, NUL at the end
   NoticeKind kind = NoticeKind::other;
   Severity severity = Severity::info;
-  aoim::PeerId about{};  ///< the peer, where a presence event is the cause
+  aoim::PeerId about{};  ///< the peer of a presence event, if that is the cause
 };
 
 /// The notice of a presence event. No allocation.
 [[nodiscard]] Notice notice_of(const aoim::PresenceEvent& event) noexcept;
-/// The notice of a sender that is muted or received again. No allocation.
+/// The notice for a sender that is muted or unmuted. No allocation.
 [[nodiscard]] Notice notice_of(const MutedSender& sender) noexcept;
-/// The notice of a sender whose datagrams are refused. @param interop whether the exercise is plain
-/// DIS. No allocation.
+/// The notice for a sender whose datagrams are refused. @param interop whether the exercise is
+/// plain DIS. No allocation.
 [[nodiscard]] Notice notice_of(const RefusedSender& sender, bool interop) noexcept;
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A condition that is reported once when it begins and once when it is over.
+// A condition that is reported once when it begins and once when it ends.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace reckon::peer {
 
-/// Begins at once, and is over after three seconds of absence.
+/// Begins at once, and ends after three seconds of absence.
 class NoticeCondition {
  public:
   enum class Turn : std::uint8_t { none, begins, ends };

@@ -15,15 +15,15 @@ namespace {
 using aoim::PresenceEventKind;
 using std::chrono::nanoseconds;
 
-// Whether one more line may be reported, with `at_once` lines in reserve (a virtual scheduling
-// algorithm, ITU-T I.371 A: `free_at` is when all of the reserve is back).
+// Whether one more line may be reported, with a burst of `at_once` lines (virtual scheduling
+// algorithm, ITU-T I.371 A: `free_at` is the time when the whole burst is available again).
 bool take_line(nanoseconds& free_at, int at_once, nanoseconds now) noexcept {
   if (free_at > now + (at_once - 1) * NoticeGate::kGap) return false;
   free_at = std::max(free_at, now) + NoticeGate::kGap;
   return true;
 }
 
-// Whether the event is about a member: a peer that came before and was received for long.
+// Whether the event is about a member: a peer that joined earlier and was received for long.
 bool is_of_member(const aoim::PresenceEvent& event) noexcept {
   switch (event.kind) {
     case PresenceEventKind::newcomer:
@@ -40,7 +40,7 @@ bool is_of_member(const aoim::PresenceEvent& event) noexcept {
 
 }  // namespace
 
-// A host that has caused nothing for long makes room.
+// The host that has been inactive longest is replaced.
 NoticeGate::Host& NoticeGate::host_of(const Octets& address) noexcept {
   const auto end = hosts_.begin() + static_cast<std::ptrdiff_t>(count_);
   const auto known =

@@ -12,9 +12,9 @@
 
 namespace reckon::peer {
 
-/// The sentence of a kind, cut if it is too long. Names and markings of others may hold any octets,
-/// and sentences go to terminals: any other character than printable ASCII is shown as '?'. No
-/// allocation.
+/// A sentence of a kind, truncated if too long. Names and markings of others may contain any
+/// octets, and sentences are written to terminals: characters other than printable ASCII become
+/// '?'. No allocation.
 template <typename... Arguments>
 [[nodiscard]] Notice make_notice(NoticeKind kind, std::string_view format,
                                  const Arguments&... arguments) noexcept {

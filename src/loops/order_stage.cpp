@@ -12,12 +12,12 @@
 
 namespace reckon::peer {
 
-// A peer sends orders only in its own name, and no other sender in the name of a peer.
+// Valid originators: a peer in its own name, or another sender in the name of no peer.
 bool OrderStage::obeys(const Inbound& order, const Arrival& arrival, const Pass& pass) noexcept {
   if (!is_addressed(order.entity, owned_.simulation().simulation())) return true;
   const aoim::PeerId originator = order.originator.simulation();
   const auto epoch = aoim_.presence().epoch_of(originator);
-  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by epoch
+  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
   const bool member = unnamed || (epoch && *epoch == arrival.epoch);
   const bool genuine =
       member || (!epoch && arrival.epoch == 0 && !aoim_.presence().is_own(order.originator));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stop/Freeze and Start/Resume: whom this peer obeys, what it does, and how it answers.
+// Stop/Freeze and Start/Resume: permitted senders, execution and acknowledgement.
 #pragma once
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -27,7 +27,7 @@ class OrderStage {
         watches_(watches),
         counted_(counted) {}
 
-  /// Whether an order is genuine and from a sender that the scene allows, or for others. A refused
+  /// Whether an order is genuine and from a permitted sender, or is addressed to others. A refused
   /// order is counted and reported.
   [[nodiscard]] bool obeys(const Inbound& order, const Arrival& arrival, const Pass& pass) noexcept;
   /// Freezes or resumes the addressed entities, and acknowledges.

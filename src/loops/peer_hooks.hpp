@@ -22,7 +22,7 @@ namespace reckon::peer {
 struct WatchedPeer {
   const RemoteEntities& remote;
   aoim::AreaOfInterestManager& aoim;
-  std::size_t unfelt;                  ///< most bodies nearby that a servo leaves out now
+  std::size_t unfelt;                  ///< most bodies nearby that a servo omits now
   const aoim::SourceAddress& crowder;  ///< host of most of the bodies nearby
   std::chrono::nanoseconds now;
   haptics::SpscRing<Notice>& notices;  ///< for the user
@@ -38,10 +38,10 @@ struct PeerHooks {
   std::function<void(std::span<const std::byte>)> received = nullptr;
 };
 
-/// The hooks of the rows that a scene has switched on. One thread; allocates only at construction.
+/// The hooks of the rows that a scene enables. One thread; allocates only at construction.
 class HookList {
  public:
-  /// All that `wiring` refers to outlives this.
+  /// All references in `wiring` outlive this.
   explicit HookList(const ModelWiring& wiring);
 
   void look(const WatchedPeer& peer) const {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports about a peer to the user: peers that come, leave and become silent, refusals, and the
+// Reports about a peer to the user: peers that join, leave and become silent, refusals, and the
 // reports of the rows of peer_hooks.hpp.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace reckon::peer {
 
-/// Another thread may read notices; all else is for one thread. No allocation after construction.
+/// Another thread may read notices; the rest is for one thread. No allocation after construction.
 class PeerWatches {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -38,7 +38,7 @@ class PeerWatches {
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept {
     refusal_watch_.note_order(originator, order, from, now);
   }
-  /// Removes the force of silent peers' rows.  @param touched by our hands
+  /// Removes the force of silent peers' rows.  @param touched entities in contact with our hands
   /// @return whether a peer is received again
   bool doubt_silent(const aoim::Presence& presence, std::span<const Touched> touched,
                     RemoteEntities& remote, Nanoseconds now) noexcept {
@@ -48,8 +48,8 @@ class PeerWatches {
   /// Reports rivals of the owner of the scene's bodies; call it some twenty times a second.
   void look(const BodyOwner& bodies, Nanoseconds now) noexcept { refusal_watch_.look(bodies, now); }
   /// Makes the remaining reports; call it some twenty times a second.
-  /// @param unfelt most that a servo has left out
-  /// @param crowder host with more bodies in reach of a hand than it takes
+  /// @param unfelt most bodies that a servo has omitted
+  /// @param crowder host with more bodies within reach of a hand than it takes
   void look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim, std::size_t unfelt,
             const aoim::SourceAddress& crowder, Nanoseconds now) noexcept;
 

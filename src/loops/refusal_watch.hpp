@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the user what this peer refuses of others, with the source address: PDUs in another's
-// name, orders, touches, entities beyond the tables.
+// Reports to the user the refused input of others, with the source address: PDUs with a forged
+// issuer, orders, touches, entities beyond the tables.
 #pragma once
 
 #include <chrono>
@@ -25,23 +25,25 @@ class RefusalWatch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  /// Lines go through `gate` to `out`; both outlive it.
+  /// Notices pass through `gate` to `out`; both outlive it.
   RefusalWatch(NoticeGate& gate, haptics::SpscRing<Notice>& out) : gate_(gate), out_(out) {}
 
-  /// An order of `originator` was refused. @param order "freeze" or "resume"
+  /// Reports a refused order of `originator`. @param order "freeze" or "resume"
   void note_order(const pdu::EntityId& originator, std::string_view order,
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept;
   /// Call it some times a second. @param own our simulation
   void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
-  /// Reports who else announces itself as the scene's first peer, if the scene has bodies.
+  /// Reports another sender that announces itself as the scene's first peer, if the scene has
+  /// bodies.
   void look(const BodyOwner& bodies, Nanoseconds now) noexcept;
-  /// Reports who presses our hands by no more than the scene's default. @param touched by our hands
+  /// Reports owners that press our hands while the touch rule neither lists owners nor needs a key.
+  /// @param touched entities in contact with our hands
   void look(std::span<const Touched> touched, RemoteEntities& remote, Nanoseconds now) noexcept;
   /// Reports bodies that were silent in contact.
   void look(const SilenceWatch& silence, Nanoseconds now) noexcept;
 
  private:
-  /// A count that grows while something is refused.
+  /// A count that increases while something is refused.
   struct Growing {
     std::uint64_t before = 0;
     NoticeCondition condition = {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Senders that the gate refuses, with the reason, so that the user can see a wrong exercise number
-// or a length field of 0.
+// Collects senders that the gate refuses, with the reason, so that the user can see a wrong
+// exercise number or a length field of 0.
 #pragma once
 
 #include <array>
@@ -15,18 +15,17 @@
 
 namespace reckon::peer {
 
-/// Datagrams of one sender that were refused for one reason.
+/// Refused datagrams of one sender and one reason.
 struct RefusedSender {
-  IpEndpoint who;  ///< port 0: of all further senders together
+  IpEndpoint who;  ///< port 0: all further senders together
   Refusal why = Refusal::none;
-  std::uint8_t octet = 0;  ///< of the first one: its exercise, or the octet that is no version
+  std::uint8_t octet = 0;  ///< of the first datagram: its exercise, or the octet that is no version
   std::uint64_t count = 0;
 };
 
 /// Reports each sender and reason once: the number of datagrams in the second after the first one.
 /// Senders without a row are reported together: after 1 s, then at most once a minute, with the
-/// total so far. One thread, fixed memory, no allocation;
-/// some ns a refused datagram.
+/// total so far. One thread, fixed memory, no allocation; some ns per refused datagram.
 class RefusedSenders {
  public:
   static constexpr std::size_t kMost = 16;
@@ -36,7 +35,7 @@ class RefusedSenders {
   /// @param out receives the reports; outlives this
   explicit RefusedSenders(haptics::SpscRing<RefusedSender>& out) noexcept : out_(out) {}
 
-  /// @param datagram refused, for a reason other than `none`  @param now steady
+  /// @param datagram refused, for a reason other than `none`  @param now steady time
   void note(const Datagram& datagram, Refusal why, std::chrono::nanoseconds now) noexcept;
   /// Call it some times a second.
   void look(std::chrono::nanoseconds now) noexcept;

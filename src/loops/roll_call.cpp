@@ -70,12 +70,12 @@ void RollCall::listen(nanoseconds longest) {
   }
 }
 
-// Without a trailer, whose numbering would be the peer's.
+// Sends without a trailer, because the peer numbers those.
 void RollCall::speak() {
   const nanoseconds utc = clock_.utc_now();
   const std::uint32_t timestamp = pdu::to_dis_timestamp(utc, true);
   for (pdu::Presence announced : presence_.step(clock_.now(), utc, timestamp)) {
-    // A process that leaves now was no peer.
+    // A process that leaves now never was a peer.
     if (announced.flags & pdu::kPresenceLeaving) announced.scene_peer = pdu::kScenePeerWanted;
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
     const std::size_t size = pdu::encode(announced, octets);

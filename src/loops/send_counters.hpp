@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cost of the own entities: decisions, updates by reason, and octets.
+// Cost of sending the own entities: decisions, updates by reason, and octets.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct SendCounters {
   std::array<Counter*, 7> by_reason{};  ///< by SendReason, from 1
 
  private:
-  // Kinds of which the scene has no tier have a counter too.
+  // Kinds without a tier in the scene also have a counter.
   static std::vector<Counter*> tier_counters(Counters& counters, const aoim::TierTable& tiers) {
     const auto counter_of = [&](const aoim::TierKind& kind) {
       return kind.name.empty()

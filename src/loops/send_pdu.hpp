@@ -15,7 +15,7 @@
 namespace reckon::peer {
 
 /// Queues it for the peers that can sense `place` [m, S], or for all.
-/// @param pdu of 512 octets at most
+/// @param pdu at most 512 octets
 template <pdu::Pdu T>
 void send_pdu(aoim::AreaOfInterestManager& aoim, const T& pdu,
               const std::optional<aoim::Position>& place, std::chrono::nanoseconds now) noexcept {

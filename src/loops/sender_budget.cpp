@@ -27,7 +27,7 @@ bool SenderBudget::admit(const IpEndpoint& sender, nanoseconds received, bool pr
   const std::uint64_t hash = hash_of(sender);
   Known* const known = find_known(sender, hash);
   Source* const source = known != nullptr ? &known->source : find(sender, hash, received);
-  // Datagrams for which a source is muted do not count against the others of its host.
+  // Datagrams of a muted source do not count against the others of its host.
   if (!count(source, received, pressed ? kMostPressed : kMost)) return false;
   const std::uint32_t most = pressed ? kMostOfAddressPressed : kMostOfAddress;
   if (known != nullptr && known->source.count <= most / known->sharers) return true;
@@ -45,7 +45,7 @@ SenderBudget::Known* SenderBudget::find_known(const IpEndpoint& who, std::uint64
   return nullptr;
 }
 
-// Removes the source from its entry, so that its count and muting move to a new one.
+// Removes the source from its entry, so that its count and muting can be moved to a new one.
 SenderBudget::Source SenderBudget::take_out(const IpEndpoint& who) noexcept {
   for (Source& source : sources_[hash_of(who) % kSets]) {
     if (source.window >= nanoseconds(0) && source.who == who) return std::exchange(source, {});
@@ -62,7 +62,7 @@ void SenderBudget::know(const KnownSources& known) noexcept {
   known_count_ = 0;
   std::size_t old = 0;
   for (const IpEndpoint& who : known.all()) {
-    // Both are in the same order.
+    // Both lists are in the same order.
     while (old < count_before && before_[old].source.who < who) forget(before_[old++]);
     const bool stays = old < count_before && before_[old].source.who == who;
     known_[known_count_++].source = stays ? before_[old++].source : take_out(who);
@@ -79,13 +79,13 @@ void SenderBudget::know(const KnownSources& known) noexcept {
   }
 }
 
-// It counts as one of its host again, from zero.
+// It counts as a source of its host again, from zero.
 void SenderBudget::forget(Known& known) noexcept {
   if (known.source.muted) report(known.source, false);
 }
 
-// The entry of a source. A source without one gets that of a source that was silent for a window;
-// null if all entries that it may have are in use.
+// The entry of a source. A new source replaces one that was silent for a window; null if all
+// possible entries are in use.
 SenderBudget::Source* SenderBudget::find(const IpEndpoint& who, std::uint64_t hash,
                                          nanoseconds received) noexcept {
   Source* free = nullptr;
@@ -107,7 +107,7 @@ bool SenderBudget::count(Source* source, nanoseconds received, std::uint32_t mos
   return !source->muted;
 }
 
-// A window ends.
+// Ends a window.
 void SenderBudget::turn(Source& source, nanoseconds received) noexcept {
   if (source.muted && source.count < kCalm) report(source, false);
   source.window = received;

@@ -54,8 +54,8 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   return false;
 }
 
-// The owner of a hand that has sent a state since the touch began knows of it, and would have sent
-// another one before anything else.
+// The owner of a hand that has sent a state since the touch began is aware of the touch, and should
+// have sent the next one by now.
 void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
                                    const Look& look) noexcept {
   const RemoteEntity* row = look.remote.find(touched.id);
@@ -80,7 +80,7 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
   report(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
 }
 
-// Many bodies of one silent host come one after the other: it has one patience for all.
+// Bodies of one silent host share one time-out, so that many bodies in turn do not extend it.
 nanoseconds SilenceWatch::pressed_since(const RemoteEntity& row, const Look& look) noexcept {
   const nanoseconds pressed = look.remote.note_pressed(row.id, look.now);
   if (row.epoch != 0) return pressed;

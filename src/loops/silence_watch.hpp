@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Silent peers: their entities come to rest and lose their force long before they are dropped, and
-// move on when the peer is received again. Part of the model loop.
+// Handles silent peers: their entities are stopped and lose their force long before they are
+// dropped, and resume when the peer is received again. Part of the model loop.
 #pragma once
 
 #include <array>
@@ -19,45 +19,45 @@
 
 namespace reckon::peer {
 
-/// A remote entity that a hand of ours touches.
+/// A remote entity in contact with a hand of ours.
 struct Touched {
   pdu::EntityId id;
   std::chrono::nanoseconds since{0};
 };
 
 /// Doubts a peer by the time since its last datagram of any kind. A touched body without a hand, or
-/// of a plain DIS program, fades out for want of its own updates. Other entities of plain DIS
-/// programs are believed until their time-out. One thread; allocates only at construction; some ns
+/// of a plain DIS program, fades out without updates of its own. Other entities of plain DIS
+/// programs are trusted until their time-out. One thread; allocates only at construction; some ns
 /// for each peer.
 class SilenceWatch {
  public:
   /// A peer announces itself each second: it is doubted after two lost announcements.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::milliseconds(2500);
-  /// The owner of a touched hand or body sends every 60 ms, so ten updates were lost by then. An
-  /// owner that was silent before the touch began may not know of it yet: it has twice the time
-  /// from then on.
+  /// The owner of a touched hand or body sends every 60 ms, so ten updates are lost after this
+  /// time. An owner that was silent before the touch began may not be aware of it yet: it gets
+  /// twice the time from then on.
   static constexpr std::chrono::nanoseconds kContactPatience = std::chrono::milliseconds(650);
   /// The same for a plain DIS program, from the first touch of any of its bodies after its host's
-  /// last datagram on: with the fade of 100 ms, half the force is gone after 0.5 s.
+  /// last datagram: with the fade of 100 ms, half the force is gone after 0.5 s.
   static constexpr std::chrono::nanoseconds kGuestPatience = std::chrono::milliseconds(450);
-  /// A longer gap [ns] between two looks shows that this peer itself was suspended: others are not
-  /// silent then.
+  /// A longer gap [ns] between two calls means that this peer itself was suspended; then others do
+  /// not count as silent.
   static constexpr std::chrono::nanoseconds kOwnPause = std::chrono::milliseconds(250);
 
   /// Makes the counter peers_doubted. `counters` outlives it.
   explicit SilenceWatch(Counters& counters);
 
-  /// A peer that is received, but whose touched hand was not updated for this time [ns], was cut
-  /// off meanwhile: the hand may have gone.
+  /// If a peer is received, but its touched hand was not updated for this time [ns], it was
+  /// disconnected meanwhile: the hand may be gone.
   static constexpr std::chrono::nanoseconds kNoNews = std::chrono::milliseconds(500);
 
-  /// Bodies without a hand that faded out for want of updates, and the last such one.
+  /// Number of bodies without a hand that faded out without updates, and the last one.
   [[nodiscard]] std::uint64_t faded() const noexcept { return faded_.value(); }
   [[nodiscard]] const Untouchable& last_faded() const noexcept { return last_faded_; }
 
   /// Call it after arrived datagrams were taken, within kOwnPause of the last call. Notices about
-  /// owners of touched hands go to `out`. True if a peer is received again: it may have doubted us
-  /// too, and waits for new states.
+  /// owners of touched hands are added to `out`. True if a peer is received again: it may have
+  /// doubted us too, and waits for new states.
   bool look(const aoim::Presence& presence, std::span<const Touched> touched,
             RemoteEntities& remote, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
@@ -67,14 +67,14 @@ class SilenceWatch {
     std::uint32_t epoch = 0;
     std::chrono::nanoseconds heard{0};  // last reception before the doubt
     std::chrono::nanoseconds since{0};
-    bool whole = false;  // all its entities, not only touched ones
+    bool whole = false;  // applies to all its entities, not only touched ones
     bool reported = false;
   };
-  // Of plain DIS programs whose bodies press a hand.
+  // Hosts of plain DIS programs whose bodies press a hand.
   struct Host {
     decltype(aoim::SourceAddress::octets) octets{};
     std::chrono::nanoseconds heard{-1};  // its last datagram
-    std::chrono::nanoseconds since{0};   // when it pressed first after that
+    std::chrono::nanoseconds since{0};   // first press after that
   };
   struct Look {
     std::span<const Touched> touched;
@@ -95,12 +95,12 @@ class SilenceWatch {
   Doubt& doubt_of(const aoim::Peer& peer, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::chrono::nanoseconds heard(const aoim::Peer& peer) const noexcept;
 
-  std::vector<Doubt> doubts_;  // no more than there are peers
+  std::vector<Doubt> doubts_;  // at most one per peer
   std::chrono::nanoseconds looked_{-1};
   std::chrono::nanoseconds listening_since_{0};
   Counter &doubted_, &faded_;
   Untouchable last_faded_;
-  std::array<Host, 32> hosts_{};  // the one that pressed longest ago makes room
+  std::array<Host, 32> hosts_{};  // the one with the oldest press is replaced
 };
 
 }  // namespace reckon::peer

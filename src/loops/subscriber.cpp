@@ -34,13 +34,13 @@ void Subscriber::cover_our_entities() noexcept {
     balls_.push_back(
         {to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius, cut_});
   });
-  // A peer without entities looks at the scene's origin.
+  // A peer without entities uses the scene's origin.
   if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius, cut_});
   foci_ = cover_.cover(balls_);
   moved_ = false;
 }
 
-// A follower of one of our beacons shall find its cell.
+// Publishes our beacons' positions, so that followers find their cells.
 void Subscriber::place_beacons(nanoseconds now) noexcept {
   beacons_.clear();
   beacon_watch_.for_each_carried([this](EntityNumber number, std::uint32_t tag) {

@@ -32,7 +32,7 @@ class Subscriber {
 
   /// Records that an entity of ours was moved, added or removed.
   void note_moved() noexcept { moved_ = true; }
-  /// Adds the beacon of an entity of ours, or removes it.
+  /// Adds the beacon of an entity of ours.
   void add_beacon(EntityNumber number, std::string_view name) { beacon_watch_.add(number, name); }
   void remove_beacon(EntityNumber number) noexcept { beacon_watch_.remove(number); }
 
@@ -59,11 +59,11 @@ class Subscriber {
   aoim::AreaOfInterestManager& aoim_;
   OwnedEntities& owned_;
   RemoteEntities& remote_;
-  std::vector<aoim::Focus> balls_;  // range of each entity of ours
+  std::vector<aoim::Focus> balls_;  // ranges of our entities
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;                     // they cover the balls
-  double cut_ = std::numeric_limits<double>::infinity();  // [m], of the balls
-  bool moved_ = true;  // an entity of ours has moved since they were made
+  double cut_ = std::numeric_limits<double>::infinity();  // [m], limit of the balls' radii
+  bool moved_ = true;                                     // an entity of ours has moved since
   std::vector<TierFoci> tier_foci_;
   std::vector<aoim::PlacedBeacon> beacons_;  // last positions of our beacons
   AoimWatch aoim_watch_;

@@ -23,8 +23,8 @@ double row_end(const SceneFile& scene, const TierConfig& tier) {
   return std::min(tier.channel.farthest, scene.aoim.radius);
 }
 
-// The places where we can touch and be touched. The search for what our hands could touch also
-// finds large entities whose surface is in reach, but not their origin.
+// The places where we can touch and be touched. The search for entities that our hands could touch
+// also finds large entities whose surface, but not origin, is within reach.
 TierFoci touchable(const SceneFile& scene) {
   const auto foci = std::make_shared<ContactFoci>(scene);
   return [foci](const FociInputs& inputs) -> Foci {
@@ -40,7 +40,7 @@ TierFoci touchable(const SceneFile& scene) {
   };
 }
 
-// What is felt is heard whatever the budget.
+// Felt entities are received regardless of the budget.
 TierFoci of_cells(const SceneFile& scene) {
   if (!(scene.aoim.awareness.budget > 0.0)) return sensed(scene);
   const auto both = std::make_shared<std::vector<aoim::Focus>>();
@@ -79,8 +79,8 @@ static_assert(std::ranges::all_of(kWords<Recipients>,
                                   }),
               "all kinds of recipients have a row");
 
-// Calls visit(RecipientsRow) for each tier with groups of its own, in the order of the groups:
-// urgent tiers come last.
+// Calls visit(RecipientsRow) for each tier with its own groups, in the order of the groups: urgent
+// tiers come last.
 template <typename Visit>
 void for_each_tier(const SceneFile& scene, Visit&& visit) {
   for (const bool is_urgent : {false, true}) {

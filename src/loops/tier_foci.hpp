@@ -18,23 +18,22 @@
 
 namespace reckon::peer {
 
-/// What foci are made from.
+/// Input for foci.
 struct FociInputs {
   const OwnedEntities& owned;
-  std::span<const aoim::Focus> sensed;   ///< they cover the range of each entity of ours
-  std::span<const NearBodies> in_reach;  ///< bodies in reach of each of our hands
+  std::span<const aoim::Focus> sensed;   ///< cover the ranges of our entities
+  std::span<const NearBodies> in_reach;  ///< bodies within reach of each of our hands
   std::chrono::nanoseconds now;
 };
 
 /// The foci of a tier, valid until the next call. One thread; must not throw.
 using TierFoci = std::function<std::span<const aoim::Focus>(const FociInputs&)>;
 
-/// The kinds of the scene's tiers with groups of their own, in the order of their groups. For
-/// set-up.
+/// The kinds of the scene's tiers with their own groups, in the order of their groups. For set-up.
 [[nodiscard]] std::vector<const aoim::TierKind*> tier_kinds_of(const SceneFile& scene);
 
-/// The foci of each tier of the scene, by its number: the cell tier first. If the foci of our
-/// entities are cut, the cell tier has those of what can be touched besides. For set-up.
+/// The foci of each tier of the scene, by its number: the cell tier first. If the budget cuts the
+/// foci of our entities, the cell tier also has foci for touchable entities. For set-up.
 /// @param scene outlives them
 [[nodiscard]] std::vector<TierFoci> tier_foci(const SceneFile& scene);
 

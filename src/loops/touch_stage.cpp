@@ -16,7 +16,7 @@
 namespace reckon::peer {
 namespace {
 
-// Hands may touch even if their copies are apart by their threshold of position, at most this [m].
+// Largest position error of copies, by their threshold, at which hands may touch [m].
 constexpr double kNearlyTouching = 0.002;
 
 }  // namespace
@@ -142,8 +142,8 @@ void TouchStage::consider(const Pass& pass) noexcept {
 
 void TouchStage::consider_hands(const Pass& pass) noexcept {
   const double nearly = std::min(scene_.dead_reckoning.thresholds.position, kNearlyTouching);
-  // This close, a hand may be felt on one side only: at rest, copies have an error up to the
-  // threshold of force.
+  // Within this distance, a hand may be felt on one side only: at rest, copies have an error up to
+  // the threshold of force.
   const double maybe = std::min(nearly, scene_.dead_reckoning.thresholds.force / scene_.hand.k1);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     if (!touches_[i].moved) continue;
@@ -172,7 +172,7 @@ void TouchStage::consider_bodies(const Pass& pass) noexcept {
   }
 }
 
-// The blow of a hand on another is sent once, for tools that know impacts but no force models.
+// The impact of a hand on another is sent once, for tools that use impacts but no force models.
 void TouchStage::send_impacts(std::size_t hand, const Pass& pass) noexcept {
   const haptics::ServoSnapshot& servo = hands_[hand].servo();
   Touch& touch = touches_[hand];

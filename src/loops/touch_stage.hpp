@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Contacts of this peer's hands and bodies: reads the servos, answers for bodies without a device,
-// finds what is near, sends what is felt, and publishes to each servo the hands near it.
+// finds bodies nearby, sends felt entities, and publishes the nearby bodies to each servo.
 #pragma once
 
 #include <array>
@@ -31,11 +31,11 @@
 
 namespace reckon::peer {
 
-/// Reports the stiffness of a hand that its device cannot show.
+/// Reports a stiffness that a hand's device cannot show.
 void report_softened(std::string_view marking, const DeviceStiffness& device,
                      haptics::SpscRing<Notice>& notices) noexcept;
 
-/// Parts of other stages that touch reads or changes; all outlive it.
+/// Data of other stages that this stage reads or changes; all outlive it.
 struct TouchParts {
   OwnedEntities& owned;
   RemoteEntities& remote;
@@ -51,31 +51,32 @@ class TouchStage {
   /// @param epoch of this process
   TouchStage(const ModelWiring& wiring, std::uint32_t epoch, const TouchParts& parts);
 
-  /// This device moves entity `number`.  @throws std::invalid_argument beyond kMaxDevices
+  /// Adds the device of entity `number`.  @throws std::invalid_argument beyond kMaxDevices
   void add_hand(EntityNumber number, haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                 haptics::TripleBuffer<haptics::ContactSet>& contacts,
                 const DeviceStiffness& stiffness);
-  /// Entity `number` can be felt and has no device.  @param power [W] that it may give
+  /// Adds entity `number`, which can be felt and has no device.  @param power [W] that it may give
   void add_body(EntityNumber number, double power);
   void remove_body(EntityNumber number) noexcept;
 
-  /// Takes the newest snapshots of the servos; true if a hand has moved.
+  /// Reads the newest snapshots of the servos; true if a hand has moved.
   bool read_hands() noexcept;
-  /// Gives hands the energy that they request of bodies.
+  /// Gives hands the energy that they request from bodies.
   void answer_bodies(const Pass& pass) noexcept;
-  /// Finds what hands and moving bodies can touch. Call it after read_hands() and answer_bodies().
+  /// Finds the bodies that hands and moving bodies can touch. Call it after read_hands() and
+  /// answer_bodies().
   void find_near(const Pass& pass) noexcept;
   /// Sends due updates of hands and moving bodies, and impacts.
   void consider(const Pass& pass) noexcept;
   /// Publishes the bodies nearby to the servos.
   void publish_contacts(const Pass& pass) noexcept;
-  /// Publishes which sources send what hands can feel.
+  /// Publishes the sources of bodies that hands can feel.
   void publish_felt_sources() noexcept;
-  /// Records what is published to the servo of this device, see Peer::trace_contacts().
+  /// Records the contact sets published to the servo of this device, see Peer::trace_contacts().
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
     if (device < hands_.size()) hands_[device].trace_contacts(ring);
   }
-  /// Records the account of a remote body with ours.
+  /// Stores the energy accounts of a remote body for entities of ours.
   void note_accounts(const Inbound& update, const Pass& pass) noexcept;
 
   /// Whether a device moves this entity.
@@ -93,16 +94,16 @@ class TouchStage {
   }
   /// Whether a remote body is near a hand or a moving body of ours, so that it may be felt soon.
   [[nodiscard]] bool has_near() const noexcept;
-  /// Copies what all hands touch.  @return its number
+  /// Copies the entities touched by all hands.  @return their number
   std::size_t copy_touched(
       std::span<Touched, kMaxDevices * haptics::kMaxRemoteHands> out) const noexcept;
-  /// The last host that had more bodies near a hand than it takes.
+  /// The last host with more bodies near a hand than it takes.
   [[nodiscard]] const aoim::SourceAddress& crowder() const noexcept { return crowder_; }
-  /// Fills in our hands.  @return the most bodies that a servo has left out
+  /// Adds our hands to the view.  @return the most bodies that a servo has omitted
   std::size_t show(PeerView& view) const noexcept;
 
  private:
-  // What one hand touches, and what it touched at the last step.
+  // Contacts of one hand, now and at the last step.
   struct Touch {
     bool moved = false;
     std::array<Touched, haptics::kMaxRemoteHands> touched{};

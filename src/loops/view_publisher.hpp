@@ -14,7 +14,7 @@
 
 namespace reckon::peer {
 
-/// Another thread may read views; all else is for one thread. No allocation after construction.
+/// Another thread may read views; the rest is for one thread. No allocation after construction.
 class ViewPublisher {
  public:
   static constexpr std::chrono::nanoseconds kPeriod = std::chrono::milliseconds(50);
@@ -26,13 +26,12 @@ class ViewPublisher {
   /// When the next view is due.
   [[nodiscard]] std::chrono::nanoseconds next() const noexcept { return next_; }
 
-  /// Publishes the present shown pose of each remote entity, if that is requested.
+  /// Publishes the present shown pose of each remote entity, if requested.
   void publish_shown(const RemoteEntities& remote, std::chrono::nanoseconds now) noexcept;
 
-  /// The next view, to be filled in except for remote entities.
+  /// The next view, to be filled except for remote entities.
   [[nodiscard]] PeerView& begin() noexcept { return views_.write_slot(); }
-  /// Adds the remote entities that are nearest to view.middle, with what they emit, and publishes
-  /// the view.
+  /// Adds the remote entities nearest to view.middle, with their emissions, and publishes the view.
   void publish(PeerView& view, const RemoteEntities& remote, const EmissionTable& emissions,
                std::chrono::nanoseconds now) noexcept;
 

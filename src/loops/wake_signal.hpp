@@ -9,7 +9,7 @@
 
 namespace reckon::peer {
 
-/// One thread waits, any may notify. The waiter sees what was written before notify(). Several
+/// One thread waits, any may notify. The waiter sees all writes before notify(). Several
 /// notifications before a wait count as one. No allocation.
 class WakeSignal {
  public:

@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kNoSocket = "cannot make the socket that holds an application number";
 
-// Those who ask who holds a number wait in its queue: nobody accepts them.
+// Connections of programs that want to know the holder of a number. They stay in the queue, because
+// the socket is never accepted from.
 constexpr int kAsking = 64;
 
 int unix_socket() noexcept {
@@ -43,7 +44,7 @@ struct AbstractName {
   }
 };
 
-// "process 4711 (truck)", or as much as can be known.
+// "process 4711 (truck)", or a less specific description if the kernel does not reveal more.
 std::string holder_of(const ApplicationScope& scope, std::uint16_t number) {
   const std::string unknown = "another program";
   const Descriptor asking(unix_socket(), kNoSocket);

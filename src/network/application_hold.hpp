@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Plain DIS has no message by which programs agree on their IDs. So that two programs of one host
-// are not the same entity, each holds its application number on this host as long as it runs.
+// Plain DIS has no message by which programs agree on their IDs. To prevent two programs of one
+// host from being the same entity, each holds its application number on this host while it runs.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,13 @@ struct ApplicationScope {
   std::uint16_t site = 1;
 };
 
-/// Holds an application number until its end, also where the process is killed. Of several that ask
-/// in the same instant, one gets it. Programs hear of each other if they use this library and share
-/// the network namespace; the user and the process do not matter.
+/// Holds an application number until its destruction; the kernel also frees the number when the
+/// process is killed. If several processes request a number at the same time, one gets it. It works
+/// between programs that use this library and share the network namespace; the user and the process
+/// do not matter.
 class ApplicationHold {
  public:
-  /// Highest number of an application; above are those that address all of them.
+  /// Highest number of an application; higher numbers address all applications.
   static constexpr std::uint16_t kMost = 65534;
 
   /// Holds `wanted`, or if there is none, the smallest free number.
@@ -34,8 +35,8 @@ class ApplicationHold {
   ApplicationHold(const ApplicationScope& scope, std::optional<std::uint16_t> wanted);
 
   [[nodiscard]] std::uint16_t number() const noexcept { return number_; }
-  /// If smaller numbers were taken: a sentence for the user that says which it is, and who has the
-  /// first; else empty.
+  /// If smaller numbers were taken: a sentence for the user with the number and the holder of
+  /// number 1; else empty.
   [[nodiscard]] const std::string& report() const noexcept { return report_; }
 
  private:

@@ -16,22 +16,23 @@
 namespace reckon::peer {
 
 /// A datagram is a copy if one with the same octets, sender and destination was taken from another
-/// interface shortly before, and this interface has not brought its own copy of that one yet. So
-/// equal datagrams of one interface are never copies: a sender may repeat itself. One thread.
+/// interface shortly before, and this interface has not delivered its own copy yet. Therefore equal
+/// datagrams of one interface are never copies: a sender may repeat itself. One thread.
 class CopyFilter {
  public:
   using nanoseconds = std::chrono::nanoseconds;
   /// Time within which all copies arrive.
   static constexpr nanoseconds kWindow = std::chrono::milliseconds(500);
-  /// Datagrams that are remembered; older ones are forgotten before their time.
+  /// Datagrams that are remembered; beyond this number the oldest are forgotten early.
   static constexpr std::size_t kMost = 65536;
 
   /// @param own addresses of this host: a program that sends over each interface does so from
   /// several of them and from one port, and counts as one sender
   void set_own_addresses(std::vector<IpEndpoint> own) { own_ = std::move(own); }
 
-  /// Whether it is a copy; else it is remembered. Its time may be less than that of the last one.
-  /// @param interface index of the one over which it came
+  /// Whether the datagram is a copy; if not, it is remembered. Its time may be less than the time
+  /// of the previous call.
+  /// @param interface index of the interface over which it came
   [[nodiscard]] bool is_copy(const Datagram& datagram, unsigned interface);
 
  private:

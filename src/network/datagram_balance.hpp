@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The balance of one peer: the fate of each datagram that it numbered or received, by sender and
-// group. The law that it obeys has no tolerance; it is in docs/robustness.md.
+// group. It has to satisfy equations without any tolerance; see docs/robustness.md.
 #pragma once
 
 #include <array>
@@ -29,22 +29,22 @@ struct FateCounts {
   std::array<std::uint64_t, kFates> counts{};
 };
 
-/// The numbers of one sender in one group that arrived during our membership. From the least to the
-/// greatest, last - first + 1 = arrived + missing.
+/// The numbers of one sender in one group that arrived while this peer was a member. From the
+/// smallest to the largest, last - first + 1 = arrived + missing.
 struct Stretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;
-  std::uint64_t arrived = 0;  ///< different ones
+  std::uint64_t arrived = 0;  ///< distinct numbers
   /// Lost on the way, dropped by the kernel, or never sent. Envelopes are numbered over all groups,
-  /// so those to others count here too.
+  /// so envelopes to other groups count here too.
   std::uint64_t missing = 0;
   std::uint64_t copies = 0;  ///< of arrived numbers
-  /// When the group was joined, from its Membership; below 0 if it was not joined: a list.
+  /// When the group was joined, from its Membership; negative for a list, which is not joined.
   std::chrono::nanoseconds joined{-1};
 };
 
-/// The same by the sequence tracker, of datagrams from peers known at that time: last - first + 1 =
-/// received + lost. It begins anew when the tracker does.
+/// The same as counted by the sequence tracker, for datagrams from peers that are known at that
+/// time: last - first + 1 = received + lost. A new stretch begins when the tracker starts again.
 struct TrackedStretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;
@@ -55,8 +55,8 @@ struct TrackedStretch {
 /// The socket of a group, from joining to leaving.
 struct Membership {
   GroupAddress group;
-  /// When the kernel was asked, and when it had finished, which takes long while the interfaces of
-  /// any namespace change; < 0: not left.
+  /// When the kernel was asked, and when it had finished; that takes long while the interfaces of
+  /// any namespace change. Negative: not left.
   std::chrono::nanoseconds joining{0}, joined{0}, leaving{-1}, left{-1};
   std::uint64_t kernel_drops = 0;  ///< a run that the kernel held as one counts once
 };
@@ -71,16 +71,16 @@ struct BalanceReport {
   std::uint64_t missed = 0;  ///< events lost since the start: if any, the sums are wrong
 };
 
-/// Adds up the events of one tap. One thread; allocates. Memory grows with the senders received at
-/// a time: the stretch of a sender silent for kSilence is reported and ended.
+/// Adds up the events of one tap. One thread; allocates. Memory grows with the number of senders
+/// received: a stretch ends and is reported when its sender was silent for kSilence.
 class DatagramBalance {
  public:
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::minutes(5);
 
   explicit DatagramBalance(DatagramTap& tap) : tap_(tap) {}
 
-  /// Takes the events since the last call, at most a second's worth of any peer. Call it every 100
-  /// ms.
+  /// Takes the events since the last call, at most as many as any peer produces in a second. Call
+  /// it every 100 ms.
   void look();
   /// @param end true: the last report, with unfinished stretches too
   [[nodiscard]] BalanceReport report(std::chrono::nanoseconds now, bool end);

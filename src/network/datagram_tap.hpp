@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Reports the fate of each datagram from the loops to a reader that keeps the balance
-// (DatagramBalance), so that none can be missing without a reason. Off unless a program asks for
-// it.
+// (DatagramBalance), so that every missing datagram has a known reason. Off unless a program
+// requests it.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace reckon::peer {
 
-/// Fate of a datagram, or event of a group's socket. An arrived datagram has exactly one of the
+/// Fate of a datagram, or an event of a group's socket. An arrived datagram gets exactly one of the
 /// fates from lost_by_law on, and one more for each copy that the impairment made of it.
 enum class DatagramFate : std::uint8_t {
   // Out: numbered + copied_to_list = sent + sealed + the reasons for not sending.
@@ -111,8 +111,9 @@ class DatagramTap {
   }
   void push(Loop loop, const DatagramEvent& event) noexcept;
 
-  /// Reader: the next event, those of the model loop first, so that at most the most recent
-  /// datagrams seem to be used before they arrived. False if there is none.
+  /// For the reader: takes the next event, events of the model loop first. This order means that
+  /// only the most recent datagrams can appear to be used before they arrived. False if there is
+  /// none.
   bool pop(DatagramEvent& event) noexcept;
   /// Events without room. Any thread.
   [[nodiscard]] std::uint64_t missed() const noexcept;

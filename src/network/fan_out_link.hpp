@@ -36,10 +36,10 @@ struct FanOutOptions {
   DatagramTap* tap = nullptr;  ///< receives the fate of each datagram; outlives the link
 };
 
-/// A link around another one whose own endpoint the others know. It sends one copy to each address,
-/// those to one address in one run, so that the kernel can cut it. Cost: that of the inner link
-/// times the addresses, and one copy of the octets. Nothing is joined. Threads as for any Link;
-/// sending allocates nothing.
+/// A link around another one whose own endpoint the other hosts know. It sends one copy to each
+/// address, and all copies to one address in one run, so that the kernel can cut it. Cost: the cost
+/// of the inner link multiplied by the number of addresses, and one copy of the octets. Nothing is
+/// joined. Threads as for any Link; sending allocates nothing.
 class FanOutLink final : public Link {
  public:
   /// @param inner outlives this

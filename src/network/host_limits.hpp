@@ -43,9 +43,9 @@ struct HostNeeds {
 // A probe takes the stated time or less than 1 ms, has no lasting effect, throws only
 // std::bad_alloc, and may be called by any thread.
 
-/// Joins the group on its port as a peer would, sends an empty datagram there, which no program
-/// takes for a PDU, and waits up to 100 ms for it to come back. This detects firewalls and programs
-/// that hold the port.
+/// Joins the group on its port as a peer would, sends an empty datagram there and waits up to 100
+/// ms for it to come back. Programs do not interpret an empty datagram as a PDU. This detects
+/// firewalls and programs that hold the port.
 [[nodiscard]] Finding probe_multicast(const NetworkInterface& interface, const GroupAddress& group);
 /// Joins the base group and `count` groups of the pool at once, with a socket each: tests
 /// descriptors, memberships and socket memory. Some 30 us a group.
@@ -54,17 +54,18 @@ struct HostNeeds {
 /// Whether the group has a route without naming an interface (other tools need one).
 [[nodiscard]] Finding probe_multicast_route(const NetworkInterface& interface,
                                             const GroupAddress& group);
-/// igmp_max_memberships. Reckon takes one socket a group; other programs may not.
+/// igmp_max_memberships. Reckon uses one socket for each group; other programs may use one for
+/// many.
 [[nodiscard]] Finding probe_memberships();
 /// net.core.rmem_max compared with the requested receive buffer.
 [[nodiscard]] Finding probe_receive_buffer(std::size_t asked);
-/// Sends a run of two datagrams of one octet each to the group, which no program takes for PDUs:
-/// tests whether the kernel cuts it (UDP_SEGMENT) and may hand over runs as one (UDP_GRO).
+/// Sends a run of two datagrams of one octet each to the group, which no program interprets as
+/// PDUs. Tests whether the kernel cuts the run (UDP_SEGMENT) and may deliver runs as one (UDP_GRO).
 [[nodiscard]] Finding probe_offload(const NetworkInterface& interface, const GroupAddress& group);
 /// net.ipv4.conf.*.rp_filter: drops datagrams from an unrouted subnet.
 [[nodiscard]] Finding probe_reverse_path_filter(const NetworkInterface& interface);
-/// Whether the MTU is large enough for bundles of a length, with what lies around them, and for
-/// datagrams of 1500 octets.
+/// Whether the MTU is large enough for bundles of this length with their headers, and for datagrams
+/// of 1500 octets.
 [[nodiscard]] Finding probe_mtu(const NetworkInterface& interface, std::size_t longest_bundle);
 /// Wireless, virtual and loopback interfaces.
 [[nodiscard]] Finding probe_interface_kind(const NetworkInterface& interface);
@@ -78,13 +79,13 @@ struct HostNeeds {
 /// RLIMIT_NOFILE against one socket a group.
 [[nodiscard]] Finding probe_open_files(std::size_t groups);
 
-/// Resolves the peers of a list and sends each an empty datagram, which no program takes for a PDU,
-/// from the port to which they answer. Reports peers without an address or a route, and whether
-/// this host is in the list. Resolving may take seconds.
+/// Resolves the peers of a list and sends each of them an empty datagram from the port to which
+/// they answer. Programs do not interpret it as a PDU. Reports peers without an address or a route,
+/// and whether this host is in the list. Resolving may take seconds.
 [[nodiscard]] Finding probe_peers(const NetworkInterface& interface,
                                   const std::vector<NamedPeer>& peers, const GroupAddress& group);
 
-/// All probes in that order; with a list of peers, that probe instead of those of groups.
+/// All probes in that order; if there is a list of peers, its probe replaces the probes of groups.
 [[nodiscard]] std::vector<Finding> examine_host(const NetworkInterface& interface,
                                                 const HostNeeds& needs);
 

@@ -28,7 +28,7 @@ struct Sender {
 
 }  // namespace
 
-// The inner link, the law of the damage, and what is delayed by it.
+// The inner link, the impairment law, and the delayed datagrams.
 struct ImpairedLink::Emulator {
   Emulator(Link& wrapped, const ImpairedLinkOptions& options, const Clock& steady)
       : inner(wrapped),

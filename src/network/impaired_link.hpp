@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A bad network around a good link: what arrives is lost, delayed, doubled and reordered by the one
-// law before it is handed over. On the receive side, so that each peer loses other datagrams.
+// Simulates a bad network around a good link: arriving datagrams are lost, delayed, duplicated and
+// reordered by the impairment law. It works on the receiving side, so that each peer loses
+// different datagrams.
 #pragma once
 
 #include <chrono>
@@ -26,28 +27,30 @@ struct ImpairedLinkOptions {
   std::size_t max_datagram{2048};     ///< longest payload kept [octets]; longer ones are truncated
   std::size_t max_senders{256};       ///< beyond it senders share one sequence
   std::chrono::nanoseconds start{0};  ///< the start of the run, for outages, by `clock`
-  DatagramTap* tap{nullptr};          ///< of what it does to which datagram; outlives it
+  DatagramTap* tap{nullptr};          ///< receives the effect on each datagram; outlives the link
 };
 
-/// Delays on the way in; sends straight through. Threads as any Link: receive and wait by one.
+/// Delays received datagrams; sends without changes. Threads as for any Link: receive and wait in
+/// one.
 class ImpairedLink final : public Link {
  public:
   /// Allocates the whole queue. `inner` and `clock` must outlive this. @throws
-  /// std::invalid_argument where the law is out of range.
+  /// std::invalid_argument if the law is out of range.
   ImpairedLink(Link& inner, const ImpairedLinkOptions& options, const Clock& clock);
   ~ImpairedLink() override;
 
-  /// Gives a sender the number that the law draws from; else they count by first appearance.
-  /// Needed for equal decisions in two runs, as real senders have other ports each time.
+  /// Sets the number of a sender from which the law draws; by default senders are numbered in the
+  /// order of their first datagrams. Two runs need this for equal decisions, because real senders
+  /// have other ports each time.
   void number_sender(const IpEndpoint& sender, std::uint64_t number);
 
-  /// Another law from the next receive() on, with the same seed; what is delayed already comes when
-  /// it would have come. By one thread, any; allocates where the law has outages.
+  /// Sets another law from the next receive() on, with the same seed. Datagrams that are already
+  /// delayed keep their times. By one thread, any; allocates if the law has outages.
   /// @throws std::invalid_argument with law.problem()
   void change_law(const ImpairmentLaw& law);
 
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
-  /// Datagram::received is the time at which the law lets it arrive.
+  /// In datagrams from receive(), Datagram::received is the time of arrival according to the law.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;

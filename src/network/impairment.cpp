@@ -120,7 +120,7 @@ Fate Impairment::decide(std::uint64_t sender, std::uint64_t sequence,
   return fate;
 }
 
-// The Gilbert chain without its past: where the draw at n sends both states to the same one, the
+// The Gilbert chain without its past: if the draw at n sends both states to the same one, the
 // state before n does not matter; else n keeps it (or, if enter + leave > 1, flips it). Looking
 // back to the nearest such n gives the state of the stationary chain exactly.
 bool Impairment::in_burst(std::uint64_t sender, std::uint64_t sequence) const noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The one law by which datagrams are delayed, lost, doubled and put out of order. A pure function:
-// the in-process network and the wrapper around a real link take the same decisions from one seed.
+// The law by which datagrams are delayed, lost, duplicated and reordered. A pure function: the
+// in-process network and the wrapper around a real link make the same decisions from the same seed.
 #pragma once
 
 #include <array>
@@ -33,25 +33,25 @@ struct ImpairmentLaw {
   double duplicate{0.0};        ///< share that arrives twice, 0 to 1
   std::vector<Outage> outages;  ///< set-up only; read, never changed, while running
 
-  /// True where every datagram passes at once and unchanged.
+  /// True if every datagram passes immediately and unchanged.
   [[nodiscard]] bool is_perfect() const noexcept;
-  /// What is out of range, as a sentence with the value; empty where all is well.
+  /// A sentence with the value that is out of range; empty if all are valid.
   [[nodiscard]] std::string problem() const;
 };
 
-/// `delay` [s] +- `jitter_share` of it, 0 to 1, and this share lost; what is out of range is left
-/// to problem().
+/// `delay` [s] +- `jitter_share` of it, 0 to 1, with the given share lost. Values out of range are
+/// reported by problem().
 [[nodiscard]] ImpairmentLaw delayed_by(double delay, double jitter_share = 0, double loss = 0);
-/// Jitter as a share of the delay; 0 where there is no delay.
+/// Jitter as a share of the delay; 0 without a delay.
 [[nodiscard]] double jitter_share(const ImpairmentLaw& law) noexcept;
 
-/// A law and the seed of what it draws.
+/// A law and the seed for its random decisions.
 struct ImpairmentConfig {
   ImpairmentLaw law;       ///< all defaults together are a perfect network
   std::uint64_t seed = 1;  ///< equal seeds give equal damage
 };
 
-/// What happens to one datagram: how many copies arrive (0, 1, 2) and how much later each.
+/// The result for one datagram: how many copies arrive (0, 1, 2), and the delay of each.
 struct Fate {
   enum class Loss : std::uint8_t { none, random, burst, outage };
   std::uint8_t copies{1};

@@ -41,7 +41,7 @@ std::optional<IpEndpoint> to_endpoint(const sockaddr* address) {
   return std::nullopt;
 }
 
-// The broadcast address of the subnet; nothing for IPv6 and where a subnet has none (/31, /32).
+// The broadcast address of the subnet; nothing for IPv6 and if the subnet has none (/31, /32).
 std::optional<IpEndpoint> broadcast_of(const IpEndpoint& address, const sockaddr* netmask) {
   if (address.is_v6 || netmask == nullptr) return std::nullopt;
   sockaddr_in mask{};

@@ -38,7 +38,8 @@ struct NetworkInterface {
 [[nodiscard]] bool is_link_local(const IpEndpoint& endpoint) noexcept;
 
 /// True for 255.255.255.255 and for an IPv4 address that is the broadcast address of a subnet of
-/// some size, such as 10.9.9.255. Whether it is that of an interface, only the host knows.
+/// some size, such as 10.9.9.255. Only the host knows whether one of its interfaces has that
+/// subnet.
 [[nodiscard]] bool may_be_broadcast(const IpEndpoint& endpoint) noexcept;
 
 /// All interfaces with their addresses. @throws std::system_error.
@@ -76,8 +77,9 @@ struct InterfaceStanding {
 };
 
 /// Finds the interface of a link again: the one with the requested address, or the one of the same
-/// name, whatever its index is now. Pure.  @param requested as for choose_interface().
-/// @param used the interface that was chosen then
+/// name with any index. Pure.
+/// @param requested as for choose_interface().
+/// @param used the interface that was chosen at first
 [[nodiscard]] InterfaceStanding find_again(std::span<const NetworkInterface> candidates,
                                            std::string_view requested, const NetworkInterface& used,
                                            bool ipv6);

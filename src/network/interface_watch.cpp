@@ -35,7 +35,7 @@ InterfaceWatch::~InterfaceWatch() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-// The messages are not read for their content: the caller examines the host anew, so a lost or
+// The content of the messages is not used. The caller examines the host again, so a lost or
 // truncated message has no effect.
 bool InterfaceWatch::take_changes() noexcept {
   if (descriptor_ < 0) return false;

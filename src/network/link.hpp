@@ -33,8 +33,8 @@ struct IpEndpoint {
   /// True if no address is set (0.0.0.0 or ::).
   [[nodiscard]] bool is_unspecified() const noexcept;
 
-  /// Reads "239.192.1.0", "239.192.1.0:3000", "ff15::1", "[ff15::1]:3000"; without a port,
-  /// `default_port`. Nothing if the text is none of these.
+  /// Reads "239.192.1.0", "239.192.1.0:3000", "ff15::1", "[ff15::1]:3000"; without a port it uses
+  /// `default_port`. Nothing if the text has another form.
   [[nodiscard]] static std::optional<IpEndpoint> parse(std::string_view text,
                                                        std::uint16_t default_port = 0);
   /// From a host-order IPv4 address.
@@ -61,7 +61,7 @@ class GroupPool {
   /// one that every switch floods (33:33:00:00:00:xx).
   [[nodiscard]] static GroupPool ipv6_default() noexcept;
 
-  /// The broadcast address has no further groups, whatever `size` is: only its base is used.
+  /// The broadcast address has no further groups, regardless of `size`: only its base is used.
   /// @throws std::invalid_argument if base is neither a multicast group nor the broadcast address,
   /// its port is 0, size is 0 or above 65535, or the last group would leave the multicast range.
   GroupPool(const GroupAddress& base, std::size_t size);
@@ -142,7 +142,7 @@ class Link {
   virtual ~Link() = default;
 
   /// Sends one datagram to a group or to a peer's unicast endpoint. False if the kernel refused it,
-  /// which is counted; the caller goes on (the next update repairs it).
+  /// which is counted; the caller continues (the next update repairs it).
   virtual bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept = 0;
 
   /// Sends datagrams in their order, with the effect of send() for each. A link may hand many to
@@ -170,11 +170,11 @@ class Link {
   [[nodiscard]] virtual LinkStatistics statistics() const noexcept = 0;
 
   /// Takes the events of the link since the last call, oldest first; false if there are none. One
-  /// thread, any; no allocation. A link around another one passes on the events of that one.
+  /// thread, any; no allocation. A link around another one forwards the events of the inner link.
   virtual bool take_event(LinkEvent&) noexcept { return false; }
 
-  /// Nobody will receive any more: counts what the kernel has dropped since the last datagram, and
-  /// reports unread datagrams to a tap. By the thread of receive(), or after its end.
+  /// For the end of reception: counts the datagrams that the kernel has dropped since the last one,
+  /// and reports unread datagrams to a tap. By the thread of receive(), or after its end.
   virtual void settle() noexcept {}
 };
 

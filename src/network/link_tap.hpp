@@ -19,7 +19,7 @@ namespace reckon::peer {
 class LinkTap {
  public:
   /// @param tap outlives this; may be null
-  /// @param framed pool of a FanOutLink around the link: then the group of a datagram is that of
+  /// @param framed pool of a FanOutLink around the link: the group of a datagram is then taken from
   /// its frame
   LinkTap(DatagramTap* tap, const std::optional<GroupPool>& framed) : tap_(tap), framed_(framed) {}
 

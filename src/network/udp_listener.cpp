@@ -44,7 +44,7 @@ bool is_same(const NetworkInterface& a, const NetworkInterface& b) {
   return a.index == b.index && a.name == b.name && a.addresses == b.addresses;
 }
 
-// Those of `some` that are not among `others`.
+// The interfaces of `some` that are not in `others`.
 std::vector<NetworkInterface> without(std::span<const NetworkInterface> some,
                                       std::span<const NetworkInterface> others) {
   std::vector<NetworkInterface> out;
@@ -55,7 +55,7 @@ std::vector<NetworkInterface> without(std::span<const NetworkInterface> some,
   return out;
 }
 
-// A sentence about a place that has no socket.
+// A sentence about an address for which no socket could be opened.
 std::string refusal(const std::error_code& error, const IpEndpoint& place, bool is_broadcast) {
   if (place.is_multicast()) return advice(error, place);
   std::string text = "cannot listen to " + place.text() + ": ";
@@ -89,7 +89,7 @@ UdpListener::UdpListener(const UdpListenerOptions& options, const Clock& clock)
   }
   receiver_.reserve(options_.offload);
   listen();
-  asked_.skips_failures = true;  // from now on all that goes wrong is a warning
+  asked_.skips_failures = true;  // all later failures are warnings
 }
 
 std::vector<NetworkInterface> UdpListener::choose() const {
@@ -101,7 +101,7 @@ std::vector<NetworkInterface> UdpListener::choose() const {
               [](const auto& a, const auto& b) { return a.index < b.index; });
     return all;
   }
-  if (used_.empty() && !asked_.skips_failures)  // a missing cable is no hindrance at the start
+  if (used_.empty() && !asked_.skips_failures)  // at the start, a missing cable is no error
     return {choose_interface(all, asked_.interface, options_.ipv6).interface};
   NetworkInterface used;
   used.name = interface_;
@@ -131,7 +131,7 @@ std::vector<UdpListener::Ear> UdpListener::ears_of(
       out.push_back({at_port(address, place.port), needs_scope ? interface.index : only});
     }
   }
-  if (out.empty() && !all) out.push_back({place, only});  // the kernel has the last word
+  if (out.empty() && !all) out.push_back({place, only});  // the kernel decides
   return out;
 }
 
@@ -150,7 +150,7 @@ void UdpListener::warn(std::string sentence) {
     warnings_.push_back(std::move(sentence));
 }
 
-// Fails where the group is joined on none of them.
+// Fails if the group could not be joined on any of them.
 std::error_code UdpListener::join(UdpSlot& slot, std::span<const NetworkInterface> added) {
   std::error_code last;
   bool any = added.empty();
@@ -201,10 +201,10 @@ std::error_code UdpListener::open(const Ear& ear) {
   return error;
 }
 
-// Makes the sockets and memberships those of the present interfaces.
+// Opens and closes sockets and memberships to match the present interfaces.
 void UdpListener::listen() {
   const std::vector<NetworkInterface> before = std::exchange(used_, choose());
-  if (used_.empty() && !asked_.skips_failures)  // states what there is
+  if (used_.empty() && !asked_.skips_failures)  // throws with the available ones
     static_cast<void>(choose_interface(asked_.interface, options_.ipv6));
   std::vector<IpEndpoint> own;
   for (const NetworkInterface& interface : used_)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hears what is sent to groups, broadcast addresses and addresses of this host, on one interface or
+// Receives datagrams to groups, broadcast addresses and addresses of this host, on one interface or
 // on all of them. Sends nothing. Private to the peer library.
 #pragma once
 
@@ -28,19 +28,19 @@
 
 namespace reckon::peer {
 
-/// What is listened to, and where.
+/// The addresses to receive from, and the interface.
 struct UdpListenerOptions {
   std::string interface;  ///< name, address or index; empty: every interface that is up
   /// At least one, all of one family. A group; 255.255.255.255 or the broadcast address of a
-  /// subnet, which are heard together; an address of this host; 0.0.0.0 for all of its broadcast
-  /// and own addresses ([::]: its own ones).
+  /// subnet, where each includes the other; an address of this host; 0.0.0.0 for all of its
+  /// broadcast and own addresses ([::]: its own ones).
   std::vector<IpEndpoint> places;
-  bool skips_failures{false};  ///< hears what can be heard; else a place without a socket throws
+  bool skips_failures{false};  ///< skips places without a socket; else they throw
 };
 
 /// One socket for each address; a group is joined on each interface. A datagram that came over
-/// several interfaces is returned once, see CopyFilter. Interfaces and addresses that come later
-/// are heard too. One thread, except wake(). Joining, interfaces and copies allocate.
+/// several interfaces is returned once, see CopyFilter. Interfaces and addresses that appear later
+/// are included. One thread, except wake(). Joining, interfaces and copies allocate.
 class UdpListener {
  public:
   using nanoseconds = std::chrono::nanoseconds;
@@ -59,18 +59,18 @@ class UdpListener {
   }
   void wake() noexcept { ready_.wake(); }
 
-  /// Those that are listened to, by index. Changes in wait().
+  /// The interfaces in use, by index. Changes in wait().
   [[nodiscard]] const std::vector<NetworkInterface>& interfaces() const noexcept { return used_; }
   [[nodiscard]] LinkStatistics statistics() const noexcept { return counts_.values(); }
   [[nodiscard]] std::uint64_t copies() const noexcept { return copies_; }
-  /// Sentences about what cannot be heard; empty if all can.
+  /// Sentences about places from which nothing can be received; empty if there are none.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
   /// An address to which a socket is bound.
   struct Ear {
     IpEndpoint address;
-    unsigned interface = 0;  ///< the only one it hears; 0: all
+    unsigned interface = 0;  ///< its only interface; 0: all
     bool is_broadcast{false};
     bool operator==(const Ear&) const = default;
   };

@@ -24,7 +24,7 @@ class DatagramTap;
 inline constexpr std::chrono::nanoseconds kLongestStall = std::chrono::milliseconds(50);
 
 /// SO_RCVBUF [octets] that loses nothing if the reader pauses for `stall` at this rate of datagrams
-/// with up to `payload` octets. The kernel charges a buffer not for the octets but for their
+/// with up to `payload` octets. The kernel charges a buffer not by the octets but by their
 /// memory: the next power of two above the octets, their headers and its own data; and it takes
 /// twice the requested size. Measured, see docs/transport.md.
 [[nodiscard]] std::size_t receive_room(double datagrams_per_second, std::chrono::nanoseconds stall,
@@ -48,11 +48,11 @@ struct UdpMulticastOptions {
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, allocated at set-up
   DatagramTap* tap{nullptr};     ///< receives the fate of each datagram; outlives the link
-  /// Pool of a FanOutLink around this link: a tap receives the group in a datagram's frame, and
-  /// that of everything after the frame.
+  /// Pool of a FanOutLink around this link: a tap then receives the group that is named in a
+  /// datagram's frame, and the datagram behind the frame.
   std::optional<GroupPool> framed{};
-  /// Groups behind the base of this pool are read before each turn of any other group, up to half
-  /// of what is read at a time; none: all are read in turn.
+  /// Groups of this pool, except its base, are read before each turn of any other group, up to half
+  /// of the datagrams read in one turn; none: all groups are read in turn.
   std::optional<GroupPool> read_first{};
 };
 
@@ -65,11 +65,12 @@ struct UdpOffload {
 
 /// UDP multicast on one interface. Send and receive allocate nothing.
 ///
-/// It outlives its interface. The kernel wakes wait() when interfaces or addresses change, and the
-/// link opens the interface anew: the one with the same name or the requested address, or after
-/// five seconds another one, if it was chosen by rule. The own port stays if it can, and the groups
-/// are joined again. If own datagrams to the first joined group no longer come back, that is
-/// reported as well, and the group is joined again once. All of this is reported by take_event().
+/// The link continues to work when its interface disappears. The kernel wakes wait() when
+/// interfaces or addresses change, and the link opens the interface again: the one with the same
+/// name or the requested address. After five seconds it uses another one, if the interface was
+/// chosen by rule. The link keeps its own port if possible, and joins the groups again. If own
+/// datagrams to the first joined group no longer come back, it also reports this and joins the
+/// group once more. take_event() returns all of these reports.
 class UdpMulticast final : public Link {
  public:
   /// Opens the sending socket, which also receives unicast.
@@ -81,7 +82,7 @@ class UdpMulticast final : public Link {
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   /// At most two system calls for 64 datagrams, one of them for the octets pending in the kernel;
   /// one more if the wire is slower than the sender. The kernel cuts runs. If it refuses, each
-  /// datagram is sent alone from then on, and take_event() reports that.
+  /// datagram is sent individually from then on, and take_event() reports that.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;

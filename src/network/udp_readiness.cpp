@@ -49,8 +49,8 @@ void UdpReadiness::poll(nanoseconds timeout) noexcept {
   crowded_ = ready == static_cast<int>(events_.size());
   next_event_ = 0;
   first_ready_ = false;
-  // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait(). Without
-  // one there is nothing to read, which saves the system call.
+  // The wake-up stays unread here: wait() takes it, and receive() leaves it to the next wait(). If
+  // there is none, nothing needs to be read, which saves the system call.
   const auto is_no_socket = [this](const epoll_event& event) {
     if (event.data.u32 == kWakeTag) wake_waits_ = true;
     if (event.data.u32 == kHostTag) host_changed_ = host_.take_changes() || host_changed_;

@@ -50,7 +50,7 @@ void UdpRecovery::recover() noexcept {
   }
 }
 
-// Sending goes on without it, but a bulk sender should know the cost.
+// Sending continues without it, but the user of a bulk sender should know the cost.
 void UdpRecovery::report_offload() {
   const int why = link_.sender.segment_refusal();
   if (why == 0 || refusal_reported_) return;

@@ -39,7 +39,7 @@ udp::endpoint to_asio(const IpEndpoint& endpoint, unsigned interface_index) {
   return out;
 }
 
-// RCVBUFFORCE exceeds rmem_max if permitted; else RCVBUF silently takes what is allowed.
+// RCVBUFFORCE exceeds rmem_max if permitted; else RCVBUF silently takes at most rmem_max.
 void set_receive_buffer(udp::socket& socket, std::size_t octets, std::error_code& error) {
   if (error) return;
   const int asked = static_cast<int>(octets);
@@ -90,7 +90,7 @@ void set_fragments(udp::socket& socket, const UdpSocketOptions& options, std::er
   }
 }
 
-// @param name_v4, name_v6: the options that join a group, or those that leave it.
+// @param name_v4, name_v6: the options for joining a group, or for leaving it.
 void change_membership(udp::socket& socket, const UdpSocketOptions& options,
                        const GroupAddress& group, int name_v4, int name_v6,
                        std::error_code& error) {
@@ -206,13 +206,14 @@ udp::socket open_listener(asio::io_context& context, const UdpSocketOptions& opt
   else
     set_option(socket, IPPROTO_IP, IP_PKTINFO, 1, error);
   if (!error && shares) socket.set_option(asio::socket_base::reuse_address(true), error);
-  // IPv4 keeps groups of other interfaces away by their memberships; the rest has none.
+  // For IPv4 groups, memberships already exclude other interfaces; other sockets have no
+  // memberships.
   if (options.interface_index != 0 && (options.ipv6 || !place.is_multicast())) {
     const int index = static_cast<int>(options.interface_index);
     set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
   }
   if (!error) socket.bind(to_asio(place, options.interface_index), error);
-  // Programs that come later may have what is theirs.
+  // Later programs may bind the same address, and then get its datagrams.
   if (!error && !shares) socket.set_option(asio::socket_base::reuse_address(true), error);
   error = generic(error);
   return socket;

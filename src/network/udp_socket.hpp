@@ -41,7 +41,7 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                                                 const UdpSocketOptions& options,
                                                 const IpEndpoint& local, std::error_code& error);
 
-/// Sets the outgoing interface of multicast anew, on a socket in use. Any thread.
+/// Sets the outgoing interface of multicast again, on a socket in use. Any thread.
 [[nodiscard]] std::error_code set_outgoing_interface(asio::ip::udp::socket& socket,
                                                      const UdpSocketOptions& options);
 
@@ -50,11 +50,11 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                                                const UdpSocketOptions& options,
                                                const GroupAddress& group, std::error_code& error);
 
-/// A receiving socket of a listener, bound to `place`: a group, a broadcast address, or an address
-/// of this host. It reports the interface of each datagram, and hears all of them unless the
-/// options name one; a group needs join_group() on each. The port is shared with other programs,
-/// except for an address of this host: what is sent to one goes to one program only, and a
-/// listener takes it from nobody.
+/// Opens a receiving socket of a listener, bound to `place`: a group, a broadcast address, or an
+/// address of this host. It reports the interface of each datagram, and receives from all of them
+/// unless the options name one; a group needs join_group() on each. The port is shared with other
+/// programs, except for an address of this host: the kernel delivers a datagram to such an address
+/// to only one program, and a listener must not take it from another.
 [[nodiscard]] asio::ip::udp::socket open_listener(asio::io_context& context,
                                                   const UdpSocketOptions& options,
                                                   const IpEndpoint& place, std::error_code& error);

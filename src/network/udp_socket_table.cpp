@@ -103,7 +103,8 @@ std::error_code UdpSocketTable::adopt(udp::socket socket, const GroupAddress& gr
   return error;
 }
 
-// Broadcasts to everybody and to the subnet are one group: who uses one form wants to hear both.
+// The broadcast addresses of everybody and of the subnet count as one group: users of one form also
+// expect datagrams to the other.
 std::vector<IpEndpoint> UdpSocketTable::addresses_of(const GroupAddress& group) const {
   std::vector<IpEndpoint> out{group};
   if (!may_be_broadcast(group)) return out;
@@ -126,7 +127,7 @@ std::error_code UdpSocketTable::open(const GroupAddress& group) noexcept {
       std::error_code refused;
       udp::socket socket = open_group(context_, options_, address, refused);
       if (!refused) refused = adopt(std::move(socket), group);
-      if (address == group) error = refused;  // the other form is heard where it can be
+      if (address == group) error = refused;  // the other form is optional
       if (error) break;
     }
   } catch (const std::bad_alloc&) {
@@ -143,9 +144,9 @@ std::error_code UdpSocketTable::open(const GroupAddress& group) noexcept {
   return error;
 }
 
-// Leaves the group. If a tap needs the pending datagrams, the membership ends before they are read:
-// closing can wait for the kernel's lock of interfaces, and datagrams of that time would not be
-// reported.
+// Leaves the group. If a tap needs the pending datagrams, the membership ends before they are read.
+// Closing can wait for the kernel's lock of interfaces, and datagrams that arrive during this wait
+// would not be reported.
 void UdpSocketTable::close(UdpSlot& slot) noexcept {
   const nanoseconds asked = link_.clock.now();
   if (link_.tap.is_on()) leave_group(slot.socket, options_, slot.group);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The open sockets of a UdpMulticast: that of unicast, and one of each joined group. Private to the
-// network.
+// The open sockets of a UdpMulticast: the unicast socket, and one for each joined group. Private to
+// the network.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -55,7 +55,7 @@ class UdpSocketTable {
   void rejoin();
   /// Joins groups that rejoin() could not, as far as possible by now.
   void join_missing();
-  /// Joined groups, and those that could not be joined again.
+  /// Numbers of joined groups, and of groups that could not be joined again.
   [[nodiscard]] std::size_t joined() const noexcept;
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
 

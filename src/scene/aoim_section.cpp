@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [aoim]: cells, groups and their assignment, and what of it excludes other parts of a file.
+// [aoim]: cells, groups and their assignment, and conflicts with other parts of a file.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -27,7 +27,7 @@ void check_aoim(TomlReader& table, AoimConfig& config) {
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }
 
-/// Each further tier needs as many groups as the cells have.
+/// Each further tier needs as many groups as the cells.
 void check_pool(TomlReader& file, const SceneFile& scene) {
   const AoimConfig& aoim = scene.aoim;
   if (aoim.all_groups() == aoim.pool) return;

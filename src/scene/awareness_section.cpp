@@ -41,7 +41,7 @@ Section<OccluderConfig> occluder_section() {
           }};
 }
 
-/// The kind with this name, in upper or lower case; the number of kinds if there is none.
+/// The kind with this name, ignoring case; the number of kinds if there is none.
 unsigned kind_of(std::string_view word) {
   const auto equal = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
   unsigned kind = 0;

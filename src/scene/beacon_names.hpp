@@ -10,7 +10,7 @@
 
 namespace reckon::peer {
 
-/// Most beacons that one peer follows, and longest name of a beacon.
+/// Limit of beacons that one peer follows, and longest name of a beacon.
 inline constexpr std::size_t kMostFollowed = 16, kLongestBeacon = 31;
 
 /// Whether a beacon may have this name: 1 to kLongestBeacon ASCII letters, digits, '-', '_', '.'.

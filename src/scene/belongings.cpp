@@ -112,7 +112,7 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
   const haptics::UsbFacts* const facts = usb_facts_of(device);
   if (facts == nullptr) return;
   haptics::UsbSettings settings;
-  // Of a board its maker alone knows more.
+  // The limits of a serial board are known only to its maker.
   if (driver == DeviceDriver::serial && !said.max_force)
     device.max_force = std::min(device.max_force, haptics::kSerialAssumedForce);
   if (driver == DeviceDriver::serial && said.resolution) settings.resolution = device.resolution;
@@ -138,7 +138,7 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
 haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   haptics::UsbSettings settings;
   settings.max_force = device.max_force;
-  // use_driver() left what the servo gets of it.
+  // use_driver() stored the damping that the servo gets.
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
   settings.joint_damping = device.joint_damping;

@@ -21,10 +21,10 @@ namespace reckon::peer {
 /// Largest number of a peer that a scene may name.
 inline constexpr std::uint32_t kMostPeers = 64;
 
-/// The devices of peer `peer`, in the file's order. If the scene has any device, exactly those of
-/// this peer, perhaps none. If it has none, one with default limits, held by operator `peer`
-/// (beyond the last operator they repeat, with an offset). A peer that owns entities and has no
-/// operator of its own number has no device in that case.
+/// The devices of peer `peer`, in the file's order. If the scene lists devices, the result has the
+/// ones of this peer, perhaps none. If it lists none, the result is one device with default limits,
+/// held by operator `peer` (beyond the last operator they repeat, with an offset). In that case, a
+/// peer that owns entities and has no operator of its own number has no device.
 [[nodiscard]] std::vector<DeviceConfig> devices_of(const SceneFile& scene, std::uint32_t peer);
 
 /// The entities that peer `peer` owns, in the file's order.
@@ -40,36 +40,35 @@ inline constexpr std::uint32_t kMostPeers = 64;
 /// @throws CsvError "file:line:column: what" if a track cannot be read.
 [[nodiscard]] std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities);
 
-/// Servo periods, whole, in which a force is there that takes so long; a hundred thousandth over is
-/// rounding of the period.
+/// Number of whole servo periods for this delay; an excess of a hundred thousandth is rounding of
+/// the period.
 [[nodiscard]] int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period);
 
-/// The device is what a descriptor says; of what that does not say it has what a simulated one has.
+/// Sets the device to its descriptor's values; values missing there are as for a simulated device.
 void describe(DeviceConfig& device, const DeviceDescriptor& descriptor);
 
-/// Which numbers of a device are those of the real one, not of what is simulated.
+/// Which values of a device were measured on the real device.
 struct SaidOfDevice {
   bool damping = false;
   bool delay = false;
   bool max_force = false;
   bool resolution = false;
-  /// The damping is that of every pose; false: it was found in the middle of the work space.
+  /// The damping holds in every pose; false: it was measured in the middle of the work space.
   bool everywhere = false;
 };
 
-/// The device gets this driver, and with it the limits of what the driver drives, as far as they
-/// are not its own.
+/// Sets the driver of a device, and the limits of the real device unless the file gives them.
 void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said);
-/// What is known of the real device that a driver drives; null: it is simulated.
+/// Known facts of the real device of a driver; null: not on USB or a serial port.
 [[nodiscard]] const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device);
-/// What the motors of a Polhem hold up.
+/// The link weights that the motors of a Polhem compensate.
 [[nodiscard]] haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device);
-/// For the driver of a real device.
+/// Settings for the driver of a real device.
 [[nodiscard]] haptics::UsbSettings usb_settings_of(const DeviceConfig& device);
 
-/// The same for a force feedback device of Linux.
+/// The same for a Linux force feedback device.
 [[nodiscard]] haptics::EvdevSettings evdev_settings_of(const DeviceConfig& device);
-/// Why a device cannot be one, with the key that says otherwise: a sentence; empty: it can.
+/// Why the device cannot be an event device, with the key to change: a sentence; empty: it can.
 [[nodiscard]] std::string evdev_fault_of(const DeviceConfig& device);
 
 }  // namespace reckon::peer

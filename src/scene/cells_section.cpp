@@ -68,7 +68,7 @@ Section<LocaleConfig> locale_section() {
       }};
 }
 
-/// The cells in `leaves`; an invalid one is a problem.
+/// The cells in `leaves`; an invalid name is a problem.
 std::vector<aoim::CellId> named_cells(TomlReader& table, const std::string& leaves) {
   std::vector<aoim::CellId> cells;
   std::istringstream words(leaves);
@@ -104,7 +104,7 @@ void divide(TomlReader& table, AoimConfig& config) {
   }
 }
 
-/// Checks that the locales fit together.
+/// Checks that the locales are consistent.
 void lay_out(TomlReader& table, const AoimConfig& config) {
   const std::size_t most = config.hand_out ? aoim::kMaximumPool : config.pool;
   if (config.locales.size() > most)

@@ -57,7 +57,7 @@ void check_axes(TomlReader& file, const DeviceDescriptor& device) {
   }
 }
 
-// What is not said cannot be relied on.
+// Required keys: a servo cannot rely on values that are not stated.
 void check_descriptor(TomlReader& file, DeviceDescriptor& device) {
   for (const char* key : {"name", "max_force", "damping", "resolution", "delay"}) file.require(key);
   file.each_text("usb", [&](const std::string& id) { device.usb.push_back(parse_usb_id(id)); });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a device is and can do, in a file of its own.
+// Properties of a device, in a file of its own.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace reckon::peer {
 
-/// A device by vendor and product, as USB numbers them.
+/// USB vendor and product IDs of a device.
 struct UsbId {
   std::uint16_t vendor = 0, product = 0;
   friend constexpr bool operator==(const UsbId&, const UsbId&) = default;
@@ -30,26 +30,26 @@ struct WorkSpaceCorners {
 
 /// A file of devices/. docs/devices.md lists its keys.
 struct DeviceDescriptor {
-  std::string name;        ///< of the product
-  std::vector<UsbId> usb;  ///< under which it is attached; none: by no USB
+  std::string name;        ///< product name
+  std::vector<UsbId> usb;  ///< USB IDs of the device; none: not on USB
   haptics::DeviceKind kind = haptics::DeviceKind::impedance;
   int axes = 3;
   double max_force = 10.0;            ///< [N]
-  double continuous_force = 0.0;      ///< [N], that its motors hold for ever; 0: max_force
-  double thermal_time = 20.0;         ///< [s], in which they become warm
-  double damping = 0.0;               ///< [N s/m], viscous friction that one is sure of
-  double joint_damping = 0.0;         ///< [N m s/rad], of each joint, in its place; 0: unsaid
+  double continuous_force = 0.0;      ///< [N], permanent limit of its motors; 0: max_force
+  double thermal_time = 20.0;         ///< [s], time constant of their warming
+  double damping = 0.0;               ///< [N s/m], guaranteed viscous friction
+  double joint_damping = 0.0;         ///< [N m s/rad], of each joint; 0: not given
   double resolution = 0.0;            ///< [m]
-  std::chrono::nanoseconds delay{0};  ///< until a force is at the handle
-  double max_stiffness = 0.0;         ///< [N/m], 0: no limit of its own
+  std::chrono::nanoseconds delay{0};  ///< until a force reaches the handle
+  double max_stiffness = 0.0;         ///< [N/m], 0: no own limit
   double max_speed = 2.0;             ///< [m/s]
   double mass = 0.1;                  ///< [kg]
   double friction = 0.0;              ///< [N], dry
   WorkSpaceCorners work_space;        ///< [m]
-  double max_torque = 1.0;            ///< [N m], of 6 axes
-  double turn_damping = 0.01;         ///< [N m s/rad], of 6 axes
-  double turn_resolution = 0.0;       ///< [rad], of 6 axes
-  double inertia = 1e-4;              ///< [kg m^2], of 6 axes
+  double max_torque = 1.0;            ///< [N m], for 6 axes
+  double turn_damping = 0.01;         ///< [N m s/rad], for 6 axes
+  double turn_resolution = 0.0;       ///< [rad], for 6 axes
+  double inertia = 1e-4;              ///< [kg m^2], for 6 axes
 };
 
 /// @param file for messages @throws SceneFileError with the place and the remedy of each bad key
@@ -58,15 +58,15 @@ struct DeviceDescriptor {
 /// @throws as above
 [[nodiscard]] DeviceDescriptor load_device_descriptor(const std::filesystem::path& file);
 
-/// Where descriptors without a folder are looked for: beside the program as installed, where
-/// Reckon is installed, in the sources.
+/// Folders for descriptors without a folder: relative to the installed program, the installation
+/// folder of Reckon, the source folder.
 [[nodiscard]] std::vector<std::filesystem::path> device_folders();
-/// "falcon", "falcon.toml" or "folder/mine.toml": a file from `folder` on, else one of
-/// device_folders(). @throws std::invalid_argument that says where it looked
+/// "falcon", "falcon.toml" or "folder/mine.toml": a file relative to `folder`, else in one of
+/// device_folders(). @throws std::invalid_argument with the searched places
 [[nodiscard]] std::filesystem::path find_device_descriptor(const std::string& name,
                                                            const std::filesystem::path& folder);
 
-/// THE list of its keys, and as the table of docs/devices.md.
+/// THE list of its keys; and the same as the table of docs/devices.md.
 [[nodiscard]] const std::vector<SceneKey>& device_descriptor_keys();
 [[nodiscard]] std::string device_descriptor_markdown();
 

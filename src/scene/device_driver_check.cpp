@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the driver of a [[device]] decides: which keys it has, and what they must say.
+// Checks which keys of a [[device]] its driver allows and requires.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -15,13 +15,13 @@
 namespace reckon::peer {
 namespace {
 
-/// The keys that one driver alone has, and what it needs.
+/// The keys of one driver only, and its requirements.
 struct DriverKeys {
   DeviceDriver driver;
   std::vector<const char*> keys;
-  const char* misplaced;                            // sentence where another driver has them
+  const char* misplaced;                            // error for another driver with these keys
   bool (*is_complete)(const DeviceConfig& device);  // null: always
-  const char* incomplete;                           // sentence where it is not
+  const char* incomplete;                           // error if not complete
 };
 
 const std::vector<DriverKeys>& driver_keys() {
@@ -60,7 +60,7 @@ void check_keys(TomlReader& table, DeviceConfig& device) {
   device.plugin = plugin;
   for (const DriverKeys& row : driver_keys()) {
     const bool is_it = device.driver == row.driver;
-    // A simulated device may stand in for one of Linux.
+    // A simulated device may replace an event device.
     const bool stands_in =
         row.driver == DeviceDriver::evdev && device.driver == DeviceDriver::simulated;
     for (const char* key : row.keys)
@@ -70,7 +70,7 @@ void check_keys(TomlReader& table, DeviceConfig& device) {
   }
 }
 
-// The user must state what the numbers of such a device mean: none of it is guessed.
+// The user must give the scale of an event device: nothing is assumed.
 void check_evdev(TomlReader& table, const DeviceConfig& device) {
   if (device.driver != DeviceDriver::evdev) return;
   if (device.source == DeviceSource::pointer)
@@ -79,7 +79,7 @@ void check_evdev(TomlReader& table, const DeviceConfig& device) {
     table.problem("driver", fault);
 }
 
-// The friction is that of the handle or of the joints. The table overrides a descriptor.
+// The friction is given for the handle or for the joints. The table overrides a descriptor.
 void check_joint_damping(TomlReader& table, DeviceConfig& device) {
   const bool has_joints =
       device.driver == DeviceDriver::falcon || device.driver == DeviceDriver::polhem;
@@ -94,7 +94,7 @@ void check_joint_damping(TomlReader& table, DeviceConfig& device) {
 
 }  // namespace
 
-// The table must not state what the driver knows.
+// Rejects values that the driver provides itself.
 void check_device_driver(TomlReader& table, DeviceConfig& device) {
   check_keys(table, device);
   check_joint_damping(table, device);

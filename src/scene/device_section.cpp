@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::size_t kLongestMarking = 11;
 constexpr double kStandardRate = 1000;  // [Hz]
-// [Hz]; a device lets go where nothing was written for kWatchdog: a servo that misses one period,
-// and is late for the next by half of one, is not to come so far.
+// [Hz]; a device drops its force if nothing is written for kWatchdog. A servo that misses one
+// period, and is half a period late for the next, must stay below that.
 constexpr double kLeastRate = 2.5e3 / haptics::HapticDevice::kWatchdog.count();
 
 void check_operator_number(TomlReader& table, std::size_t operators, const DeviceConfig& device) {
@@ -35,7 +35,7 @@ void check_operator_number(TomlReader& table, std::size_t operators, const Devic
                                         device.operator_number, operators));
 }
 
-// What a pointer takes of its operator is where the hand starts and how it is held.
+// A pointer uses its operator only for the start position and the grip.
 void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operators,
                    const DeviceConfig& device) {
   if (device.source != DeviceSource::pointer) {
@@ -58,7 +58,7 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
   }
 }
 
-// A page's pointer says where the hand is, and no handle is between.
+// A page's pointer gives the position of the hand directly, without a handle.
 void check_mapping(TomlReader& table, const DeviceConfig& device) {
   for (const char* key : {"scale", "left_handed", "clutch_button"}) {
     if (device.source == DeviceSource::pointer && table.has(key))
@@ -74,7 +74,7 @@ void check_mapping(TomlReader& table, const DeviceConfig& device) {
         fmt::format("button {} already stops all forces, or is the clutch: name another", grabs));
 }
 
-// It has a handle of its own making, which moves by a mass.
+// An admittance device has a virtual handle with a mass.
 void check_admittance(TomlReader& table, const DeviceConfig& device) {
   if (!(device.admittance.mass > 0)) {
     for (const char* key : {"bandwidth", "sensor_stiffness", "motion_loop"}) {
@@ -100,7 +100,7 @@ void check_admittance(TomlReader& table, const DeviceConfig& device) {
     table.problem("resolution", "the place of a virtual mass is computed and exact: take it out");
 }
 
-// Before the keys of the table, which go before it.
+// Called before the table's keys, which override the descriptor.
 void read_descriptor(TomlReader& table, DeviceConfig& device) {
   std::string name;
   table.read("descriptor", name);
@@ -164,7 +164,7 @@ void check_axes(TomlReader& table, const DeviceConfig& device) {
   }
 }
 
-// Of motors that the servo leads.
+// Checks the motors of a device driven by the servo.
 void check_motors(TomlReader& table, const DeviceConfig& device) {
   if (table.has("thermal_time") && !(device.continuous_force > 0))
     table.problem("thermal_time", "nothing becomes warm without continuous_force: add it");
@@ -213,7 +213,7 @@ Section<ProbeConfig> probe_section() {
             "from the handle, in the tool's axes"}}};
 }
 
-// Where the device stands and what drives it.
+// Keys for its place and its driver.
 std::vector<Row<Device>> driver_rows() {
   const auto no_text = [](const Device&) { return std::string(); };
   return {
@@ -261,7 +261,7 @@ std::vector<Row<Device>> driver_rows() {
   };
 }
 
-// How its handle moves and where it is.
+// Keys for the motion of the handle and its position.
 std::vector<Row<Device>> handle_rows() {
   return {
       {"virtual_mass", in(&Device::admittance, &AdmittanceConfig::mass), declared("kg", 0.05, 100),
@@ -284,7 +284,7 @@ std::vector<Row<Device>> handle_rows() {
   };
 }
 
-// What its motors, axes and buttons can do.
+// Keys for its motors, axes and buttons.
 std::vector<Row<Device>> motor_rows() {
   const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
   return {
@@ -315,7 +315,7 @@ std::vector<Row<Device>> motor_rows() {
   };
 }
 
-// What its servo may do with it.
+// Keys for limits of its servo.
 std::vector<Row<Device>> servo_rows() {
   const auto rate = [](const Device&) { return kStandardRate; };
   const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };

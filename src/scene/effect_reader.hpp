@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads the tables of effects by their own tables of parameters. Private to the scene reader.
+// Reads the tables of effects by their own parameter tables. Private to the scene reader.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Para
   }
 }
 
-/// All effects of the program that an object or a region declares.
-/// @tparam Guarded tries one  @tparam Declared its kind and values
+/// Reads all of the program's effects that an object or a region declares.
+/// @tparam Guarded tests one effect  @tparam Declared its kind and values
 template <class Guarded, class Declared>
 void read_custom_effects(TomlReader& owner, const std::string& name, std::vector<Declared>& out) {
   using Kind = typename decltype(Declared::effect)::element_type;
@@ -51,7 +51,7 @@ void read_custom_effects(TomlReader& owner, const std::string& name, std::vector
   }
 }
 
-/// All effects of a list that an object or region declares.
+/// Reads all effects of a list that an object or region declares.
 template <class Types>
 void read_effects(TomlReader& owner, haptics::EffectDeclarations<Types>& effects) {
   haptics::for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {

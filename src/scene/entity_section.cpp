@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[entity]]: an entity that a peer owns and no device moves.
+// [[entity]]: an entity that a peer owns, without a device.
 #include <fmt/format.h>
 
 #include <optional>
@@ -22,7 +22,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr double kJitter = 1.1;  // a heartbeat comes after at most this multiple of its period
+constexpr double kJitter = 1.1;  // a heartbeat is sent after at most this multiple of its period
 
 void check_force_model(TomlReader& table, TouchModel& model) {
   table.require("kind");
@@ -38,7 +38,7 @@ void check_force_model(TomlReader& table, TouchModel& model) {
   }
 }
 
-/// A rule that is given here does not inherit the quantities of the scene's rule.
+/// A rule given here does not inherit the parameters of the scene's rule.
 void check_own_rule(TomlReader& table, DeadReckoningConfig& config) {
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
     if (config.rule->name == Rule::kName) return;
@@ -91,7 +91,7 @@ void read_place(TomlReader& table, const deadreckon::LocalFrame& frame, EntityCo
   }
 }
 
-/// The scene's settings, unless an entity that is not felt has a default of its own.
+/// The scene's settings, except defaults for an entity that is not felt.
 DeadReckoningConfig inherited(const DeadReckoningConfig& scene, const EntityConfig& entity) {
   DeadReckoningConfig config = scene;
   if (entity.model) return config;
@@ -118,7 +118,7 @@ void read_dead_reckoning(TomlReader& table, const DeadReckoningConfig& scene,
                             format_quantity(needed, "s"), format_quantity(needed, "s")));
 }
 
-/// @param checked files that were read already
+/// @param checked files that were already read
 void check_track(TomlReader& table, std::set<std::filesystem::path>& checked,
                  const EntityConfig& entity) {
   for (const char* key : {"speed", "repeat"}) {

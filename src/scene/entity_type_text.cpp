@@ -22,7 +22,7 @@
 namespace reckon::peer {
 namespace {
 
-/// The numbers of a type in the order of the wire.
+/// The numbers of a type in wire order.
 constexpr std::size_t kParts = 7;
 constexpr std::array<std::string_view, kParts> kPartNames = {
     "kind", "domain", "country", "category", "subcategory", "specific", "extra"};
@@ -81,7 +81,7 @@ std::string_view first_words(std::string_view text, std::size_t n) {
 /// Kind, domain, country and category by name, each from the table that the earlier ones select.
 class WordSearch {
  public:
-  /// True if `text` is names from `part` on; fills the parts.
+  /// True if `text` consists of names from `part` on; fills the parts.
   bool match(std::string_view text, std::size_t part) {
     text = without_blanks(text);
     if (text.empty() && part >= kLeast) return true;
@@ -100,7 +100,7 @@ class WordSearch {
 
   [[nodiscard]] const Parts& parts() const { return parts_; }
 
-  /// The part that could not be read, and the likely meaning.
+  /// Error message with the unreadable part and its likely meaning.
   [[nodiscard]] std::string error() const {
     if (stuck_.empty()) return fmt::format("it says no {}", kPartNames[stuck_part_]);
     const std::string hint = nearest();
@@ -142,7 +142,7 @@ class WordSearch {
     }
   }
 
-  /// Compares as many words as a name has.
+  /// Compares as many words as the name has.
   [[nodiscard]] std::string nearest() const {
     for (std::size_t words = 6; words > 0; --words) {
       std::vector<std::string_view> names;

@@ -36,7 +36,7 @@ JitterText read_jitter(std::string_view text, std::chrono::nanoseconds delay,
                        std::string_view delay_example) {
   if (is_share_of_delay(text)) return share_of_delay(text, delay, delay_example);
   const Quantity time = parse_quantity(text, "s");
-  // A number alone could be a time or a share; only zero is the same in both.
+  // A number alone could be a time or a share; only zero is unambiguous.
   const bool has_unit = text.find_first_of("smhnu") != text.npos;
   if (!time.good() || !(time.value >= 0) || (time.value > 0 && !has_unit))
     return {{}, fmt::format("'{}' is no jitter; write {}", text, kBoth)};

@@ -10,7 +10,7 @@
 
 namespace reckon::peer {
 
-/// Jitter, or the reason why the text is none.
+/// Jitter, or the reason why the text is invalid.
 struct JitterText {
   std::chrono::nanoseconds jitter{0};  ///< >= 0
   std::string error;                   ///< empty if valid; else one sentence with both spellings
@@ -21,7 +21,7 @@ struct JitterText {
 [[nodiscard]] bool is_share_of_delay(std::string_view text) noexcept;
 
 /// Reads a time of 0 or more with its unit, or a share of `delay` from 0 % to 100 %, rounded to the
-/// nanosecond. 0 needs no unit. A share above 0 of no delay is an error.  @param delay >= 0
+/// nanosecond. 0 needs no unit. A share above 0 of zero delay is an error.  @param delay >= 0
 /// @param delay_example the caller's spelling of a delay, for that error: "--delay 80ms"
 [[nodiscard]] JitterText read_jitter(std::string_view text, std::chrono::nanoseconds delay,
                                      std::string_view delay_example);

@@ -91,7 +91,7 @@ constexpr Range within(std::string_view unit, double least, double most) {
   return {unit, least, most, true};
 }
 
-/// The same for a key that declares a measured value, and so has no default.
+/// The same for a key that declares a measured value, and therefore has no default.
 constexpr Range declared(std::string_view unit, double least, double most) {
   return {unit, least, most, false};
 }
@@ -107,7 +107,7 @@ struct MemberPlace {
   std::size_t offset, size, alignment;
 };
 
-/// Result of `get` for an S: a reference is to be filled, a value is not.
+/// Result of `get` for an S: a reference is filled, a value is not.
 template <class S, class Get>
 using Got = std::invoke_result_t<const Get&, S&>;
 template <class S, class Get>
@@ -126,8 +126,8 @@ inline constexpr bool kIsVector<std::vector<T>> = true;
 template <class S>
 struct Section;
 
-/// A key of a section whose values fill an S. `get` is a pointer to the member, or a function of an
-/// S& that returns a reference to what the key fills. If it returns a value, that only gives type
+/// A key of a section whose values fill an S. `get` is a pointer to a member, or a function of an
+/// S& that returns a reference to the value to fill. If it returns a value, this only defines type
 /// and default: the section's check reads such a key, because it depends on others.
 template <class S>
 class Row {
@@ -182,7 +182,7 @@ class Row {
     }
   }
 
-  /// The same key, if its sentence or its section's states the effect of absence.
+  /// The same key without a default, if its sentence or its section states the effect of absence.
   [[nodiscard]] Row without_default() const {
     Row row = *this;
     row.key_.standard.clear();
@@ -196,7 +196,7 @@ class Row {
     return row;
   }
 
-  /// Leaves `out` as it is if the key is absent or invalid; an invalid one becomes a problem.
+  /// Leaves `out` unchanged if the key is absent or invalid; an invalid one becomes a problem.
   void read(TomlReader& table, S& out) const {
     if (read_ && table.has(key_.key)) read_(table, out);
   }
@@ -204,7 +204,7 @@ class Row {
   [[nodiscard]] const SceneKey& key() const { return key_; }
   /// The keys of its table; their section names begin with this key.
   [[nodiscard]] const std::vector<SceneKey>& inside() const { return inside_; }
-  /// The members of an S that the key, or those of its table, fill.
+  /// The members of an S that the key, or the keys of its table, fill.
   [[nodiscard]] const std::vector<MemberPlace>& places() const { return places_; }
 
  private:
@@ -247,7 +247,7 @@ class Row {
 template <class S>
 struct Section {
   std::vector<Row<S>> rows;
-  /// Checks beyond single rows, after all were read; may be null.
+  /// Checks beyond single rows, called after all were read; may be null.
   void (*check)(TomlReader& table, S& out) = nullptr;
   /// Adds keys of a separate list; may be null.
   void (*add_more)(std::vector<SceneKey>& keys) = nullptr;
@@ -257,7 +257,7 @@ struct Section {
     if (check != nullptr) check(table, out);
   }
 
-  /// The keys of the section `name`, then those of the tables in it.
+  /// The keys of the section `name`, then the keys of its tables.
   [[nodiscard]] std::vector<SceneKey> keys(const std::string& name) const {
     std::vector<SceneKey> keys;
     const auto add = [&](SceneKey key) {

@@ -18,7 +18,7 @@ class ManagementRule {
   /// Nobody.
   ManagementRule() = default;
   /// "nobody", "members" (the other peers of the scene), "anyone", or the numbers of permitted
-  /// peers or plain DIS programs, "1:2" or "1:2, 40:1". Nothing if the text is none of these.
+  /// peers or plain DIS programs, "1:2" or "1:2, 40:1". Nothing for any other text.
   [[nodiscard]] static std::optional<ManagementRule> parse(std::string_view text);
   /// The text that parse() reads.
   [[nodiscard]] std::string text() const;

@@ -33,7 +33,7 @@ bool has(const std::vector<Condition>& conditions, Condition one) {
   return std::ranges::find(conditions, one) != conditions.end();
 }
 
-/// The first tier for which `is` holds.
+/// The first tier that satisfies `is`.
 template <class Is>
 std::size_t first_tier(const SceneFile& scene, Is is) {
   const Tiers& tiers = scene.aoim.tiers;
@@ -132,7 +132,7 @@ std::string name_of(const Mechanism& one) {
   return fmt::format("'{}'{}{}", one.key, one.value.empty() ? "" : " with ", one.value);
 }
 
-/// The place in a file that switches it on, for TomlReader::problem_at.
+/// The path in a file that switches it on, for TomlReader::problem_at.
 std::string path_of(const Mechanism& one, const SceneFile& scene) {
   const std::string path = fmt::format("{}.{}", one.table, one.key);
   return one.row == nullptr ? path : fmt::format("{}[{}]", path, one.row(scene));

@@ -15,15 +15,15 @@ namespace reckon::peer {
 
 class TomlReader;
 
-/// A condition that a mechanism may need. The first ones hold unless a mechanism removes them, the
-/// last ones hold if a mechanism provides them.
+/// A condition that a mechanism may need. The first conditions hold unless a mechanism removes
+/// them; the last ones hold if a mechanism provides them.
 enum class Condition : unsigned char {
   own_datagrams,  ///< PDUs unknown to plain DIS may be sent
-  many_groups,    ///< there are groups behind the base group
+  many_groups,    ///< there are groups after the base group
   fixed_groups,   ///< the groups of a cell never change
   plain_states,   ///< Entity States are sent as defined by DIS
   whole_states,   ///< no part of an Entity State is omitted
-  one_stream,     ///< all listeners of a cell receive the same
+  one_stream,     ///< all receivers of a cell receive the same
   leaders,        ///< cells have leaders
   group_map,      ///< a map assigns groups to cells
 };
@@ -42,8 +42,7 @@ struct Mechanism {
 /// Each mechanism once.
 [[nodiscard]] std::span<const Mechanism> mechanisms();
 
-/// Reports, at the key of each mechanism that is on, the conditions that it needs and that do not
-/// hold, with the remedy.
+/// Reports, at the key of each active mechanism, its unsatisfied conditions with the remedy.
 void check_mechanisms(TomlReader& file, const SceneFile& scene);
 
 }  // namespace reckon::peer

@@ -10,8 +10,8 @@
 namespace reckon::peer {
 namespace {
 
-/// Edits (insert, delete, replace, swap of neighbours) from one word to the other. Keeps three rows
-/// of their table.
+/// Edit distance between words (insert, delete, replace, swap of neighbours). Keeps three rows of
+/// the table.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -38,7 +38,7 @@ std::string_view nearest_word(std::string_view typed,
   std::string_view nearest;
   std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
   for (const std::string_view candidate : candidates) {
-    // Two words are at least as many edits apart as their lengths differ.
+    // The edit distance is at least the difference of the lengths.
     const auto [shorter, longer] = std::minmax({typed.size(), candidate.size()});
     if (longer - shorter >= least) continue;
     const std::size_t edits = distance(typed, candidate);

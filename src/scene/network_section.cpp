@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [network] and [impairment]: how a peer sends, and how received datagrams are impaired.
+// [network] and [impairment]: sending, and impairment of received datagrams.
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[node]]: frames that objects and other nodes hang on.
+// [[node]]: frames for objects and other nodes.
 #include "reckon/peer/scene/node_section.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,8 @@ void check_node(TomlReader& table, NodeConfig& node) {
     table.problem("turn_axis", "a node that turns needs 'turn_rate', which is not 0");
 }
 
-/// What hangs below a time function is carried by it. Bodies move by forces, and so cannot be.
+/// Objects below a time function are carried by it. Bodies move by forces, so they cannot be
+/// carried.
 void carry_moved(TomlReader& file, SceneFile& out) {
   for (const HungObject& hung : out.nodes.hung) {
     if (!hung.felt || !out.nodes.graph.moves(hung.node)) continue;

@@ -13,7 +13,7 @@ namespace reckon::peer {
 [[nodiscard]] Section<NodeConfig> node_section();
 
 /// Makes the scene graph of a file whose nodes and objects are read.
-/// @param hung_on of each object the name of its node; empty: none
+/// @param hung_on the name of each object's node; empty: none
 void hang_objects(TomlReader& file, const std::vector<std::string>& hung_on, SceneFile& out);
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[object]] and its patches: shapes, effects, and combinations of them that are refused.
+// [[object]] and its patches: shapes, effects, and refused combinations of them.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -16,7 +16,7 @@
 namespace reckon::peer {
 namespace {
 
-/// A patch inherits the values that it does not give from the object.
+/// A patch inherits missing values from the object.
 void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
   const Section<haptics::SurfacePatch> section = patch_section();
   std::set<std::string> names;
@@ -52,7 +52,7 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
   }
 }
 
-// Whatever else an object is, a body has an end, and no patches.
+// A body must be bounded, and must have no patches.
 void check_body(TomlReader& table, const haptics::SceneObject& object) {
   const bool is_body = object.matter.mass > 0;
   if (table.has("grab") && !is_body)

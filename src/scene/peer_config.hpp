@@ -39,15 +39,15 @@ struct OriginConfig {
   double height = 0.0;     ///< [m] above the ellipsoid
 };
 
-/// The force model that this peer's own hand shows to others: a sphere that pushes back with
-/// F = k1 d + k3 d^3 - damping * d'.
+/// The force model that this peer's hand shows to others: a sphere that repels with F = k1 d + k3
+/// d^3 - damping * d'.
 struct HandModel {
   double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
-  double patch_radius = 0.0;    ///< [m] >= 0, of the patch that holds bodies against turning
-  haptics::GrabSpring grab{};   ///< what holds a body while the button is pressed
-  double contact_radius = 0.0;  ///< [m] >= 0, of the ball with which its device feels objects
+  double patch_radius = 0.0;    ///< [m] >= 0, of the patch that resists turning of bodies
+  haptics::GrabSpring grab{};   ///< holds a body while the button is pressed
+  double contact_radius = 0.0;  ///< [m] >= 0, of the sphere with which its device feels objects
   /// [N/m] >= 0; the receiver limits it to the stiffness that its device can show. The default,
-  /// with its damper, is the limit of a device of defaults.
+  /// with its damper, is the limit of a device with default values.
   double k1 = 475.0;
   double k3 = 0.0;                ///< [N/m^3] >= 0
   double damping = 0.5;           ///< [N s/m] >= 0
@@ -66,7 +66,7 @@ enum class OperatorKind : std::uint8_t { passive, trace, sweep };
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::passive;
   std::filesystem::path trace;  ///< kind trace: CSV t_s,px_m,py_m,pz_m; absolute once loaded
-  /// Kind trace: the recording is centred in this box [m] of S and shrunk to fit; set by programs.
+  /// Kind trace: the recording is centred in this box [m] of S and scaled to fit; set by programs.
   std::optional<Eigen::AlignedBox3d> fit_to = {};
   double speed = 1.0;                 ///< kind trace: 2 plays twice as fast; > 0
   std::chrono::nanoseconds begin{0};  ///< kind trace: start within the recording, >= 0
@@ -81,7 +81,7 @@ struct OperatorConfig {
   std::chrono::nanoseconds start{0};  ///< at rest until then, >= 0
   double stiffness = 300.0;           ///< [N/m] of the grip, >= 0
   double damping = 3.0;               ///< [N s/m] of the grip, >= 0
-  /// Of a device of six axes: the hand turns it by so much, about each axis of S.
+  /// For a device of six axes: rotation by the hand, about each axis of S.
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();  ///< [rad]; sweep: at `to`, none at `from`
   double turn_stiffness = 1.0;                       ///< [N m/rad] of the grip, >= 0
   double turn_damping = 0.02;                        ///< [N m s/rad] of the grip, >= 0
@@ -99,9 +99,9 @@ struct Attitude {
 /// The same for the axes of a device (x right, y forward, z up): all zero is the identity.
 [[nodiscard]] Eigen::Quaterniond device_orientation_of(const Attitude& attitude) noexcept;
 
-/// An entity that a peer owns and no device moves: a vehicle, a post, a robot's tip.
+/// An entity that a peer owns, without a device: a vehicle, a post, a robot's tip.
 struct EntityConfig {
-  std::uint32_t peer = 1;  ///< number of the peer that owns it, from 1; others only see it
+  std::uint32_t peer = 1;  ///< number of the owning peer, from 1; others only see it
   std::string marking;     ///< at most 11 ASCII characters
   pdu::EntityType type{};  ///< numbers of SISO-REF-010
   pdu::ForceId force_id = pdu::ForceId::other;
@@ -112,52 +112,52 @@ struct EntityConfig {
   Eigen::Quaterniond orientation = orientation_of({});
   std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: at rest
   double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
-  std::optional<bool> repeat;   ///< of the track; none: true if its end lies at its begin
+  std::optional<bool> repeat;   ///< of the track; none: true if its end equals its begin
   /// With a track: whether it turns, by the track's columns of orientation. Without such columns
-  /// its nose points ahead, unless hands feel it.
+  /// its nose points along the track, unless hands feel it.
   bool turns = true;
   DeadReckoningConfig dead_reckoning;           ///< as in docs/scene_files.md, [[entity]]
-  std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
-  double power = 0.05;  ///< [W] >= 0 that it may give to the hands it pushes, while it moves
+  std::optional<deadreckon::ForceModel> model;  ///< its model for hands, body axes
+  double power = 0.05;  ///< [W] >= 0 that it may give to the hands that it pushes while it moves
   std::string beacon;   ///< name by which others find its cell; empty: none
 };
 
-/// Who moves a simulated device.
+/// Source of a simulated device's motion.
 enum class DeviceSource : std::uint8_t {
   simulated,  ///< its operator
-  pointer,    ///< a pointer that a person moves, from where its operator holds it at first
+  pointer,    ///< a person's pointer, starting where its operator holds it
 };
 
-/// What a device is.
+/// Kind of a device.
 enum class DeviceDriver : std::uint8_t {
-  simulated,  ///< a mass that its operator holds
-  falcon,     ///< a Novint Falcon on USB, that a person holds
-  polhem,     ///< a Polhem on USB, that a person holds
-  serial,     ///< a board on a serial line, that a person holds
-  evdev,      ///< a force feedback device of Linux, that a person holds
-  plugin,     ///< whatever a shared library drives
+  simulated,  ///< a simulated mass that its operator holds
+  falcon,     ///< a Novint Falcon on USB, held by a person
+  polhem,     ///< a Polhem on USB, held by a person
+  serial,     ///< a board on a serial port, held by a person
+  evdev,      ///< a Linux force feedback device, held by a person
+  plugin,     ///< a device driven by a shared library
 };
 
-/// A place of a tool that touches.
+/// A contact point of a tool.
 struct ProbeConfig {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] from the handle, in the tool's axes
 };
 
-/// What a simulated device is that measures the hand's force and goes where a mass would go.
+/// A simulated device that measures the hand's force and moves like a mass.
 struct AdmittanceConfig {
-  double mass = 0.0;               ///< [kg], of that mass; 0: it is no such device
+  double mass = 0.0;               ///< [kg], virtual mass; 0: it is not such a device
   double bandwidth = 30.0;         ///< [Hz] > 0, of its motion
   double sensor_stiffness = 20e3;  ///< [N/m] > 0, of its force sensor
   haptics::MotionLoop loop = haptics::MotionLoop::position;
 };
 
-/// What a descriptor alone says of a device.
+/// Values of a device that only a descriptor gives.
 struct DescribedDevice {
-  std::string name;                   ///< of the product; empty: the device has no descriptor
-  std::chrono::nanoseconds delay{0};  ///< >= 0, until a force is at the handle
+  std::string name;                   ///< product name; empty: the device has no descriptor
+  std::chrono::nanoseconds delay{0};  ///< >= 0, until a force reaches the handle
   double mass = 0.1;                  ///< [kg] > 0
   double friction = 0.0;              ///< [N] >= 0, dry
-  double inertia = 1e-4;              ///< [kg m^2] > 0, of six axes
+  double inertia = 1e-4;              ///< [kg m^2] > 0, for six axes
   Eigen::AlignedBox3d work_space{Eigen::Vector3d::Constant(-0.05),
                                  Eigen::Vector3d::Constant(0.05)};  ///< [m], frame D
 };
@@ -170,32 +170,33 @@ struct DeviceConfig {
   DeviceDriver driver = DeviceDriver::simulated;
   std::filesystem::path firmware;  ///< of a Falcon; absolute once loaded; empty: none is loaded
   std::string descriptor;          ///< file or name; absolute once loaded; empty: none
-  DescribedDevice described;       ///< what the descriptor says beside the members below
-  double scale = 1.0;              ///< > 0, ways of the hand in S for one of the handle
-  bool left_handed = false;        ///< its left and right change sides
-  int clutch_button = -1;          ///< while it is down the hand stands still; negative: none
-  double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link while it is level
-  double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
-  std::string port;                ///< of a serial board: its line, such as /dev/ttyACM0
-  std::uint32_t baud = 1'000'000;  ///< of that line
+  DescribedDevice described;       ///< values of the descriptor without a member below
+  double scale = 1.0;              ///< > 0, motion of the hand in S per motion of the handle
+  bool left_handed = false;        ///< left and right are exchanged
+  int clutch_button = -1;          ///< while it is pressed the hand does not move; negative: none
+  double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link when level
+  double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link when level
+  std::string port;                ///< of a serial board, such as /dev/ttyACM0
+  std::uint32_t baud = 1'000'000;  ///< of that port
   std::string event;               ///< of an event device: its path, or a part of its name
   int event_axes = 2;              ///< of an event device: 1 or 2
-  double travel = 0.0;           ///< [m], of an event device, from end to end of an axis; 0: unsaid
-  double full_force = 0.0;       ///< [N], of an event device at its greatest level; 0: unsaid
-  double full_stiffness = 0.0;   ///< [N/m], of its greatest coefficient; 0: unsaid
-  std::filesystem::path plugin;  ///< shared library of its driver, as the scene says
-  std::string plugin_options;    ///< for that driver
+  double travel = 0.0;             ///< [m], of an event device, from end to end of an axis; 0: not
+                                   ///< given
+  double full_force = 0.0;         ///< [N], of an event device at its greatest level; 0: not given
+  double full_stiffness = 0.0;     ///< [N/m], of its greatest coefficient; 0: not given
+  std::filesystem::path plugin;    ///< shared library of its driver, as in the scene
+  std::string plugin_options;      ///< for that driver
   AdmittanceConfig admittance;
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
-  bool is_placed = false;                              ///< the file says so
+  bool is_placed = false;                              ///< the file gives its position
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0
-  double continuous_force = 0.0;    ///< [N], that its motors hold for ever; 0: max_force
-  double thermal_time = 20.0;       ///< [s] >= 1, in which they become warm
+  double continuous_force = 0.0;    ///< [N], permanent limit of its motors; 0: max_force
+  double thermal_time = 20.0;       ///< [s] >= 1, time constant of their warming
   double damping = 1.0;             ///< [N s/m] >= 0, guaranteed physical damping
-  double joint_damping = 0.0;       ///< [N m s/rad] >= 0, of a Falcon's or Polhem's; 0: unsaid
+  double joint_damping = 0.0;       ///< [N m s/rad] >= 0, of a Falcon or Polhem; 0: not given
   double max_stiffness = 0.0;       ///< [N/m]; 0: the limit by its damping
   int axes = 3;                     ///< 3, or 6: it turns and shows torque
   double turn_damping = 0.01;       ///< [N m s/rad] > 0, guaranteed, about each axis
@@ -203,14 +204,15 @@ struct DeviceConfig {
   double turn_resolution = 0.0;     ///< [rad] >= 0, step of its angle sensors; 0: exact
   std::vector<ProbeConfig> probes;  ///< of the tool on six axes; none: the handle
   double max_speed = 2.0;           ///< [m/s] > 0; a faster reading switches the force off
-  /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
+  /// [N/s], limit of the rate of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
   double received_power = 0.2;     ///< [W] > 0, largest average power that others put into its hand
   double region_loan = 0.12;       ///< [J] >= 0, greatest loan for potentials of regions
-  double oscillation_power = 0.1;  ///< [W] >= 0, that oscillations of regions put into its hand
-  double oscillation_energy = 0.02;  ///< [J] >= 0, that they may put in at once
-  int stop_button = -1;              ///< its button that stops all forces, 0 to 31; negative: none
-  std::uint32_t grab_button = 0;     ///< of the device, from 0: while pressed the hand holds bodies
+  double oscillation_power = 0.1;  ///< [W] >= 0, power of oscillations of regions into its hand
+  double oscillation_energy = 0.02;  ///< [J] >= 0, their limit at once
+  int stop_button = -1;              ///< button that stops all forces, 0 to 31; negative: none
+  std::uint32_t grab_button = 0;     ///< of the device, from 0: the hand holds bodies while it is
+                                     ///< pressed
   double resolution = 0.0;           ///< [m] >= 0, step of its position sensors; 0: exact
   int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
@@ -242,14 +244,14 @@ struct OccluderConfig {
 /// Selection among the received entities, and the budget for their updates.
 struct AwarenessConfig {
   double budget = 0.0;  ///< [B/s] of updates that this peer can take; 0: unlimited
-  std::string kinds;    ///< wanted, as written; empty: all
+  std::string kinds;    ///< wanted kinds, as written; empty: all
   std::uint32_t kinds_wanted = 0xFFFFFFFFU;  ///< bit k: kind k
   double aura = 0.0;                         ///< [m]; 0: no bound
   std::vector<NimbusClass> nimbus;           ///< the first match applies
   std::vector<OccluderConfig> occluders;
 };
 
-/// A square, quartered repeatedly where there are many entities. A fact of the scene.
+/// A square, quartered repeatedly where there are many entities. The same at all peers of a scene.
 struct QuadTreeConfig {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the square [m] S; z has no effect
   double side = 1000.0;                              ///< of the square [m] > 0
@@ -261,7 +263,7 @@ struct QuadTreeConfig {
   std::vector<aoim::CellId> cells;  ///< result of either; see aoim::QuadTree::of_cells
 };
 
-/// A part of the world with its own frame, for example a room. A fact of the scene.
+/// A part of the world with its own frame, for example a room. The same at all peers of a scene.
 struct LocaleConfig {
   std::string name;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of its frame, the centre [m] S
@@ -278,7 +280,7 @@ struct AoimConfig {
   std::vector<LocaleConfig> locales;
   double radius = 2.0;  ///< [m] > 0: range of this peer; joins within it, leaves beyond 1.1 of it
   std::uint32_t pool = aoim::kDefaultPool;  ///< groups; see aoim::is_pool
-  /// Most groups of the pool joined at once, 1 .. aoim::kMaximumPool; groups beyond that are not
+  /// Limit of groups of the pool joined at once, 1 .. aoim::kMaximumPool; further groups are not
   /// received.
   std::uint32_t groups = aoim::kMaximumPool;
   bool leaders = false;  ///< each cell has a leader, which serves newcomers; the same at all peers
@@ -288,7 +290,7 @@ struct AoimConfig {
   Tiers tiers;         ///< the same at all peers
   std::string follow;  ///< names of beacons whose cells are subscribed to; see beacon_names
   AwarenessConfig awareness;
-  /// Groups behind the base group: those of the pool, and as many for each tier with own groups.
+  /// Groups after the base group: the pool, and as many for each tier with its own groups.
   [[nodiscard]] std::size_t all_groups() const noexcept {
     return pool * (1 + group_tier_count(tiers));
   }
@@ -301,10 +303,10 @@ struct AoimConfig {
 /// How long updates wait for a bundle: time-out, quorum or both (hybrid). New and felt updates
 /// never wait.
 struct BundlePolicy {
-  /// The time-out: a pose waits this long, 0 .. 1 s; with a quorum, the longest time-out leaves
-  /// only the quorum.
+  /// Time-out: longest wait of a pose, 0 .. 1 s; with a quorum, the longest time-out leaves only
+  /// the quorum.
   std::chrono::nanoseconds hold{0};
-  std::uint32_t updates = 0;  ///< the quorum: this many are sent together; 0 = by size alone
+  std::uint32_t updates = 0;  ///< quorum: this many are sent together; 0 = only by size
 };
 
 /// The policy of the entities of one type.
@@ -324,22 +326,22 @@ struct NetworkConfig {
   std::size_t bundle_max = 1288;  ///< [octets] of a datagram's payload
   /// [1/s] datagrams in one group, from all peers; the receive buffer holds 50 ms of them.
   std::size_t rate = 20'000;
-  bool offload = true;  ///< the kernel cuts and gathers runs of datagrams, if it can
+  bool offload = true;  ///< the kernel segments and coalesces runs of datagrams, if it can
   BundlePolicy bundle;  ///< of updates that match no class
   std::vector<BundleClass> bundle_classes;  ///< the first match applies
   /// Form of sent Entity States; the peers of a scene must have the same.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
-  std::string iface;  ///< interface name or address; empty = chosen by the stated rule
+  std::string iface;  ///< interface name or address; empty = chosen by the documented rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   /// Recipients of each datagram without multicast, see FanOutLink; empty: groups.
   std::vector<NamedPeer> peers;
-  /// Most memory [octets] for the entities of plain DIS programs
+  /// Memory limit [octets] for the entities of plain DIS programs
   std::size_t strangers_memory = std::size_t{32} << 20;
-  ManagementRule management;       ///< whose Stop/Freeze and Start/Resume are obeyed
-  std::optional<TouchRule> touch;  ///< as the scene has it, see touch_rule()
+  ManagementRule management;       ///< senders whose Stop/Freeze and Start/Resume are obeyed
+  std::optional<TouchRule> touch;  ///< as in the scene, see touch_rule()
 
-  /// Whose force models and bodies are felt.
+  /// The owners whose force models and bodies are felt.
   [[nodiscard]] TouchRule touch_rule() const { return touch.value_or(TouchRule::usual(interop)); }
 };
 

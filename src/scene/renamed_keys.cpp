@@ -37,7 +37,7 @@ std::string lines_of(const toml::table& table) {
   return text;
 }
 
-/// The rows of [[aoim.channel]] as those of [[aoim.tier]].
+/// Converts the rows of [[aoim.channel]] to rows of [[aoim.tier]].
 std::string channel_rows(const toml::table& aoim) {
   const toml::array* rows = aoim["channel"].as_array();
   std::string text;
@@ -51,7 +51,7 @@ std::string channel_rows(const toml::table& aoim) {
   return text;
 }
 
-/// "write, behind the other keys of [aoim]:" and these rows, without the end of the last line.
+/// "write, behind the other keys of [aoim]:" and these rows, without the last line end.
 std::string instead(std::string_view old, std::string_view where, std::string rows) {
   while (rows.ends_with('\n')) rows.pop_back();
   return fmt::format("{}: {}:\n{}", old, where, rows);

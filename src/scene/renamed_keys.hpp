@@ -11,7 +11,7 @@
 
 namespace reckon::peer {
 
-/// A key that is refused with its replacement.
+/// A key that is refused, with its replacement.
 struct RenamedKey {
   std::string_view section, key;  ///< as in scene_keys()
   /// @param table the table that has the key

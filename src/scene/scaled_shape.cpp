@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // [m]
 
-void enlarge(haptics::PlaneShape&, double) {}  // a half-space is one at any size
+void enlarge(haptics::PlaneShape&, double) {}  // a half-space has no size
 
 void enlarge(haptics::SphereShape& sphere, double scale) { sphere.radius *= scale; }
 
@@ -52,8 +52,7 @@ void enlarge(haptics::CsgShape& solid, double scale) {
   }
 }
 
-// Makes `shape` so many times as large about its origin. False for a mesh whose size only its file
-// knows.
+// Scales `shape` about its origin. False for a mesh whose size is defined only by its file.
 bool scale_shape(haptics::Shape& shape, double scale) {
   const auto* const mesh = std::get_if<haptics::MeshShape>(&shape);
   if (scale == 1.0) return true;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Objects placed by the graph, of another size. Private to the scene reader.
+// Scales objects that the graph places. Private to the scene reader.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace reckon::peer {
 
-/// Sets the pose and the size of an object in S. @return what is wrong with them, if anything is:
-/// too far away, too large or small, or a mesh whose size only its file knows
+/// Sets the pose and the size of an object in S. @return the fault, if any: too far away, too large
+/// or small, or a mesh whose size is defined only by its file
 [[nodiscard]] std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& object);
 
 }  // namespace reckon::peer

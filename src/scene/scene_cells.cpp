@@ -46,7 +46,7 @@ aoim::LocaleMap locale_map(const std::vector<LocaleConfig>& said) {
     locales[i].half_x = 0.5 * locale.size.x();
     locales[i].half_y = 0.5 * locale.size.y();
     if (locale.size.z() > 0.0) locales[i].half_z = 0.5 * locale.size.z();
-    // A neighbour may be named by either of the two.
+    // Either of two neighbours may name the other.
     for (const std::string& name : names_in(locale.neighbours)) {
       const std::uint16_t other = place_of(said, name, locale.name);
       if (other == i)

@@ -11,21 +11,21 @@
 
 namespace reckon::peer {
 
-/// A group of a quad-tree is left beyond this times the radius. Its cells are smallest where most
-/// entities are, so lingering costs more than with equal cells.
+/// A group of a quad-tree is left beyond this multiple of the radius. Its cells are smallest where
+/// most entities are, so a late leave costs more than with equal cells.
 inline constexpr double kTreeLeave = 1.05;
 
-/// The cells if they are not equal ones, else nothing.
+/// The cells of a scheme with unequal cells, else nothing.
 /// @throws std::invalid_argument with the remedy, from aoim::QuadTree and aoim::LocaleMap, for two
-/// locales of one name and an unknown neighbour.
+/// locales with one name and an unknown neighbour.
 [[nodiscard]] std::optional<aoim::CellPartition> uneven_cells(const AoimConfig& config);
-/// The cells of any scheme; if a leader assigns the groups, with as many cell numbers as there can
-/// be.  @throws std::invalid_argument as above, and from aoim::CellGrid.
+/// The cells of any scheme; if a leader assigns the groups, with the maximum number of cells.
+/// @throws std::invalid_argument as above, and from aoim::CellGrid.
 [[nodiscard]] aoim::CellPartition cells_of(const AoimConfig& config);
-/// The names in a list, as in "hall, room 2".
+/// The names in a list such as "hall, room 2".
 [[nodiscard]] std::vector<std::string> names_in(const std::string& list);
 
-/// The square and how to divide it.
+/// The square and its division.
 [[nodiscard]] aoim::QuadTreeConfig quad_tree_config(const AoimConfig& config);
 /// The cells of the tree with the least waste for traffic at these places. For set-up, up to some
 /// seconds.  @throws std::invalid_argument from aoim::QuadTree

@@ -20,11 +20,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLooks = 256;  // at a track
-// Entities and devices that are compared in pairs.
+constexpr int kLooks = 256;  // samples per track
+// Limit of entities and devices that are compared in pairs.
 constexpr std::size_t kMostCompared = 20'000;
 
-/// Something of a peer at the start.
+/// An entity or device at the start.
 struct Placed {
   std::uint32_t peer;
   Vector3d at;  ///< [m], S

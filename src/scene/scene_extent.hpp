@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far the entities and devices of a scene are apart, and the defaults that follow from it.
+// The distances between the entities and devices of a scene, and the defaults that follow from
+// them.
 #pragma once
 
 #include <string>
@@ -14,19 +15,19 @@ namespace reckon::peer {
 /// @throws CsvError or std::invalid_argument for a track that cannot be read
 [[nodiscard]] double extent_of(const SceneFile& scene);
 
-/// Which keys of [aoim] a file has.
+/// The keys of [aoim] that a file gives.
 struct StatedReach {
   bool cell, radius;
 };
 
-/// Sets the size of cells and the sensing radius where the file states none: 1 m and 2 m, the reach
-/// of hands, while all entities fit in there; beyond that the radius is the power of ten [m] that
-/// holds them all, and a cell half of it. A power of ten, so that files of peers whose entities lie
-/// somewhat differently agree on the cells. Does nothing for tracks that cannot be read.
+/// Sets the size of cells and the sensing radius if the file gives none. While all entities fit
+/// into the reach of hands, these are 1 m and 2 m. Else the radius is the power of ten [m] that
+/// covers all, and a cell is half of it. By the power of ten, files of peers with slightly
+/// different entities agree on the cells. Does nothing for tracks that cannot be read.
 void set_reach_by_extent(SceneFile& scene, const StatedReach& stated);
 
-/// A sentence about entities that no other peer of the scene senses where all are at the start;
-/// empty if there are none, or if entities and devices are more than 20,000: each pair is compared.
+/// A sentence about entities that no other peer of the scene senses at the start; empty if there
+/// are none, or if there are more than 20,000 entities and devices, as each pair is compared.
 [[nodiscard]] std::string unsensed_note(const SceneFile& scene);
 
 }  // namespace reckon::peer

@@ -33,7 +33,7 @@ std::string join_problems(const std::string& file, const std::vector<SceneProble
   return text;
 }
 
-/// Sorted, so that a scene does not depend on the order in which a program names its effects.
+/// Sorted, so that a scene does not depend on the program's order of effects.
 SceneVocabulary vocabulary_of(const haptics::CustomEffects& effects) {
   SceneVocabulary vocabulary{scene_keys(), effects};
   std::ranges::stable_sort(vocabulary.effects, {},
@@ -42,7 +42,7 @@ SceneVocabulary vocabulary_of(const haptics::CustomEffects& effects) {
   return vocabulary;
 }
 
-/// The number of the group that the last cell of the pool uses must exist.
+/// Checks that the group of the pool's last cell exists.
 void check_pool(const SceneFile& scene, std::vector<SceneProblem>& problems) {
   try {
     (void)GroupPool(scene.network.group, scene.aoim.all_groups());
@@ -51,7 +51,7 @@ void check_pool(const SceneFile& scene, std::vector<SceneProblem>& problems) {
   }
 }
 
-/// A rule and the quantities that it alone uses must appear together.
+/// Checks that a rule and the parameters used only by it appear together.
 template <class Rule>
 void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
   const auto& values = config.thresholds.of<Rule>();

@@ -24,7 +24,7 @@ struct SceneFile {
   OriginConfig origin;
   haptics::Scene scene;  ///< the objects and exactly the effects that the file declares
   std::vector<NodeConfig> node_tables;  ///< as written, copies not expanded
-  SceneNodes nodes;                     ///< what they come to, and which objects hang on it
+  SceneNodes nodes;                     ///< the resulting graph, and the objects in it
   HandModel hand;
   std::vector<OperatorConfig> operators;  ///< one per simulated hand, in the file's order
   std::vector<EntityConfig> entities;     ///< of all peers, in the file's order
@@ -34,9 +34,9 @@ struct SceneFile {
   AoimConfig aoim;
   NetworkConfig network;
   ImpairmentConfig impairment;
-  /// Hash of what peers must share: origin, objects with the content of their meshes, nodes,
-  /// effects, cells and pool, the reading of accelerations. Comments, order of keys, units and
-  /// settings of a single peer do not change it.
+  /// Hash of the data that all peers must share: origin, objects with the content of their meshes,
+  /// nodes, effects, cells and pool, the reading of accelerations. Comments, order of keys, units
+  /// and settings of a single peer do not change it.
   std::uint64_t hash = 0;
 };
 
@@ -60,7 +60,8 @@ class SceneFileError : public std::runtime_error {
 
 /// Reads the scene at `path`. Set-up code: allocates and throws SceneFileError with all problems.
 /// @param effects of the program, see effect_custom.hpp; objects may declare them by their keys
-/// @throws std::invalid_argument when the key of an effect is one of the scene's, or of two effects
+/// @throws std::invalid_argument if the key of an effect equals a scene key, or two effects have
+/// the same key
 [[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
                                         const haptics::CustomEffects& effects = {});
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hash by which peers compare their worlds.
+// The hash by which peers compare their scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace reckon::peer {
 namespace {
 
-/// FNV-1a, 64 bits: not secret, the same on every host.
+/// FNV-1a, 64 bits: not cryptographic, the same on every host.
 class Hash {
  public:
   void bytes(std::string_view text) {
@@ -29,7 +29,7 @@ class Hash {
     }
   }
 
-  /// One named fact. A mark ends it, so that "ab" "c" and "a" "bc" differ.
+  /// Adds one named value. A mark ends it, so that "ab" "c" and "a" "bc" differ.
   void fact(std::string_view name, std::string_view value) {
     bytes(name);
     bytes({"\0", 1});
@@ -46,7 +46,7 @@ class Hash {
     for (const double component : v) fact(name, component);
   }
 
-  /// The content of a file, which is read once for all objects that name it.
+  /// Adds the content of a file, which is read once for all objects that name it.
   void content(std::string_view name, const std::filesystem::path& file) {
     const auto [entry, is_new] = contents_.try_emplace(file);
     if (is_new) {
@@ -106,8 +106,8 @@ void add(Hash& hash, const haptics::EllipsoidShape& ellipsoid) {
   hash.fact("ellipsoid", ellipsoid.semi_axes);
 }
 
-/// As a matrix, because a quaternion and its negative are the same orientation; below 1e-9
-/// differences mean nothing.
+/// As a matrix, because a quaternion and its negative are the same orientation; differences below
+/// 1e-9 are ignored.
 void add(Hash& hash, const Eigen::Quaterniond& orientation) {
   const Eigen::Matrix3d rotation = orientation.normalized().toRotationMatrix();
   for (const double entry : rotation.reshaped()) {
@@ -141,7 +141,7 @@ void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effect
   });
 }
 
-/// What an effect does is not known, only what it is called and takes.
+/// The code of an effect cannot be hashed, only its name and parameters.
 template <class ObjectOrRegion>
 void add_custom_effects_of(Hash& hash, const ObjectOrRegion& owner) {
   for (const auto& declared : owner.custom_effects) {
@@ -151,7 +151,7 @@ void add_custom_effects_of(Hash& hash, const ObjectOrRegion& owner) {
   }
 }
 
-/// In the order of their names, because the order in a file means nothing.
+/// In the order of their names, because the order in a file has no meaning.
 void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
   std::ranges::sort(patches, {}, &haptics::SurfacePatch::name);
   for (const haptics::SurfacePatch& patch : patches) {
@@ -226,7 +226,7 @@ void add(Hash& hash, const NodeMotion& motion) {
   hash.fact("swing_phase", motion.swing_phase);
 }
 
-/// Copies expanded, so that it does not matter whether a file writes them out.
+/// With copies expanded, so that a file may also write them out.
 void add(Hash& hash, const SceneGraph& graph) {
   for (NodeIndex node = 0; node < graph.size(); ++node) {
     hash.fact("node", graph.name(node));
@@ -262,7 +262,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   add_cells(hash, file.aoim);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
   if (has_distance_tiers(file.aoim.tiers)) hash.fact("channels", "by distance");
-  // The usual reading is no fact, so that scenes without it keep their hash.
+  // The default is not added, so that scenes without the key keep their hash.
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the keys of a scene file. The reader refuses keys that are not in it, takes units and
-// ranges from it, and docs/scene_files.md is checked against it.
+// THE list of the keys of a scene file. The reader refuses other keys, takes units and ranges from
+// it, and docs/scene_files.md is checked against it.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +29,13 @@ struct SceneKey {
   std::string section;  ///< "" is the file itself; "scene.origin" is [scene] origin = {..}
   std::string key;
   KeyKind kind = KeyKind::number;
-  std::string unit;                          ///< SI, as units.hpp names it; empty for plain numbers
+  std::string unit;                          ///< SI, as in units.hpp; empty for plain numbers
   double least = 0.0;                        ///< [unit], inclusive
   double most = 0.0;                         ///< [unit], inclusive
   std::string standard;                      ///< default as written in a file; may be empty
   std::string sentence;                      ///< meaning
   std::vector<std::string_view> words = {};  ///< choice: one of them
-  /// Another key of the section, a time, of which this one may be a share: "40 %". Empty: none.
+  /// Another key of the section, a time; this key may be a share of it: "40 %". Empty: none.
   std::string_view share_of = {};
 };
 
@@ -48,7 +48,7 @@ struct SceneKey {
 /// "number [m]", "text", "one of square, hexagonal"...
 [[nodiscard]] std::string describe_kind(const SceneKey& key);
 
-/// A list of keys as tables of Markdown, one a section; those of the file itself come first.
+/// A list of keys as Markdown tables, one per section; the keys of the file itself come first.
 [[nodiscard]] std::string keys_markdown(const std::vector<SceneKey>& keys);
 /// The list as the tables of docs/scene_files.md.
 [[nodiscard]] std::string scene_keys_markdown();

@@ -16,9 +16,9 @@
 namespace reckon::peer {
 namespace {
 
-/// Problems for which the nearest name is looked up among all nodes.
+/// Limit of problems with a suggestion, which searches all nodes.
 constexpr std::size_t kMostLookUps = 10;
-/// The root of a file's graph, on which nodes without a parent hang.
+/// The root of a file's graph, the parent of nodes without one.
 constexpr const char* kRoot = "";
 
 std::string path_of_node(std::size_t node, std::string_view key) {
@@ -27,7 +27,7 @@ std::string path_of_node(std::size_t node, std::string_view key) {
 
 std::string path_of_object(std::size_t table) { return fmt::format("object[{}].node", table); }
 
-/// The nodes as written, by name, and what of them is wrong.
+/// The declared nodes, by name, and their faults.
 class WrittenNodes {
  public:
   WrittenNodes(std::span<const NodeConfig> nodes, std::span<const std::string> hung_on,
@@ -43,7 +43,7 @@ class WrittenNodes {
     for (std::size_t table = 0; table < hung_on.size(); ++table) hang(table, hung_on[table]);
   }
 
-  /// Reports what is wrong; only if that is nothing, original() may be called.
+  /// Reports faults; original() may be called only if there are none.
   void check() {
     const std::size_t before = problems_.size();
     check_tree();
@@ -60,7 +60,7 @@ class WrittenNodes {
   [[nodiscard]] const std::vector<std::size_t>& objects(std::size_t node) const {
     return objects_[node];
   }
-  /// What a copy is in the end a copy of; else the node itself.
+  /// The original of a chain of copies; else the node itself.
   [[nodiscard]] std::size_t original(std::size_t node) const { return originals_[node].node; }
 
   static GraphNode as_graph_node(const NodeConfig& config) {
@@ -76,7 +76,7 @@ class WrittenNodes {
   }
 
  private:
-  /// What a node is in the end a copy of, and by how many `use`; 0: not known yet, 1: itself.
+  /// The original of a node, and the number of `use` keys to it; 0: not yet known, 1: itself.
   struct Original {
     std::size_t node = 0, uses = 0;
   };
@@ -142,12 +142,12 @@ class WrittenNodes {
                           one.name, one.use, nodes_[child].name));
   }
 
-  /// A node that holds a copy of itself, however deep, would have no end.
+  /// A node that contains a copy of itself, at any depth, would be infinite.
   void check_copies_end() {
     enum : std::uint8_t { unseen, open, seen };
     std::vector<std::uint8_t> state(nodes_.size(), unseen);
     std::vector<std::size_t> from(nodes_.size());
-    // A node stays on the stack below what it holds, and is left when it is on top again.
+    // A node stays on the stack below its content, and is finished when it is on top again.
     std::vector<std::pair<std::size_t, std::size_t>> steps;
     for (const std::size_t node : at_root_) steps.emplace_back(node, node);
     while (!steps.empty()) {
@@ -168,7 +168,7 @@ class WrittenNodes {
     }
   }
 
-  /// Goes along each chain of copies once.
+  /// Follows each chain of copies once.
   void resolve_copies() {
     originals_.resize(nodes_.size());
     std::vector<std::size_t> chain;
@@ -192,14 +192,15 @@ class WrittenNodes {
                         nodes_[node].name, kMostLevels, nodes_[original].name));
   }
 
-  /// What hangs on a node, and what it is a copy of.
+  /// The children of a node, and the original of a copy.
   [[nodiscard]] std::vector<std::size_t> held_by(std::size_t node) const {
     std::vector<std::size_t> held = children_[node];
     if (!nodes_[node].use.empty()) held.push_back(*find(nodes_[node].use));
     return held;
   }
 
-  /// @param node the last one of a circle, which holds `held`; the last copy in it is to blame
+  /// @param node the last one of a cycle, which contains `held`; the fault is reported at the last
+  /// copy in the cycle
   void report_no_end(std::size_t node, std::size_t held, const std::vector<std::size_t>& from) {
     while (nodes_[node].use != nodes_[held].name) held = std::exchange(node, from[node]);
     problem(path_of_node(node, "use"),
@@ -216,11 +217,11 @@ class WrittenNodes {
   std::vector<Original> originals_;
 };
 
-/// A leaf before it is known where its object stands in the scene.
+/// A leaf whose object has no position in the scene yet.
 struct Leaf {
-  std::size_t in_list;             ///< of the expanded nodes
+  std::size_t in_list;             ///< in the expanded nodes
   std::size_t table;               ///< of the [[object]]
-  std::optional<std::size_t> use;  ///< the outermost [[node]] with `use` that it is a copy by
+  std::optional<std::size_t> use;  ///< the outermost [[node]] with `use` that created it
   bool felt;
 };
 
@@ -239,10 +240,10 @@ class Expansion {
   std::vector<Leaf> leaves;
 
  private:
-  /// Where a node is put.
+  /// Position of a new node.
   struct Place {
     std::string parent;
-    std::string prefix;              ///< of names, by the copy that it is in
+    std::string prefix;              ///< of names, from the copy that contains it
     std::optional<std::size_t> use;  ///< of that copy, the outermost
     bool felt;
     std::size_t level;
@@ -288,7 +289,7 @@ class Expansion {
     sources_.emplace_back(0, place.use);
   }
 
-  /// Of what there is no room for, the first is reported.
+  /// Reports only the first node without room.
   bool has_room(std::string path, const Place& place) {
     if (is_full_) return false;
     const bool too_deep = place.level > kMostLevels;
@@ -304,7 +305,7 @@ class Expansion {
     return false;
   }
 
-  // As written, names are unlike; so if two are the same, one is of a copy.
+  // Declared names are unique; so of two equal names one belongs to a copy.
   void report_names() {
     std::set<std::string_view> names, object_names;
     for (const haptics::SceneObject& object : objects_) object_names.insert(object.name);
@@ -324,12 +325,12 @@ class Expansion {
   const WrittenNodes& written_;
   const std::vector<haptics::SceneObject>& objects_;
   std::vector<NodeProblem>& problems_;
-  /// Of each node but the root: the [[node]], and the outermost with `use`.
+  /// Per node except the root: the [[node]], and the outermost one with `use`.
   std::vector<std::pair<std::size_t, std::optional<std::size_t>>> sources_;
   bool is_full_ = false;
 };
 
-/// Where each object stands in the end: those of the file that are felt first, in its order.
+/// Final positions of the objects: felt objects of the file first, in its order.
 std::vector<std::uint32_t> places_of(const std::vector<Leaf>& leaves, std::size_t objects) {
   std::vector<bool> taken_out(objects, false);
   for (const Leaf& leaf : leaves)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The scene graph of a scene file: its [[node]] tables with all copies expanded, and the objects
-// that hang on them (docs/scene_graph.md).
+// The scene graph of a scene file: its [[node]] tables with all copies expanded, and their objects
+// (docs/scene_graph.md).
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace reckon::peer {
 struct NodeConfig {
   std::string name;
   std::string parent;  ///< empty: the scene's root
-  std::string use;     ///< the node that it is a copy of; empty: none
+  std::string use;     ///< the original of a copy; empty: no copy
   NodeKind kind = NodeKind::group;
   std::string shows;                                          ///< switch; empty: the first
   double farthest = std::numeric_limits<double>::infinity();  ///< of a level of detail [m]
@@ -33,43 +33,44 @@ struct NodeConfig {
 
 /// An object of the file, or a copy of one, in the graph.
 struct HungObject {
-  NodeIndex node;        ///< a leaf; its world pose is that of the object
-  std::uint32_t object;  ///< in Scene::objects; if it is not felt, in SceneNodes::unfelt
-  std::uint32_t table;   ///< of the [[object]], from 0: the same for all copies of one
-  bool felt;             ///< else it lies below a node that a switch hides, or in a coarser level
+  NodeIndex node;        ///< a leaf; its world pose is the pose of the object
+  std::uint32_t object;  ///< index in Scene::objects; if it is not felt, in SceneNodes::unfelt
+  std::uint32_t table;   ///< index of the [[object]]: the same for all its copies
+  bool felt;             ///< false: hidden by a switch, or in a coarser level of detail
 };
 
-/// An object that a time function moves: at each time its pose is world(node) of the graph, and its
-/// surface moves by velocity(node). Who moves it evaluates the graph once for each time, and then
-/// goes through these.
+/// An object moved by a time function: its pose is world(node) of the graph, and its surface moves
+/// by velocity(node). The user evaluates the graph once for each time, and then updates these
+/// objects.
 struct MovedObject {
-  std::uint32_t object;  ///< in Scene::objects; its pose there is that of time 0
-  NodeIndex node;        ///< the leaf that it is
+  std::uint32_t object;  ///< in Scene::objects; its pose there is the one at time 0
+  NodeIndex node;        ///< the leaf of the object
 };
 
-/// What a file's nodes come to. Without [[node]] tables all of it is empty.
+/// The resulting graph. Empty without [[node]] tables.
 struct SceneNodes {
   SceneGraph graph;                ///< its root is S and has no name
-  std::vector<HungObject> hung;    ///< in the order of the walk
-  std::vector<MovedObject> moved;  ///< those of `hung` that are felt and move; the same order
+  std::vector<HungObject> hung;    ///< in walk order
+  std::vector<MovedObject> moved;  ///< the entries of `hung` that are felt and move; in the same
+                                   ///< order
   std::vector<haptics::SceneObject> unfelt;
 };
 
-/// What is wrong with a node or with an object's place in the graph.
+/// A fault of a node or of an object's place in the graph.
 struct NodeProblem {
-  std::string path;  ///< for TomlReader::problem_at, as "node[1].use"
+  std::string path;  ///< for TomlReader::problem_at, such as "node[1].use"
   std::string sentence;
 };
 
-/// Most nodes and objects in a graph, copies counted.
+/// Limit of nodes and objects in a graph, including copies.
 inline constexpr std::size_t kMostNodes = 100'000;
-/// Most nodes from the root to an object, and most copies of copies.
+/// Limit of levels from the root to an object, and of copies of copies.
 inline constexpr std::size_t kMostLevels = 256;
 
-/// Makes the graph. The objects that hang on a node get their pose in S and its scale; copies are
-/// added at the end, as "COPY/NAME"; those that are not felt are taken out.
-/// @param hung_on of each object the name of its node; empty: none
-/// @param problems what forbids it is added; the result is then empty and `objects` as before
+/// Makes the graph. Sets the pose in S and the scale of objects with a node; appends copies as
+/// "COPY/NAME"; removes objects that are not felt.
+/// @param hung_on the name of each object's node; empty: none
+/// @param problems faults are appended; the result is then empty and `objects` unchanged
 [[nodiscard]] SceneNodes make_nodes(std::span<const NodeConfig> nodes,
                                     std::span<const std::string> hung_on,
                                     std::vector<haptics::SceneObject>& objects,

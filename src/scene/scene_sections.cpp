@@ -103,7 +103,7 @@ Section<OperatorConfig> sweep_section() {
   }};
 }
 
-/// The quantities of the rules of sending, from each rule's own table.
+/// The parameters of the sending rules, from each rule's own table.
 std::vector<Row<DeadReckoningConfig>> rows_of_rules() {
   std::vector<Row<DeadReckoningConfig>> rows;
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {

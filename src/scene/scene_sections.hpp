@@ -14,14 +14,14 @@
 
 namespace reckon::peer {
 
-/// Initial values of an entity's force model: those of [hand], without a kind.
+/// Initial values of an entity's force model: the defaults of [hand], without a kind.
 struct TouchModel : deadreckon::ForceModel {
   TouchModel() : ForceModel(to_force_model(HandModel{})) { kind = pdu::ForceModelKind::none; }
 };
 
 /// The whole file with all sections.
 [[nodiscard]] const Section<SceneFile>& file_section();
-/// Tables that a file may have repeatedly.
+/// Tables that may occur repeatedly.
 [[nodiscard]] Section<haptics::SceneObject> object_section();
 [[nodiscard]] Section<haptics::SurfacePatch> patch_section();
 [[nodiscard]] Section<haptics::SceneRegion> region_section();
@@ -30,7 +30,7 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<EntityConfig> entity_section();
 [[nodiscard]] Section<TouchModel> force_model_section();
 [[nodiscard]] Section<DeviceConfig> device_section();
-/// Tables with source files of their own.
+/// Tables with their own source files.
 [[nodiscard]] Section<AoimConfig> aoim_section();
 [[nodiscard]] Section<NetworkConfig> network_section();
 [[nodiscard]] Section<ImpairmentConfig> impairment_section();
@@ -43,14 +43,14 @@ struct TouchModel : deadreckon::ForceModel {
 
 /// Adds the keys of the effects.
 void add_effects(std::vector<SceneKey>& keys);
-/// Adds those of the effects that a patch may change.
+/// Adds the keys of effects that a patch may change.
 void add_patch_effects(std::vector<SceneKey>& keys);
-/// Adds those of a program's own effects. @throws std::invalid_argument where a key is taken
+/// Adds the keys of a program's own effects. @throws std::invalid_argument if a key already exists
 void add_custom_effects(const haptics::CustomEffects& effects, std::vector<SceneKey>& keys);
-/// Adds those of the effects of regions.
+/// Adds the keys of the effects of regions.
 void add_region_effects(std::vector<SceneKey>& keys);
 
-// Reads what depends on several keys, and reports contradictions.
+// Functions that read values depending on several keys, and report contradictions.
 void check_file(TomlReader& table, SceneFile& file);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
@@ -60,9 +60,9 @@ void check_device(TomlReader& table, DeviceConfig& device);
 void check_device_driver(TomlReader& table, DeviceConfig& device);
 void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
-/// @param aoim the table that has them
+/// @param aoim the table that contains them
 void check_tiers(TomlReader& aoim, const Tiers& tiers);
-/// Reports what of [aoim] excludes other parts of the file.
+/// Reports conflicts of [aoim] with other parts of the file.
 void check_aoim_of(TomlReader& file, const SceneFile& scene);
 
 /// Reads the tables [[region]].
@@ -71,7 +71,7 @@ void read_regions(TomlReader& file, SceneFile& out);
 void read_entities(TomlReader& file, SceneFile& out);
 void read_devices(TomlReader& file, SceneFile& out);
 
-/// The one of `keys` that the table has; anything but exactly one is a problem, reported with
+/// The one of `keys` that the table has; any other number of them is a problem, reported with
 /// `what`.
 std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
                      std::string_view what);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE words of a scene file for values from a list, one table for each type: the same rows read a
-// word and write it.
+// THE words of a scene file for values from a list, one table for each type. The same rows are used
+// to read and to write a word.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Word {
   T value;
 };
 
-/// The words of T in the order of messages; a type without words has none.
+/// The words of T in the order of messages; empty for a type without words.
 template <class T>
 inline constexpr std::array<Word<T>, 0> kWords{};
 
@@ -133,7 +133,7 @@ inline constexpr auto kWords<pdu::CompressedForm> =
                                               {"compact", pdu::CompressedForm::compact},
                                               {"residual", pdu::CompressedForm::residual}});
 
-/// The names of a list that is defined elsewhere; `meaning` gives the value for one of its rows.
+/// The names of a list that is defined elsewhere; `meaning` returns the value for one of its rows.
 template <class T, class List, class Meaning>
 constexpr auto names_as_words(const List& list, Meaning meaning) {
   std::array<Word<T>, std::tuple_size_v<List>> words{};

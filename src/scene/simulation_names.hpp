@@ -13,8 +13,8 @@
 
 namespace reckon::peer {
 
-/// Parses site:application pairs that are separated by commas. Returns nothing for any other text.
-/// Numbers are 1 to 65534.
+/// Parses site:application pairs separated by commas. Returns nothing for any other text. Numbers
+/// are 1 to 65534.
 [[nodiscard]] std::optional<std::vector<aoim::PeerId>> parse_simulations(std::string_view text);
 
 /// Writes the text that parse_simulations() reads.

@@ -29,7 +29,7 @@ constexpr std::string_view key_of() {
   return "part";
 }
 
-/// Whether the values make a solid; if not, a problem states the reason.
+/// Checks whether the values make a solid; if not, a problem states the reason.
 template <class S>
 void try_solid(TomlReader& table, std::string_view key, const S& shape) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Implicit solids in a scene file: cylinder, cone, torus, ellipsoid, and the parts of a solid made
-// of several. Private to the scene reader.
+// Implicit solids in a scene file: cylinder, cone, torus, ellipsoid, and the parts of a composite
+// solid. Private to the scene reader.
 #pragma once
 
 #include <string_view>
@@ -33,7 +33,7 @@ auto of_shape(T S::*member) {
 [[nodiscard]] Section<haptics::CsgPart> part_section();
 [[nodiscard]] Section<haptics::HeightsShape> heights_section();
 
-/// The keys of a shape that objects and parts share.
+/// The shape keys common to objects and parts.
 template <class Owner>
 [[nodiscard]] std::vector<Row<Owner>> solid_rows() {
   return {
@@ -53,7 +53,7 @@ template <class Owner>
   };
 }
 
-/// Checks the values of these keys beyond their ranges.
+/// Checks the values of these keys beyond single ranges.
 void check_solid(TomlReader& table, const haptics::SceneObject& object);
 
 }  // namespace reckon::peer

@@ -26,8 +26,8 @@ struct TierConfig {
   bool own_group = false;  ///< of a tier by distance: it has a separate group of each cell
 };
 
-/// The tiers of a scene, innermost first: at most one of touch, which is the first, then those by
-/// distance. None: all peers receive everything. For set-up: the functions below may allocate.
+/// The tiers of a scene, innermost first: at most one by touch, which is the first, then the ones
+/// by distance. None: all peers receive everything. For set-up: the functions below may allocate.
 using Tiers = std::vector<TierConfig>;
 
 /// Whether its recipients have a greatest distance, a rate and an accuracy.
@@ -38,7 +38,7 @@ using Tiers = std::vector<TierConfig>;
 [[nodiscard]] bool has_distance_tiers(const Tiers& tiers) noexcept;
 /// The rows by distance, the nearest first.
 [[nodiscard]] std::vector<aoim::Channel> channels_of(const Tiers& tiers);
-/// Reason why the tier at this place cannot have its own group; empty if it can.
+/// Reason why the tier at this index cannot have its own group; empty if it can.
 [[nodiscard]] std::string own_group_refusal(const Tiers& tiers, std::size_t place);
 /// Whether each cell has a separate group for it.
 [[nodiscard]] constexpr bool has_group(const TierConfig& tier) noexcept {
@@ -46,7 +46,7 @@ using Tiers = std::vector<TierConfig>;
 }
 /// Tiers for which each cell has a separate group.
 [[nodiscard]] std::size_t group_tier_count(const Tiers& tiers) noexcept;
-/// Of these, tiers by distance.
+/// Number of these tiers that are by distance.
 [[nodiscard]] std::size_t own_group_count(const Tiers& tiers) noexcept;
 
 /// Tiers by distance from these rows.

@@ -14,10 +14,10 @@
 namespace reckon::peer {
 namespace {
 
-/// Of UTF-8: no octet within a letter.
+/// True for the first octet of a UTF-8 character.
 bool begins_letter(char octet) { return (static_cast<unsigned char>(octet) & 0xC0) != 0x80; }
 
-/// Goes through a text token by token, as far as keys, brackets and texts are concerned.
+/// Scans a text token by token, for keys, brackets and strings only.
 class BoundsCheck {
  public:
   BoundsCheck(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -27,7 +27,7 @@ class BoundsCheck {
   }
 
  private:
-  /// What an opened bracket interrupts.
+  /// The state outside an open bracket.
   struct Outer {
     std::size_t level;
     bool is_table;
@@ -45,7 +45,7 @@ class BoundsCheck {
     if (letter == '.' && in_key_) deepen();
   }
 
-  // A key at the begin of a line is in the table of the last header.
+  // A key at the beginning of a line belongs to the table of the last header.
   void end_line() {
     ++line_;
     line_begin_ = at_;
@@ -67,7 +67,7 @@ class BoundsCheck {
     count_value();
   }
 
-  // A bracket in the place of a key opens a header.
+  // A bracket instead of a key opens a header.
   void open(bool is_table) {
     if (outer_.empty() && in_key_) {
       if (!in_header_) level_ = 1;
@@ -100,7 +100,7 @@ class BoundsCheck {
       refuse(fmt::format("more than {} keys and values; take fewer", kMostTomlValues));
   }
 
-  // One quote or three, and what they enclose. A text of one line ends with the line at the latest.
+  // Skips a string with one or three quotes. A single-line string ends with its line at the latest.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool is_long = text_.substr(at_, 3) == three;
@@ -119,7 +119,7 @@ class BoundsCheck {
     }
   }
 
-  // Up to two quotes may stand before the three that close a text.
+  // Up to two quotes may precede the three closing ones.
   void skip_closing(char quote) {
     const std::size_t end = text_.find_first_not_of(quote, at_);
     skip_to(end == text_.npos ? end : std::min(end, at_ + 5));
@@ -137,8 +137,8 @@ class BoundsCheck {
   const std::string& file_;
   std::size_t at_ = 0, line_begin_ = 0;
   std::uint32_t line_ = 1;
-  std::vector<Outer> outer_;  // brackets that are open
-  std::size_t level_ = 1;     // of the value that is read
+  std::vector<Outer> outer_;  // open brackets
+  std::size_t level_ = 1;     // of the present value
   std::size_t header_level_ = 0;
   bool in_key_ = true, in_header_ = false;
   std::size_t values_ = 0;

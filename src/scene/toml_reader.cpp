@@ -49,7 +49,7 @@ std::string range_text(const SceneKey& spec) {
   return fmt::format("{} to {}", shown(spec.least), shown(spec.most));
 }
 
-/// The three texts of "0 0 10 cm", each with the unit; empty if there are not three numbers.
+/// The three parts of "0 0 10 cm", each with the unit; empty if there are not three numbers.
 std::vector<std::string> split_point(std::string_view text) {
   std::vector<std::string> words;
   while (words.size() < 3) {
@@ -205,7 +205,7 @@ std::optional<double> TomlReader::quantity(const toml::node& node, const SceneKe
     add(node.source(), fmt::format("'{}': {}", spec.key, parsed.error));
     return std::nullopt;
   }
-  // Not value<double>(): it fails for a whole number that is not exact as a double.
+  // Not value<double>(): it fails for a whole number without an exact double.
   if (const auto* whole = node.as_integer())
     return in_range(static_cast<double>(whole->get()), node, spec);
   if (const auto* number = node.as_floating_point()) return in_range(number->get(), node, spec);
@@ -272,7 +272,7 @@ void TomlReader::each_text(std::string_view key,
   }
 }
 
-// A file that cannot be opened is a problem, and so is a device, which may be endless.
+// A file that cannot be opened is a problem; so is a device file, which may be endless.
 void TomlReader::read(std::string_view key, fs::path& target) {
   const std::string* said = text(key);
   if (said == nullptr) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads one TOML table against the list of scene keys and collects the problems. Private to the
-// scene reader: no other room uses toml++.
+// Reads one TOML table by the list of scene keys and collects the problems. Private to the scene
+// reader: no other room uses toml++.
 #pragma once
 
 #include <toml++/toml.h>
@@ -25,29 +25,29 @@
 
 namespace reckon::peer {
 
-/// What a file may say.
+/// The keys that a file may use.
 struct SceneVocabulary {
-  std::vector<SceneKey> keys;      ///< scene_keys(), and those of `effects`
+  std::vector<SceneKey> keys;      ///< scene_keys(), and the keys of `effects`
   haptics::CustomEffects effects;  ///< of the program, in the order of their keys
 };
 
-/// @throws SceneFileError at the place where `text` is no TOML, or exceeds check_text_bounds()
+/// @throws SceneFileError at the place where `text` is invalid TOML, or exceeds check_text_bounds()
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& file);
 /// @throws SceneFileError with the problems in the order of their places, if there are any
 void throw_problems(const std::string& file, std::vector<SceneProblem> problems);
-/// @throws SceneFileError where the file cannot be read, is no regular file, or is larger
+/// @throws SceneFileError if the file cannot be read, is no regular file, or is larger
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& path, std::size_t most_octets);
 
-/// Problems that are reported of one file; those beyond are not looked for.
+/// Limit of reported problems per file; the search then ends.
 inline constexpr std::size_t kMostProblems = 100;
-/// Tables under one key, such as [[entity]].
+/// Limit of tables under one key, such as [[entity]].
 inline constexpr std::size_t kMostTables = 100'000;
 
 /// A view of one table of a file. The constructor refuses unknown and renamed keys. A read leaves
-/// its target as it is if the key is absent or invalid; an invalid one becomes a problem.
+/// its target unchanged if the key is absent or invalid; an invalid one becomes a problem.
 class TomlReader {
  public:
-  /// All but the folder outlive the reader; `section` as in scene_keys().
+  /// All except the folder outlive the reader; `section` as in scene_keys().
   TomlReader(const toml::table& table, std::string section, std::filesystem::path folder,
              const SceneVocabulary& vocabulary, std::vector<SceneProblem>& problems);
 
@@ -55,9 +55,9 @@ class TomlReader {
     return vocabulary_->effects;
   }
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
-  /// From which relative names start.
+  /// The folder of relative file names.
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// Whether there is a table under `key` that has `inner`.
+  /// Whether there is a table under `key` that contains `inner`.
   [[nodiscard]] bool has(std::string_view key, std::string_view inner) const {
     const toml::node* const node = table_->get(key);
     return node != nullptr && node->is_table() && node->as_table()->contains(inner);
@@ -68,7 +68,7 @@ class TomlReader {
   void read(std::string_view key, std::chrono::nanoseconds& target);
   void read(std::string_view key, bool& target);
   void read(std::string_view key, std::string& target);
-  /// The same for a target that has no value while the key is absent or invalid.
+  /// The same for a target without a value while the key is absent or invalid.
   template <class T>
   requires std::same_as<T, bool> || std::same_as<T, std::string>
   void read(std::string_view key, std::optional<T>& target) {
@@ -98,8 +98,8 @@ class TomlReader {
     if (const auto word = choice(key)) target = *value_of<T>(*word);
   }
 
-  /// Passes each text of the list under `key` to `take`; one for which that throws
-  /// std::invalid_argument becomes a problem at its place.
+  /// Passes each text of the list under `key` to `take`; if that throws std::invalid_argument, the
+  /// text becomes a problem at its place.
   void each_text(std::string_view key, const std::function<void(const std::string&)>& take);
 
   /// The same, also for a single text without a list.
@@ -110,9 +110,9 @@ class TomlReader {
   /// The tables under `key`: [[key]] or [{..}, {..}].
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key);
 
-  /// Adds a problem when `key` is absent.
+  /// Adds a problem if `key` is absent.
   void require(std::string_view key);
-  /// Adds a problem at `key`, or at the table when `key` is absent.
+  /// Adds a problem at `key`, or at the table if `key` is absent.
   void problem(std::string_view key, std::string sentence);
   /// The same at the end of a path such as "aoim.tier[1].kept", or at the existing part of it.
   void problem_at(std::string_view path, std::string sentence);

@@ -15,7 +15,7 @@ namespace reckon::peer {
 namespace {
 
 /// One spelling of one unit: value [SI] = number * multiply / divide. Two whole numbers, because 7
-/// / 1000 is the double nearest to 0.007 and 7 * 0.001 need not be.
+/// / 1000 is the double nearest to 0.007, while 7 * 0.001 may not be.
 struct Unit {
   std::string_view si;
   std::string_view name;

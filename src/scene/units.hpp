@@ -9,16 +9,17 @@
 
 namespace reckon::peer {
 
-/// A quantity in SI, or the reason why the text is none.
+/// A quantity in SI, or the reason why the text is invalid.
 struct Quantity {
   double value = 0.0;
   std::string error;  ///< empty if valid; else one sentence with the accepted units
   [[nodiscard]] bool good() const noexcept { return error.empty(); }
 };
 
-/// Reads "NUMBER UNIT" as SI. `si_unit` is the expected one ("m", "rad", "s", "N/m", "" for a plain
-/// number) and must be in the table of units.cpp; a number without a unit is in SI. A percentage is
-/// accepted for a plain number. Finite results only. Any blanks between the two are allowed.
+/// Reads "NUMBER UNIT" as SI. `si_unit` is the expected unit ("m", "rad", "s", "N/m", "" for a
+/// plain number) and must be in the table of units.cpp; a number without a unit is in SI. A
+/// percentage is accepted for a plain number. Finite results only. Any blanks between the two are
+/// allowed.
 [[nodiscard]] Quantity parse_quantity(std::string_view text, std::string_view si_unit);
 
 /// `value` [SI] with a readable unit: 0.005 "s" gives "5 ms".

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The 52 octets that a sealed datagram has beyond its content: a header in front, a tag behind.
-// Also the destination, which the tag covers without being sent.
+// The 52 octets that sealing adds to a datagram: a header in front and a tag behind. Also the
+// destination, which the tag covers although it is not sent.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ enum class SealingSuite : std::uint8_t {
   xchacha20_poly1305 = 0x12,  ///< for CPUs without them
 };
 
-/// One opening of a sealed link. `boot` is drawn at random each time, so it alone distinguishes
-/// two; site and application are the numbers of the program at that time, for people.
+/// One opening of a sealed link. `boot` is drawn at random each time and alone identifies the
+/// opening. Site and application are the program's numbers at that time, for people.
 struct Sealer {
   std::uint64_t boot{0};
   std::uint16_t site{0}, application{0};
@@ -59,8 +59,8 @@ struct EnvelopeHeader {
 
 /// Destination of a datagram, covered by its tag: 0 kind (0: one host, 1: a group by a list of
 /// addresses, 4 and 6: a group), 1 exercise, 2 port, 4 address, or number of the group with a list.
-/// For one host, port and address are 0, because the host may know itself by others than the sender
-/// does.
+/// For one host, port and address are 0, because the sender may know the host by other values than
+/// the host itself does.
 using Destination = std::array<std::byte, 20>;
 
 /// A group, or one host. 3 ns, any thread.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The opening side: from a datagram that claims to be sealed to its content, or to the reason for
-// its refusal. SealedLink finds out whether it is live or a recording.
+// Opens sealed datagrams: the result is the content or the reason for a refusal. SealedLink decides
+// whether a datagram is live or a recording.
 #pragma once
 
 #include <chrono>
@@ -19,14 +19,14 @@ namespace reckon::peer {
 enum class SealedVerdict : std::uint8_t {
   opened,
   plain,          ///< not sealed, or of no known suite
-  other_suite,    ///< not that of the key file
+  other_suite,    ///< another suite than in the key file
   unknown_epoch,  ///< not in the key file
   old_epoch,      ///< of an epoch that has ended
   own,            ///< our own, reflected
-  no_stream,      ///< of a stream that does not exist
+  no_stream,      ///< of an unknown stream
   replayed,       ///< accepted before, or too far behind
-  forged,         ///< wrong tag, or that of another group or exercise
-  outdated,       ///< sealed before its group was joined here, or at another time than now
+  forged,         ///< wrong tag, or from another group or exercise
+  outdated,       ///< sealed before its group was joined here, or too long before its arrival
 };
 
 /// One opened datagram.
@@ -50,8 +50,9 @@ class EnvelopeOpener {
   /// @param places covered by the tags
   EnvelopeOpener(const GroupKey& key, const Sealer& own, const ExercisePlaces& places = {});
 
-  /// `since` is not checked for untrusted senders, whose held datagrams SenderTime can judge later,
-  /// nor for greetings, which prove themselves.  @param since when its group was joined.
+  /// Opens a datagram. It does not check `since` for untrusted senders, because SenderTime judges
+  /// their held datagrams later, nor for greetings, which prove themselves. @param since when its
+  /// group was joined.
   /// @param room at least datagram.bytes.size() octets, not overlapping them
   [[nodiscard]] OpenedDatagram open(const Datagram& datagram, std::chrono::nanoseconds since,
                                     std::chrono::nanoseconds now,

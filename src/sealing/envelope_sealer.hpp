@@ -22,7 +22,7 @@ enum class SealingStream : std::uint16_t {
 inline constexpr std::size_t kSealingStreams = 2;
 
 /// Seals under keys that no other process has: its boot is drawn at random at each construction,
-/// also inside one process. A copy that does not know of the other (a snapshot of the machine, a
+/// also inside one process. A copy that is unaware of the other (a snapshot of the machine, a
 /// fork) draws other salts: with XChaCha20 for each datagram, with AES-GCM for each kMostOfSalt and
 /// at least each kLongestSalt. Each stream by one thread at a time; no allocation after
 /// construction.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Schedule and content of the greetings of a sealed link, which prove to others that it is alive
-// and ask them for the same.
+// Schedule and content of the greetings of a sealed link. They prove to others that it is live, and
+// request the same proof from them.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@
 
 namespace reckon::peer {
 
-/// One greeting answers many, and at most 50 are sent in a second; far fewer for boots that have
-/// not proved to be alive, which may be recordings. One thread; no allocation.
+/// One greeting answers many senders. At most 50 are sent in a second, and far fewer for boots that
+/// are not proven to be live, because these may be recordings. One thread; no allocation.
 class Greeter {
  public:
   static constexpr std::size_t kShortest = HelloWriter::kHead + HelloWriter::kEcho;
@@ -26,7 +26,7 @@ class Greeter {
   /// Least gap between new nonces because of outdated datagrams.
   static constexpr std::chrono::nanoseconds kDoubtGap = std::chrono::seconds(1);
 
-  /// @param boot own.  @param nonce that others have to send back; drawn at random
+  /// @param boot own boot. @param nonce that others have to return; drawn at random
   Greeter(std::uint64_t boot, std::uint64_t nonce) noexcept : own_{boot, nonce} {}
 
   /// Invalidates everything that others proved before.
@@ -50,7 +50,7 @@ class Greeter {
                           std::chrono::nanoseconds now) noexcept;
 
   /// A trusted sender has sent its latest datagram at an implausible time: a clock has jumped. All
-  /// are asked anew.
+  /// senders have to prove again that they are live.
   void doubt(std::chrono::nanoseconds now) noexcept;
 
  private:

@@ -19,19 +19,20 @@ namespace reckon::peer {
 class HeldDatagrams {
  public:
   static constexpr std::size_t kMost = 512;         ///< of all senders
-  static constexpr std::uint8_t kMostOfSender = 8;  ///< those sealed last
+  static constexpr std::uint8_t kMostOfSender = 8;  ///< the ones that were sealed last
   static constexpr std::size_t kLongest = 1500;     ///< [octets]; longer ones are not held
 
   HeldDatagrams();
 
-  /// Adds a datagram, in the place of the sender's earliest if it has kMostOfSender. False if an
-  /// earlier one is replaced, or this one is refused because it is earlier still or too long.
+  /// Adds a datagram. If the sender already has kMostOfSender, it replaces the earliest of these.
+  /// False if the datagram replaced one of its sender, or is refused because it is even earlier or
+  /// too long.
   /// @param since when its group was joined
   [[nodiscard]] bool push(SealedSender& sender, const EnvelopeHeader& header,
                           const Datagram& datagram, std::chrono::nanoseconds since) noexcept;
 
-  /// The sender is trusted: its timely datagrams may be taken from now on, its others are
-  /// discarded.
+  /// For a sender that has become trusted: its timely datagrams are ready for take(), its others
+  /// are discarded.
   void release(const SealedSender& sender) noexcept;
 
   [[nodiscard]] bool has_released() const noexcept { return released_ > 0; }

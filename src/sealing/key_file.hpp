@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The key file, whose holder is a member of a sealed exercise.
+// The key file. Its holder is a member of a sealed exercise.
 #pragma once
 
 #include <chrono>
@@ -60,7 +60,7 @@ class KeyFileError : public std::runtime_error {
 [[nodiscard]] std::optional<SealingSuite> suite_of(std::string_view word) noexcept;
 [[nodiscard]] std::string_view word_of_suite(SealingSuite suite) noexcept;
 
-/// "2026-12-01T06:00:00Z", 1970 to 9999. And back.
+/// "2026-12-01T06:00:00Z", 1970 to 2200. And the inverse.
 [[nodiscard]] std::optional<std::chrono::seconds> parse_utc(std::string_view text) noexcept;
 [[nodiscard]] std::string utc_text(std::chrono::seconds utc);
 
@@ -68,13 +68,13 @@ class KeyFileError : public std::runtime_error {
 [[nodiscard]] GroupKey parse_group_key(std::string_view text, const std::string& file);
 
 /// Checks an open file with a secret: it must belong to the user of this process, and nobody else
-/// may read or write it (mode 0600 or less). @param path its name in messages
+/// may read or write it (mode 0600 or less). @param path name of the file in messages
 /// @throws KeyFileError with the remedy
 void check_owner_alone(const std::filesystem::path& path, int file);
 
-/// Reads the file and checks that this CPU supports its suite; check_owner_alone()
-/// holds for it. From then on the process writes no core dump and cannot be traced
-/// (PR_SET_DUMPABLE, RLIMIT_CORE).
+/// Reads the file, checks it with check_owner_alone(), and checks that this CPU supports its suite.
+/// From then on the process writes no core dump and cannot be traced (PR_SET_DUMPABLE,
+/// RLIMIT_CORE).
 /// @throws KeyFileError with the remedy
 [[nodiscard]] GroupKey load_group_key(const std::filesystem::path& path);
 

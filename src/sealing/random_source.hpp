@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers for sealing: those that identify a start of a peer (boots), and nonces.
+// Random numbers for sealing: the numbers that identify a start of a peer (boots), and nonces.
 #pragma once
 
 #include <cstddef>

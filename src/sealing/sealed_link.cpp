@@ -28,8 +28,8 @@ constexpr std::size_t kInnerBatch = 64;
 constexpr int kBatchesPerReceive = 8;
 constexpr nanoseconds kLookAtTime = milliseconds(100);
 constexpr nanoseconds kHeldFor = std::chrono::seconds(3);
-// Largest difference of steady clock and UTC between two looks: a larger one means that the machine
-// slept.
+// Largest change of the difference between steady clock and UTC from one look to the next. A larger
+// change means that the machine was suspended.
 constexpr nanoseconds kMostLeap = std::chrono::seconds(2);
 
 /// Counters with the names that a peer lists.
@@ -226,7 +226,7 @@ std::size_t SealedLink::Session::take_released(std::span<Datagram> out, std::siz
   return at;
 }
 
-// A trusted sender may have lost its place to the newcomer, and its replay windows with it.
+// The newcomer may have replaced a trusted sender; then the replay windows of that one are lost.
 void SealedLink::Session::meet(nanoseconds now) noexcept {
   if (opener.senders().trusted_dropped() != dropped) begun = now;
   dropped = opener.senders().trusted_dropped();
@@ -274,7 +274,8 @@ void SealedLink::Session::take_hello(const OpenedDatagram& opened, nanoseconds r
   held.release(sender);
 }
 
-// Nothing is kept of a sender that has not answered for long: a recording never will.
+// Keeps nothing of a sender that has not answered for a long time, because a recording never
+// answers.
 void SealedLink::Session::hold(const OpenedDatagram& opened, const Datagram& datagram,
                                nanoseconds since, nanoseconds now) noexcept {
   SealedSender& sender = *opened.sender;
@@ -331,7 +332,7 @@ std::error_code SealedLink::join(const GroupAddress& group) noexcept {
 
 void SealedLink::leave(const GroupAddress& group) noexcept { session_->inner.leave(group); }
 
-// At most until the next greeting is due.
+// Waits at most until the next greeting is due.
 bool SealedLink::wait(nanoseconds timeout) noexcept {
   Session& s = *session_;
   if (s.held.has_released()) return true;

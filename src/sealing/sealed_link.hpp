@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A link around a link: it seals sent datagrams, and opens or refuses received ones. A holder of
-// the group's key takes part, without a handshake for each pair.
+// A link around another link. It seals sent datagrams, and opens or refuses received ones. Every
+// holder of the group's key takes part, without a handshake for each pair.
 #pragma once
 
 #include <cstddef>
@@ -37,14 +37,15 @@ struct SealedLinkOptions {
 };
 
 /// Seals and opens, with a boot drawn at random at construction. Datagrams of a new boot are held
-/// until it has sent our nonce back, because their valid tags may be a recording's. That takes one
-/// round trip and 5 to 20 ms; then its last datagrams are returned, if they were sealed after their
-/// group was joined here. Each has its sender's boot (Datagram::boot). Threads as for any Link. The
-/// reader sends greetings, and the writer waits meanwhile: the inner link has one sender at a time.
+/// until it has returned our nonce, because their valid tags may come from a recording. That takes
+/// one round trip and 5 to 20 ms. Then its last datagrams are returned, if they were sealed after
+/// their group was joined here. Each has its sender's boot (Datagram::boot). Threads as for any
+/// Link. The reader sends greetings, and the writer waits meanwhile: the inner link has one sender
+/// at a time.
 ///
 /// If the process may be one of two (a fork, a copied machine), it continues with another boot. If
-/// its clocks differ by seconds (the machine slept), it trusts nobody until all have proved again
-/// to be live.
+/// its clocks differ by seconds (the machine was suspended), it trusts no sender until the sender
+/// has proved again to be live.
 class SealedLink final : public Link {
  public:
   /// Allocates all that it needs.  @param inner, clock outlive this.
@@ -69,7 +70,7 @@ class SealedLink final : public Link {
   bool take_event(LinkEvent& event) noexcept override;
   void settle() noexcept override;
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
-  /// kEnvelope less than that of the inner link.
+  /// kEnvelope less than for the inner link.
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
 

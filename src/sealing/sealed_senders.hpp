@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Senders that have proved to hold the group's key: their keys, windows and whether they are live.
+// Senders that are proven to hold the group's key: their keys and windows, and whether they are
+// live.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ namespace reckon::peer {
 
 /// One boot of one sealer.
 struct SealedSender {
-  /// Of each stream: that of the last salt or epoch, and of the one before.
+  /// For each stream: the key of the last salt or epoch, and the key before it.
   static constexpr std::size_t kKeys = 2;
 
   /// A key with its salt and epoch.
@@ -48,7 +49,7 @@ struct SealedSender {
 
   /// Its key for this header; null if none is kept.
   [[nodiscard]] const SealingKey* key_of(const EnvelopeHeader& header) const noexcept;
-  /// Keeps the key in the place of the older one of the stream.
+  /// Keeps the key, and drops the older key of the stream.
   void keep(const EnvelopeHeader& header, const SealingKey& kept) noexcept;
 };
 

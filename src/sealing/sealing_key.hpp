@@ -26,11 +26,11 @@ void prepare_sealing();
 void wipe(std::span<std::byte> octets) noexcept;
 
 /// BLAKE2b-256, keyed with the group's secret, of octets 1 to 15 of the header: suite, epoch and
-/// sealer, so that no two sealers and no two epochs share a key. For AES-256-GCM, whose nonce has
-/// no room for it, also of the salt behind them. 0.2 us.
+/// sealer. Therefore different sealers and different epochs have different keys. For AES-256-GCM
+/// the hash also covers the salt in the header, because its nonce has no room for it. 0.2 us.
 [[nodiscard]] KeyOctets derive_key(const KeyOctets& secret, const EnvelopeHeader& header) noexcept;
 
-/// The part of the salt in the key: 0 with XChaCha20, which has it in the nonce.
+/// The salt as part of the key: 0 with XChaCha20, which has the salt in the nonce.
 [[nodiscard]] inline std::uint64_t key_salt(const EnvelopeHeader& header) noexcept {
   return header.suite == SealingSuite::aes_256_gcm ? header.salt : 0;
 }

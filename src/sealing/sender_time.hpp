@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Time of sealing of a sender's datagram by our clock, which alone proves for each one that it is
-// no recording.
+// Time of sealing of a sender's datagram by our clock. Only this time proves for each single
+// datagram that it is not a recording.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,17 @@
 namespace reckon::peer {
 
 /// The stamps of one sender on our clock, relative to the recent datagram with the shortest delay.
-/// An attacker that holds datagrams back makes them late, and cannot make one arrive before it was
-/// sealed. A clock drift of 0.1 % causes an error of 8 ms. A value; some ns a call.
+/// An attacker can make datagrams late by holding them back, but cannot make one arrive before it
+/// was sealed. A clock drift of 0.1 % causes an error of 8 ms. A value; some ns a call.
 class SenderTime {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// Lag behind the fastest above which a datagram is refused as outdated.
+  /// Largest delay relative to the fastest datagram; a later one is refused as outdated.
   static constexpr Nanoseconds kOldest = std::chrono::seconds(1);
-  /// The fastest one is forgotten after one to two of these.
+  /// The fastest datagram is forgotten after one to two periods of this length.
   static constexpr Nanoseconds kWindow = std::chrono::seconds(4);
 
-  /// Makes this one, which is known to be live, the reference.
+  /// Makes a datagram that is known to be live the reference.
   void begin(std::uint32_t stamp, Nanoseconds received) noexcept {
     least_ = window_ = {stamp, received};
     begun_ = received;
@@ -38,12 +38,13 @@ class SenderTime {
     if (lag(least_, now) <= Nanoseconds(0)) least_ = now;
   }
 
-  /// Its delay beyond that of the fastest.
+  /// Delay of a datagram relative to the fastest one.
   [[nodiscard]] Nanoseconds lag(std::uint32_t stamp, Nanoseconds received) const noexcept {
     return lag(least_, {stamp, received});
   }
 
-  /// Whether this arrival is impossible: a clock has jumped or stopped, or it is a recording.
+  /// Whether an arrival is impossible: a clock has jumped or stopped, or the datagram is a
+  /// recording.
   [[nodiscard]] bool is_far(std::uint32_t stamp, Nanoseconds received) const noexcept {
     const Nanoseconds late = lag(stamp, received);
     return late > kOldest || late < -kOldest;
@@ -62,7 +63,7 @@ class SenderTime {
     std::uint32_t stamp{0};  // [us], modulo 2^32
     Nanoseconds received{0};
   };
-  // For two that are less than half an hour apart.
+  // Both less than half an hour apart.
   static Nanoseconds lag(const Arrived& first, const Arrived& second) noexcept {
     const auto between = static_cast<std::int32_t>(second.stamp - first.stamp);
     return second.received - first.received - std::chrono::microseconds(between);

@@ -36,7 +36,7 @@ double thread_seconds() {
   return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
 }
 
-/// One device on a plan, led round a place.
+/// One device on a plan, moved around a place.
 class Stroke {
  public:
   Stroke(const EffectPlan& plan, double radius)
@@ -133,7 +133,7 @@ haptics::EffectDeclarations<Types> only(const haptics::EffectDeclarations<Types>
   return some;
 }
 
-/// Adds the stages of one object, as EffectPlan::stages() has them.
+/// Adds the stages of one object, in the same form as EffectPlan::stages().
 class Measurement {
  public:
   Measurement(const haptics::Scene& scene, const EffectPlan& plan, double radius)

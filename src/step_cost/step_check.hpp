@@ -22,7 +22,7 @@ namespace reckon::peer {
                                             const std::vector<double>& costs);
 
 /// Measures the dearest step, and its stages only if it takes longer than the period. Set-up code:
-/// some ms where the scene has meshes or solids of parts, else nothing.
+/// takes some ms if the scene has meshes or solids of parts, else nothing.
 /// @param radius of the probe [m]
 [[nodiscard]] std::optional<StepTooDear> find_step_too_dear(const haptics::Scene& scene,
                                                             const haptics::EffectPlan& plan,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Why a federate with devices does not join: this host cannot make its servo's steps in time.
+// The reason why a federate with devices does not join: this host is too slow for its servo's
+// steps.
 #pragma once
 
 #include <chrono>
@@ -9,8 +10,8 @@
 
 namespace reckon::peer {
 
-/// One step takes longer than the period of the servo: whatever else is right, it cannot be had on
-/// this host. what() names the dearest stages and the remedy.
+/// One step takes longer than the period of the servo, so this host cannot run the servo,
+/// regardless of all other conditions. what() names the dearest stages and the remedy.
 class StepTooDear : public std::runtime_error {
  public:
   StepTooDear(const std::string& finding, double step, std::chrono::nanoseconds period)
@@ -19,7 +20,7 @@ class StepTooDear : public std::runtime_error {
         finding_(finding),
         step_(step),
         period_(period) {}
-  /// What was found, without the remedy.
+  /// The finding, without the remedy.
   [[nodiscard]] const std::string& finding() const noexcept { return finding_; }
   /// CPU of the step [s].
   [[nodiscard]] double step() const noexcept { return step_; }

@@ -8,7 +8,7 @@
 namespace reckon::peer {
 namespace {
 
-// [us], see Documentation/power/pm_qos_interface.rst of Linux: none, and as by default.
+// [us], see Documentation/power/pm_qos_interface.rst of Linux: no latency, and the default.
 constexpr std::int32_t kAwake = 0, kAnyLatency = 2'000'000'000;
 
 }  // namespace
@@ -33,7 +33,7 @@ void AwakeProcessors::keep(bool needed, std::chrono::nanoseconds now) noexcept {
 void AwakeProcessors::request(std::int32_t microseconds) noexcept {
   if (requests_ < 0) return;
   if (write(requests_, &microseconds, sizeof microseconds) < 0) {
-    close(requests_);  // this kernel takes none
+    close(requests_);  // this kernel accepts none
     requests_ = -1;
   }
 }

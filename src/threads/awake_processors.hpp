@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the host's processors from sleeping while a late wake-up could be felt: one that has slept
-// deeply, or whose virtual machine has handed it back, wakes a thread of any priority late.
+// Keeps the host's processors awake while a late wake-up could be felt. A processor in deep sleep,
+// or one returned to the hypervisor, wakes a thread of any priority late.
 #pragma once
 
 #include <chrono>
@@ -9,24 +9,25 @@
 
 namespace reckon::peer {
 
-/// A latency request of Linux (PM QoS), which ends with the object or the process. While it is kept
-/// idle processors poll, which costs power but no other thread's time. One thread, no allocation.
+/// A latency request of Linux (PM QoS), which ends with the object or the process. While it is
+/// active, idle processors poll, which costs power but no other thread's time. One thread, no
+/// allocation.
 class AwakeProcessors {
  public:
   static constexpr const char* kRequests = "/dev/cpu_dma_latency";
-  /// It is kept for so long after it was needed last.
+  /// The request remains for this time after the last need.
   static constexpr std::chrono::nanoseconds kHold = std::chrono::seconds(1);
 
-  /// @param requests the file that takes them; where it cannot be opened nothing is kept awake
+  /// @param requests the file for requests; if it cannot be opened nothing is kept awake
   explicit AwakeProcessors(const char* requests = kRequests) noexcept;
   ~AwakeProcessors();
   AwakeProcessors(const AwakeProcessors&) = delete;
   AwakeProcessors& operator=(const AwakeProcessors&) = delete;
 
-  /// Whether this process may ask.
+  /// Whether this process may make requests.
   [[nodiscard]] static bool is_allowed() noexcept;
 
-  /// Says whether it is needed now. A system call where that changes.
+  /// Sets whether it is needed now. A system call on changes.
   void keep(bool needed, std::chrono::nanoseconds now) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thread that talks with a real device.
+// The thread that communicates with a real device.
 #pragma once
 
 #include <atomic>
@@ -13,18 +13,18 @@
 
 namespace reckon::peer {
 
-/// It has SCHED_FIFO where the host grants it, below the servo: what a device sends waits for it.
+/// Uses SCHED_FIFO if the host grants it, below the servo: input from a device waits for the servo.
 class DeviceThread {
  public:
   static constexpr int kPriority = 45;  ///< of SCHED_FIFO
-  /// What a step may wait for its device at most.
+  /// Longest wait of a step for its device.
   static constexpr std::chrono::microseconds kLongestWait{1000};
 
-  /// @param clock that of the servo; outlives this  @param name of at most 15 letters
-  /// @param step called over and over, waits as said @throws std::system_error if no thread can be
-  /// made
+  /// @param clock the servo's clock; outlives this  @param name at most 15 letters
+  /// @param step called repeatedly, may wait for kLongestWait @throws std::system_error if no
+  /// thread can be created
   DeviceThread(const Clock& clock, const char* name, std::function<void()> step);
-  /// Waits for the step to end.
+  /// Waits for the end of the present step.
   ~DeviceThread();
   DeviceThread(const DeviceThread&) = delete;
   DeviceThread& operator=(const DeviceThread&) = delete;

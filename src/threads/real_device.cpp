@@ -31,7 +31,7 @@ class ThreadedDevice final : public RealDevice {
   Exchange exchange_;
   Device device_;
   Session session_;
-  DeviceThread thread_;  // uses all of them
+  DeviceThread thread_;  // uses all members before it
 };
 
 using haptics::EvdevDevice, haptics::EvdevExchange, haptics::EvdevLoop;

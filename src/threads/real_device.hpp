@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A real device as a device of a peer: what its servo sees, and the thread that has it.
+// A real device of a peer: the device interface for its servo, and the thread that communicates
+// with it.
 #pragma once
 
 #include <memory>
@@ -28,7 +29,7 @@ class RealDevice {
   RealDevice(const RealDevice&) = delete;
   RealDevice& operator=(const RealDevice&) = delete;
 
-  /// For the servo; its reading fails while the device is not there.
+  /// For the servo; reading fails while the device is absent.
   [[nodiscard]] virtual haptics::HapticDevice& device() noexcept = 0;
   /// Sentences for the user since the last call. Any thread.
   [[nodiscard]] virtual std::vector<std::string> take_notices() = 0;
@@ -39,20 +40,21 @@ class RealDevice {
   RealDevice() = default;
 };
 
-/// One on USB. @param clock that of the servo; outlives the device, as below
-/// @param limits see haptics::usb_limits()  @param options how it is found, but for their clock
-/// @throws std::runtime_error where the host has no USB, std::system_error if no thread can be made
+/// A USB device. @param clock the servo's clock; outlives the device, as below
+/// @param limits see haptics::usb_limits()  @param options for finding it; their clock is ignored
+/// @throws std::runtime_error if the host has no USB, std::system_error if no thread can be
+/// created
 [[nodiscard]] std::unique_ptr<RealDevice> usb_device(const Clock& clock,
                                                      const haptics::DeviceLimits& limits,
                                                      std::unique_ptr<haptics::UsbDriver> driver,
                                                      haptics::UsbLoopOptions options = {});
-/// A board on a serial line. @param limits see haptics::usb_limits()
-/// @throws std::system_error if no thread can be made
+/// A board on a serial port. @param limits see haptics::usb_limits()
+/// @throws std::system_error if no thread can be created
 [[nodiscard]] std::unique_ptr<RealDevice> serial_device(const Clock& clock,
                                                         const haptics::DeviceLimits& limits,
                                                         haptics::SerialPlace place);
-/// A force feedback device of Linux. @param calls of the kernel @throws std::invalid_argument as
-/// haptics::evdev_limits(), std::system_error if no thread can be made
+/// A Linux force feedback device. @param calls kernel calls @throws std::invalid_argument as
+/// haptics::evdev_limits(), std::system_error if no thread can be created
 [[nodiscard]] std::unique_ptr<RealDevice> evdev_device(
     const Clock& clock, const haptics::EvdevSettings& settings,
     std::unique_ptr<haptics::EventCalls> calls = haptics::force_feedback_calls());

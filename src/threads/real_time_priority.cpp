@@ -32,7 +32,7 @@ OrdinaryPulse::OrdinaryPulse(const Clock& clock, nanoseconds silence)
     : clock_(clock), silence_(silence) {
   beat();
   thread_ = std::thread([this] {
-    schedule(SCHED_OTHER, 0);  // whatever made this
+    schedule(SCHED_OTHER, 0);  // regardless of the creating thread
     while (!stop_.load(std::memory_order_relaxed)) {
       ends_.wait(silence_ / 10);
       beat();

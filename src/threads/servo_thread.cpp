@@ -21,7 +21,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
-// To wake another thread takes some microseconds; with less than this to the next step it waits.
+// Waking another thread takes some microseconds; with less time to the next step it is postponed.
 constexpr nanoseconds kTimeToTell = microseconds(20);
 
 }  // namespace
@@ -118,7 +118,7 @@ void ServoThread::run(std::optional<RealTimePriority>& priority) noexcept {
   }
 }
 
-// The earliest of those served; lets go of those that leave.
+// The earliest seat in use; frees the seats of removed servos.
 ServoThread::Seat* ServoThread::next_due() noexcept {
   Seat* next = nullptr;
   const std::size_t used = seats_used_.load(std::memory_order_acquire);
@@ -135,7 +135,7 @@ ServoThread::Seat* ServoThread::next_due() noexcept {
   return next;
 }
 
-// A step in time for one servo needs all to be in time: they share the thread.
+// If one servo needs a punctual step, all do: they share the thread.
 bool ServoThread::is_urgent() const noexcept {
   const auto used = std::span(seats_).first(seats_used_.load(std::memory_order_acquire));
   return std::ranges::any_of(used, [](const Seat& seat) {
@@ -152,15 +152,16 @@ void ServoThread::step(Seat& seat) noexcept {
   if (seat.servo.duty != nullptr) seat.servo.duty->record(seat.due, started, finished);
   seat.untold = true;
 
-  // Missed periods are counted, not made up for: a burst of steps would be a lie about time.
+  // Missed periods are counted, not made up for: a burst of steps would have wrong times.
   seat.due += seat.servo.period;
   if (seat.due < finished) {
-    constexpr nanoseconds kOne{1};  // one that is due just now is not left out
+    constexpr nanoseconds kOne{1};  // one that is due now is not skipped
     seat.due += ((finished - seat.due - kOne) / seat.servo.period + 1) * seat.servo.period;
   }
 }
 
-// To spin costs up to a core, to wake too late some tens of microseconds: that is given up first.
+// Spinning costs up to a core; without it wake-ups are some tens of microseconds late. It is given
+// up first.
 void ServoThread::leave_time(RealTimePriority& priority) noexcept {
   if (!priority.starves_others(clock_.now())) return;
   gave_way_ = true;

@@ -27,9 +27,9 @@ struct ServoThreadOptions {
   /// It wakes this early and spins, which reduces the p99 of the lateness from tens of microseconds
   /// to zero. Only if the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
-  bool real_time = true;  ///< ask for SCHED_FIFO
-  /// If this process keeps ordinary threads from running for this long, the servo thread stops
-  /// spinning. The second time it gives up SCHED_FIFO. Otherwise nothing could end the program.
+  bool real_time = true;  ///< request SCHED_FIFO
+  /// If this process starves ordinary threads for this long, the servo thread stops spinning. The
+  /// second time it gives up SCHED_FIFO. Otherwise nothing could end the program.
   std::chrono::nanoseconds starvation = std::chrono::milliseconds(500);
   std::string name = "rk-servo";  ///< of the thread, see name_thread()
 };
@@ -38,9 +38,9 @@ struct ServoThreadOptions {
 struct Servo {
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< > 0
   std::function<void(std::chrono::nanoseconds now)> step;
-  /// Called after one or more steps, when no other servo is due: wakes the readers of the outcome.
+  /// Called after one or more steps, when no other servo is due: wakes the readers of the results.
   std::function<void()> tell;
-  /// Whether the next step has to be punctual, so that the thread wakes early and spins; called
+  /// Whether the next step must be punctual, so that the thread wakes early and spins; called
   /// between steps. Empty: always.
   std::function<bool()> is_urgent;
   DutyCycle* duty = nullptr;  ///< counts lateness, step time and misses; outlives the servo
@@ -70,7 +70,7 @@ class ServoThread {
   /// Ends and joins the thread; all servos must have been removed. Its statistics remain.
   void stop() noexcept;
 
-  /// Shows other SCHED_FIFO threads whether ordinary threads starve; null without `real_time`.
+  /// Lets other SCHED_FIFO threads detect starving ordinary threads; null without `real_time`.
   [[nodiscard]] const OrdinaryPulse* pulse() const noexcept { return pulse_ ? &*pulse_ : nullptr; }
   /// Whether it has SCHED_FIFO: granted by the host and not given up.
   [[nodiscard]] bool real_time() const noexcept { return real_time_; }
@@ -99,7 +99,7 @@ class ServoThread {
   std::atomic<std::chrono::nanoseconds> spin_{std::chrono::nanoseconds(0)};
   std::array<Seat, kMostServos> seats_;
   std::atomic<std::size_t> seats_used_{0};  // number of seats at the front that may be in use
-  std::mutex adding_;                       // never taken by the thread
+  std::mutex adding_;                       // never locked by the servo thread
   WakeSignal changed_, left_;
   std::atomic<bool> real_time_{false};
   std::atomic<bool> gave_way_{false};

@@ -14,8 +14,8 @@ namespace reckon::peer {
 /// Longest name that the system keeps.
 inline constexpr std::size_t kLongestThreadName = 15;
 
-/// Names a running thread and cuts a name that is too long. Failure is ignored, because nothing
-/// depends on the name.
+/// Names a running thread and truncates a name that is too long. Failure is ignored, because
+/// nothing depends on the name.
 ///
 ///   std::thread thread(loop);
 ///   name_thread(thread.native_handle(), "rk-servo 1");

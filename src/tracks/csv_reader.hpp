@@ -26,7 +26,8 @@ struct CsvError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a regular file once from begin to end; memory is that of the longest row. One thread.
+/// Reads a regular file once from begin to end; its memory is the length of the longest row. One
+/// thread.
 class CsvReader {
  public:
   /// Longest row [octets]; a file with a longer one is no valid table.

@@ -117,8 +117,9 @@ std::vector<TrackCurve::Knot> TrackCurve::knots_of(const TrackSamples& samples) 
   return knots;
 }
 
-// The last point equals the first, or further points lead there at the mean speed, as far apart as
-// the others. They are at most as many, because the way back is not longer.
+// Makes the last point equal to the first. If they differ, first adds points that lead there at the
+// mean speed, at the same intervals as the others. There are at most as many of them, because the
+// way back is not longer.
 void TrackCurve::close(std::vector<Knot>& knots) const {
   const Knot first = knots.front(), last = knots.back();
   const Vector3d way = first.position - last.position;

@@ -39,7 +39,7 @@ struct TrackSamples {
 /// CsvError "file:line:column: what", with the remedy.
 [[nodiscard]] TrackSamples read_track_samples(const std::filesystem::path& file);
 
-/// Where the orientation on a track comes from.
+/// Source of the orientation on a track.
 enum class TrackTurn : std::uint8_t {
   held,        ///< the entity keeps its own orientation
   sampled,     ///< from the samples; as `held` if they have none
@@ -118,12 +118,12 @@ class TrackCurve {
   Eigen::Quaterniond last_orientation_ = Eigen::Quaterniond::Identity();
 };
 
-/// One entity that follows a curve or stands still. Many entities may share one curve. Each entity
+/// One entity that follows a curve or is at rest. Many entities may share one curve. Each entity
 /// keeps a copy of its present piece, so that the pieces of many entities are adjacent in memory.
 /// One thread.
 class EntityTrack {
  public:
-  /// Stands still. @param position [m] S. @param orientation body to S, unit.
+  /// Makes an entity at rest. @param position [m] S. @param orientation body to S, unit.
   explicit EntityTrack(const Eigen::Vector3d& position = Eigen::Vector3d::Zero(),
                        const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
 
@@ -139,7 +139,7 @@ class EntityTrack {
   [[nodiscard]] deadreckon::KinematicState at(double time) noexcept;
 
   [[nodiscard]] bool moves() const noexcept { return curve_ != nullptr; }
-  /// Null for an entity that stands still.
+  /// Null for an entity at rest.
   [[nodiscard]] const TrackCurve* curve() const noexcept { return curve_.get(); }
 
  private:

@@ -8,7 +8,7 @@
 namespace reckon::peer {
 namespace {
 
-// All peers, if rows are no tiers of their own.
+// For all peers, if rows have no tiers of their own.
 constexpr aoim::Channel kOneRow{0.0, aoim::Body::full, 0.0, 0.0, 1.0, false, 1.0};
 
 deadreckon::Thresholds coarser(deadreckon::Thresholds thresholds, double times) {

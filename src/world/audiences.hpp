@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Recipient tiers of an entity of ours whose peers do not all receive the same updates: urgent
-// tiers, those of the inner rows of channels, and all peers (aoim::TierTable). Part of the model
-// loop.
+// tiers, one tier for each inner row of channels, and the tier of all peers (aoim::TierTable). Part
+// of the model loop.
 #pragma once
 
 #include <chrono>
@@ -22,13 +22,14 @@ namespace reckon::peer {
 /// An update for all peers.
 inline constexpr std::size_t kAllAudiences = std::numeric_limits<std::size_t>::max();
 
-/// The recipient tiers of one entity, from the innermost, 0, on. An update for a tier is received
-/// by it and all inner ones. The entity's own policy holds what the innermost tier knows, and a
-/// SeenSide that of each other tier. Times are seconds of one steady clock. One thread; allocates
-/// at construction.
+/// The recipient tiers of one entity, counted from the innermost, 0. A tier receives its own
+/// updates and the updates of all outer tiers. The entity's own policy has the knowledge of the
+/// innermost tier, and a SeenSide has the knowledge of each other tier. Times are seconds of one
+/// steady clock. One thread; allocates at construction.
 class Audiences {
  public:
-  /// A subscription may not be known at once, and a peer that was near does not leave at once.
+  /// Time for which changes of subscription are tolerated: a new one may not be known at once, and
+  /// a peer that was near does not leave at once.
   static constexpr std::chrono::nanoseconds kGrace = std::chrono::seconds(1);
 
   /// @param urgent number of urgent tiers, the innermost ones
@@ -54,13 +55,13 @@ class Audiences {
 
   // Outer tiers: from 1 on.
 
-  /// Makes the next decide() of these tiers return `event`.
+  /// Makes the next decide() return `event` for these tiers.
   void event(std::size_t outmost) noexcept;
   [[nodiscard]] deadreckon::SendReason decide(std::size_t audience, const deadreckon::Pose& truth,
                                               double now) const noexcept {
     return sides_[audience - 1].decide(truth, now);
   }
-  /// What this tier predicts at `now`, before convergence.
+  /// The prediction of this tier at `now`, before convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::size_t audience, double now) const noexcept {
     return sides_[audience - 1].predicted(now);
   }
@@ -75,13 +76,13 @@ class Audiences {
   [[nodiscard]] double last_sent_at(std::size_t audience) const noexcept {
     return sides_[audience - 1].last_sent();
   }
-  /// When decide() is due for a tier from `audience` on, even without a change.
+  /// When decide() is due for a tier, counted from `audience` outwards, even without a change.
   [[nodiscard]] double next(std::size_t audience) const noexcept;
 
   // Tiers with listeners.
 
-  /// Largest error [m] of other entities against their last update, if their updates are as coarse
-  /// as those of this entity.
+  /// Largest error [m] of other entities relative to their last update, if their updates are as
+  /// coarse as the updates of this entity.
   [[nodiscard]] double slack() const noexcept { return slack_; }
   /// The first row with known listeners; inner rows have none.
   [[nodiscard]] std::size_t served_row() const noexcept { return served_row_; }
@@ -92,9 +93,9 @@ class Audiences {
   [[nodiscard]] bool has_to_look(std::chrono::nanoseconds now) const noexcept {
     return now >= look_again_;
   }
-  /// Whether no listener is known any more for the updates that only inner tiers got, last at
-  /// `last_sent` [s]. The update is then sent once to this tier, so that an unknown listener has no
-  /// state that is not watched.
+  /// Whether updates that only inner tiers got, the last at `last_sent` [s], have no known listener
+  /// any more. The update is then sent once to this tier, because an unknown listener must not keep
+  /// a state that the owner does not check.
   [[nodiscard]] bool is_out_of_step(std::size_t audience, double last_sent,
                                     double now) const noexcept {
     return audience > 0 && audience <= served() && is_behind(audience) &&
@@ -114,9 +115,9 @@ class Audiences {
   std::chrono::nanoseconds look_again_ = std::chrono::nanoseconds::min();
 };
 
-/// Whether the receivers of a tier predict any motion from `now` [s] on: what has stopped is at
-/// rest for them only when they know. @param inmost the policy of the entity  @param audiences null
-/// where all are one tier
+/// Whether the receivers of a tier predict any motion from `now` [s] on. A stopped entity is at
+/// rest for them only after they have received that. @param inmost the policy of the entity  @param
+/// audiences null if all are one tier
 [[nodiscard]] bool is_shown_moving(const deadreckon::UpdatePolicy& inmost,
                                    const Audiences* audiences, std::size_t audience,
                                    double now) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner of a scene's bodies: its first peer, by its announcement.
+// The owner of a scene's bodies: the first peer of the scene, according to its announcement.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@ struct BodyRival {
   aoim::SourceAddress from;
 };
 
-/// The epoch that owns the bodies. Of several peers that announce number 1, the one that was
-/// received first owns them, until it is gone. One thread; no allocation; linear in the peers.
+/// The epoch that owns the bodies. If several peers announce number 1, the first received one owns
+/// them until it leaves. One thread; no allocation; linear in the peers.
 class BodyOwner {
  public:
   /// Finds owner and rival among the peers. Call it some times a second.
   void look(const aoim::Presence& presence) noexcept;
   /// Epoch of the owner; 0 if it is this peer or not known.
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
-  /// The last peer to announce number 1 beside the owner, if there is one.
+  /// The last peer other than the owner to announce number 1, if there is one.
   [[nodiscard]] const std::optional<BodyRival>& rival() const noexcept { return rival_; }
 
  private:

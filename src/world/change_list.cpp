@@ -38,7 +38,7 @@ void ChangeList::note(std::size_t place, Change change) noexcept {
   present_.push_back({static_cast<std::uint32_t>(place), change});
 }
 
-// The last entry goes into the hole.
+// Moves the last entry to the free place.
 void ChangeList::forget(std::uint32_t entry) noexcept {
   present_[entry] = present_.back();
   noted_[present_[entry].row] = entry;
@@ -46,7 +46,7 @@ void ChangeList::forget(std::uint32_t entry) noexcept {
 }
 
 std::span<const EntityChange> ChangeList::take(std::span<const RemoteEntity> rows) noexcept {
-  // An entity that returns under an ID was removed under it before.
+  // an entity that returns under an ID was removed under it before
   taken_.assign(gone_.begin(), gone_.end());
   for (const Present& present : present_) {
     taken_.push_back({rows[present.row].id, present.change});

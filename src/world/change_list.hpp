@@ -41,7 +41,7 @@ class ChangeList {
   void removed(std::size_t place, const pdu::EntityId& id, Removal cause) noexcept;
 
   /// Takes all changes since the last call, in an order in which a copy can apply them; valid until
-  /// the next call.  @param rows those of the table now. Some ns a change.
+  /// the next call. @param rows the present rows of the table. Some ns a change.
   [[nodiscard]] std::span<const EntityChange> take(std::span<const RemoteEntity> rows) noexcept;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which remote bodies may press which of our hands: a body that appears inside a hand gives no
-// force until it has been outside.
+// Decides which remote bodies may press which of our hands: a body that appears inside a hand
+// exerts no force until it has been outside.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@
 
 namespace reckon::peer {
 
-/// Exempt is a body of a peer that was pressed by the hand in the last kRemembered and is at the
-/// same address, with a key at any: a peer that was replugged or restarted. Rows are added and
-/// erased with those of the state table. One thread; allocates only at construction.
+/// An exception is a body of a peer that the hand pressed in the last kRemembered, at the same
+/// address (with a key, at any address): a peer that was reconnected or restarted. Rows are added
+/// and erased together with rows of the state table. One thread; allocates only at construction.
 class ContactBeginnings {
  public:
   using Nanoseconds = std::chrono::nanoseconds;

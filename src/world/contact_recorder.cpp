@@ -13,7 +13,7 @@ bool ContactRecorder::is_known(const haptics::ContactSet& set) const noexcept {
   return true;
 }
 
-// What finds the ring full is tried again with the next set.
+// If the ring is full, the next set is recorded instead.
 void ContactRecorder::record(const haptics::ContactSet& set,
                              std::chrono::nanoseconds now) noexcept {
   if (is_known(set)) return;

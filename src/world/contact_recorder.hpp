@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keeps, for whoever asks, the contact sets that the model loop publishes to a servo. Part of the
-// model loop.
+// Records the contact sets that the model loop publishes to a servo, if a caller requests it. Part
+// of the model loop.
 #pragma once
 
 #include <array>
@@ -13,20 +13,19 @@
 
 namespace reckon::peer {
 
-/// Records a set where it says something else than the last recorded one: other entities, another
-/// update of one, or another end of its validity. One thread; no allocation; nothing to do without
-/// a ring.
+/// Records a set if it differs from the last recorded one: other entities, another update of one,
+/// or another end of its validity. One thread; no allocation; does nothing without a ring.
 class ContactRecorder {
  public:
   /// @param ring outlives the recorder, or the next call; nullptr: records nothing.
   void record_into(haptics::ContactRing* ring) noexcept { ring_ = ring; }
-  /// @param now from when on the servo finds this set
+  /// @param now time from which the servo uses this set
   void note(const haptics::ContactSet& set, std::chrono::nanoseconds now) noexcept {
     if (ring_ != nullptr) record(set, now);
   }
 
  private:
-  // What tells two records of an entity apart.
+  // The values that distinguish two records of an entity.
   struct Mark {
     pdu::EntityId id;
     std::uint32_t version = 0;

@@ -96,7 +96,7 @@ void DatagramDecoder::take_other(const pdu::BundledPdu& pdu) noexcept {
   if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
 }
 
-// Decodes in place, unless an update of this entity is staged already.
+// Decodes in place, unless an update of this entity is already staged.
 void DatagramDecoder::take_plain(std::span<const std::byte> bytes) noexcept {
   pdu::EntityState& state = staged_[count_].state;
   if (pdu::decode(bytes, state) != DecodeError::none) return malformed_.add();
@@ -216,7 +216,7 @@ Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity)
   return &staged_[count_ - 1];
 }
 
-// There is room for it. The state is left as it is.
+// Requires free room. Leaves the state unchanged.
 void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept {
   entities_[count_] = kind == Inbound::Kind::entity ? entity.key() : kNoEntity;
   Inbound& update = staged_[count_++];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Decodes a datagram into updates of entities. It takes a bundle apart, refuses damaged PDUs and
-// those of another exercise, and joins an Entity State with its force model.
+// Decodes a datagram into updates of entities. It splits a bundle, refuses damaged PDUs and PDUs of
+// other exercises, and combines an Entity State with its force model.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct Inbound {
   bool has_state = false, has_model = false;
   pdu::EntityState state;  ///< its variable parameters are a view of the datagram's octets
   pdu::HapticRecord model;
-  std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
+  std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< the accounts that name us
   std::size_t account_count = 0;
   std::uint8_t accounts_told = 0;  ///< number of accounts that exchange energy, also with others
   pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
@@ -59,7 +59,7 @@ class DatagramDecoder {
   /// @param own whose entities' accounts are selected.
   /// @param overtaken bit i: PDU i is an overtaken state (OvertakenStates), which is only counted.
   /// @param speaker whose states may be key states, and whose compressed states may depend on them;
-  /// by default nobody's
+  /// by default of no entity
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::SimulationAddress& own,
                                                 std::uint64_t overtaken = 0,

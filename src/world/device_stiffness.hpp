@@ -26,16 +26,17 @@ struct DeviceStiffness {
   double hand_asked = 0.0;     ///< k1 of a hand of the scene
   double hand_k3 = 0.0;        ///< k3 [N/m^3] of a hand of the scene
   double hand_damping = 0.0;   ///< damping [N s/m] of a hand of the scene
-  double hands = kNoLimit;     ///< stiffest felt hand, and what others feel of its own; no damper
-  double bodies = kNoLimit;    ///< stiffest entity without a hand, without a damper
-  double force = kNoLimit;     ///< [N], largest force
-  double damping = kNoLimit;   ///< [N s/m], of the device itself
+  double hands = kNoLimit;    ///< stiffest felt hand, for both sides of a contact; without a damper
+  double bodies = kNoLimit;   ///< stiffest entity without a hand, without a damper
+  double force = kNoLimit;    ///< [N], largest force
+  double damping = kNoLimit;  ///< [N s/m], of the device itself
 
   /// The part of a damper [N s/m] that is shown: at most half of the device's own.
   [[nodiscard]] double damper_shown(double damper) const noexcept {
     return std::min(damper, 0.5 * damping);
   }
-  /// Share of `hands` and `bodies` that remains beside a damper, which uses up a part of the limit.
+  /// Share of `hands` and `bodies` that remains in addition to a damper, which uses up a part of
+  /// the limit.
   [[nodiscard]] double left_beside(double damper) const noexcept {
     return damping > 0 ? 1.0 - damper_shown(damper) / damping : 1.0;
   }

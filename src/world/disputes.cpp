@@ -6,7 +6,7 @@
 
 namespace reckon::peer {
 
-// By the sending host: its ports cost it nothing.
+// Compares the sending host without its port, because a host can change ports at no cost.
 Disputes::Pair* Disputes::find(const Dispute& dispute) noexcept {
   const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(count_);
   const auto found = std::find_if(pairs_.begin(), end, [&](const Pair& pair) {

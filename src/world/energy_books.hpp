@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The energy accounts between entities of ours and those that touch them, as received from the
-// others: what they gave to us and what they request. For an entity without a device also what we
-// gave, because it has no port with a ledger.
+// The energy accounts between our entities and the entities that touch them, as received from the
+// others: the energy that they gave to us, and the energy that they request. For an entity without
+// a device also the energy that we gave, because it has no port with a ledger.
 #pragma once
 
 #include <chrono>
@@ -22,9 +22,9 @@ namespace reckon::peer {
 struct ReceivedAccount {
   pdu::EntityId other;
   EntityNumber own = 0;
-  double given = 0.0;        ///< [J], running total that the other states to have given to us
-  double need = 0.0;         ///< [J], what it requests of us
-  double spring_need = 0.0;  ///< [J], what it would like in addition
+  double given = 0.0;        ///< [J], running total that the other reports as given to us
+  double need = 0.0;         ///< [J], requested from us
+  double spring_need = 0.0;  ///< [J], additional wish
   bool unanswered = false;   ///< received since we last gave
   double we_gave = 0.0;      ///< [J], running total; only of entities without a device
   std::chrono::nanoseconds heard{0};
@@ -55,8 +55,8 @@ class EnergyBooks {
   KeyIndex index_;
 };
 
-/// What an entity without a device may give: its power while it moves, saved for at most kSaved.
-/// Its owner puts that energy in, and it is counted.
+/// The energy that an entity without a device may give: its power while it moves, saved for at most
+/// kSaved. It counts as energy that its owner adds.
 class PowerBudget {
  public:
   /// When full, the default of 50 mW equals a hand's full ledger.
@@ -67,7 +67,7 @@ class PowerBudget {
 
   /// Advances the time.  @param dt [s] >= 0
   void advance(double dt, bool moves) noexcept;
-  /// Takes at most `wanted` [J], and no more than there is.
+  /// Takes at most `wanted` [J], and at most the available energy.
   double take(double wanted) noexcept;
   [[nodiscard]] double level() const noexcept { return level_; }
 

@@ -37,16 +37,16 @@ struct EntityDescription {
   /// Thresholds, model and heartbeat. Default: 1 m and 3 degrees as in IEEE 1278.1, RVW, and the
   /// heartbeat of the type.
   DeadReckoningConfig dead_reckoning = ordinary();
-  /// What hands of others and of this peer feel of it, body axes; none: nothing.
+  /// Model of the force that hands of others and of this peer feel, body axes; none: no force.
   std::optional<deadreckon::ForceModel> model;
   /// Power [W] >= 0 that it may give to the hands that it pushes while it moves. It does not apply
-  /// to an entity with a device, which gives what its hand puts in.
+  /// to an entity with a device, which gives the energy that its hand adds.
   double power = 0.05;
   /// Name by which others find its cell anywhere, valid by is_beacon_name; empty: none. No effect
   /// if the scene assigns no groups.
   std::string beacon = {};
 
-  /// Settings of an entity of ordinary size; heartbeat 0 = that of the type.
+  /// Settings of an entity of ordinary size; heartbeat 0 means the heartbeat of its type.
   [[nodiscard]] static DeadReckoningConfig ordinary();
 };
 

@@ -18,7 +18,7 @@ nanoseconds patience_with(const RemoteEntity& row) {
 Voice EntityOwnership::voice_of(const pdu::EntityId& id, const Arrival& arrival,
                                 const RemoteEntity* row,
                                 aoim::SourceAddress& owner) const noexcept {
-  // RemoteEntities::claim() ensures that it is.
+  // RemoteEntities::claim() ensures this
   if (row != nullptr && is_owner(*row, arrival)) return Voice::owner;
   const aoim::Presence& presence = aoim_.presence();
   if (const auto epoch = presence.epoch_of(id.simulation())) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who may send in the name of an entity, and who did without owning it.
+// Checks whether a sender may send in the name of an entity, and records violations.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@
 
 namespace reckon::peer {
 
-/// In whose name a sender sends, as far as we know.
+/// Relation of a sender to the entity in whose name it sends, as far as this peer knows.
 enum class Voice : std::uint8_t {
   owner,    ///< its own: it owns the entity, or its site and application
   nobody,   ///< an entity that no known sender owns
   refused,  ///< another owner's
 };
 
-/// The rule of ownership (see RemoteEntities) over rows and owners. It changes neither; it keeps
-/// only the disputes. One thread; no allocation.
+/// Applies the rule of ownership (see RemoteEntities) to rows and owners. It changes neither of
+/// them; it keeps only the disputes. One thread; no allocation.
 class EntityOwnership {
  public:
-  /// References outlive this.  @param refused counts what was sent in another's name
+  /// References outlive this.  @param refused counts PDUs sent in another owner's name
   EntityOwnership(aoim::AreaOfInterestManager& aoim, const StateTable& table,
                   const RowOwners& owners, const OutsideEntities& outside, Counter& refused)
       : aoim_(aoim), table_(table), owners_(owners), outside_(outside), refused_(refused) {}

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Selects the force models of remote entities that are taken: by their values, and by the touch
-// rule.
+// Selects the accepted force models of remote entities: by their values, and by the touch rule.
 #pragma once
 
 #include <cstddef>

@@ -21,23 +21,25 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 // docs/measurements/touch.md has the table.
 constexpr double kContactSmoothing = 0.05;
 // The time constant is halved for a hand that slides over another at this speed [m/s], and divided
-// by three at twice the speed: its motion along the normal then comes from the shape that it slides
-// over, not from the spring.
+// by three at twice the speed. In this case the motion along the normal follows the shape of the
+// other hand instead of the spring.
 constexpr double kSliding = 0.01;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
-// A hand that slides this fast [m/s] is sent by its thresholds alone: begin and end of a touch
-// hardly change its motion, and its updates carry the accounts in time.
+// A hand that slides at this speed [m/s] or faster is sent by its thresholds only. Begin and end of
+// a touch hardly change its motion, and its updates deliver the accounts in time.
 constexpr double kGliding = 0.1;
 constexpr std::chrono::milliseconds kGlidingAccounts{40};
-// A hand that rubs this fast [m/s] also sends its acceleration, in full from twice that speed on,
-// if the acceleration is well above its noise: a hand feels noise more than lag. Velocities alone
-// come back through a stiff contact too late, and hands go on swinging at 18 Hz, which takes an
-// update of both every 8 ms. Without sliding the acceleration is the spring's.
+// A hand that rubs at this speed [m/s] or faster also sends its acceleration, fully from twice that
+// speed on, if the acceleration is well above its noise: a hand feels noise more than lag. With
+// velocities only, the reaction comes back through a stiff contact too late. The hands then
+// continue to swing at 18 Hz, and only an update of both every 8 ms would prevent that. Without
+// sliding, the spring determines the acceleration.
 constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
-// The acceleration is sent as it will be after this time [s], about half way to the next update. At
-// most half of it is guessed this way, because it changes abruptly when hands meet and part.
+// The sent acceleration is extrapolated by this time [s], about half of the interval to the next
+// update. The extrapolated part is at most half of it, because the acceleration changes abruptly
+// when hands meet and part.
 constexpr double kAhead = 0.004;
 constexpr double kGuessed = 0.5;
 // A free hand sends the servo's acceleration, unless the last velocities differ from it by more
@@ -49,7 +51,7 @@ double sure_share(double size, double doubt) {
   return doubt > 0 ? std::clamp(size / doubt - 1.0, 0.0, 1.0) : 1.0;
 }
 
-// True for a hand: a body that nobody holds feels nothing.
+// True for a hand: a body without a person feels nothing.
 bool is_felt(const haptics::ContactAccount& contact) {
   return contact.has_device && contact.ungated_force.squaredNorm() > 0.0;
 }
@@ -90,8 +92,8 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   if (presses_body_ && snapshot.time - entity.last_built() >= kBodyPeriod) entity.felt_event();
 }
 
-// When hands meet head-on, nothing of their approach remains; when one slides over the other, most
-// of it does.
+// When hands meet head-on, their velocity of approach vanishes; when one slides over the other,
+// most of it remains.
 void HandPort::note_touch(OwnedEntity& entity) noexcept {
   sliding_ = 0.0;
   bool touching = false;
@@ -115,7 +117,7 @@ void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
     entity.consider_accounts(now, accounts());
 }
 
-// The axes of a tool that is not turned are those of S.
+// Without a rotation, the axes of a tool are the axes of S.
 Eigen::Quaterniond HandPort::orientation() const noexcept {
   const haptics::ToolState& tool = servo().tool;
   return tool.turns ? tool.orientation * kHandOrientation : kHandOrientation;
@@ -152,10 +154,10 @@ void HandPort::smooth_velocity() noexcept {
   contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
 }
 
-// While hands touch, the quick part of the motion of each along the normal comes from the other.
-// Extrapolated, it would come back through the contact too late for a spring's force, and the pair
-// would ring until its ledgers are empty. The slow part is common to both and is predicted. Across
-// the normal no spring rings.
+// While hands touch, the fast part of the motion of each along the normal is caused by the other.
+// An extrapolation of this part would come back through the contact too late for a spring force,
+// and the pair would oscillate until its ledgers are empty. The slow part is common to both and is
+// predicted. Perpendicular to the normal there is no spring.
 Eigen::Vector3d HandPort::lasting_velocity() const noexcept {
   Eigen::Vector3d velocity = servo().velocity;
   for (const haptics::ContactAccount& contact : contacts(servo())) {
@@ -173,7 +175,7 @@ Eigen::Vector3d HandPort::free_acceleration() const noexcept {
   return steady + sure_share(ahead.norm(), kSteady + trend_.doubt()) * ahead;
 }
 
-// The shape of both hands bends the path of a hand that slides over another.
+// If a hand slides over another, the shape of both bends its path.
 Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
   const double size = trend_.acceleration().norm();
   const double sure = sure_share(size, kSureInContact * trend_.doubt());

@@ -27,17 +27,17 @@ inline constexpr std::size_t kMaxDevices = 8;
 /// One haptic device in the model loop. One thread; no allocation.
 class HandPort {
  public:
-  /// Longest silence while hands touch: the loss of one update would be felt, and a peer that is
-  /// silent for ten times as long is doubted (SilenceWatch).
+  /// Longest silence while hands touch. A longer one would make the loss of one update perceptible,
+  /// and a peer that is silent for ten times as long is doubted (SilenceWatch).
   static constexpr std::chrono::milliseconds kContactPeriod{60};
-  /// Longest silence for kBlow after a blow began: a peer that lost the update of our stop would
-  /// see our hand fly on into its own.
+  /// Longest silence for kBlow after a blow began. Without the update of our stop, a peer would
+  /// show our hand as moving on into its own.
   static constexpr std::chrono::milliseconds kBlowPeriod{10}, kBlow{25};
-  /// Longest silence for kAfterTouch, doubled with each update: a peer that lost the end of a touch
-  /// would go on feeling us.
+  /// Longest silence for kAfterTouch, doubled with each update. Without the update of the end of a
+  /// touch, a peer would continue to feel us.
   static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
-  /// Longest silence of a body without a device that a remote hand presses, and of that hand: its
-  /// accounts name the body, which is how the owner knows.
+  /// Longest silence of a body without a device that a remote hand presses, and of that hand. The
+  /// accounts of the hand name the body, which informs its owner of the contact.
   static constexpr std::chrono::milliseconds kBodyPeriod{100};
 
   /// @param snapshots, contacts of the device's servo; outlive the port.
@@ -56,13 +56,13 @@ class HandPort {
     recorder_.note(contacts_->write_slot(), now);
     contacts_->publish();
   }
-  /// Records what is published from now on, see ContactRecorder.
+  /// Records all sets published from now on, see ContactRecorder.
   void trace_contacts(haptics::ContactRing* ring) noexcept { recorder_.record_into(ring); }
 
   /// Updates the entity from the snapshot: its motion, the position of its sphere, begin and end of
   /// a touch, energy requested or given.
   void tell(OwnedEntity& entity) noexcept;
-  /// Bounds the silence, because a remote hand is so near that its owner may already feel ours.
+  /// Limits the silence, because a remote hand is so near that its owner may already feel ours.
   void note_near(OwnedEntity& entity) const noexcept;
   /// The energy accounts of the snapshot.
   [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // States of remote entities that arrived in outer rows of channels. When we move away from an
-// entity, we go back to the state that its owner knows the outer listeners to have.
+// entity, we return to the state that its owner assumes for outer listeners.
 #pragma once
 
 #include <chrono>
@@ -24,8 +24,8 @@ struct HeldState {
   bool is_heard = false;
 };
 
-/// Beside the rows of a StateTable: 200 octets for each entity and near row, touched as entities
-/// come; nothing without near groups. One thread; allocates only at construction.
+/// Parallel to the rows of a StateTable: 200 octets for each entity and near row, touched as
+/// entities come; nothing without near groups. One thread; allocates only at construction.
 class HeldStates {
  public:
   /// @param near_rows of the channels  @param capacity most entities
@@ -39,8 +39,8 @@ class HeldStates {
   /// newest.  @param newest whether it is the newest, so that it is shown
   void note(std::size_t place, std::size_t row, const HeldState& heard, bool newest) noexcept;
 
-  /// Calls visit(place, HeldState) for each entity whose shown state came in this near group, so
-  /// that it goes back to the newest state of an outer row. An entity without one stays as it is.
+  /// Calls visit(place, HeldState) for each entity whose shown state came in this near group, with
+  /// the newest state of an outer row to return to. An entity without such a state stays unchanged.
   template <typename Visit>
   void leave(aoim::GroupIndex group, std::size_t row, Visit&& visit) {
     for (std::size_t place = 0; place < shown_by_.size(); ++place) {

@@ -41,7 +41,7 @@ struct IssuerPlaces {
   std::size_t count = 0;
 };
 
-// Types whose issuer is not, or not always, the first ID: the fields with the issuer.
+// Types whose issuer is not always the first ID, with the fields that may contain it.
 struct OtherIssuers {
   PduType type;
   std::array<std::string_view, InteractionIssuers::kMost> fields;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The issuer of a PDU that is no Entity State: an entity or a simulation.
+// The issuer of a PDU other than an Entity State: an entity or a simulation.
 #pragma once
 
 #include <array>
@@ -26,11 +26,11 @@ class InteractionIssuers {
   std::size_t count_ = 0;
 };
 
-/// For nearly all types the first ID behind the header. For answers and requests to the owner of
+/// For nearly all types, the first ID behind the header. For answers and requests to the owner of
 /// the first ID, the second (Resupply Offer, Repair Complete, Minefield Query and Response NACK).
-/// Both if either may send it (Resupply Cancel, states of point, linear and areal objects, which a
-/// requester of a change may send). None for types without a field table and for PDUs that are too
-/// short. Accepts any octets. Some ns, no allocation.
+/// Both if either may send it (Resupply Cancel, and states of point, linear and areal objects,
+/// which a requester of a change may also send). None for types without a field table and for PDUs
+/// that are too short. Accepts any octets. Some ns, no allocation.
 [[nodiscard]] InteractionIssuers issuers_of(const pdu::PduHeader& header,
                                             std::span<const std::byte> pdu) noexcept;
 

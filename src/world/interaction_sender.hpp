@@ -10,16 +10,17 @@
 
 namespace reckon::peer {
 
-/// Sender of an interaction. One in the name of another owner's entity is refused before it is
-/// delivered. A value.
+/// Sender of an interaction. Interactions in the name of another owner's entity are refused before
+/// delivery. A value.
 struct InteractionSender {
-  /// Source address of its datagram. Without a key an address proves only that an answer would
-  /// reach it.
+  /// Source address of its datagram. Without a key, an address proves only that an answer would
+  /// reach the sender.
   aoim::SourceAddress address = {};
   /// The peer of this scene that sent it; none: a plain DIS program, or an unknown one.
   std::optional<aoim::PeerId> peer = {};
-  /// Whether the sender owns the issuing entity, by its own statements. False if no entity of that
-  /// name is received, so that anybody may have invented it, or if the PDU names none.
+  /// Whether the sender owns the issuing entity, according to its own statements. False if no
+  /// entity of that name is received, so that any program may have invented it, or if the PDU names
+  /// none.
   bool owns = false;
 };
 

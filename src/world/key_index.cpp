@@ -34,7 +34,7 @@ KeyIndex::KeyIndex(const KeyIndex& other)
 
 KeyIndex& KeyIndex::operator=(const KeyIndex& other) { return *this = KeyIndex(other); }
 
-// calloc gets large tables from the system as they are, without writing zeros over them.
+// calloc gets large tables from the system, which already contain zeros.
 KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
   auto* slots = static_cast<Slot*>(std::calloc(count, sizeof(Slot)));
   if (slots == nullptr) throw std::bad_alloc();
@@ -74,7 +74,7 @@ void KeyIndex::erase(std::uint64_t key) noexcept {
   if (slots_[gap].mark == 0) return;
   --size_;
   for (std::size_t next = (gap + 1) & mask_; slots_[next].mark != 0; next = (next + 1) & mask_) {
-    // A slot may move back to the gap unless its home lies cyclically after the gap.
+    // a slot may move back to the gap unless its home comes cyclically after the gap
     if (((next - home(slots_[next].key)) & mask_) < ((next - gap) & mask_)) continue;
     slots_[gap] = slots_[next];
     gap = next;
@@ -93,7 +93,7 @@ void KeyIndex::shrink() noexcept {
   std::fill_n(slots_, before / 2, Slot{});
   for (std::size_t i = 0; i < before; ++i)
     if (wide[i].mark != 0) slots_[slot_of(wide[i].key)] = wide[i];
-  std::fill_n(wide, before, Slot{});  // as the next doubling needs them
+  std::fill_n(wide, before, Slot{});  // required by the next doubling
   give_back_pages(wide, before * sizeof(Slot));
 }
 

@@ -47,7 +47,7 @@ class KeyIndex {
   [[nodiscard]] std::size_t room() const noexcept { return reserved_ / 4; }
 
  private:
-  // All zero if free, as untouched pages are.
+  // All zero if free, the same as untouched pages.
   struct Slot {
     std::uint64_t key;
     std::uint32_t mark;  // place + 1

@@ -45,20 +45,20 @@ struct NearBody {
 
 /// The bodies near one probe. Pointers are valid until the state table or the owned entities
 /// change.
-///
-/// If a servo cannot hold all of them, hosts share the places, and the host that sends the most
-/// loses some first. Each host has kSure bodies before any has more, and its senders take turns.
-/// Among equals these go first: bodies that touch or nearly do, those of peers before those of
-/// guests, those touched at the last check, and the deeper ones. Bodies whose force no hand can
-/// feel, or that may not press it yet, come last. One thread; no allocation.
+/// If a servo cannot hold all of them, hosts share the places, and the host with the most bodies
+/// loses some first. Each host gets kSure bodies before any host gets more, and its senders take
+/// turns. Among equals, the order is: bodies that touch or nearly touch, bodies of peers before
+/// bodies of guests, bodies touched at the last check, and deeper bodies. Bodies that come last are
+/// those with a force too weak to feel, and those that may not press the hand yet. One thread; no
+/// allocation.
 class NearBodies {
  public:
   static constexpr std::size_t kMost = haptics::kMaxRemoteHands;
-  /// Places of one host before the remaining places go by rank.
+  /// Number of places for one host before rank decides on the remaining places.
   static constexpr std::size_t kSure = 4;
   /// Closer than this [m], two bodies may touch before the next check at 2 m/s and 15 ms.
   static constexpr double kSoonTouching = 0.03;
-  /// Force [N] a decimetre deep, or at 1 m/s, below which nothing is felt.
+  /// Force [N] at a depth of a decimetre, or at 1 m/s, below which nothing is felt.
   static constexpr double kLeastForce = 1e-3;
 
   /// Begins a new check; remembers the bodies touched at the last one.
@@ -116,9 +116,9 @@ class NearBodies {
 };
 
 /// Writes the hands among the bodies as probes at which a force has to be right; returns their
-/// number. A body without a hand feels nothing of ours. A hand closer than `margin` [m] is made
-/// larger by that: its owner's hand may be nearer by then than its copy, and an error there is felt
-/// as soon as both touch.
+/// number. A body without a hand feels none of our forces. The radius of a hand closer than
+/// `margin` [m] is increased by that margin, because its owner's hand may already be nearer than
+/// its copy here, and an error there is felt as soon as both touch.
 std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;
 

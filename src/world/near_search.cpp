@@ -34,7 +34,8 @@ class Closing {
     if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
   }
 
-  // An entity as a hand that meets a body of ours: the turn of the body counts at the hand's place.
+  // For a remote entity as a hand that meets a body of ours: the turn of the body counts at the
+  // hand's place.
   static Closing of_hand(const RemoteEntity& row, const Pose& pose) {
     Closing closing(row, pose);
     closing.turn_ = NearSearch::kBodyTurn;
@@ -46,7 +47,7 @@ class Closing {
     if (!(gap > 0)) return 0;
     if (turn_ == 0)
       return 2 * gap / (speed_ + std::sqrt(speed_ * speed_ + 2 * acceleration_ * gap));
-    // A plane that turns sweeps distant points faster.
+    // a rotating plane moves faster at distant points
     const double speed = speed_ + kHorizonSeconds * acceleration_;
     return gap / (speed + turn_ * (distance + kHorizonSeconds * speed));
   }
@@ -84,7 +85,7 @@ void NearSearch::erase_row(std::size_t place) noexcept {
     row_of_[entry_of_[place]] = static_cast<std::uint32_t>(place);
 }
 
-// A body that appears, disappears or jumps may be near anything: then all rows are checked.
+// If a body appears, disappears or jumps, it may be near anything: then all rows are checked.
 void NearSearch::advance(const Search& search) noexcept {
   const double way = std::max(way_of_probes(search.probes), way_of_bodies(search.bodies));
   const nanoseconds by_way = pdu::from_seconds(way / kHandSpeed);
@@ -105,8 +106,8 @@ double NearSearch::way_of_probes(std::span<const ProbeState> probes) noexcept {
   return way;
 }
 
-// The same for bodies; a turn counts as the way that a hand makes in its nominal time. If the last
-// body is removed, nothing comes nearer.
+// The same for bodies. A turn counts as the distance that a hand moves in the body's nominal time
+// for that turn. If the last body is removed, nothing comes nearer.
 double NearSearch::way_of_bodies(std::span<const MovingBody> bodies) noexcept {
   double way = bodies.size() <= bodies_.size() ? 0.0 : kLeap;
   for (std::size_t i = 0; i < std::min(bodies.size(), bodies_.size()); ++i) {
@@ -135,7 +136,8 @@ void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeS
   hands.sort();
 }
 
-// Of many rows some at a time, so that memory fetches them together: none is near there.
+// Checks several rows at a time if there are many, so that memory fetches them together: none of
+// them is in the cache.
 void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& search) noexcept {
   constexpr std::size_t kMany = 16'384, kMostTogether = 16;
   const std::size_t together = look_at_.size() < kMany ? 1 : kMostTogether;

@@ -62,7 +62,7 @@ class HandsNear {
 /// at kHandSpeed, and bodies to turn at kBodyTurn. While they are faster, checks come sooner, so
 /// that nothing is missed at any speed.
 ///
-/// Rows are added and erased with those of the state table, as in a RowColumn. One thread;
+/// Rows are added and erased together with rows of the state table, as in a RowColumn. One thread;
 /// allocates only at construction and in expect_bodies(). A step costs about 60 ns for each entity
 /// that is within reach, was moved by an update, or is due. Of 10,000 distant entities about 3 are
 /// due in each step at 500 Hz, and after a jump of a hand all of them.
@@ -73,8 +73,8 @@ class NearSearch {
   /// [m/s], a brisk movement of an arm.
   static constexpr double kHandSpeed = 2.0;
   static constexpr double kBodyTurn = 1.0;  ///< [rad/s]
-  /// Rows so far away that they cannot come within reach in this time are checked again after half
-  /// of it to all of it: each after a different time, so that they are not due in one step.
+  /// Rows that are too far away to come within reach in this time are checked again after half of
+  /// it to all of it. Each row gets a different time, so that they are not all due in one step.
   static constexpr Nanoseconds kHorizon = std::chrono::seconds(8);
 
   /// @param capacity rows of the table  @param reach [m] between surfaces, >= 0
@@ -97,7 +97,7 @@ class NearSearch {
   void erase_row(std::size_t place) noexcept;
 
   /// Fills `found[i]` with the rows closer than the reach to `probes[i]` at `now`.
-  /// @param rows those of the table now
+  /// @param rows the present rows of the table
   /// @param probes at most kMostProbes; `found` has the same length.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
             Nanoseconds now, std::span<NearBodies> found) noexcept {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities outside the radius of interest, kept until they come within. A resting one sends an
-// update only once a minute, and we may be the one that moves.
+// Entities outside the radius of interest, kept until they enter it. This is necessary because a
+// resting entity sends an update only once a minute, and our own movement may bring it within the
+// radius.
 #pragma once
 
 #include <array>
@@ -23,11 +24,11 @@ namespace reckon::peer {
 /// The last update of an entity outside.
 class OutsideEntity {
  public:
-  /// Articulated parts kept of it; more come with its next update.
+  /// Number of its articulated parts that are kept; all come with its next update.
   static constexpr std::size_t kParts = 6;
 
   OutsideEntity() = default;
-  /// @param state that of the update, S frame  @param timeout [s] of silence that it may have
+  /// @param state the state of the update, S frame  @param timeout [s] of permitted silence
   OutsideEntity(const Inbound& update, const Arrival& arrival,
                 const deadreckon::KinematicState& state, double timeout) noexcept;
 
@@ -37,15 +38,15 @@ class OutsideEntity {
   [[nodiscard]] const deadreckon::KinematicState& state() const noexcept { return state_; }
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return pdu_.entity_id; }
   [[nodiscard]] const pdu::EntityType& type() const noexcept { return pdu_.entity_type; }
-  /// Position [S] as if it had arrived at once: where the entity may be, not where it is shown.
+  /// Position [S] as if it had arrived at once: a position for checks, not for display.
   [[nodiscard]] Eigen::Vector3d position(std::chrono::nanoseconds now) const noexcept;
-  /// Steady time; not before that of the update.
+  /// Steady time; not before the time of the update.
   [[nodiscard]] std::chrono::nanoseconds last_heard() const noexcept { return last_heard_; }
   void set_last_heard(std::chrono::nanoseconds last_heard) noexcept { last_heard_ = last_heard; }
-  /// [s] of silence that it may have.
+  /// [s] of permitted silence.
   [[nodiscard]] double timeout() const noexcept { return timeout_; }
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
-  /// Sets a force model that came alone, or with the state before this one.
+  /// Sets a force model that arrived separately, or with the state before this one.
   void set_model(const pdu::HapticRecord& model) noexcept;
   void take_model_of(const OutsideEntity& former) noexcept;
 
@@ -62,8 +63,8 @@ class OutsideEntity {
 };
 
 /// Entities by ID. One thread; allocates only at construction. Memory is touched as entities come,
-/// some 700 octets each, and given back when most have gone. When it is full, further ones are not
-/// kept: they appear with their next update.
+/// some 700 octets each, and given back when most have gone. Further entities are not kept when it
+/// is full: they appear with their next update.
 class OutsideEntities {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -77,9 +78,9 @@ class OutsideEntities {
   explicit OutsideEntities(std::size_t capacity)
       : rows_(capacity), look_at_(capacity), places_(capacity), owners_(capacity) {}
 
-  /// Keeps it in place of an earlier state of the same entity.
-  /// @param guest_room whether there is room for one more of a plain DIS program; else it replaces
-  /// one of the host that has the most, or is not kept
+  /// Stores the entity and replaces an earlier state of it.
+  /// @param guest_room whether there is room for another entity of a plain DIS program; else it
+  /// replaces one of the host that has the most, or is not kept
   void keep(const OutsideEntity& entity, bool guest_room = true) noexcept;
   /// Removes an entity of a plain DIS program, of the host that has the most; false if there is
   /// none.
@@ -89,8 +90,8 @@ class OutsideEntities {
   void heard(const aoim::SourceAddress& from, Nanoseconds now) noexcept {
     if (guests() > 0) owners_.heard(from, now);
   }
-  /// Address of the plain DIS program that owns this entity, while it may be silent; null if none
-  /// is kept under this ID.
+  /// Address of the plain DIS program that owns this entity, as long as its permitted silence
+  /// lasts; null if no such entity is kept under this ID.
   [[nodiscard]] const aoim::SourceAddress* guest_of(const pdu::EntityId& id,
                                                     Nanoseconds now) const noexcept;
   /// Entities of plain DIS programs.

@@ -21,8 +21,8 @@ constexpr std::int32_t kSecond = pdu::kTimestampUnitsPerHour / 3600;
 constexpr std::size_t kParametersAt = 19, kAppearanceAt = 84;
 constexpr std::size_t kFixed = pdu::kFixedSize<pdu::EntityState>;
 
-// Datagrams prefetched in advance: another core has written them, and no hardware prefetcher reads
-// backwards.
+// Datagrams prefetched in advance: another core has written them, and hardware prefetchers do not
+// read backwards.
 constexpr std::size_t kAhead = 3;
 constexpr std::size_t kLine = 64;  // of a processor's cache [octets]
 
@@ -62,7 +62,7 @@ void OvertakenStates::begin_look() noexcept {
   }
 }
 
-// From the last to the first, so that a state found later is already overtaken.
+// Goes from the last to the first, so that a state found later is always overtaken.
 void OvertakenStates::look(std::span<const ArrivedDatagram> datagrams) noexcept {
   assert(datagrams.size() <= found_.size());
   begin_look();
@@ -124,8 +124,8 @@ bool OvertakenStates::is_plain(const pdu::BundledPdu& pdu) const noexcept {
          (appearance & pdu::kAppearanceDeactivated) == 0;
 }
 
-// Place of the newest state of this key, or a free one for it; null if too many others are in the
-// way.
+// Place of the newest state of this key, or a free place; null if too many other keys occupy the
+// tried places.
 OvertakenStates::Newest* OvertakenStates::find(std::uint64_t key) noexcept {
   auto place = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
   for (std::size_t i = 0; i < kPlacesTried; ++i, place = (place + 1) & (newest_.size() - 1)) {

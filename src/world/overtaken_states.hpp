@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The newest state wins among pending datagrams: if updates come faster than they are taken, an
-// entity costs one update, however many of its states are pending.
+// Among pending datagrams, only the newest state of an entity is used. If updates come faster than
+// they are taken, an entity therefore costs one update, however many of its states are pending.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,11 @@ struct ArrivedDatagram {
 
 /// Finds Entity States that a later datagram has overtaken. The later state is a whole one of the
 /// same entity, from the same sender in the same epoch and row of channels, stamped later by less
-/// than a second. The overtaken state would be shown for no time at all. Some states carry more
-/// than a pose and are never overtaken: those with records (force models, energy accounts), with
-/// `bodies_in_part` those with parts, which a later one may omit, farewells, and those whose stamps
-/// are equal, out of order, or of a clock that jumps. If there are more than kMostSenders at a
-/// time, all states of the further ones are taken.
+/// than a second. The overtaken state would be shown for no time at all. States that carry more
+/// than a pose are never overtaken: states with records (force models, energy accounts); with
+/// `bodies_in_part` states with parts, which a later one may omit; states with the deactivated bit;
+/// and states whose stamps are equal, out of order, or of a clock that jumps. If there are more
+/// than kMostSenders at a time, all states of the further ones are taken.
 ///
 /// One thread; allocates only at construction. Some 15 ns for each examined state.
 class OvertakenStates {
@@ -35,7 +35,7 @@ class OvertakenStates {
   static constexpr std::size_t kMostPdus = 64;
   static constexpr std::size_t kMostSenders = 64;
 
-  /// @param exercise whose states count  @param datagrams most at a time; below 65,536
+  /// @param exercise number of the exercise  @param datagrams most at a time; below 65,536
   OvertakenStates(std::uint8_t exercise, std::size_t datagrams, bool bodies_in_part = false);
 
   /// Examines datagrams in the order of their arrival, at most as many as stated at construction.
@@ -44,7 +44,7 @@ class OvertakenStates {
   [[nodiscard]] std::uint64_t of(std::size_t datagram) const noexcept {
     return found_[datagram].overtaken;
   }
-  /// True if the datagram has nothing else to take but perhaps a trailer.
+  /// True if the datagram contains nothing else to take, except perhaps a trailer.
   [[nodiscard]] bool is_whole(std::size_t datagram) const noexcept {
     return found_[datagram].overtaken != 0 && !found_[datagram].has_more;
   }

@@ -77,7 +77,7 @@ void OwnedEntities::note_sent(EntityNumber number) noexcept {
   if (find(number) != nullptr) schedule(slots_[number - 1u], number);
 }
 
-// One entry of a slot counts: the one of `scheduled`. When it comes up, a later one may be added.
+// Only the entry at `scheduled` counts. A later entry may be added after it has come up.
 void OwnedEntities::schedule(Slot& slot, EntityNumber number) noexcept {
   const nanoseconds time = slot.entity->next_heartbeat();
   if (time >= slot.scheduled) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// All entities that this peer owns, and those to check now: with a new truth or a due heartbeat. An
-// entity at rest costs nothing in between.
+// All entities that this peer owns, and the list of entities to check now: with a new truth or a
+// due heartbeat. An entity at rest costs nothing between heartbeats.
 #pragma once
 
 #include <algorithm>
@@ -26,15 +26,15 @@ struct OwnerSettings {
   pdu::SimulationAddress simulation;  ///< first two numbers of their IDs
   std::uint8_t exercise = 1;
   double teleport_distance = 10.0;  ///< [m] > 0
-  /// Motion is rounded to the quanta of the compressed forms, unless there is none.
+  /// Motion is rounded to the quanta of this compressed form; `none`: no rounding.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
   std::size_t urgent_tiers = 0;  ///< see aoim::TierTable
   /// If the inner rows of channels have tiers: the rows that are not kept, the nearest first.
   std::vector<aoim::Channel> rows = {};
 };
 
-/// The numbers of a peer's entities. A number that was given back is assigned last, so that no peer
-/// takes a new entity for the old one.
+/// The numbers of a peer's entities. A released number is assigned last, so that no peer confuses a
+/// new entity with the old one.
 class EntityNumbers {
  public:
   /// @param taken numbers up to this one are in use
@@ -68,7 +68,7 @@ class OwnedEntities {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Upper bound of the numbers in use.
   [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
-  /// Those that hands can feel, in the order of add().
+  /// The entities that hands can feel, in the order of add().
   [[nodiscard]] std::span<const EntityNumber> touchable() const noexcept { return touchable_; }
   /// Of the entity with the least number; simulation() if there is none.
   [[nodiscard]] pdu::EntityId first_id() const noexcept;
@@ -84,8 +84,8 @@ class OwnedEntities {
   /// Records a sent update, after which the next repetition is scheduled.
   void note_sent(EntityNumber number) noexcept;
 
-  /// Calls visit(OwnedEntity&, EntityNumber) for each entity to check, oldest first, until it
-  /// returns false: that one and the rest stay for the next pass.
+  /// Calls visit(OwnedEntity&, EntityNumber) for each entity to check, oldest first. If visit
+  /// returns false, this entity and the rest stay for the next pass.
   template <typename Visit>
   void for_each_waiting(std::chrono::nanoseconds now, Visit&& visit) {
     wake_due(now);

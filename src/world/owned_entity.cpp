@@ -19,8 +19,8 @@ using deadreckon::ConversionError;
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// A change is repeated after this [s] without another one, then after twice as long, and so on:
-// this soon repairs a loss. A felt change cannot wait as long as a visible one.
+// A change is repeated after this [s] without another one, then after twice as long, and so on,
+// which quickly repairs a loss. A felt change cannot wait as long as a visible one.
 constexpr double kFirstRepeatFelt = 0.2;
 constexpr double kFirstRepeat = 1.0;
 // Accounts alone cause at most one packet in this time. The next repetition repairs a loss, because
@@ -39,10 +39,11 @@ constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbe
 
 constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
 
-// Shorter heartbeats come one by one: they would wait for one another's moment too often.
+// Shorter heartbeats are sent individually, because waiting for a common time would delay them too
+// often.
 constexpr double kLeastAligned = 5.0;  // [s]
 
-// As it is sent: an entity without repetitions is believed at least that long.
+// As it is sent: an entity without repetitions is believed for at least that time.
 deadreckon::ForceModel believed(deadreckon::ForceModel model) {
   model.validity = std::max(model.validity, kLeastValidity);
   return model;
@@ -54,7 +55,7 @@ double heartbeat_of(const EntityDescription& description) {
     return stated > nanoseconds(0) ? pdu::to_seconds(stated)
                                    : deadreckon::nominal_heartbeat(description.type);
   }
-  // A force that fades out before its repetition would come and go; one update may be lost.
+  // A force that fades out before its repetition would alternate; one update may be lost.
   const double wanted =
       stated > nanoseconds(0) ? pdu::to_seconds(stated) : deadreckon::kHapticHeartbeat;
   return std::min(wanted, believed(*description.model).validity / deadreckon::kTimeoutMultiplier);
@@ -207,7 +208,7 @@ EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {
   return later;
 }
 
-// What peers shall predict: the truth, or the state in which it was frozen.
+// The motion for the peers' prediction: the truth, or the state in which the entity was frozen.
 EntityTruth OwnedEntity::stated_truth(nanoseconds now) const noexcept {
   if (!frozen_) return truth_at(now);
   EntityTruth stated = frozen_at_;
@@ -312,7 +313,7 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
 
   if (compressor_) static_cast<void>(pdu::quantise(update.state, {}));
 
-  // Predicts from what peers will decode, not from our values: the wire rounds to float32.
+  // Predicts from the values that peers will decode, because the wire rounds to float32.
   deadreckon::KinematicState decoded;
   if (deadreckon::from_wire(update.state, *frame_, decoded, config_.acceleration) !=
       ConversionError::none) {

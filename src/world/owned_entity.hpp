@@ -30,12 +30,12 @@
 
 namespace reckon::peer {
 
-/// Our side of the energy between an entity of ours and one that touches it.
+/// Our side of the energy account between an entity of ours and one that touches it.
 struct EnergyAccount {
   pdu::EntityId counterpart;
   double given = 0.0;        ///< [J], running total that we have given
-  double need = 0.0;         ///< [J], what we request
-  double spring_need = 0.0;  ///< [J], what we would like in addition, see haptics::EnergyDemand
+  double need = 0.0;         ///< [J], our request
+  double spring_need = 0.0;  ///< [J], our additional wish, see haptics::EnergyDemand
   bool pressed = false;      ///< sent even if all is 0, so that the owner repeats the body
 };
 
@@ -70,8 +70,8 @@ class TouchSide {
   /// Moves the model's point within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
 
-  /// Softens the model to this share of its original stiffness, (0, 1]: others show it as our
-  /// device does.
+  /// Softens the model to this share of its original stiffness, (0, 1], so that others feel the
+  /// same stiffness that our device can show.
   void soften(double share) noexcept {
     model_.k1 = share * k1_;
     model_.k3 = share * k3_;
@@ -113,18 +113,18 @@ class OwnedEntity {
   /// Changes the number after an identity conflict; the next decide() returns `event`.
   void rename(const pdu::EntityId& id) noexcept;
 
-  /// Makes the next decide() return `event`, for a newcomer or an abrupt change.
+  /// Makes the next decide() return `event`, for a new peer or an abrupt change.
   void event() noexcept { event(kAllAudiences); }
   /// The same for a recipient tier and the inner ones.
   void event(std::size_t audience) noexcept {
     policy_.event();
     if (audiences_) audiences_->event(audience);
   }
-  /// The same for the tier that may touch it alone.
+  /// The same for only the tier that may touch it.
   void felt_event() noexcept { policy_.event(); }
   /// Sets the appearance as on the wire, except for the bits that the peer sets itself. An event.
   void set_appearance(std::uint32_t appearance) noexcept;
-  /// While frozen, updates state that it stays where it was, whatever its truth does.
+  /// While frozen, updates state that it stays at its place, independent of its truth.
   void set_frozen(bool frozen) noexcept;
   [[nodiscard]] bool is_frozen() const noexcept { return frozen_; }
   void set_deactivated() noexcept;
@@ -132,8 +132,8 @@ class OwnedEntity {
   /// time.
   void set_parts(const deadreckon::PartState& parts);
 
-  /// Sets the true state. Returns false and changes nothing if it is not finite or older than the
-  /// present one.
+  /// Sets the true state. Returns false and changes nothing if the state is not finite or is older
+  /// than the present one.
   bool move(const EntityTruth& truth) noexcept;
   /// The last truth, extrapolated to `now` by its own rates.
   [[nodiscard]] EntityTruth truth_at(std::chrono::nanoseconds now) const noexcept;
@@ -141,11 +141,11 @@ class OwnedEntity {
   /// Whether its last truth is at rest.
   [[nodiscard]] bool is_resting() const noexcept;
 
-  /// Null for an entity that nobody feels.
+  /// Null for an entity without a force model.
   [[nodiscard]] TouchSide* touch() noexcept { return touch_.get(); }
   [[nodiscard]] const TouchSide* touch() const noexcept { return touch_.get(); }
 
-  /// Makes an event if the accounts have changed by more than peers may be left to guess, at most
+  /// Makes an event if the accounts have changed by more than the permitted error of peers, at most
   /// one in 20 ms. Returns true if it did.
   bool consider_accounts(std::chrono::nanoseconds now,
                          std::span<const EnergyAccount> accounts) noexcept;
@@ -155,9 +155,9 @@ class OwnedEntity {
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
-  /// From now on tiers receive different updates: `urgent` tiers those of an entity that can be
-  /// felt, and each of two or more rows of channels. An entity that can be felt uses rows only if
-  /// there is an urgent tier too.
+  /// From now on tiers receive different updates. There are `urgent` tiers for an entity that can
+  /// be felt, and one tier for each row of channels if there are two or more. An entity that can be
+  /// felt uses rows only if there is an urgent tier too.
   void set_tiers(std::size_t urgent, std::span<const aoim::Channel> rows);
   /// Null if all peers receive the same.
   [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
@@ -173,7 +173,7 @@ class OwnedEntity {
 
   /// Fills `update` with the truth at `now` and records it as sent. `utc` is the same instant.
   /// Returns false and records nothing if the state exceeds the range of the wire.
-  /// @param body without parts or without the felt side, those count as not sent
+  /// @param body an update without parts or without the felt side counts these as not sent
   /// @param audience recipient tier: parts that do not reach all interested peers count as not
   /// sent, too
   [[nodiscard]] bool build(std::chrono::nanoseconds now, std::chrono::nanoseconds utc,
@@ -193,7 +193,7 @@ class OwnedEntity {
   void look_again(std::chrono::nanoseconds time) noexcept {
     held_until_ = std::min(held_until_, time);
   }
-  /// Records a check: what was deferred until `now` is no longer, unless it is deferred again.
+  /// Records a check: ends a deferral until `now`, unless the update is deferred again.
   void let_go(std::chrono::nanoseconds now) noexcept {
     if (held_until_ <= now) held_until_ = std::chrono::nanoseconds::max();
   }
@@ -206,7 +206,7 @@ class OwnedEntity {
   [[nodiscard]] std::chrono::nanoseconds next_heartbeat() const noexcept;
 
   /// From now on updates are rounded to quanta, so that a compressed form carries them exactly, and
-  /// are sent in it; `none`: neither. Updates stay plain for felt entities and for those with
+  /// are sent in it; `none`: neither. Updates stay plain for felt entities and for entities with
   /// thresholds below four quanta. Allocates.
   void compress(pdu::CompressedForm form);
   /// Null if they are sent plain.

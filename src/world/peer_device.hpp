@@ -23,11 +23,12 @@ struct PeerDevice {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
-  double continuous_force = 0.0;       ///< [N], that its motors hold for ever; 0: their greatest
+  double continuous_force = 0.0;       ///< [N], that its motors can hold permanently; 0: their
+                                       ///< greatest
   double thermal_time = 20.0;          ///< [s] >= 1, see haptics::ServoConfig
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
   double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
-  /// What regions may put in, see haptics::ServoConfig; below 0: as that has it.
+  /// Energy that regions may add, see haptics::ServoConfig; below 0: its default.
   double region_loan = -1.0, oscillation_power = -1.0, oscillation_energy = -1.0;
   std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
   int stop_button = -1;           ///< of the software stop, 0 to 31; negative: none

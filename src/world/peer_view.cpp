@@ -10,7 +10,7 @@
 namespace reckon::peer {
 namespace {
 
-// After so many periods of its rate, and this time [s], without an update the rate is no more.
+// Number of periods, and time [s], without an update after which the rate counts as 0.
 constexpr double kPeriods = 5.0, kLeastSilence = 1.0;
 
 double rate_of(const RemoteEntity& row, double age) noexcept {
@@ -77,7 +77,7 @@ void ViewChoice::offer(const Candidate& candidate) noexcept {
   std::push_heap(begin, begin + static_cast<std::ptrdiff_t>(count_));
 }
 
-// An entity whose row has moved is found again when its new place is examined.
+// If the row of an entity has moved, the entity is found when its new place is examined.
 void ViewChoice::offer_again(std::span<const RemoteEntity> rows,
                              const Eigen::Vector3d& from) noexcept {
   constexpr double kStays = 0.9 * 0.9;

@@ -20,11 +20,11 @@
 
 namespace reckon::peer {
 
-/// What a remote entity emits, in short; see EmissionTable.
+/// Summary of the emissions of a remote entity; see EmissionTable.
 struct EmittedView {
   std::uint8_t emitters = 0;  ///< emitter systems, also those without a beam
   std::uint8_t beams = 0;     ///< active ones
-  std::uint16_t targets = 0;  ///< that these beams name
+  std::uint16_t targets = 0;  ///< that are listed by these beams
   std::uint8_t iff = 0;       ///< IFF systems
   std::uint8_t iff_on = 0;
   std::uint8_t radios = 0;
@@ -44,7 +44,7 @@ struct EntityView {
   pdu::EntityKind kind = pdu::EntityKind::other;
   pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< as shown, S [m]
-  double rate_hz = 0.0;  ///< updates a second since the first reception; 0 once they fail to come
+  double rate_hz = 0.0;  ///< updates a second since the first reception; 0 after updates stop
   double jump_m = 0.0;   ///< innovation of the last update
   double age = 0.0;      ///< [s] since the last update
   bool haptic = false;
@@ -87,8 +87,8 @@ struct LeadersView {
   std::uint32_t map_version = 0;  ///< of the map of groups in use; 0: none
   std::size_t map_cells = 0;      ///< cells with a group in it
   std::size_t cells = 0;          ///< cells of which this peer is a member
-  std::size_t led = 0;            ///< of these, led by this peer
-  std::size_t leaderless = 0;     ///< of these, without a known leader
+  std::size_t led = 0;            ///< number of these cells that this peer leads
+  std::size_t leaderless = 0;     ///< number of these cells without a known leader
   std::size_t count = 0;
   std::array<Cell, kCells> rows{};
   std::size_t followed_count = 0;
@@ -131,11 +131,12 @@ struct PeerView {
 /// The row of a remote entity at `now`, with the force it puts on our hands.
 [[nodiscard]] EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
                                  std::chrono::nanoseconds now) noexcept;
-/// Selects the entities of a picture if there are more than rows: the nearest, and those of the
-/// last picture until another is a tenth nearer, so that none flickers at the edge.
+/// Selects the entities of a picture if there are more entities than rows: the nearest ones. An
+/// entity of the last picture stays until another is a tenth nearer, so that no entity flickers at
+/// the limit.
 ///
-/// In a large table each picture examines kLooks further rows and those of the last picture: all
-/// are examined within 100,000 / kLooks = 13 pictures.
+/// In a large table each picture examines the next kLooks rows and the rows of the last picture:
+/// all are examined within 100,000 / kLooks = 13 pictures.
 class ViewChoice {
  public:
   static constexpr std::size_t kLooks = 8192;

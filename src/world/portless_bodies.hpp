@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Entities of ours that hands feel but no device moves: a post, a wall, a robot's tip. They have no
-// port and no ledger. A resting one neither needs nor gives energy. A moving one gives to the hands
-// that it pushes from a stated power, booked as put in by its owner.
+// port and no ledger. A resting one neither needs nor gives energy. A moving one gives energy from
+// a stated power to the hands that it pushes; it is recorded as added by its owner.
 #pragma once
 
 #include <array>
@@ -36,11 +36,11 @@ class PortlessBody {
   /// Whether it moved since the last answer().
   [[nodiscard]] bool moves() const noexcept { return moves_; }
 
-  /// Gives the requested energy as far as there is any. Returns the energy given [J].
+  /// Gives the requested energy as far as it is available. Returns the energy given [J].
   double answer(const OwnedEntity& entity, EnergyBooks& books, std::chrono::nanoseconds now);
 
  private:
-  /// A hand states it each 0.1 s: ten statements were lost by then.
+  /// A hand repeats its statement every 0.1 s, so ten statements were lost after this time.
   static constexpr std::chrono::seconds kPressed{1};
 
   void note_motion(const OwnedEntity& entity, std::chrono::nanoseconds now) noexcept;

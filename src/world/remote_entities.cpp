@@ -15,7 +15,7 @@ namespace {
 using deadreckon::ConversionError;
 using std::chrono::nanoseconds;
 
-// Whether a state repeats, with the same timestamp, what is known already.
+// Whether a state repeats the known state with the same timestamp.
 bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) {
   return row.updates > 0 && row.timestamp == pdu.header.timestamp &&
@@ -71,7 +71,7 @@ void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
   if (aoim_.presence().is_own(update.entity)) {
-    // Presence settles a conflict with a peer; plain DIS has nothing that does.
+    // presence settles a conflict with a peer; plain DIS has no such mechanism
     if (arrival.epoch == 0) static_cast<void>(hear(std::span(&update.entity, 1), arrival));
     return false;
   }

@@ -42,30 +42,31 @@ enum class Gone : std::uint8_t { left, silent };
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
 /// construction. An update of a known entity costs some 0.3 us.
 ///
-/// Only its owner changes an entity. The numbers of a living peer belong to that peer alone, by its
-/// epoch. A row with a number that no peer has belongs to the sender (address, port, epoch) that
-/// made it, until it has been silent for RowOwners::kSilence. For a guest of plain DIS that is half
-/// the time-out of its entity, at most RowOwners::kGuestSilence.
+/// Only its owner changes an entity. The numbers of a living peer belong to only that peer,
+/// identified by its epoch. A row with a number that no peer has belongs to the sender (address,
+/// port, epoch) that made it, until it has been silent for RowOwners::kSilence. For a guest of
+/// plain DIS this time is half the time-out of its entity, at most RowOwners::kGuestSilence.
 class RemoteEntities {
  public:
   /// References outlive this.
   RemoteEntities(const deadreckon::LocalFrame& frame, aoim::AreaOfInterestManager& aoim,
                  const RemoteSettings& settings, Counters& counters);
 
-  /// Prefetches the memory that the updates of a datagram touch: in a large table none of it is in
-  /// a cache.
+  /// Prefetches the memory that the updates of a datagram touch. In a large table this memory is
+  /// usually not in a cache.
   void prefetch(std::span<const Inbound> updates) const noexcept;
   /// Takes one update, or refuses and counts it; true if it was taken.
   /// @param servo our own hand as last seen.
   bool take(const Inbound& update, const Arrival& arrival,
             const haptics::ServoSnapshot& servo) noexcept;
-  /// In whose name a PDU that is no state was sent: by the rule of states, the owner if one of
-  /// `ids` is his. A refused PDU is counted in `disputed_in` and reported. An entity number without
-  /// an entity stands for its site and application. Some 20 ns each.
+  /// In whose name a PDU other than a state was sent, by the same rule as for states: the owner's,
+  /// if the sender owns one of `ids`. A refused PDU is counted in `disputed_in` and reported. An
+  /// entity number without an entity means its site and application. Some 20 ns each.
   [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept {
     return ownership_.hear(ids, arrival);
   }
-  /// Records an accepted datagram from this address, so that its rows are not given to others.
+  /// Records an accepted datagram from this address, so that its rows are not given to other
+  /// senders.
   void heard(const aoim::SourceAddress& from, std::chrono::nanoseconds now) noexcept {
     owners_.heard(from, now);
     outside_.heard(from, now);
@@ -77,13 +78,13 @@ class RemoteEntities {
   void doubt_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
   /// The same for one entity, if it is known.
   void doubt(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
-  /// The entities move on from where they are shown, and converge to the continued prediction.
-  /// Hands that were silent since `silent` have no force left.
+  /// The entities move on from their shown places, and converge to the continued prediction. Hands
+  /// that were silent since `silent` have no force any more.
   void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds silent,
                     std::chrono::nanoseconds now) noexcept;
   /// Removes the force of this entity until it is updated.
   void let_go(const pdu::EntityId& id) noexcept;
-  /// It presses a hand of ours.  @return since when, after its last state
+  /// Records that it presses a hand of ours.  @return since when, after its last state
   std::chrono::nanoseconds note_pressed(const pdu::EntityId& id,
                                         std::chrono::nanoseconds now) noexcept;
   /// Fades its force out from `now` until it is updated.
@@ -92,14 +93,14 @@ class RemoteEntities {
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops entities that were silent for longer than their time-out. Some ns if there are none.
   void expire(std::chrono::nanoseconds now) noexcept;
-  /// Removes shown entities that are no longer within the radius, by our movement or by theirs and
-  /// without an update: within a second, if at most SightWatch::kMostLooks are due at once. They
-  /// are kept as outside entities, and return by look_outside(). Call it as often as
-  /// look_outside(), and before it; some 2 us for each removed one.
+  /// Removes shown entities that have left the radius without an update, by our movement or their
+  /// own. This takes at most a second if at most SightWatch::kMostLooks are due at once. They are
+  /// kept as outside entities, and return by look_outside(). Call it as often as look_outside(),
+  /// and before it; some 2 us for each removed one.
   void look_shown(std::chrono::nanoseconds now) noexcept;
-  /// Adds outside entities that are within the radius of interest by now, by their movement or
-  /// ours, within a second. Call it some ten times a second, after the foci were set; 50 ns for
-  /// each checked one.
+  /// Adds outside entities that have entered the radius of interest, by their movement or ours,
+  /// within a second. Call it some ten times a second, after the foci were set; 50 ns for each
+  /// checked one.
   void look_outside(std::chrono::nanoseconds now) noexcept;
 
   /// Calls visit(epoch of its peer, position [m, S] as received and extrapolated to `now`, speed
@@ -114,12 +115,12 @@ class RemoteEntities {
       visit(entity.arrival().epoch, entity.position(now), entity.state().velocity.norm());
     });
   }
-  /// We have left these groups: an entity whose shown state came in one of their near groups goes
-  /// back to the newest state of an outer row, which its owner keeps right for us. In order: of
-  /// several rows the nearest first. 1 ns for each entity and near group.
+  /// Call it after we have left these groups. An entity whose shown state came in one of their near
+  /// groups returns to the newest state of an outer row, because its owner checks that one for us.
+  /// If several rows were left, the order is from the nearest. 1 ns for each entity and near group.
   void leave_groups(std::span<const aoim::GroupIndex> groups,
                     std::chrono::nanoseconds now) noexcept;
-  /// Finds what each of our hands could touch at `now`, see NearSearch.
+  /// Finds the entities that each of our hands could touch at `now`, see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
                  std::span<NearBodies> found) noexcept {
     near_.find(table_.rows(), probes, now, found);
@@ -157,8 +158,8 @@ class RemoteEntities {
   [[nodiscard]] std::size_t strangers_octets() const noexcept { return admission_.guests_octets(); }
   /// Rows dropped to make room for others, and the owner of the last one.
   [[nodiscard]] std::uint64_t evicted() const noexcept { return admission_.evicted(); }
-  /// Entities of plain DIS programs refused for want of room, and the sender of the last one: no
-  /// host has more.
+  /// Entities of plain DIS programs refused for lack of room, and the sender of the last one, which
+  /// belongs to the host with the most entities.
   [[nodiscard]] std::uint64_t strangers_refused() const noexcept { return admission_.refused(); }
   [[nodiscard]] const aoim::SourceAddress& last_stranger() const noexcept {
     return admission_.last_refused();
@@ -205,7 +206,7 @@ class RemoteEntities {
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
   /// Innovations: the distance of each update from its prediction for the same instant, as pose [m]
-  /// and as force on our hand [N]. They are a receiver's knowledge of its errors. Any thread.
+  /// and as force on our hand [N]. They measure the errors of a receiver. Any thread.
   [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return motion_.pose_jumps(); }
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// States of entities that are kept but not shown: of those outside the radius of interest, and
-// those for listeners that are farther away than we are.
+// States of entities that are kept but not shown: states of entities outside the radius of
+// interest, and states meant for listeners that are farther away than we are.
 #include <algorithm>
 #include <array>
 
@@ -16,7 +16,8 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-// Of an entity outside, only states are kept that its owner keeps right for listeners so far away.
+// Of an entity outside, only those states are kept that its owner maintains for listeners at this
+// distance.
 void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
                                   const deadreckon::KinematicState& state,
                                   const RemoteEntity* row) noexcept {
@@ -36,7 +37,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   keep_outside(OutsideEntity(known, then, held.state, timeout));
 }
 
-// As if it had been received outside: its time is known, so no clock is asked again.
+// As if the entity had been received outside. Its time is known, so no clock is used again.
 void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   const std::size_t place = table_.place_of(row);
   HeldState known{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
@@ -98,7 +99,7 @@ void RemoteEntities::leave_groups(std::span<const aoim::GroupIndex> groups,
   }
 }
 
-// Without a jump, as with any update.
+// Without a jump, the same as for any update.
 void RemoteEntities::go_back(std::size_t place, const HeldState& held, nanoseconds now) noexcept {
   RemoteEntity& row = table_.rows()[place];
   motion_.go_back(row, place, held, now);

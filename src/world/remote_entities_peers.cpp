@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities of peers that leave, become silent and are received again.
+// Entities of peers that leave, become silent or are received again.
 #include <algorithm>
 
 #include "reckon/peer/world/remote_entities.hpp"
@@ -65,7 +65,7 @@ void RemoteEntities::fade(const pdu::EntityId& id, nanoseconds now) noexcept {
   row->felt_until = std::min(row->felt_until, now);
 }
 
-// Long ago, so that no force is left to fade: the owner had time to send a state.
+// Sets a time long ago, so that no force remains to fade: the owner had time to send a state.
 void RemoteEntities::let_go(RemoteEntity& row) noexcept {
   row.felt_until = std::min(row.felt_until, row.last_heard);
 }

@@ -19,7 +19,7 @@ constexpr double kLeastStep = 0.01;
 
 }  // namespace
 
-// The row for a state, `row` or a new one; null if the entity leaves, is of no interest, or has no
+// The row for a state, `row` or a new one; null if the entity leaves, is of no interest, or gets no
 // room.
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
@@ -80,7 +80,7 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
   };
   sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
     const RemoteEntity& row = table_.rows()[place];
-    // What is cut off is heard no more. Its owner introduces it when it comes in or we join.
+    // A cut-off entity is no longer received. Its owner introduces it when it returns or we join.
     if (!aoim_.sight().is_cut_off(to_position(row.predicted(now).position))) keep_outside(row);
     drop(place, Removal::out_of_sight);
   });
@@ -96,7 +96,7 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
       [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
 }
 
-// As if it had been within when it was received.
+// As if the entity had been within the radius when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
   if (!ownership_.may_speak(entity.id(), entity.arrival(), nullptr)) return;
@@ -131,7 +131,7 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   return row;
 }
 
-// In the table and all columns beside it the last row moves to `place`.
+// In the table and in all parallel columns, the last row moves to `place`.
 void RemoteEntities::drop(std::size_t place, Removal cause) noexcept {
   RemoteEntity& row = table_.rows()[place];
   parts_.release(row);

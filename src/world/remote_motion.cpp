@@ -110,8 +110,8 @@ bool RemoteMotion::is_teleport(const deadreckon::Pose& shown,
          !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
 }
 
-// The history before an abrupt change predicts nothing after it. A history also ends if a better
-// estimate of the sender's clock has reversed its instants.
+// The history before an abrupt change does not help to predict the motion after it. A history also
+// ends if a better estimate of the sender's clock has reversed the order of its instants.
 void RemoteMotion::note_history(RemoteEntity& row, std::size_t place,
                                 const deadreckon::Pose& expected, bool abrupt) noexcept {
   const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));

@@ -31,7 +31,7 @@ struct ReceivedState {
   const haptics::ServoSnapshot& servo;
 };
 
-/// Beside the rows of a StateTable: the clock of each sender, and the history in scenes with
+/// Parallel to the rows of a StateTable: the clock of each sender, and the history in scenes with
 /// adaptive prediction. It writes a row's state and convergence, and measures the distance of each
 /// update from its prediction. One thread; allocates only at construction.
 class RemoteMotion {
@@ -58,8 +58,8 @@ class RemoteMotion {
   /// Returns to a state that was received before, without a jump.
   void go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
                Nanoseconds now) noexcept;
-  /// Its owner is believed again: the entity moves on from where it is shown, or jumps if that is
-  /// too far from the continued prediction.
+  /// For an owner that is believed again: the entity moves on from its shown place, or jumps if
+  /// this place is too far from the continued prediction.
   void resume(RemoteEntity& row, Nanoseconds now) noexcept;
 
   /// Innovations, see RemoteEntities. Any thread.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The shown articulated parts of remote entities: turrets, guns, flaps. Few entities have parts, so
-// they are kept beside the state table.
+// The shown articulated parts of remote entities: turrets, guns, flaps. They are kept separately
+// from the state table, because few entities have parts.
 #pragma once
 
 #include <chrono>
@@ -56,9 +56,9 @@ class RemoteParts {
   /// @param counters outlives this.
   RemoteParts(const deadreckon::ConvergenceSettings& settings, Counters& counters);
 
-  /// Takes the parts of an update at `now` that `row` has already taken: the instant, time-out and
-  /// freeze are those of the row. Without a valid record the row loses its parts. Invalid records
-  /// are ignored and counted. If the pool is full, the entity is shown without parts and counted.
+  /// Takes the parts of an update at `now`. `row` has already taken that update, and its instant,
+  /// time-out and freeze apply. Without a valid record the row loses its parts. Invalid records are
+  /// ignored and counted. If the pool is full, the entity is shown without parts and counted.
   /// @param abrupt the entity is shown at once, and so are its parts.
   void update(RemoteEntity& row, std::span<const std::byte> records, std::chrono::nanoseconds now,
               bool abrupt) noexcept;

@@ -29,7 +29,8 @@ struct RemoteSettings {
   std::vector<NimbusClass> nimbus = {};  ///< by type; the first match applies
   std::size_t near_rows = 0;             ///< rows of channels with groups
   TouchRule touch = {};                  ///< which force models are taken
-  /// Longest time [s] for which a force model is believed without an update, whatever its validity.
+  /// Longest time [s] for which a force model is believed without an update, regardless of its
+  /// validity.
   double longest_validity = 65.0;
 
   [[nodiscard]] bool is_adaptive() const noexcept {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Why a remote entity is no longer among those that a peer shows.
+// The reason why this peer no longer shows a remote entity.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace reckon::peer {
 
-/// What ended it here. Where it may go on elsewhere, it can be discovered again.
+/// The cause of the end here. If the entity continues elsewhere, it can be discovered again.
 enum class Removal : std::uint8_t {
   deactivated,    ///< its owner has ended it
   owner_left,     ///< its peer has left the exercise
-  owner_changed,  ///< its ID is another's now, or its owner has started again
+  owner_changed,  ///< its ID belongs to another now, or its owner has started again
   out_of_sight,   ///< it is beyond the radius of interest, by its movement or ours
-  silent,         ///< nothing was heard of it, or of its peer, for its time-out
+  silent,         ///< neither it nor its peer was received for its time-out
   no_room         ///< the table is full, and another has its row
 };
 

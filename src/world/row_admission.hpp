@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Selects who gets a row of the state table when room is short, and which row is dropped for it.
+// Decides which senders get a row of the state table when room is short, and which row is dropped.
 #pragma once
 
 #include <cstddef>
@@ -20,14 +20,14 @@ namespace reckon::peer {
 /// unproven identity. One thread; no allocation.
 class RowAdmission {
  public:
-  /// References outlive this. Of the settings it uses strangers_memory and those that determine the
-  /// size of a row.
+  /// References outlive this. It uses the settings strangers_memory and all settings that determine
+  /// the size of a row.
   RowAdmission(const RemoteSettings& settings, const StateTable& table, RowOwners& owners,
                OutsideEntities& outside, const RemoteCounters& counts);
 
   /// Makes room for one more row of this sender, which then owns it. Calls drop(place) for each row
-  /// that is dropped for it, which counts it as evicted. Returns false and makes no row if there is
-  /// no room, which is counted.
+  /// that has to be dropped and counts it as evicted. Returns false and makes no row if there is no
+  /// room, which is counted.
   template <typename Drop>
   [[nodiscard]] bool admit(const Arrival& arrival, Drop&& drop) noexcept {
     const bool guest = arrival.epoch == 0;
@@ -54,7 +54,7 @@ class RowAdmission {
   /// Rows dropped to make room for others, and the owner of the last one.
   [[nodiscard]] std::uint64_t evicted() const noexcept { return counts_.evicted.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
-  /// Entities of guests refused for want of room, and the sender of the last one.
+  /// Entities of guests refused for lack of room, and the sender of the last one.
   [[nodiscard]] std::uint64_t refused() const noexcept { return counts_.strangers_full.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_refused() const noexcept { return last_stranger_; }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Values beside the rows of a table, in their order: for values that few loops read, or that one
-// loop reads of all rows.
+// Values parallel to the rows of a table: for values that few loops read, or that one loop reads
+// for all rows.
 #pragma once
 
 #include <cstddef>

@@ -151,7 +151,7 @@ bool RowOwners::hand_over(std::size_t place, const SourceAddress& to,
   return true;
 }
 
-// The host whose rows make room for others.
+// The host that has to give up rows.
 std::uint32_t RowOwners::crowded_host(bool guest) const noexcept {
   const auto most = [&](auto count) {
     return std::max_element(hosts_.begin(), hosts_.end(),
@@ -186,7 +186,7 @@ std::optional<std::size_t> RowOwners::guest_to_give_up(const SourceAddress& to) 
   return next_of(static_cast<std::uint32_t>(most - hosts_.begin()), true);
 }
 
-// Continues where the last search ended.
+// Continues at the end of the last search.
 std::optional<std::size_t> RowOwners::next_of(std::uint32_t host, bool guests_alone) noexcept {
   for (std::size_t i = std::min(kLooks, rows_.size()); i > 0; --i) {
     cursor_ = cursor_ + 1 < rows_.size() ? cursor_ + 1 : 0;

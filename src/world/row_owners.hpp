@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Owners of the state table's rows: the sender that made a row may change it. They count the rows
-// of each host, so that a host that invents entities excludes no other.
+// Owners of the state table's rows: only the sender that made a row may change it. The class also
+// counts the rows of each host, so that a host that invents entities cannot exclude others.
 #pragma once
 
 #include <array>
@@ -18,21 +18,21 @@
 
 namespace reckon::peer {
 
-/// Owners of rows, beside the state table. A sender is an address with a port, or a boot in a
-/// sealed exercise. A host is an address, whatever the port; for a boot, its first address. One
+/// Owners of rows, parallel to the state table. A sender is an address with a port, or a boot in a
+/// sealed exercise. A host is an address with any port; for a boot, its first address. One
 /// thread; no allocation after construction.
 class RowOwners {
  public:
   /// Most senders that have rows at a time; one host may be half of them.
   static constexpr std::size_t kSenders = 4096;
-  /// A row never goes to another sender before its own was silent for this time.
+  /// A row never goes to another sender before its own sender was silent for this time.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(3);
   /// Upper limit of that time for a row of a plain DIS guest, whose heartbeats are rare.
   static constexpr std::chrono::nanoseconds kGuestSilence = std::chrono::seconds(12);
 
   /// Longest silence of a guest that still owns an entity with this time-out [s]. A guest announces
-  /// itself only by heartbeats, of which more than two fit the time-out. A guest that restarts with
-  /// another port must not be excluded for a minute either.
+  /// itself only by heartbeats, and more than two of them fit the time-out. On the other hand, a
+  /// guest that restarts with another port must not be excluded for a minute.
   [[nodiscard]] static std::chrono::nanoseconds patience_with_guest(double timeout) noexcept;
 
   /// @param rows most rows of the table.
@@ -66,15 +66,15 @@ class RowOwners {
     return senders_[rows_[place].sender].last_heard;
   }
 
-  /// The row to drop so that this sender gets one in a full table. A peer's row replaces a guest's,
-  /// of the host with the most of them. Any row replaces one of a host with more than half of the
-  /// table, but a guest's never replaces a peer's. Nothing if its own host has half, or no host has
-  /// too many. Examines at most kLooks rows, from where it ended last time.
+  /// The row to drop so that this sender gets one in a full table. A peer's row replaces a guest's
+  /// row, of the host with the most guest rows. Any row replaces one of a host with more than half
+  /// of the table, but a guest's row never replaces a peer's. Nothing if its own host has half, or
+  /// no host has too many. Examines at most kLooks rows, from the end of the last search.
   [[nodiscard]] std::optional<std::size_t> row_to_give_up(const aoim::SourceAddress& to,
                                                           bool guest) noexcept;
-  /// The guest's row to drop so that this sender gets one more when guests may have no more in all:
-  /// of the host with the most of them. Nothing if its own host has as many except one. Examines as
-  /// many rows.
+  /// The guest's row to drop so that this sender gets one more when guests have reached their
+  /// limit: a row of the host with the most of them. Nothing if its own host has at least as many
+  /// except one. Examines the same number of rows.
   [[nodiscard]] std::optional<std::size_t> guest_to_give_up(const aoim::SourceAddress& to) noexcept;
   /// Rows of guests.
   [[nodiscard]] std::size_t guests() const noexcept { return guests_; }
@@ -113,7 +113,7 @@ class RowOwners {
   std::vector<Sender> senders_;      // at most kSenders
   std::vector<std::uint16_t> free_;  // unused places in senders_
   KeyIndex index_;                   // of senders_
-  std::vector<Host> hosts_;          // those without senders are free
+  std::vector<Host> hosts_;          // hosts without senders are free
   std::size_t cursor_ = 0;           // in rows_
   std::size_t guests_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Converts our points to those of the area-of-interest manager, which uses no matrix library.
+// Converts points to the type of the area-of-interest manager, which uses no matrix library.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Knowledge of the peers that do not receive all updates of an entity of ours: they listen to the
+// Knowledge of the peers that do not receive all updates of an entity of ours. They listen to the
 // group of its cell, and perhaps to some near rows of the channels, but not to all nearer rows, or
 // not to its contact group. Part of the model loop.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace reckon::peer {
 
-/// The predictor that these peers run, beside that of the peers that receive all. Times are seconds
-/// of one steady clock. One thread; no allocation.
+/// The predictor that these peers run, parallel to the predictor of the peers that receive all
+/// updates. Times are seconds of one steady clock. One thread; no allocation.
 class SeenSide {
  public:
   /// An update for the inner tiers alone is sent to all after at most this time [s], because a peer
@@ -49,7 +49,7 @@ class SeenSide {
   void note_sent_to_inner() noexcept { is_behind_ = true; }
   /// Whether inner tiers have an update that these peers lack.
   [[nodiscard]] bool is_behind() const noexcept { return is_behind_; }
-  /// What these peers predict at `now`, before their convergence.
+  /// The prediction of these peers at `now`, before their convergence.
   [[nodiscard]] deadreckon::Pose predicted(double now) const noexcept {
     return policy_.predicted(now);
   }

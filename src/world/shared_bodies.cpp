@@ -12,7 +12,7 @@ using Eigen::Quaterniond;
 using std::chrono::nanoseconds;
 
 constexpr std::uint8_t kCategory = 0x42;
-// Time functions begin anew after some 12 days, so that a double tells their time to 0.1 ns.
+// Time functions start again after some 12 days, so that a double represents their time to 0.1 ns.
 constexpr nanoseconds kAge = std::chrono::seconds(1 << 20);
 
 // Forward, right and down from x, y and z.
@@ -105,7 +105,7 @@ bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
                          RemoteEntities& rows) const noexcept {
   const aoim::PeerId sender = row.id.simulation();
   const bool alive = arrival.epoch != 0;
-  // A plain DIS program has none of the scene's bodies.
+  // a plain DIS program does not own the scene's bodies
   if (!interop_ && !alive) return false;
   if (!interop_ && arrival.epoch != owner_.epoch()) return rows.dispute_body(row), false;
   const bool named = !interop_ || rows.touch().names(sender);
@@ -113,7 +113,7 @@ bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
   return rows.refuse_touch(row), false;
 }
 
-// Bodies of a new owner may rest, and their next states may be far off.
+// Bodies of a new owner may rest, so that their next states may come much later.
 void RemoteBodies::adopt(RemoteEntities& rows) noexcept {
   if (std::exchange(adopted_, owner_.epoch()) == owner_.epoch() || adopted_ == 0) return;
   for (const RemoteEntity& row : rows.rows()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies of a scene as entities: its first peer sends them, and the others see and feel them
-// where they are.
+// The bodies of a scene as entities: its first peer sends them, and the other peers see and feel
+// them at the received places.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ namespace reckon::peer {
 /// Bodies that peers share, at most: their numbers have one octet.
 inline constexpr std::size_t kMostSharedBodies = 256;
 
-/// Kind other, category 66 (0x42); `extra` is the number of the body among the scene's objects that
-/// move.
+/// Kind other, category 66 (0x42); `extra` is the number of the body among the movable objects of
+/// the scene.
 [[nodiscard]] pdu::EntityType body_type(std::size_t body) noexcept;
 /// None for any other entity.
 [[nodiscard]] std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept;
@@ -41,16 +41,16 @@ inline constexpr std::size_t kMostSharedBodies = 256;
 /// The bodies of another peer, from the model loop to the servos.
 struct ShownBodies {
   enum class Known : std::uint8_t {
-    not_yet,  ///< it is where the scene has it
+    not_yet,  ///< it is at its place in the scene
     here,
-    gone,  ///< it stays where it was shown last
+    gone,  ///< it stays at the last shown place
   };
   std::array<RemoteCopy, kMostSharedBodies> rows{};
   std::array<Known, kMostSharedBodies> known{};
 };
 
-/// The servos' side: a body is where the table of remote entities shows it, and what hangs below a
-/// time function of the scene is where that has it, at the same time for all peers.
+/// Used by the servos. Bodies are placed as the table of remote entities shows them. Objects below
+/// a time function of the scene are placed by that function, at the same time for all peers.
 class BodyMover final : public haptics::ObjectMover {
  public:
   /// @param plan whose objects are carried; only read here  @param nodes of the same scene, copied
@@ -60,7 +60,7 @@ class BodyMover final : public haptics::ObjectMover {
                                                 std::chrono::nanoseconds now) noexcept override;
   /// Written by the model loop.
   [[nodiscard]] haptics::TripleBuffer<ShownBodies>& shown() noexcept { return shown_; }
-  /// Universal time less that of the servos; from the model loop.
+  /// Universal time minus the time of the servos; from the model loop.
   void set_offset(std::chrono::nanoseconds offset) noexcept {
     offset_.store(offset, std::memory_order_relaxed);
   }
@@ -81,9 +81,9 @@ class BodyMover final : public haptics::ObjectMover {
   std::vector<Body> bodies_;
 };
 
-/// The model loop's side: takes the bodies of their owner alone, if the scene's `touch` admits it.
-/// In an `interop` exercise no peer announces itself, and a sender that `touch` names owns them.
-/// Allocates nothing.
+/// Used by the model loop. Takes the bodies from only their owner, if the scene's `touch` admits
+/// it. In an `interop` exercise no peer announces itself, and a sender that `touch` names owns
+/// them. Allocates nothing.
 class RemoteBodies {
  public:
   /// References outlive this.  @param interop whether the exercise is

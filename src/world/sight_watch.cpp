@@ -23,7 +23,7 @@ void SightWatch::erase(std::size_t place) noexcept {
 
 void SightWatch::note_update(std::size_t place, double withdrawn, double spare, bool moves,
                              nanoseconds now) noexcept {
-  // It is still within sight if less than a millimetre is missing.
+  // a row that lacks less than a millimetre is still within sight
   by_way_.set(place, of_way(withdrawn + spare) + nanoseconds(1));
   by_time_.set(place, moves ? now + kLatest : nanoseconds::max());
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Schedules checks whether shown entities are still within sight. An owner sends nothing after we
-// have moved away, and a resting entity may be silent for minutes.
+// Schedules checks whether shown entities are still within sight. They are needed because an owner
+// sends nothing to us after we have moved away, and a resting entity may be silent for minutes.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,15 @@ namespace reckon::peer {
 
 /// Result of the check of a shown row.
 struct Sight {
-  double spare = 0.0;  ///< [m] by which we may separate before it is out of sight; <= 0: it is
+  double spare = 0.0;  ///< [m] by which we may separate before it is out of sight; <= 0: out of
+                       ///< sight
   double speed = 0.0;  ///< its own [m/s], 0 at rest
 };
 
-/// Beside the rows of a StateTable, 16 octets each. A row is due by the distance that we withdraw
-/// (AreaOfInterestManager::withdrawn), and a moving one by time, too: a resting entity costs
-/// nothing while we rest. One thread; allocates only at construction. An update costs some ns.
+/// Parallel to the rows of a StateTable, 16 octets each. A row is due by the distance that we
+/// withdraw (AreaOfInterestManager::withdrawn), and a moving one by time, too: a resting entity
+/// costs nothing while we rest. One thread; allocates only at construction. An update costs some
+/// ns.
 class SightWatch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -43,14 +45,14 @@ class SightWatch {
     by_way_.prefetch(place);
     by_time_.prefetch(place);
   }
-  /// An update has found the row within sight, by at least `spare` [m].
+  /// Records that an update has found the row within sight, by at least `spare` [m].
   /// @param withdrawn [m] by now
   void note_update(std::size_t place, double withdrawn, double spare, bool moves,
                    Nanoseconds now) noexcept;
 
-  /// Calls `look(place)`, which returns a Sight, for the rows that may be out of sight, and
-  /// leave(place) for each that is, which drops it.  @param withdrawn [m] by now
-  /// @param step [m] of distance that is worth another check, > 0
+  /// Calls `look(place)`, which returns a Sight, for the rows that may be out of sight. Calls
+  /// leave(place) for each row out of sight; it must drop the row. @param withdrawn [m] by now
+  /// @param step [m] of distance that justifies another check, > 0
   template <typename Look, typename Leave>
   void look(Nanoseconds now, double withdrawn, double step, Look&& look, Leave&& leave) {
     std::size_t looks = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Limits the extrapolation of a received state: a frozen entity does not move, a doubted one comes
-// to rest, and past the time-out nothing is known any more.
+// to rest, and after the time-out nothing is known any more.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace reckon::peer {
 
 /// The age of a state at one instant.
 struct StateAge {
-  /// [s] in which a doubted entity comes to rest. Meanwhile it covers the distance of half that
-  /// time.
+  /// [s] in which a doubted entity comes to rest. Meanwhile it covers the same distance as with its
+  /// full speed in half of that time.
   static constexpr double kSlowing = 0.5;
 
   double tau = 0;    ///< [s] to extrapolate by

@@ -15,8 +15,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// An owner with a threshold cannot be silent for this long while its hand changes its speed: the
-// stated change is over then.
+// An owner with a threshold cannot be silent for this long while its hand changes its speed. After
+// this time the stated change has ended.
 constexpr nanoseconds kLongestStroke = std::chrono::milliseconds(600);
 
 constexpr std::ptrdiff_t kLine = 64;  // of a processor's cache [octets]
@@ -28,7 +28,7 @@ StateAge age_of(const RemoteEntity& row, nanoseconds now) noexcept {
   return {since, row.timeout, row.frozen, doubted};
 }
 
-// The pose near `predicted` by the history in `order`, if there is one.
+// The pose near `predicted` according to the history in `order`, if there is one.
 deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::AdaptiveOrder* order,
                              const deadreckon::Pose& predicted, nanoseconds now) noexcept {
   if (order == nullptr || row.frozen || order->history().size() == 0) return predicted;
@@ -42,7 +42,8 @@ deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::Adaptive
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
   const StateAge age = age_of(*this, now);
-  // A program without trailers watches the standard's prediction, so that one holds for its own.
+  // A program without trailers compares with the standard's prediction, so its entities use that
+  // one.
   deadreckon::Pose pose = epoch != 0 ? deadreckon::extrapolate_trusted(state, age.tau)
                                      : deadreckon::extrapolate(state, age.tau);
   age.hold(pose);

@@ -25,14 +25,14 @@ namespace reckon::peer {
 /// The sender that has put an entity into the table.
 struct Party {
   std::uint16_t host = 0;    ///< number of an address, while it has entities, see RowOwners
-  std::uint16_t sender = 0;  ///< number of an address and port, likewise
+  std::uint16_t sender = 0;  ///< number of an address and port, while it has entities
   bool guest = true;         ///< a plain DIS program, not a peer
 
   friend bool operator==(const Party&, const Party&) = default;
 };
 
-/// One remote entity: its pose and force predictors, and its behaviour so far. RemoteCopy outlives
-/// its row.
+/// One remote entity: its pose and force predictors, and its behaviour so far. A RemoteCopy
+/// outlives the row.
 struct RemoteEntity {
   pdu::EntityId id;
   pdu::EntityType type;
@@ -45,11 +45,11 @@ struct RemoteEntity {
   deadreckon::KinematicState state;        ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
-  /// Since when its owner is silent for too long: it comes to rest from then on. kTrusted while the
-  /// owner is received.
+  /// Since when its owner is silent for too long; the entity comes to rest from then on. kTrusted
+  /// while the owner is received.
   std::chrono::nanoseconds doubted_at = kTrusted;
   /// Its force fades out from then on until a new state comes, because other datagrams of its owner
-  /// do not show its position. kTrusted if it was not doubted since its last state.
+  /// do not prove its position. kTrusted if it was not doubted since its last state.
   std::chrono::nanoseconds felt_until = kTrusted;
   static constexpr std::chrono::nanoseconds kTrusted = std::chrono::nanoseconds::max();
   /// When it first pressed a hand of ours after its last state; kTrusted before.
@@ -69,7 +69,7 @@ struct RemoteEntity {
   deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying
   double timeout = 12.0;                    ///< [s] of silence after which the row is dropped
   /// In scenes with adaptive prediction: the shown pose follows the history since the last abrupt
-  /// change, not `state`. Beside the table, valid as long as the row; else null.
+  /// change, not `state`. Stored outside the table, valid as long as the row; else null.
   const deadreckon::AdaptiveOrder* order = nullptr;
 
   double jump_m = 0.0;        ///< innovation of the last update: new against predicted position
@@ -83,7 +83,8 @@ struct RemoteEntity {
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
-  /// Pose to which the shown one converges: predicted(), or near it by `order` if adaptive.
+  /// Pose to which the shown one converges: predicted(), or near it according to `order` if
+  /// adaptive.
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
@@ -95,14 +96,14 @@ struct RemoteEntity {
                                        std::chrono::nanoseconds now) const noexcept;
 };
 
-/// A remote entity copied out of its table, with everything on which its shown pose depends: a
-/// value that another thread may keep.
+/// A remote entity copied from its table, with all data on which its shown pose depends: a value
+/// that another thread may keep.
 class RemoteCopy {
  public:
   RemoteCopy() = default;
   explicit RemoteCopy(const RemoteEntity& row) noexcept;
 
-  /// Its `order` is null in every scene: ask this copy for poses, not the entity.
+  /// Its `order` is null in every scene: get poses from this copy, not from the entity.
   [[nodiscard]] const RemoteEntity& entity() const noexcept { return entity_; }
   /// Bit-identical to RemoteEntity::shown() of the row at the time of the copy.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;

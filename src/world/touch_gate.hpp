@@ -14,9 +14,9 @@
 
 namespace reckon::peer {
 
-/// Decides whose bodies are felt. A listed number belongs to the peer that announces it; without
-/// one, to the plain DIS program at the address (any port) that used the number first. One thread;
-/// allocates only at construction; some ns.
+/// Decides which senders' bodies are felt. A listed number belongs to the peer that announces it.
+/// Without such a peer it belongs to the plain DIS program at the address (any port) that used the
+/// number first. One thread; allocates only at construction; some ns.
 class TouchGate {
  public:
   explicit TouchGate(const TouchRule& rule) : rule_(rule), users_(rule.named_count()) {}

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When the felt side of an entity of ours has to be sent.
+// Decides when the felt side of an entity of ours has to be sent.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,8 @@
 namespace reckon::peer {
 namespace {
 
-// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
+// Energy below this is too small for a packet [J]: 0.045 N of a 500 N/m contact. A full ledger
+// holds 0.02.
 // 0.02.
 constexpr double kSmallEnergy = 2e-6;
 // A need is sent again when it has changed by this share.

@@ -35,7 +35,8 @@ void TrackedEntities::begin(std::chrono::nanoseconds now) noexcept {
   for (Tracked& tracked : tracks_) tracked.due = now;
 }
 
-// The first truth of all is sent at once, the following ones each at its own place in the period.
+// The first truth of all entities is sent at once. After that, each has a different time within the
+// period.
 std::chrono::nanoseconds TrackedEntities::next_of(const Tracked& tracked,
                                                   std::chrono::nanoseconds now) const noexcept {
   constexpr int kPlaces = 16;

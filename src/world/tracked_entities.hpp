@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities of ours that the peer moves along recorded tracks, or that rest where the scene places
-// them.
+// Entities of ours that the peer moves along recorded tracks, or that rest at their places in the
+// scene.
 #pragma once
 
 #include <algorithm>

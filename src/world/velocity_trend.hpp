@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The acceleration of a hand from its last few velocities. The servo's own is computed from 32
-// samples and lags some 10 ms: when a hand is thrown off an edge or over another hand, that is half
-// a swing. Part of the model loop.
+// The acceleration of a hand from its last few velocities. The servo's own value is computed from
+// 32 samples and lags some 10 ms. When a hand is thrown off an edge or over another hand, that is
+// half a period of the swing. Part of the model loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,9 +24,9 @@ class VelocityTrend {
   [[nodiscard]] Eigen::Vector3d acceleration_in(double ahead) const noexcept {
     return acceleration_ + ahead * jerk_;
   }
-  /// Its possible noise [m/s^2], >= 0, from the third differences of the velocities: of the last
-  /// 0.1 s, or of right now. The swings of a hand hardly show in these; an encoder's steps and a
-  /// blow do.
+  /// Its possible noise [m/s^2], >= 0, from the third differences of the velocities: over the last
+  /// 0.1 s, or at this moment. The swings of a hand hardly appear in these differences; an
+  /// encoder's steps and a blow do.
   [[nodiscard]] double doubt() const noexcept { return doubt_; }
 
  private:

@@ -39,7 +39,7 @@ void AudioEncoding::decode(std::span<const std::byte> octets,
 }
 
 const AudioEncoding* audio_encoding(std::uint16_t encoding_scheme) noexcept {
-  // The class of encoded audio is 0, so that the scheme is the type.
+  // The class of encoded audio is 0, so the scheme equals the type.
   const auto* found = std::ranges::find(kEncodings, encoding_scheme, &AudioEncoding::type);
   return found == kEncodings.end() ? nullptr : found;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The audio encodings of Signal PDUs (SISO-REF-010 UID 271) that are decoded here.
+// The supported audio encodings of Signal PDUs (SISO-REF-010 UID 271).
 #pragma once
 
 #include <cstddef>
@@ -25,16 +25,16 @@ struct AudioEncoding {
   std::size_t sample_octets;  ///< 1 or 2
   std::int16_t (*sample)(const std::byte* octets) noexcept;
 
-  /// Replaces `samples` by those of the octets; an incomplete last one is left out.
+  /// Replaces `samples` by the decoded octets; an incomplete last sample is left out.
   void decode(std::span<const std::byte> octets, std::vector<std::int16_t>& samples) const;
 };
 
 /// 8-bit mu-law (1), 16-bit PCM big endian (4) and little endian (100), 8-bit unsigned PCM (5).
 /// @param encoding_scheme of a Signal PDU: class in 2 bits, type in 14
-/// @return null if it is no audio, or of another type
+/// @return null if it is no audio, or an unsupported type
 [[nodiscard]] const AudioEncoding* audio_encoding(std::uint16_t encoding_scheme) noexcept;
 
-/// "8-bit mu-law (ITU-T G.711)"; for what is no audio its class, "Raw Binary Data".
+/// "8-bit mu-law (ITU-T G.711)"; the class if it is no audio: "Raw Binary Data".
 [[nodiscard]] std::string encoding_text(std::uint16_t encoding_scheme);
 
 }  // namespace reckon::tools

@@ -106,7 +106,7 @@ void ExerciseMap::count(const MappedPdu& done) {
   counts_.ids += done.kept_id ? 1 : 0;
 }
 
-// An Entity State Update has the axes of the last Entity State.
+// An Entity State Update uses the axes of the last Entity State.
 bool ExerciseMap::has_body_axes(std::span<const std::byte> octets, const pdu::PduHeader& header) {
   pdu::EntityState state;
   pdu::EntityStateUpdate update;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Moves a recorded exercise: other exercise numbers, other entity IDs, another place on the earth.
-// The PDUs keep their lengths; the field tables tell where IDs and places stand.
+// The PDUs keep their lengths; the field tables locate IDs and places.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace reckon::tools {
 
-/// The user's words.
+/// The options as typed.
 struct ExerciseMapOptions {
   std::vector<std::string> exercises;  ///< "1=7", or "7" for all
   std::vector<std::string> ids;        ///< "1:2:*=9:2:*"
@@ -29,31 +29,30 @@ struct ExerciseMapOptions {
   void declare(CommandLine& line);
 };
 
-/// Numbers of PDUs, by what became of them.
+/// Numbers of PDUs by result.
 struct ExerciseMapCounts {
-  std::uint64_t mapped = 0;    ///< all that the field tables name
-  std::uint64_t octets = 0;    ///< of these, with records that have no field table
+  std::uint64_t mapped = 0;    ///< all fields that the tables name
+  std::uint64_t octets = 0;    ///< of these, with records without a field table
   std::uint64_t places = 0;    ///< of these, with a place that cannot be moved
-  std::uint64_t ids = 0;       ///< of these, with a short ID that the new one does not fit
-  std::uint64_t untabled = 0;  ///< types without a field table: the exercise alone
-  std::uint64_t broken = 0;    ///< damaged or sealed: the exercise at most
+  std::uint64_t ids = 0;       ///< of these, with a short ID that is too small for the new one
+  std::uint64_t untabled = 0;  ///< types without a field table: only the exercise
+  std::uint64_t broken = 0;    ///< damaged or sealed: at most the exercise
 };
 
-/// The map. One thread. Remembers the axes of at most 65,536 entities, for their Entity State
-/// Updates.
+/// The map. One thread. Stores the axes of at most 65,536 entities, for their Entity State Updates.
 class ExerciseMap {
  public:
-  /// @param lenient maps a PDU whose length field is 0, which stays 0, as the rest of its datagram
+  /// @param lenient treats a length field of 0, which stays 0, as the rest of the datagram
   /// @throws UsageError with the word and the remedy.
   explicit ExerciseMap(const ExerciseMapOptions& options, bool lenient = false);
 
   [[nodiscard]] bool is_active() const {
     return maps_exercise_ || !ids_.empty() || request_.has_value();
   }
-  /// Maps all PDUs of a datagram in place. Any octets will do.
+  /// Maps all PDUs of a datagram in place. Accepts any octets.
   void apply(std::span<std::byte> datagram);
   [[nodiscard]] const ExerciseMapCounts& counts() const { return counts_; }
-  /// Lines for the user: what was mapped, and what stayed as it was; empty without a map.
+  /// Lines for the user: mapped and unchanged PDUs; empty without a map.
   [[nodiscard]] std::string summary() const;
 
  private:
@@ -68,7 +67,7 @@ class ExerciseMap {
   bool maps_exercise_ = false;
   IdMap ids_;
   std::optional<ShiftRequest> request_;
-  std::optional<PlaceShift> shift_;  // from the first place on
+  std::optional<PlaceShift> shift_;  // set at the first place
   std::unordered_map<std::uint64_t, bool> body_axes_;
   ExerciseMapCounts counts_;
 };

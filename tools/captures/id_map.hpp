@@ -13,17 +13,17 @@
 
 namespace reckon::tools {
 
-/// A list of rules such as 1:2:*=9:2:*; the first that fits an ID counts.
+/// A list of rules such as 1:2:*=9:2:*; the first rule that matches an ID applies.
 class IdMap {
  public:
   /// @param rules site:application:entity on both sides, each a number or *. @throws UsageError.
   explicit IdMap(const std::vector<std::string>& rules);
 
   [[nodiscard]] bool empty() const { return rules_.empty(); }
-  /// The new ID, or the same. A * stands for any number but that of all sites or applications
-  /// (65535); 0:0:0, which names nobody, is never mapped.
+  /// The new ID, or the same. A * matches any number except 65535 (all sites or applications);
+  /// 0:0:0, the ID of no entity, is never mapped.
   [[nodiscard]] pdu::EntityId operator()(const pdu::EntityId& id) const;
-  /// The same for a simulation, by the rules for all of its entities.
+  /// The same for a simulation, by the rules that cover all of its entities.
   [[nodiscard]] pdu::SimulationAddress operator()(const pdu::SimulationAddress& address) const;
 
  private:

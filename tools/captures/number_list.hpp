@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in a word of the user: "1:2:3", "48.1,11.6".
+// Numbers in a command-line word: "1:2:3", "48.1,11.6".
 #pragma once
 
 #include <charconv>
@@ -21,7 +21,7 @@ namespace reckon::tools {
   }
 }
 
-/// A word that is a number as a whole and fits into its type.
+/// The number, if the whole word is one and fits into its type.
 template <typename Number>
 [[nodiscard]] std::optional<Number> number_of(std::string_view word) {
   Number number{};

@@ -18,7 +18,7 @@ namespace {
 using pdu::Vector3Float;
 using pdu::WorldCoordinates;
 
-/// THE axes of vectors and angles; a name that stands in several PDUs means the same in all.
+/// THE axes of vectors and angles; a field name has the same meaning in all PDUs.
 constexpr auto kAxes = std::to_array<std::pair<std::string_view, VectorAxes>>({
     {"entity_linear_velocity", VectorAxes::model},
     {"entity_linear_acceleration", VectorAxes::model},

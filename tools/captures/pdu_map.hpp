@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Other IDs and another place in the octets of one PDU, found by its field table.
+// Changes IDs and place in the octets of one PDU, using its field table.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,18 @@
 
 namespace reckon::tools {
 
-/// What became of a PDU.
+/// Result for a PDU.
 struct MappedPdu {
   /// none: mapped; else nothing was changed.
   pdu::DecodeError error = pdu::DecodeError::none;
-  bool has_octets = false;  ///< some without fields: vendor records, datums, signals
-  bool kept_place = false;  ///< a place that cannot be moved: live entities, grids
-  bool kept_id = false;     ///< an ID of 8 bits that the new one does not fit
+  bool has_octets = false;  ///< contains octets without fields: vendor records, datums, signals
+  bool kept_place = false;  ///< contains a place that cannot be moved: live entities, grids
+  bool kept_id = false;     ///< contains an 8-bit ID that is too small for the new one
 };
 
-/// Maps a whole PDU in place; its length stays. Not finite places, and 0, 0, 0, stay as they are.
-/// @param shift null: places stay  @param body_axes of the velocity of an Entity State Update
+/// Maps a whole PDU in place; its length stays. Non-finite places and 0, 0, 0 are unchanged.
+/// @param shift null: places stay  @param body_axes whether the velocity of an Entity State Update
+/// is in body axes
 [[nodiscard]] MappedPdu map_pdu(std::span<std::byte> pdu, const pdu::PduHeader& header,
                                 const IdMap& ids, const PlaceShift* shift, bool body_axes);
 
@@ -33,11 +34,11 @@ struct MappedPdu {
 [[nodiscard]] std::optional<Eigen::Vector3d> first_place(std::span<const std::byte> pdu,
                                                          const pdu::PduHeader& header);
 
-/// The axes of a vector by the name of its field; no value for a name that is not known.
+/// Axes of a vector, by the name of its field; no value for an unknown name.
 enum class VectorAxes : std::uint8_t {
   world,    ///< geocentric
   model,    ///< geocentric or body axes, by the dead-reckoning algorithm
-  another,  ///< of an entity, or none: not turned
+  another,  ///< axes of another entity, or none: not rotated
 };
 [[nodiscard]] std::optional<VectorAxes> axes_of(std::string_view field);
 

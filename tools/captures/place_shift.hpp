@@ -10,8 +10,8 @@
 
 namespace reckon::tools {
 
-/// A rigid motion of the earth: what lay about one point lies about another, as far from it, with
-/// the same bearing from north there and the same height above it.
+/// A rigid motion of the earth that moves the surroundings of one point to another point.
+/// Distances, heights above the point and bearings from local north stay the same.
 class PlaceShift {
  public:
   PlaceShift(const deadreckon::LocalFrame& from, const deadreckon::LocalFrame& to)
@@ -39,17 +39,17 @@ class PlaceShift {
   deadreckon::LocalFrame to_;
 };
 
-/// The user's word for a shift: "48.14,11.58=34.05,-118.24", or only where to.
+/// A shift as typed: "48.14,11.58=34.05,-118.24", or only the destination.
 class ShiftRequest {
  public:
   /// @param text LATITUDE,LONGITUDE[,HEIGHT] in degrees and metres, once or FROM=TO.
   /// @throws UsageError.
   explicit ShiftRequest(const std::string& text);
 
-  /// The shift, where the user has named both points.
+  /// The shift, if the user gave both points.
   [[nodiscard]] std::optional<PlaceShift> shift() const;
-  /// The shift that brings a geocentric point [m], finite, to the named one. Without a height the
-  /// point keeps its own.
+  /// The shift that moves a geocentric point [m], finite, to the given destination. Without a
+  /// height in the option, the point keeps its height.
   [[nodiscard]] PlaceShift shift_from(const Eigen::Vector3d& point) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The fields of a PDU with their places: what its field table names, and the octet where it stands.
+// Visits the fields of a PDU with their offsets, by its field table.
 #pragma once
 
 #include <cstddef>
@@ -81,7 +81,7 @@ class PlacedFields {
   }
 
  private:
-  /// An empty view that points elsewhere counts as the present offset.
+  /// An empty view that points elsewhere has the present offset.
   [[nodiscard]] std::size_t offset_of(Octets part) const {
     const std::less_equal<> before;
     const bool inside =

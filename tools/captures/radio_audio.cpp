@@ -36,7 +36,7 @@ void RadioAudio::take(const PduRow& row) {
   place(row);
 }
 
-// Begins the file with the first PDU, and compares the others to that.
+// Creates the file with the first PDU, and compares the others with that PDU.
 void RadioAudio::check_stream(const PduRow& row, const pdu::Signal& signal) {
   const std::string radio = radios_.begin()->first.text();
   if (signal.sample_rate == 0 || signal.sample_rate > kMostRate)
@@ -58,7 +58,7 @@ void RadioAudio::check_stream(const PduRow& row, const pdu::Signal& signal) {
       other_rate ? "sample_rate" : "encoding_scheme", other_rate ? rate_ : encoding_scheme_));
 }
 
-// Times of capture jitter, so that a PDU that is late by less than half its length follows at once.
+// Capture times jitter, so a PDU that is late by less than half its length follows without a gap.
 void RadioAudio::place(const PduRow& row) {
   std::span<const std::int16_t> samples = samples_;
   const auto count = static_cast<long long>(samples.size());

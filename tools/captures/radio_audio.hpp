@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sound of a radio from its Signal PDUs, by their times of capture.
+// The sound of a radio from its Signal PDUs, by their capture times.
 #pragma once
 
 #include <chrono>
@@ -21,9 +21,9 @@
 
 namespace reckon::tools {
 
-/// Writes the sound of one radio to a WAV file, which is made with the first sample. Where nothing
-/// was captured there is silence. PDUs that come early follow each other, up to kMostAhead; what
-/// overlaps by more is left out.
+/// Writes the sound of one radio to a WAV file, which is created with the first sample. Gaps of the
+/// capture become silence. Early PDUs are appended, up to kMostAhead; samples that overlap by more
+/// are dropped.
 class RadioAudio {
  public:
   static constexpr std::chrono::nanoseconds kMostAhead = std::chrono::milliseconds(250);
@@ -31,8 +31,8 @@ class RadioAudio {
 
   RadioAudio(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {}
 
-  /// Takes a PDU; one that is no Signal PDU does nothing.
-  /// @throws UsageError with the frame where rate or encoding change, or the file gets too long
+  /// Takes a PDU; ignores PDUs other than Signal.
+  /// @throws UsageError with the frame if rate or encoding change, or the file gets too long
   void take(const PduRow& row);
   /// Completes the file. @throws UsageError with the radios and the remedy if there are several.
   void finish();
@@ -57,7 +57,7 @@ class RadioAudio {
   std::string path_;
   bool overwrite_;
   std::optional<WaveFile> file_;
-  std::map<Radio, std::uint64_t> radios_;          // with their Signal PDUs
+  std::map<Radio, std::uint64_t> radios_;          // number of their Signal PDUs
   std::map<std::uint16_t, std::uint64_t> others_;  // Signal PDUs by a scheme that is not decoded
   // Of the file.
   std::chrono::nanoseconds begin_{0};

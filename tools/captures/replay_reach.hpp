@@ -15,14 +15,14 @@ namespace reckon::tools {
 
 /// Word of `--iface` for the interface that the capture names.
 inline constexpr std::string_view kRecorded = "recorded";
-/// The interface that captured the datagram at hand.
+/// The interface that captured the present datagram.
 /// @throws UsageError if the capture does not name it, or it is not on this host.
 [[nodiscard]] std::string recorded_interface(const peer::DatagramSource& source);
 
 /// Destinations of a replay.
 class ReplayReach {
  public:
-  /// Destinations that are counted; with more, the text says "at least".
+  /// Limit of counted destinations; with more, the text says "at least".
   static constexpr std::size_t kMost = 1000;
 
   void note(const peer::IpEndpoint& to) {

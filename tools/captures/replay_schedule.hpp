@@ -20,7 +20,7 @@ class ReplaySchedule {
 
   /// Sets the next datagram of the lap, recorded at `time`; the very first one is due at start.
   void next(nanoseconds time);
-  /// Whether that datagram lies before the target of a jump, and is not to be sent.
+  /// Whether that datagram comes before the target of a jump, and is not to be sent.
   [[nodiscard]] bool is_skipped() const { return at_ < sought_; }
   /// Steady time at which that datagram is due. Not to be called while paused.
   [[nodiscard]] nanoseconds due() const;
@@ -36,7 +36,8 @@ class ReplaySchedule {
   void set_rate(double rate, nanoseconds now);
   [[nodiscard]] double rate() const { return rate_; }
   /// Jumps by `step` within the lap, at most back to its beginning. Returns true if the capture
-  /// must be read from its beginning again. A place after its end is the beginning of the next lap.
+  /// must be read from its beginning again. A place after the end of the lap means the beginning of
+  /// the next lap.
   [[nodiscard]] bool seek(nanoseconds step, nanoseconds now);
 
   /// Position of the replay within the lap.

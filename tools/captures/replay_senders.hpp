@@ -38,7 +38,7 @@ struct LocalNetwork {
     const peer::IpEndpoint& to, std::span<const LocalNetwork> networks);
 
 /// The sockets of a replay: one for each address family, opened on demand. The kernel fragments
-/// what is above the MTU.
+/// datagrams above the MTU.
 class ReplaySenders {
  public:
   ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)

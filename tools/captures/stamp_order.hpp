@@ -14,8 +14,8 @@
 
 namespace reckon::tools {
 
-/// Holds each datagram until one that is kHold younger has come, kMost of them at most. Datagrams
-/// of one time keep their order. One thread; copies the octets.
+/// Holds each datagram until one that is kHold younger has arrived; holds at most kMost. Datagrams
+/// with equal times keep their order. One thread; copies the octets.
 class StampOrder {
  public:
   static constexpr std::chrono::nanoseconds kHold = std::chrono::milliseconds(200);
@@ -26,7 +26,7 @@ class StampOrder {
       : write_(std::move(write)) {}
 
   void add(const peer::SourceDatagram& datagram);
-  /// No older datagram will come: writes all.
+  /// Writes all; call it when no older datagram can arrive.
   void flush();
   [[nodiscard]] std::size_t held() const noexcept { return heap_.size(); }
 

@@ -23,7 +23,7 @@ namespace {
 using std::chrono::nanoseconds;
 using Align = TextTable::Align;
 
-/// Greatest number of rows in the tables as text; JSON has all.
+/// Greatest number of rows in text tables; JSON has all.
 constexpr std::size_t kMaxRows = 20;
 constexpr std::int64_t kSecond = 1'000'000'000;
 

@@ -13,7 +13,7 @@
 namespace reckon::tools {
 namespace {
 
-// As in the file.
+// Layout of the file.
 struct WaveHeader {
   std::array<char, 4> riff{'R', 'I', 'F', 'F'};
   std::uint32_t octets_behind;

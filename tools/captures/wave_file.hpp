@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A WAV file of sound.
+// Writes sound to a WAV file.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace reckon::tools {
 
-/// A WAV file in progress: PCM of 16 bits, one channel. One that is not finished is removed.
+/// A WAV file in progress: PCM of 16 bits, one channel. An unfinished file is removed.
 class WaveFile {
  public:
   static constexpr std::size_t kHeader = 44;  ///< [octets] before the samples
-  /// Of a file, whose lengths have 32 bits.
+  /// Limit by the 32-bit lengths of the format.
   static constexpr std::uint64_t kMostSamples = (0xFFFFFFFFU - (kHeader - 8)) / 2;
 
   /// Creates the file. @throws UsageError if that fails, or it exists and may not be overwritten.
@@ -26,7 +26,7 @@ class WaveFile {
   WaveFile(const WaveFile&) = delete;
   WaveFile& operator=(const WaveFile&) = delete;
 
-  /// Appends zeros, which take no room on most disks, and samples behind them; kMostSamples in all.
+  /// Appends zeros, which take no room on most disks, and then samples; kMostSamples in all.
   /// @throws EnvironmentError on a full disk
   void write(std::uint64_t silence, std::span<const std::int16_t> samples);
   /// Completes the file. @throws EnvironmentError on a full disk

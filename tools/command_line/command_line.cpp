@@ -37,7 +37,7 @@ std::uint64_t count_value(const std::string& name, const std::string& text) {
   throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
 }
 
-/// Accepts only one of the words; their list is its name in the help.
+/// Accepts only one of the words; help shows their list as the value's name.
 CLI::Validator one_of(const std::vector<std::string>& words) {
   const auto check = [words](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -91,7 +91,7 @@ struct CommandLine::Parser {
   std::string summary;
   std::vector<std::string> examples;
   std::map<std::string, std::vector<std::string>> choices;  // by option name
-  std::map<std::string, std::vector<std::string>> offered;  // likewise, by completion alone
+  std::map<std::string, std::vector<std::string>> offered;  // the same, only for completion
   std::map<std::size_t, std::string> owners;  // owners, by the number of their first option
 
   Parser(std::string_view verb_, std::string_view summary_)

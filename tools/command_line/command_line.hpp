@@ -36,7 +36,7 @@ class CommandLine {
 
   /// A switch: "--json" or "-j,--json".
   void flag(const std::string& name, bool& target, const std::string& help);
-  /// A switch that may have a value behind "=": --view or --view=9000; "true" where it has none.
+  /// A switch that may have a value behind "=": --view or --view=9000; "true" if it has none.
   void flag(const std::string& name, std::string& target, const std::string& help);
 
   /// Options with a value. Durations have a unit ("10s", "5 ms"; without one: seconds). A number
@@ -57,7 +57,7 @@ class CommandLine {
   void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
               const std::string& help);
 
-  /// Values that completion offers for an option or a word, which may be others too.
+  /// Values that completion offers for an option or a word; others are accepted too.
   /// @param values names with commas or blanks between them, or kInterfaces
   void offer(const std::string& name, std::string_view values);
 
@@ -85,7 +85,7 @@ class CommandLine {
   std::unique_ptr<Parser> parser_;
 };
 
-/// Instead of values to offer: the network interfaces that the host has then.
+/// Offers the network interfaces of the host, determined at completion, instead of fixed values.
 inline constexpr std::string_view kInterfaces = "@interfaces";
 
 /// Flag that makes a verb list its flags and words on out, one a line followed by its choices, for

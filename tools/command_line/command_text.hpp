@@ -12,7 +12,7 @@
 
 namespace reckon::tools {
 
-/// "reckon VERB WORDS", quoted where a shell needs it.
+/// "reckon VERB WORDS", quoted if a shell needs it.
 [[nodiscard]] inline std::string command_text(std::string_view verb, Arguments arguments) {
   std::string text = fmt::format("reckon {}", verb);
   for (const std::string_view word : arguments) {

@@ -54,7 +54,7 @@ struct Verb {
   /// EnvironmentError, std::system_error (reported as an environment fault); anything else is
   /// reported as internal.
   std::function<int(Arguments arguments, const Console& console)> run;
-  std::string_view program = {};  ///< That the verb is part of and `run` starts; empty: this one.
+  std::string_view program = {};  ///< Program of the verb, which `run` starts; empty: this one.
 };
 
 /// Wrong usage or an unreadable file: reported on stderr, exit 2. The text names the value and the

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// pcap in either order of octets and with either clock, pcapng, and what compresses them.
+// pcap in both byte orders and with both time resolutions, pcapng, and their compressed forms.
 constexpr std::array kCaptureHeads{
     "\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\xc3\xd4"sv,         "\x4d\x3c\xb2\xa1"sv,
     "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv,         "\x28\xb5\x2f\xfd"sv,

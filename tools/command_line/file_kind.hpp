@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a file is: by its content, and where that does not tell, by its name.
+// Determines the kind of a file: by its content, else by its name.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace reckon::tools {
 /// Kinds of files that verbs take.
 enum class FileKind : std::uint8_t { unknown, capture, scene, mesh, key, table };
 
-/// By its first octets if they tell, else by the end of its name. Unknown too if it cannot be read.
+/// By its first octets if they are characteristic, else by the end of its name. Unknown if it
+/// cannot be read.
 [[nodiscard]] FileKind kind_of_file(const std::string& path);
 
 }  // namespace reckon::tools

@@ -23,7 +23,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Words in short lines. Each sentence begins a line, as is usual in man pages.
+/// Fills words into short lines. Each sentence begins a line, as is usual in man pages.
 std::string filled(std::string_view text) {
   std::string out;
   std::size_t column = 0;

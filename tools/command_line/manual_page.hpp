@@ -24,19 +24,19 @@ struct ManualEntry {
 /// Description of a verb.
 struct ManualSection {
   std::string verb;
-  std::string summary;   ///< lines that begin with a space stay lines
+  std::string summary;   ///< lines that begin with a space are not filled
   std::string synopsis;  ///< "[SOURCE] [VIEW] [FLAGS]"
   std::vector<ManualEntry> entries;
   std::vector<std::string> examples;  ///< one command each
 };
 
-/// The text with all characters escaped that roff takes for commands.
+/// Escapes all characters that are special in roff.
 [[nodiscard]] std::string roff_text(std::string_view text);
 
 /// Writes one subsection of the page.
 void print_manual_section(const ManualSection& section, std::FILE* out);
 
-/// Writes the whole page in the macros of man(7). Gets the section from each verb.
+/// Writes the whole page in the macros of man(7). Requests the section of each verb.
 void print_manual_page(std::span<const Verb> verbs, std::FILE* out);
 
 }  // namespace reckon::tools

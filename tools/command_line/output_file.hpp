@@ -10,8 +10,8 @@
 namespace reckon::tools {
 
 /// Checks that the file can be written. Call it before a long computation, so that the result is
-/// not lost at the end. A file that is not there yet is not there afterwards. An empty path means
-/// no file and passes. @throws UsageError with the path and the remedy.
+/// not lost at the end. Does not leave a new file behind. An empty path means no file and passes.
+/// @throws UsageError with the path and the remedy.
 void check_writable(const std::string& path);
 
 /// Writes the text to the file and replaces an existing file. @throws UsageError.

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the program as installed, then in the sources.
+/// The folder of the installed program, then the source folder.
 std::vector<fs::path> folders() {
   std::vector<fs::path> places;
   std::error_code error;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the scenes that come with Reckon lie.
+// Finds the scenes shipped with Reckon.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace reckon::tools {
 
-/// `given` as it is, or, where it is empty, the shipped scene `fallback`: beside the sources it was
-/// built from, else in share/reckon/scenes of the installation. @throws UsageError naming the
-/// places looked at.
+/// `given` unchanged, or, if it is empty, the shipped scene `fallback`: in share/reckon/scenes
+/// of the installation, else in the sources of the build. @throws UsageError with the searched
+/// folders.
 [[nodiscard]] std::filesystem::path scene_path(const std::string& given, std::string_view fallback);
 
-/// The words with the path of a file that comes with Reckon in the place of "scenes/FILE", where
-/// the working folder has no scenes/: what the docs say works from the packages too.
+/// The words, with "scenes/FILE" replaced by the path of the shipped file if the working folder has
+/// no scenes/: so commands from the docs also work with installed packages.
 [[nodiscard]] std::vector<std::string> with_shipped_scenes(
     std::span<const std::string_view> arguments);
 

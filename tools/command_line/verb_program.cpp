@@ -86,8 +86,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
 
-// Ctrl-C, SIGTERM and a closed terminal end a verb in good order, and a second signal ends it at
-// once. A closed pipe shows as a write error.
+// Ctrl-C, SIGTERM and a closed terminal end a verb in an orderly way; a second signal ends it at
+// once. A closed pipe causes a write error.
 void take_signals() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
@@ -159,9 +159,9 @@ int run_verb_program(const VerbProgram& program, Arguments arguments,
   } catch (const EnvironmentError& error) {
     return report_error(console, arguments, error, ExitCode::environment);
   } catch (const std::system_error& error) {
-    // The reader is gone, as after `| head`: this is no error.
+    // The reader has closed the pipe, as with `| head`: this is no error.
     if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
-    // Ctrl-C while a slow reader kept the output waiting.
+    // Ctrl-C while a slow reader blocked the output.
     const bool asked = console.stop != nullptr && console.stop->load(std::memory_order_relaxed);
     if (asked && error.code() == std::errc::interrupted) return exit_status(ExitCode::good);
     if (std::ferror(console.out) != 0)

@@ -17,7 +17,7 @@ struct VerbProgram {
   std::string_view name;   ///< as typed
   std::string_view title;  ///< first line of the overview
   std::span<const Verb> verbs;
-  /// Runs words of which the first is no verb, or returns nothing if it cannot; null: never.
+  /// Runs words that do not begin with a verb, or returns nothing if it cannot; null: never.
   std::function<std::optional<int>(Arguments arguments, const Console& console)> run_other = {};
   /// Runs a verb; null: calls its `run`.
   int (*around)(const Verb& verb, Arguments arguments, const Console& console) = nullptr;

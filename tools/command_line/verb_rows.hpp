@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of verbs, in the order of help, and the program that each is part of. `reckon` starts
-// these programs, as git does with its own.
+// THE list of verbs, in the order of help, and the program of each. `reckon` starts these programs,
+// as git does with its own.
 #pragma once
 
 #include <algorithm>

@@ -20,7 +20,7 @@ namespace {
 
 using pdu::DecodeError;
 
-/// Greatest number of records of varying size that are counted to name the faulty one; an Attribute
+/// Greatest number of variable-size records that are counted to name the faulty one; an Attribute
 /// PDU has fewer.
 constexpr std::size_t kMostRecords = 65535;
 constexpr std::size_t kLengthFieldAt = 8;
@@ -74,8 +74,8 @@ class FaultFinder {
       at_ += whole.size;
       return;
     }
-    // The records before the fault are those that can be walked. They are found by bisection,
-    // because a datagram may have thousands and each walk starts at the first.
+    // The good records are those before the fault. Bisection finds their number, because a datagram
+    // may have thousands of records and each walk starts at the first.
     std::size_t good = 0;
     std::size_t bad = std::min<std::size_t>(view.count, kMostRecords);
     while (good + 1 < bad) {
@@ -107,7 +107,7 @@ class FaultFinder {
     const pdu::WalkResult whole = View::walk(view.count, all);
     at_ += whole.size;
     if (whole.error == DecodeError::none) return;
-    // At most as many records as octets. The one that does not fit ends the loop.
+    // A record has at least one octet. The record that does not fit ends the loop.
     pdu::SizedRecordCursor<typename View::Head> cursor(all.size(), all);
     std::size_t number = 1;
     for (pdu::SizedRecord<typename View::Head> record; cursor.next(record);) ++number;
@@ -273,7 +273,8 @@ bool has_exchanged_length(std::span<const std::byte> octets, const pdu::PduHeade
   if (!leads_nowhere || octets.size() < pdu::kHeaderSize || length > octets.size() ||
       length < least_length(header.pdu_type, pdu::PduTypes{}))
     return false;
-  // It leads to the end of the datagram, or to the next PDU of the same version and exercise.
+  // With the exchanged length, the end of the datagram follows, or a PDU of the same version and
+  // exercise.
   const auto next = octets.subspan(length);
   return next.empty() ||
          (next.size() >= pdu::kHeaderSize && next[0] == octets[0] && next[1] == octets[1]);

@@ -27,12 +27,12 @@ struct PduFault {
 [[nodiscard]] PduFault explain_fault(std::span<const std::byte> octets,
                                      const pdu::PduHeader& header, pdu::DecodeError error);
 
-/// E-LENGTH of a PDU that is taken to be all of `octets`, whatever its length field says.
+/// E-LENGTH for a PDU that fills all of `octets`, ignoring its length field.
 [[nodiscard]] PduFault explain_shortness(std::span<const std::byte> octets,
                                          const pdu::PduHeader& header);
 
-/// Whether a length field that leads nowhere is right with its two octets exchanged, as a sender
-/// writes it that is little-endian. `error` and `octets` as in explain_fault().
+/// Whether an invalid length field is valid with its two octets exchanged, as a little-endian
+/// sender writes it. `error` and `octets` as in explain_fault().
 [[nodiscard]] bool has_exchanged_length(std::span<const std::byte> octets,
                                         const pdu::PduHeader& header, pdu::DecodeError error);
 

@@ -28,7 +28,7 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-/// Hexadecimal digits, two an octet.
+/// Hexadecimal digits, two per octet.
 std::string hex_of(std::span<const std::byte> octets) {
   std::string text;
   for (const std::byte octet : octets)

@@ -16,14 +16,14 @@
 
 namespace reckon::tools {
 
-/// It holds if it does for any value of the field in the PDU. A number is compared with numbers (in
-/// the precision of the field) and, as it was typed, with text and hexadecimal octets; a word with
-/// the names of numbers, with text (* stands for any letters) and with octets; 1:2:3 with IDs.
+/// True if it is true for any value of the field in the PDU. A number is compared with numbers (in
+/// the precision of the field) and, as typed, with text and hexadecimal octets. A word is compared
+/// with the names of numbers, with text (* matches any letters) and with octets; 1:2:3 with IDs.
 class FieldComparison {
  public:
   FieldComparison(pdu::FieldPath path, FilterOperator op, std::string_view value);
 
-  /// The reason why the value does not fit to the field; empty if it does.
+  /// The reason why the value does not suit the field; empty if it does.
   [[nodiscard]] std::string misfit() const;
 
   [[nodiscard]] bool holds(const PduRow& row) const;
@@ -37,7 +37,7 @@ class FieldComparison {
   pdu::FieldPath path_;
   FilterOperator op_;
   std::string text_;                   // in lower case
-  std::optional<long double> number_;  // exact where it is whole
+  std::optional<long double> number_;  // exact for whole numbers
   double real_ = 0;
   float single_ = 0;
   std::array<std::optional<std::uint16_t>, 3> id_;

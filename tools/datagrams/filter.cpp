@@ -20,7 +20,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Entity fields can be named by their last word too: kind for entity.kind.
+/// Entity fields can also be named by their last word: kind for entity.kind.
 std::string_view short_name(std::string_view name) {
   constexpr std::string_view kEntity = "entity.";
   return name.starts_with(kEntity) ? name.substr(kEntity.size()) : name;
@@ -35,7 +35,7 @@ std::string_view end_of_path(std::string_view path, std::string_view typed) {
   return at == path.npos ? path : path.substr(at + 1);
 }
 
-/// The field of the field tables that is nearest to a mistyped one; empty if none is near.
+/// The field of the field tables nearest to a mistyped one; empty if none is near.
 std::string nearest_table_field(std::string_view typed) {
   WordSearch search(typed);
   for (unsigned number = 0; number < 256; ++number) {
@@ -179,7 +179,8 @@ class FilterParser {
     filter_.comparisons_.push_back(std::move(comparison));
     return add(Kind::comparison, filter_.comparisons_.size() - 1);
   }
-  /// The row of the list with this name: `type` is that of the PDU, not short for entity.type.
+  /// The row of the list with this name: `type` is the PDU type, not an abbreviation of
+  /// entity.type.
   [[nodiscard]] static std::optional<std::size_t> row_named(std::string_view typed) {
     const auto rows = filter_fields();
     auto row = std::ranges::find(rows, typed, &FilterField::name);
@@ -302,7 +303,7 @@ class FilterParser {
     fail(token_.at, fmt::format("{} has no value '{}'{}", field.name, token_.text,
                                 suggestion(nearest, fmt::format("; it is {}", field.meaning))));
   }
-  /// Text; where the field has a list of values, it is like one of them.
+  /// Text; if the field has a list of values, it must match one of them.
   [[nodiscard]] std::string text_value(const FilterField& field) const {
     std::string typed = lower(token_.text);
     if (field.value_name == nullptr) return typed;

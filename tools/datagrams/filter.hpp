@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then evaluated
-// for each PDU. Its fields are THE list in filter_fields.cpp, where a new one is one row, and then
+// for each PDU. Its fields are the list in filter_fields.cpp, where a new one is one row, and then
 // all fields of the field tables: "frequency > 2e8", "systems.beams.beam_function == search".
 #pragma once
 
@@ -37,7 +37,7 @@ struct FilterSubject {
 };
 
 /// A compiled filter. A comparison with a field that the PDU lacks is false for every operator.
-/// Compressed States match if one of their states does, which has the fields of the PDU too. Any
+/// Compressed States match if one of their states does; a state also has the fields of the PDU. Any
 /// thread; a match allocates only for text and octets.
 class Filter {
  public:
@@ -64,7 +64,7 @@ class Filter {
     double number = 0;
     IdPattern id;
     TypePattern type;
-    std::string text;  ///< in lower case; * stands for any letters
+    std::string text;  ///< in lower case; * matches any letters
   };
 
  private:
@@ -89,7 +89,7 @@ class Filter {
 /// ...".
 [[nodiscard]] std::string filter_fields_text();
 
-/// The fields of the field tables, a line each, of one PDU type: as --full has them.
+/// The fields of one PDU type in the field tables, one per line, named as in --full.
 /// @throws UsageError for a word that is no PDU type.
 [[nodiscard]] std::string table_fields_text(std::string_view type);
 

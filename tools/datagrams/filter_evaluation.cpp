@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether a PDU matches a compiled filter.
+// Evaluates a compiled filter for a PDU.
 #include <algorithm>
 
 #include "reckon/tools/datagrams/filter.hpp"

@@ -34,7 +34,7 @@ template <pdu::SisoTable table>
 std::string_view listed_name(unsigned value) {
   return pdu::siso_name(table, value);
 }
-constexpr unsigned kCountries = 1024;  // values with names are below it
+constexpr unsigned kCountries = 1024;  // greater than all named values
 
 std::string type_in_words(const pdu::EntityType& type) {
   std::string words;
@@ -51,7 +51,7 @@ std::string_view status_name(unsigned value) {
   return value < 4 ? name(static_cast<PduStatus>(value)) : "";
 }
 
-/// The rules that a row may have.
+/// The rules that can occur in a row.
 constexpr std::array kOtherRules{kForeignRule,     kNoLengthRule,  kTrailingRule,
                                  kTrailingWarning, kByteOrderRule, std::string_view("E-FRAGMENT")};
 constexpr unsigned kRules = static_cast<unsigned>(pdu::DecodeError::not_finite) + 1;

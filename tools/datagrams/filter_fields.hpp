@@ -22,10 +22,11 @@ struct FilterField {
   std::string_view meaning;
   ValueKind kind;
   std::optional<double> (*number)(const FilterSubject&) = nullptr;  ///< number and name
-  std::string_view (*value_name)(unsigned) = nullptr;  ///< name, text with a list: of each value
+  std::string_view (*value_name)(unsigned) = nullptr;  ///< name, or text with a list: name of each
+                                                       ///< value
   std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text
   std::string_view (*short_name)(unsigned) = nullptr;  ///< name: an accepted alternative
-  unsigned values = 256;  ///< name, text: from here on there are no more
+  unsigned values = 256;                               ///< name, text: number of possible values
 };
 
 [[nodiscard]] std::span<const FilterField> filter_fields();

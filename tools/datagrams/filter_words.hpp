@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the comparisons of a filter have in common: operators, and words of any spelling.
+// Common parts of filter comparisons: operators, and words of any spelling.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace reckon::tools {
 
 enum class FilterOperator : std::uint8_t { equal, unequal, less, at_most, greater, at_least };
 
-/// Whether `value` stands in this relation to `number`; a NaN is unequal to all.
+/// Whether `value` is in this relation to `number`; a NaN is unequal to all.
 template <typename Number>
 [[nodiscard]] bool holds(Number value, FilterOperator op, Number number) {
   switch (op) {
@@ -37,7 +37,7 @@ template <typename Number>
 /// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
 [[nodiscard]] std::string word_of(std::string_view name);
 
-/// Looks for a typed word among words that come one at a time, as there may be hundreds.
+/// Searches for a typed word among words that are passed one at a time, as there may be hundreds.
 class WordSearch {
  public:
   explicit WordSearch(std::string_view typed) : typed_(typed) {}
@@ -54,10 +54,10 @@ class WordSearch {
   bool is_found_ = false;
 };
 
-/// "; did you mean 'platform'?", or something else where nothing is near.
+/// "; did you mean 'platform'?", or `otherwise` if no word is near.
 [[nodiscard]] std::string suggestion(std::string_view nearest, std::string_view otherwise = {});
 
-/// Whether `text` matches `pattern`, in which * stands for any letters. Linear, except for the
+/// Whether `text` matches `pattern`, in which * matches any letters. Linear time, except for the
 /// stars.
 [[nodiscard]] bool is_like(std::string_view text, std::string_view pattern);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a PDU is: the first position among its fields.
+// Location of a PDU: the first position among its fields.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace reckon::tools {
 
-/// The first position in W among the fields of a decoded PDU, in wire order; nothing in a PDU that
-/// has none.
+/// The first position in W among the fields of a decoded PDU, in wire order; nothing if it has
+/// none.
 [[nodiscard]] std::optional<pdu::WorldCoordinates> first_location(const PduRow& row);
 
 }  // namespace reckon::tools

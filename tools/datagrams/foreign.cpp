@@ -26,7 +26,7 @@ constexpr std::array kKnownPorts{
     KnownPort{514, "syslog"}, KnownPort{1900, "SSDP"},   KnownPort{3702, "WS-Discovery"},
     KnownPort{5353, "mDNS"},  KnownPort{5355, "LLMNR"}};
 
-/// Whether the standard, or this project, has a PDU of this type in this family.
+/// Whether the standard, or this project, defines this PDU type in this family.
 template <typename... T>
 bool is_type_of_family(const pdu::PduHeader& header, pdu::TypeList<T...>) {
   return ((T::kPduType == header.pdu_type && T::kProtocolFamily == header.protocol_family) || ...);
@@ -38,7 +38,7 @@ bool is_foreign(const peer::SourceDatagram& datagram, const pdu::BundledPdu& fir
   if (datagram.portion != peer::Portion::whole || first.bytes.empty()) return false;
   const auto version = std::to_integer<unsigned>(first.bytes[0]);
   const bool is_version = version >= kOldestDis && version <= pdu::kProtocolVersion;
-  // A header that is cut off tells too little.
+  // A truncated header has too little information.
   if (first.bytes.size() < pdu::kHeaderSize) return !is_version;
   const bool is_credible = first.header.length == first.bytes.size() && first.header.length > 0;
   if (is_credible) return false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams of other protocols among those of DIS: DNS, mDNS, NTP, SSDP and whatever else uses UDP.
+// Detects datagrams of other protocols: DNS, mDNS, NTP, SSDP and others that use UDP.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace reckon::tools {
 
-/// The rule that marks a datagram of another protocol: a note, as nothing is wrong with it.
+/// The rule for a datagram of another protocol: a note, as it is no fault.
 inline constexpr std::string_view kForeignRule = "I-FOREIGN";
 
-/// Whether a whole datagram is no DIS of any version, by its first PDU: its length leads to no end
-/// of a PDU, and either the protocol version is none of 1 to 7, or the PDU type has no name or
-/// another protocol family. A damaged PDU whose version, type and family fit stays one.
+/// Whether a whole datagram is no DIS of any version, judged by its first PDU: its length is wrong,
+/// and either the protocol version is none of 1 to 7, or the PDU type is unknown or of another
+/// protocol family. A damaged PDU with plausible version, type and family counts as DIS.
 [[nodiscard]] bool is_foreign(const peer::SourceDatagram& datagram, const pdu::BundledPdu& first);
 
 /// "no PDU of any version of DIS in 64 octets; port 5353 is mDNS's".

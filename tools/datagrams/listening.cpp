@@ -32,7 +32,7 @@ bool holds(const Places& places, const IpEndpoint& place) {
   return std::find(places.begin(), places.end(), place) != places.end();
 }
 
-/// Whether the datagram begins like a PDU: a version of DIS, and a length that fits.
+/// Whether the datagram begins like a PDU: a DIS version, and a plausible length.
 bool begins_with_pdu(std::span<const std::byte> bytes) {
   pdu::PduHeader header;
   return decode_header(bytes, header) == pdu::DecodeError::none && header.length <= bytes.size();
@@ -73,7 +73,7 @@ Places other_places(const Places& own, bool own_too, const Places& bound, std::s
   };
   const IpEndpoint& first = own.front();
   if (own_too) add(first);
-  // The groups behind a base carry nothing that its presence does not announce.
+  // Peers that send in the groups after a base also announce themselves in the base group.
   const peer::GroupPool plain =
       first.is_v6 ? peer::GroupPool::ipv6_default() : peer::GroupPool::ipv4_default();
   const peer::GroupPool sealed(peer::sealed_group(plain.base()), plain.size());
@@ -126,7 +126,7 @@ void SilenceWatch::begin(const peer::SourceReport& report, std::vector<std::stri
   try {
     elsewhere_ = peer::open_groups({.interface = {}, .groups = places_, .skips_failures = true});
   } catch (const std::runtime_error&) {
-    over_ = true;  // no interface at all: the source has said so
+    over_ = true;  // no interface at all: the source has reported it
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tells the user where a live source listens, over which interfaces it has heard something, and,
-// while it hears nothing, what else is heard on this host.
+// Reports to the user where a live source listens, which interfaces receive datagrams, and, while
+// none arrive, which other DIS traffic this host receives.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@ namespace reckon::tools {
 [[nodiscard]] std::string listening_text(const SourceChoice& choice,
                                          const peer::SourceReport& report);
 
-/// "heard on lo: 391 datagrams, eth0: none; 12 datagrams came over another interface too", and
-/// what cannot be heard, as lines; empty if the source is not groups.
+/// "heard on lo: 391 datagrams, eth0: none; 12 datagrams came over another interface too", and what
+/// cannot be received, as lines; empty if the source is not groups.
 [[nodiscard]] std::string heard_text(const peer::SourceReport& report);
 
 /// Watches a source of groups that may be silent. After kPatience of silence from the start it
-/// states where the source listens and tries kMostPlaces other places of this host: the broadcast
-/// addresses and the default groups, on every interface, the groups that other programs of this
-/// host listen to, and the source's own group on the interfaces that it leaves out. What is heard
-/// there is stated once for each place; after kTried without any, that is stated. One thread.
+/// reports where the source listens and tries kMostPlaces other places of this host: the broadcast
+/// addresses and the default groups, on every interface, the groups of other programs of this host,
+/// and the source's own group on the interfaces that it leaves out. DIS traffic found there is
+/// reported once for each place; after kTried without any, its absence is reported. One thread.
 class SilenceWatch {
  public:
   using nanoseconds = std::chrono::nanoseconds;
@@ -39,8 +39,8 @@ class SilenceWatch {
   /// @param choice outlives this  @param start steady
   SilenceWatch(const SourceChoice& choice, nanoseconds start) : choice_(choice), start_(start) {}
 
-  /// Sentences for the user, mostly none. Cheap once something was heard. Call it several times a
-  /// second.  @param now of the same clock as the start
+  /// Sentences for the user, mostly none. Cheap once a datagram was received. Call it several times
+  /// a second.  @param now of the same clock as the start
   [[nodiscard]] std::vector<std::string> look(const peer::SourceReport& report, nanoseconds now);
 
  private:
@@ -49,14 +49,15 @@ class SilenceWatch {
 
   const SourceChoice& choice_;
   nanoseconds start_;
-  bool over_ = false;  // something was heard, or all is said
+  bool over_ = false;  // a datagram was received, or all is reported
   bool begun_ = false;
   std::unique_ptr<peer::DatagramSource> elsewhere_;
   std::vector<peer::IpEndpoint> own_;              // of the source
-  std::vector<peer::IpEndpoint> places_, stated_;  // that are tried, and at which DIS is heard
+  std::vector<peer::IpEndpoint> places_, stated_;  // tried places, and the ones with DIS traffic
 };
 
-/// Places that SilenceWatch tries: at most `most`, none of them twice.  @param own of the source
+/// Places that SilenceWatch tries: at most `most`, without duplicates.
+/// @param own of the source
 /// @param own_too the source leaves interfaces out, so its first place is tried on all
 /// @param bound endpoints of this host's programs
 [[nodiscard]] std::vector<peer::IpEndpoint> other_places(const std::vector<peer::IpEndpoint>& own,

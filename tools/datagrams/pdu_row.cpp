@@ -44,7 +44,7 @@ class FirstId : public pdu::FixedFields {
   bool is_live_ = false;
 };
 
-/// The subject or issuing entity of a PDU; for an Attribute PDU, the one of its only record set.
+/// The subject or issuing entity of a PDU; for an Attribute PDU, the entity of its only record set.
 template <typename Pdu>
 std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
   if constexpr (std::same_as<Pdu, pdu::Attribute>) {
@@ -96,7 +96,7 @@ std::string_view portion_text(peer::Portion portion) {
 
 constexpr std::size_t kLengthAt = 8;  // in the header
 
-/// Octets behind the last PDU that are none themselves.
+/// Whether these octets after the last PDU form no PDU.
 bool is_trailing(const pdu::BundledPdu& bundled) {
   const bool is_cut_header =
       bundled.error == DecodeError::truncated && bundled.bytes.size() < pdu::kHeaderSize;

@@ -50,15 +50,14 @@ struct PduRow {
   std::size_t fault_offset = 0;  ///< octet of the datagram to which the reason refers
   std::optional<pdu::EntityId> id;
   std::string_view interface;  ///< over which the datagram came; empty if the source has none
-  /// The body of an Entity State that was decoded, because most PDUs are one and every view reads
-  /// it; null for the others. Valid as long as the row.
+  /// The body of a decoded Entity State, cached because most PDUs are one and every view reads it;
+  /// null for other PDUs. Valid as long as the row.
   const pdu::EntityState* entity_state = nullptr;
-  /// The states of Compressed States that were decoded; null for the others. Valid as long as the
-  /// row.
+  /// The states of decoded Compressed States; null for other PDUs. Valid as long as the row.
   const std::vector<RestoredState>* restored = nullptr;
 
   /// IEEE name in snake case; "unknown_200" without a name; "foreign" for a datagram of another
-  /// protocol; "trailing" for octets that a lenient reader keeps; "unreadable" without a header.
+  /// protocol; "trailing" for octets that a lenient reader accepts; "unreadable" without a header.
   [[nodiscard]] std::string_view type() const noexcept;
 };
 
@@ -66,7 +65,7 @@ struct PduRow {
 struct InspectTally {
   std::uint64_t datagrams = 0;
   std::uint64_t fragments = 0;
-  std::uint64_t foreign = 0;  ///< datagrams of other protocols; each is a note among the PDUs
+  std::uint64_t foreign = 0;            ///< datagrams of other protocols; each is a note in `pdus`
   std::array<std::uint64_t, 4> pdus{};  ///< by PduStatus
 
   [[nodiscard]] std::uint64_t all_pdus() const { return pdus[0] + pdus[1] + pdus[2] + pdus[3]; }
@@ -78,17 +77,17 @@ struct InspectTally {
 /// Rules that only a lenient reader notes.
 inline constexpr std::string_view kNoLengthRule = "I-NO-LENGTH";
 inline constexpr std::string_view kTrailingRule = "I-TRAILING";
-/// Octets behind the last field of a PDU, to a reader that is not lenient.
+/// Octets after the last field of a PDU, if the reader is not lenient.
 inline constexpr std::string_view kTrailingWarning = "W-TRAILING";
-/// A length field of a sender that writes little-endian.
+/// A length field in little-endian order.
 inline constexpr std::string_view kByteOrderRule = "E-BYTE-ORDER";
 
 /// Iterates over the PDUs of one datagram and decodes each once. The row is reused, and valid until
 /// the next PDU. A good PDU needs no heap, except for the keys of compressed states.
 class DatagramInspector {
  public:
-  /// @param lenient takes a length field of 0 as the rest of the datagram, and octets behind the
-  /// last PDU or behind the last field of one as kept: a note each instead of an error or a warning
+  /// @param lenient takes a length field of 0 as the rest of the datagram, and accepts octets after
+  /// the last PDU or after its last field: each is a note instead of an error or a warning
   explicit DatagramInspector(bool lenient = false) : lenient_(lenient) {}
 
   /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all shown PDUs.
@@ -110,17 +109,18 @@ class DatagramInspector {
     return true;
   }
   [[nodiscard]] const InspectTally& tally() const { return tally_; }
-  /// Sets the time of the source's first datagram, where the inspector does not see that one.
+  /// Sets the time of the source's first datagram, if the inspector does not get that one.
   void start_at(std::chrono::nanoseconds start) { start_ = start; }
 
  private:
   void begin(const peer::SourceDatagram& datagram);
   void fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled);
-  /// Decodes, and searches for values that receivers reject; `fault` has their place.
+  /// Decodes, and searches for values that receivers reject; `fault` gets their place.
   /// @param behind set to the octets after the last field
   [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault,
                                              std::size_t& behind);
-  /// What a lenient reader makes of the PDU at hand. @param behind octets after its last field
+  /// Replaces a fault of the present PDU by a note, as a lenient reader does. @param behind octets
+  /// after its last field
   void excuse(const pdu::BundledPdu& bundled, std::size_t behind);
   void fill_fragment(const peer::SourceDatagram& datagram);
   void fill_foreign(const peer::SourceDatagram& datagram);
@@ -138,7 +138,8 @@ class DatagramInspector {
   std::optional<std::size_t> without_length_;  // offset of the PDU with a length of 0
   PduRow row_;
   pdu::EntityState entity_state_;             // referenced by row_
-  std::shared_ptr<RestoredStates> restored_;  // from the first Compressed States on, likewise
+  std::shared_ptr<RestoredStates> restored_;  // from the first Compressed States on, referenced by
+                                              // row_
   InspectTally tally_;
   std::optional<std::chrono::nanoseconds> start_;
 };

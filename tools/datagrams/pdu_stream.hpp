@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The PDUs of a capture in order, each with its own octets, so that two captures can be compared.
+// The PDUs of a capture in order, each with a copy of its octets, so that two captures can be
+// compared.
 #pragma once
 
 #include <chrono>
@@ -53,7 +54,7 @@ class PduStream {
   /// The next PDU that passes the filter; false at the end.
   [[nodiscard]] bool next(HeldPdu& out);
 
-  /// Counts of all PDUs so far, including those that the filter excluded.
+  /// Counts of all PDUs so far, including PDUs that the filter excluded.
   [[nodiscard]] const InspectTally& tally() const { return inspector_.tally(); }
   /// Report of the source; `problem` if the file ended early.
   [[nodiscard]] const peer::SourceReport& report() const { return source_->report(); }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The Entity States in a Compressed States PDU as rows, so that views and filters show and compare
-// their fields like those of plain ones.
+// The Entity States in a Compressed States PDU as rows, so that views and filters treat their
+// fields like those in plain Entity States.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace reckon::tools {
 
 /// One state of a Compressed States PDU.
 struct RestoredState {
-  /// Its id and offset. Where it is restored, also its fields, as those of the plain PDU that it
-  /// stands for; else the reason.
+  /// Its ID and offset. If it is restored, also its fields, equal to those in the plain PDU that it
+  /// replaces; else the reason.
   PduRow row;
   pdu::CompressedForm form = pdu::CompressedForm::compact;
   std::size_t octets = 0;  ///< in the datagram
@@ -28,10 +28,10 @@ struct RestoredState {
 /// 1 KiB for each state of the largest one and 1 KiB for each entity.
 class RestoredStates {
  public:
-  /// States of a PDU, of which further ones are left out; 100 fill a frame of Ethernet.
+  /// Limit of states of a PDU; further ones are left out. 100 fill an Ethernet frame.
   static constexpr std::size_t kMost = 512;
 
-  /// A plain Entity State of the stream, on which later ones may depend.
+  /// Takes a plain Entity State of the stream, on which later ones may depend.
   void note_plain(const pdu::EntityState& state) { keys_.note_plain(state); }
 
   /// The states of one PDU in their order. @param around row of the PDU

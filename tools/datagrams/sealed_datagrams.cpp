@@ -51,9 +51,9 @@ const peer::SealingKey* SealedDatagrams::key_of(const peer::EnvelopeHeader& head
   return &kept.key;
 }
 
-// A capture does not state the exercise of a sealed datagram, and the tag covers it. The known
-// exercise of the sender is tried alone. If none is known, all are tried, beginning with the last
-// one that opened a datagram of any sender.
+// A capture does not state the exercise of a sealed datagram, and the tag covers it. If the
+// exercise of the sender is known, only that one is tried; else all are tried, beginning with the
+// exercise of the last opened datagram of any sender.
 bool SealedDatagrams::unseal_for_any(const peer::SealingKey& key, const peer::GroupAddress& group,
                                      std::span<const std::byte> sealed, std::span<std::byte> plain,
                                      Count& count) {

@@ -16,7 +16,8 @@
 
 namespace reckon::tools {
 
-/// Examines each datagram before it is read. It does not refuse replays, because a capture is one.
+/// Examines each datagram before it is read. It accepts replayed datagrams, because a capture may
+/// contain them.
 class SealedDatagrams {
  public:
   /// @param key_file empty: none. @throws UsageError if it cannot be used
@@ -43,7 +44,7 @@ class SealedDatagrams {
     std::uint64_t datagrams = 0, opened = 0, greetings = 0;
     std::optional<std::uint8_t> exercise;  ///< exercise of its opened datagrams
   };
-  /// Sender for which a key was derived; the last one is kept.
+  /// Sender with a derived key; the last key of each is kept.
   struct Name {
     peer::Sealer sealer;
     std::uint16_t epoch, stream;

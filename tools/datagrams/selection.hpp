@@ -19,8 +19,8 @@
 
 namespace reckon::tools {
 
-/// The user's words. Times are relative to the first datagram of the capture. Without `from` and
-/// `to` any time is in range, also one before that of the first datagram.
+/// The options as typed. Times are relative to the first datagram of the capture. Without `from`
+/// and `to` any time is in range, including times before the first datagram.
 struct SelectionOptions {
   std::optional<std::chrono::nanoseconds> from;
   std::optional<std::chrono::nanoseconds> to;
@@ -28,15 +28,15 @@ struct SelectionOptions {
   std::vector<std::string> types;     ///< names of inspect --json
   std::vector<std::string> entities;  ///< site:application:entity, each a number or *
   std::string where;                  ///< a filter of inspect
-  bool lenient = false;               ///< PDUs are read as inspect --lenient does
+  bool lenient = false;               ///< reads PDUs like inspect --lenient
 
   /// Declares the flags except the one for the end of the range.
   void declare(CommandLine& line);
-  /// Of these, declares the one that needs no file.
+  /// Declares only the flag that needs no file.
   void declare_filter(CommandLine& line);
 };
 
-/// Declares `--lenient` of a verb that shows PDUs, as DatagramInspector takes it.
+/// Declares `--lenient` of a verb that shows PDUs; see DatagramInspector.
 void declare_lenient(CommandLine& line, bool& lenient);
 
 /// Selects whole datagrams. Several words of one kind are alternatives; words of different kinds
@@ -70,14 +70,14 @@ class CaptureSelection {
 /// that cannot be read.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name);
 
-/// A name that ends in .zst enables compression, and compression adds that ending.
+/// A name that ends in .zst enables compression, and compression appends that ending.
 void settle_compression(peer::CaptureWriterOptions& options);
 
 /// Opens a capture for writing. @throws UsageError if that fails.
 [[nodiscard]] std::unique_ptr<peer::CaptureWriter> create_recording(
     const peer::CaptureWriterOptions& options);
 
-/// Text of a verb about damaged or incomplete places of the capture; empty if there are none.
+/// Report about damaged or incomplete places of the capture; empty if there are none.
 [[nodiscard]] std::string damage_text(const peer::SourceReport& report);
 
 }  // namespace reckon::tools

@@ -41,7 +41,7 @@ struct Groups {
   std::uint64_t size;
 };
 
-// Groups of a scene: those of cells, and of contacts if it has some.
+// Groups of a scene: those for cells, and for contacts if it has some.
 Groups groups_of_scene(const peer::SceneFile& scene, bool sealed) {
   const bool is_sealed = sealed || !scene.network.key.empty();
   return {is_sealed ? peer::sealed_group(scene.network.group) : scene.network.group,
@@ -77,7 +77,7 @@ peer::GroupAddress base_group(const SourceChoice& choice) {
   return *group;
 }
 
-/// A word that is no file but an interface of this host or an address.
+/// Interprets a word that is no file as an interface of this host or an address.
 /// @returns what may be meant; empty if it is neither
 std::string meant_by(const std::string& source) {
   std::error_code ignored;

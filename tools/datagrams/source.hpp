@@ -14,14 +14,14 @@
 
 namespace reckon::tools {
 
-/// Source of the datagrams, as the user entered it.
+/// Source of the datagrams, as typed.
 struct SourceChoice {
   std::string source;  ///< empty: the default groups; else udp://..., iface:..., raw:..., -, or a
                        ///< capture file
   std::string interface;  ///< --iface for groups: name, address or index; empty: every one
   std::optional<std::uint64_t> pool;  ///< --pool: groups joined after the base group
   bool follow = false;                ///< --follow: waits at the end of a growing capture file
-  bool sealed = false;                ///< the default groups are those of a sealed exercise
+  bool sealed = false;                ///< use the default groups of a sealed exercise
 };
 
 /// The groups of the choice: the base group and the pool after it. The default is 239.192.1.0:3000
@@ -30,17 +30,17 @@ struct SourceChoice {
 /// @throws UsageError.
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
 
-/// The groups that peers of a scene speak in. @throws UsageError where they speak by unicast
+/// The groups of a scene's peers. @throws UsageError for a scene with unicast
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene);
 
 /// Refuses words that resemble a source but are not one, such as `lo` and `239.1.2.3:3000`.
-/// @throws UsageError with what may be meant
+/// @throws UsageError with a suggestion
 void check_form(const std::string& source);
 
-/// Whether the source is a scene: a file with the ending of one that is no capture.
+/// Whether the source is a scene: a file with a scene's ending that is no capture.
 [[nodiscard]] bool names_scene(const std::string& source);
 
-/// Whether the choice means live groups.
+/// Whether the choice selects live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);
 
 /// Whether more datagrams may arrive at any time: live groups or an interface.

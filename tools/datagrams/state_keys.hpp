@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The key states that Compressed States of a stream depend on, for tools that take part in no
+// The key states for the Compressed States of a stream, for tools that do not take part in an
 // exercise.
 #pragma once
 
@@ -33,14 +33,14 @@ class StateKeys {
                                              pdu::EntityState& out);
 
  private:
-  // A tool binds no entity to a sender: every state counts as sent by the owner.
+  // A tool does not verify the sender of an entity: every state counts as sent by the owner.
   [[nodiscard]] static peer::KeySpeaker owner_of(const pdu::SimulationAddress& entities) noexcept {
     return {entities, 1};
   }
 
   std::size_t most_;
   std::optional<peer::StateRestorer> restorer_;           // from the first compressed state on
-  pdu::CompressedForm form_ = pdu::CompressedForm::none;  // that it reads
+  pdu::CompressedForm form_ = pdu::CompressedForm::none;  // form that restorer_ reads
 };
 
 }  // namespace reckon::tools

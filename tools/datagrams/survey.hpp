@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Look-ahead into a datagram, for rules about PDUs that belong together.
+// Looks ahead in a datagram, for rules about related PDUs.
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@
 
 namespace reckon::tools {
 
-/// PDUs that follow in a datagram, found before its PDUs are checked.
+/// PDUs later in a datagram, found before its PDUs are checked.
 struct DatagramSurvey {
   struct Place {
     std::uint64_t entity = 0;  ///< entity_key

@@ -32,7 +32,7 @@ bool take(std::string_view& rest, char letter) {
   return true;
 }
 
-/// Takes ".25" as a part of a second.
+/// Takes ".25" as a fraction of a second.
 std::optional<nanoseconds> fraction(std::string_view& rest) {
   const std::size_t count = std::min(rest.find_first_not_of("0123456789"), rest.size());
   if (count == 0) return std::nullopt;

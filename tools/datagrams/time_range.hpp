@@ -10,16 +10,17 @@
 
 namespace reckon::tools {
 
-/// An instant as written: time since the first datagram ("90", "90s", "1.5 min"), a time of day in
-/// UTC ("14:03", "14:03:20.5"), or a date with it ("2026-11-26T14:03:20Z", "2026-11-26").
+/// An instant as typed: time since the first datagram ("90", "90s", "1.5 min"), a time of day in
+/// UTC ("14:03", "14:03:20.5"), or a date with or without it ("2026-11-26T14:03:20Z",
+/// "2026-11-26").
 class RecordingInstant {
  public:
   /// @param flag as in an error, "--from"
   /// @throws UsageError for any other text.
   RecordingInstant(const std::string& flag, const std::string& text);
 
-  /// Since 1970-01-01 UTC, in a recording that begins at `start`. A time of day is that of the day
-  /// from an hour before the start on.
+  /// Time since 1970-01-01 UTC, in a recording that begins at `start`. A time of day means the
+  /// first such time from one hour before the start on.
   /// @throws UsageError for a time of day or a date if the start is 0: no wall time is known
   [[nodiscard]] std::chrono::nanoseconds in_recording(std::chrono::nanoseconds start) const;
 
@@ -31,10 +32,10 @@ class RecordingInstant {
   std::chrono::nanoseconds since_{};
 };
 
-/// From the first instant on and before the second.
+/// Range from the first instant up to, but not including, the second.
 class TimeRange {
  public:
-  /// Empty words are no bound. @throws UsageError as RecordingInstant.
+  /// An empty text sets no bound. @throws UsageError as RecordingInstant.
   TimeRange(const std::string& from, const std::string& to);
 
   /// Sets the time of the first datagram. @throws UsageError as in_recording(), and if the range

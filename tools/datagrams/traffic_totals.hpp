@@ -17,7 +17,7 @@ struct TrafficTotals {
   std::uint64_t pdus = 0;
   std::uint64_t pdu_octets = 0;   ///< of readable PDUs
   std::uint64_t octets = 0;       ///< UDP payload
-  std::uint64_t wire_octets = 0;  ///< with the headers of Ethernet, IP and UDP
+  std::uint64_t wire_octets = 0;  ///< including Ethernet, IP and UDP headers
   std::uint64_t errors = 0;
   std::chrono::nanoseconds first{};
   std::chrono::nanoseconds last{};

@@ -11,7 +11,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Groups beyond the bound share one number, so that their losses cannot be distinguished.
+/// Groups beyond the limit share one number, so their losses are not distinguished.
 constexpr std::size_t kSharedIndex = 0xFFFE;
 
 }  // namespace

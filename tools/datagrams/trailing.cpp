@@ -21,8 +21,8 @@ std::string octets_text(std::size_t count) {
   return fmt::format("{} octet{}", count, count == 1 ? "" : "s");
 }
 
-/// Visitor of a decoded PDU that looks for the count or length of which the octets behind the last
-/// field are the rest. Of several that fit, the last one in wire order is the cause.
+/// Visitor of a decoded PDU that finds the count or length which leaves octets after the last
+/// field. If several fit, the last one in wire order is the cause.
 class CauseSearch {
  public:
   explicit CauseSearch(std::span<const std::byte> behind) : behind_(behind) {}
@@ -80,7 +80,7 @@ class CauseSearch {
   }
   template <typename View>
   bool look_for_records(View& view) {
-    constexpr std::size_t kMost = 64;  // each is walked anew: some 20 us
+    constexpr std::size_t kMost = 64;  // each walk starts again: some 20 us
     for (std::size_t more = 1; more <= kMost; ++more) {
       const pdu::WalkResult walked = View::walk(more, behind_);
       if (walked.error != pdu::DecodeError::none) return false;
@@ -100,8 +100,8 @@ class CauseSearch {
     cause_ = fmt::format("{} is {}, {} fewer than are there{}", name, octets_text(size),
                          behind_.size(), may_be_count ? ": a count in place of a length?" : "");
   }
-  /// A length in bits, of a value that is padded to so many octets, where it is 0 or fits as one in
-  /// octets.
+  /// A length in bits of a value that is padded to `padded_to` octets: the cause if it is 0, or
+  /// fits as a length in octets.
   void length_in_octets(std::string_view name, std::size_t bits, std::size_t there,
                         std::size_t padded_to) {
     const bool fits = bits <= there && there - bits < padded_to;
@@ -111,7 +111,7 @@ class CauseSearch {
                          bits > 0 ? ": given in octets?" : "");
   }
 
-  /// A number that may be a count, or a list that has one.
+  /// A number that may be a count, or a list with a count.
   struct Number {
     const void* place = nullptr;
     std::string_view name;
@@ -129,7 +129,7 @@ std::string cause_of(std::span<const std::byte> octets, pdu::PduType type,
   CauseSearch search(behind);
   const auto attempt = [&]<typename Candidate>(std::type_identity<Candidate>) {
     if (Candidate::kPduType != type) return false;
-    Candidate pdu;  // not const: parts that are views of octets are not to be shown as records
+    Candidate pdu;  // not const: const would show views of octets as records
     if (decode(octets, pdu) == pdu::DecodeError::none) fields(search, pdu);
     return true;
   };
@@ -149,7 +149,7 @@ std::string start_in_hex(std::span<const std::byte> octets) {
 
 std::string explain_trailing(std::span<const std::byte> octets, const pdu::PduHeader& header,
                              std::size_t behind) {
-  constexpr std::size_t kWord = 8;  // to which some senders pad
+  constexpr std::size_t kWord = 8;  // some senders pad to this size
   const std::span<const std::byte> rest = octets.last(behind);
   std::string text =
       fmt::format("{} behind the last field: {}", octets_text(behind), start_in_hex(rest));

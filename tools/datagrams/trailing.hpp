@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets behind the last field of a PDU: the codec skips them. What they are, and which count or
-// length of the sender leaves them out.
+// Explains octets after the last field of a PDU, which the codec skips: their content, and the
+// count or length field that should include them.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace reckon::tools {
 [[nodiscard]] std::string start_in_hex(std::span<const std::byte> octets);
 
 /// "32 octets behind the last field: 0001...; number_of_variable_parameter_records is 0, and 2 more
-/// records are there". The cause is given only if one fits. `octets` are those of one PDU that
-/// decodes, of which the last `behind` belong to no field.
+/// records are there". The cause is given only if one fits. `octets` are one decodable PDU, whose
+/// last `behind` octets belong to no field.
 [[nodiscard]] std::string explain_trailing(std::span<const std::byte> octets,
                                            const pdu::PduHeader& header, std::size_t behind);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A class of entity types as a filter has it: "1.1.225.*", "Platform Land".
+// A class of entity types in filter syntax: "1.1.225.*", "Platform Land".
 #pragma once
 
 #include <array>
@@ -21,16 +21,15 @@ struct TypePattern {
   [[nodiscard]] bool matches(const pdu::EntityType& type) const noexcept;
 };
 
-/// A pattern, or the reason why the text is none.
+/// A pattern, or the reason why the text is invalid.
 struct TypePatternText {
   TypePattern pattern;
   std::string error{};  ///< empty if valid
   std::size_t at = 0;   ///< offset of the wrong part in the text
 };
 
-/// Reads numbers with dots between them, each of which may be *. Parts that are left out at the end
-/// match any number, and so do zeros there, as in peer::EntityClass. Reads the words of
-/// peer::parse_entity_type() too.
+/// Reads numbers with dots between them; each may be *. Omitted parts and zeros at the end match
+/// any number, as in peer::EntityClass. Also reads the words of peer::parse_entity_type().
 [[nodiscard]] TypePatternText parse_type_pattern(std::string_view text);
 
 }  // namespace reckon::tools

@@ -21,7 +21,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// "9.4 GHz".  @param digits that are known, of a float 6
+// "9.4 GHz".  @param digits significant ones: a float has 6
 std::string hertz_text(double hertz, int digits) {
   if (hertz >= 1e9) return fmt::format("{:.{}g} GHz", hertz / 1e9, digits);
   if (hertz >= 1e6) return fmt::format("{:.{}g} MHz", hertz / 1e6, digits);
@@ -39,7 +39,7 @@ std::string value_text(const Record& record, std::string_view field, std::uint16
   return name.empty() ? fmt::format("{} {}", field, value) : std::string(name);
 }
 
-// The codes of the modes that are on.
+// The codes of the enabled modes.
 std::string codes_text(const pdu::Iff& iff) {
   std::string text;
   for (const std::string_view field :

@@ -12,16 +12,16 @@
 
 namespace reckon::tools {
 
-/// One line for each system and each beam, in order.  @param origin instant 0 of the times
-/// @param now for whether a system is over
+/// A table with one line for each system and each beam, in order.
+/// @param origin zero of the shown times  @param now to find systems that have ended
 [[nodiscard]] std::string emissions_table(std::span<const peer::Emission* const> rows,
                                           std::chrono::nanoseconds origin,
                                           std::chrono::nanoseconds now);
 
-/// All that an entity emits, in a line: "2 beams of 3 emitters, 9.4 GHz, 1 target; IFF off".
+/// All emissions of an entity, in one line: "2 beams of 3 emitters, 9.4 GHz, 1 target; IFF off".
 [[nodiscard]] std::string emitted_text(const peer::EmittedView& view);
 
-/// One JSON object; docs/json_lines.md has its keys. Parameters as above.
+/// One JSON object; docs/json_lines.md lists its keys. Parameters as above.
 void append_emission_json(std::string& out, const peer::Emission& emission,
                           std::chrono::nanoseconds origin, std::chrono::nanoseconds now);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A simulated admittance device, as the servo has it.
+// A simulated admittance device as the servo uses it.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace reckon::tools {
 
-/// The device, its hand and its virtual mass.
+/// The device, the operator's hand and the virtual mass.
 class AdmittanceHand final : public haptics::HapticDevice {
  public:
   /// @throws std::invalid_argument for values out of range.
@@ -29,8 +29,8 @@ class AdmittanceHand final : public haptics::HapticDevice {
     handle_.write(force, now);
   }
 
-  /// The first time that its device could not follow, and each time that it was twice as often as
-  /// last told: a sentence; else empty. One thread, any.
+  /// A sentence when the device could not follow its hand for the first time, and again each time
+  /// the count has doubled since the last report; else empty. May be called by any one thread.
   [[nodiscard]] std::string take_notice();
 
  private:

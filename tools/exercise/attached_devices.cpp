@@ -25,7 +25,7 @@ using haptics::UsbDeviceSeen;
 
 constexpr std::chrono::seconds kAskFor{2};
 
-// A kind of device that there is a driver for.
+// A kind of device with a driver.
 struct Kind {
   std::string_view driver, product, use;
   const haptics::UsbFacts& facts;
@@ -46,7 +46,7 @@ const std::array<Kind, 2>& kinds() {
   return kAll;
 }
 
-// Null: another's.
+// Null: no driver of ours is for it.
 const Kind* kind_of(const UsbDeviceSeen& device) {
   const auto found = std::ranges::find_if(kinds(), [&](const Kind& kind) {
     return device.vendor == kind.facts.vendor && device.product == kind.facts.product;
@@ -54,7 +54,7 @@ const Kind* kind_of(const UsbDeviceSeen& device) {
   return found == kinds().end() ? nullptr : &*found;
 }
 
-// Of what its driver says, what keeps forces away.
+// The first of the driver's sentences that explains why forces are blocked; empty: none does.
 std::string problem_in(const Kind& kind, const std::vector<std::string>& said) {
   const std::string its_own = std::string(kind.facts.name) + ": ";
   for (const std::string& sentence : said) {
@@ -88,7 +88,7 @@ AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
   return device;
 }
 
-// Sets a device up without any force. @return what its driver says of it, within 2 s
+// Sets a device up without any force. @return the notices of its driver within 2 s
 std::vector<std::string> ask(const Kind& kind) {
   const peer::SteadyClock clock;
   haptics::UsbExchange exchange;
@@ -103,7 +103,7 @@ std::vector<std::string> ask(const Kind& kind) {
   return {fmt::format("{}: it says nothing", kind.facts.name)};
 }
 
-// A line that lets the group plugdev, and whoever sits at the host, open a device.
+// A udev rule line: the group plugdev and the user logged in at this host may open the device.
 std::string rule_of(std::string_view subsystem, std::string_view attribute, const peer::UsbId& id) {
   return fmt::format(
       "SUBSYSTEM==\"{0}\", {1}{{idVendor}}==\"{2:04x}\", {1}{{idProduct}}==\"{3:04x}\", "

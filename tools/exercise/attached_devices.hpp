@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is attached to this host that a hand could hold, and what is in the way.
+// Haptic devices attached to this host, and the problems that keep them from being used.
 #pragma once
 
 #include <string>
@@ -11,38 +11,39 @@
 
 namespace reckon::tools {
 
-/// A device that there is a driver for.
+/// An attached device with a driver.
 struct AttachedDevice {
-  std::string driver;   ///< as --device and [[device]] have it
-  std::string name;     ///< of the product, and where it is
-  std::string use;      ///< how it would be used
+  std::string driver;   ///< as written after --device and in [[device]]
+  std::string name;     ///< product name and path of the device
+  std::string use;      ///< how to use it
   std::string problem;  ///< why it cannot be used now; empty: it can
-  std::string remedy;   ///< of the problem
+  std::string remedy;   ///< for the problem
 };
 
-/// What a look at USB found.
+/// Result of a scan of USB.
 struct UsbLook {
   std::string problem;     ///< why there is no USB here; empty: there is
-  std::size_t others = 0;  ///< devices that there is no driver for
+  std::size_t others = 0;  ///< devices without a driver
   std::vector<AttachedDevice> devices;
 };
 
-/// The rule of udev by which the person who sits at this host may open the devices.
-/// @param undriven see undriven_devices(): those of this host are named one by one
+/// The udev rule that allows the user logged in at this host to open the devices.
+/// @param undriven see undriven_devices(): the rule names each device of this host by its IDs
 [[nodiscard]] std::string udev_rule(const std::vector<peer::UsbId>& undriven);
-/// Name of the rule's file in its folder.
+/// Name of the rule's file in kRuleFolder.
 inline constexpr const char* kRuleFile = "70-reckon.rules";
 inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
 
-/// Names of all drivers, as --device has them.
+/// Names of all drivers, as written after --device.
 [[nodiscard]] std::string driver_names();
 
-/// What devices of USB are for us. @param said what the drivers had to say of those that are open
-/// to us @param has_rule the rule is installed
+/// Sorts USB devices into supported and other ones.
+/// @param said notices of the drivers of the devices that this user may open
+/// @param has_rule the rule is installed
 [[nodiscard]] UsbLook judge_usb(const std::vector<haptics::UsbDeviceSeen>& seen,
                                 const std::vector<std::string>& said, bool has_rule);
-/// Looks at this host. @param ask_them whether devices that can be opened are set up without any
-/// force and asked, for 2 s each at most
+/// Scans this host. @param ask_them sets up devices that can be opened, without any force, and
+/// waits for the driver's notice, for 2 s each at most
 [[nodiscard]] UsbLook look_at_usb(bool ask_them);
 
 }  // namespace reckon::tools

@@ -85,7 +85,7 @@ std::vector<AttachedDevice> look_at_events() {
     haptics::UsbContext context;
     usb = haptics::usb_devices(context, [](const haptics::UsbDeviceSeen&) { return false; });
   } catch (const std::exception&) {
-    // Without USB there is none that lacks a driver.
+    // Without USB there is no board to look for.
   }
   const auto calls = haptics::force_feedback_calls();
   return judge_events(haptics::event_devices(*calls), usb);

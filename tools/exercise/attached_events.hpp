@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What force feedback devices of Linux are attached to this host, and what is in the way.
+// Linux force feedback devices attached to this host, and the problems that keep them from being
+// used.
 #pragma once
 
 #include <vector>
@@ -11,17 +12,17 @@
 
 namespace reckon::tools {
 
-/// @param usb devices of USB: one that is known to give force feedback, and is not seen, is set up
-/// as something else
+/// @param usb USB devices: a known force feedback board that is not among `seen` is configured as
+/// another kind of device
 [[nodiscard]] std::vector<AttachedDevice> judge_events(
     const std::vector<haptics::EventDeviceSeen>& seen,
     const std::vector<haptics::UsbDeviceSeen>& usb);
 
-/// Devices of this host of the class HID PID that are no event devices with force feedback, each
-/// kind once.
+/// HID PID devices of this host that are not event devices with force feedback, each pair of USB
+/// IDs once.
 [[nodiscard]] std::vector<peer::UsbId> undriven_devices();
 
-/// Looks at this host. No force is asked for.
+/// Scans this host. No force is requested.
 [[nodiscard]] std::vector<AttachedDevice> look_at_events();
 
 }  // namespace reckon::tools

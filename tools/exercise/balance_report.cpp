@@ -30,13 +30,13 @@ void append_fates(std::string& out, const peer::FateCounts& counts) {
   row.end();
 }
 
-// Both stretches begin alike.
+// Both kinds of stretch begin with the same keys.
 template <class Stretch>
 JsonObject& add_numbers(JsonObject& row, const Stretch& stretch) {
   return add_key(row, stretch.key).value("first", stretch.first).value("last", stretch.last);
 }
 
-// A time that may not have come: null.
+// A time that may not have been reached: null.
 JsonObject& add_time(JsonObject& row, std::string_view name, std::chrono::nanoseconds time) {
   if (time < std::chrono::nanoseconds(0)) return row.value(name, "null");
   return row.decimals(name, pdu::to_seconds(time), 6);

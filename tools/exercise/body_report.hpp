@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What became of a scene's bodies in a run, reported at its end.
+// Summary of a scene's bodies at the end of a run.
 #pragma once
 
 #include <cstdio>
@@ -10,9 +10,10 @@
 
 namespace reckon::tools {
 
-/// A line, and one more for steps that were not exact. Nothing without bodies. The servos rest.
+/// One line, and one more for steps that were not exact; nothing without bodies. The servos must be
+/// stopped.
 void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies);
-/// A member of a JSON object, a comma before it; null without bodies. docs/json_lines.md has it.
+/// A member of a JSON object, with a comma before it; null without bodies. See docs/json_lines.md.
 [[nodiscard]] std::string bodies_json(const haptics::BodyWorld* bodies);
 
 }  // namespace reckon::tools

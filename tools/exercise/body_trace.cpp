@@ -14,14 +14,14 @@
 namespace reckon::tools {
 namespace {
 
-// In quotes, doubled where the name has some.
+// In quotes; quotes within the name are doubled.
 std::string csv(const std::string& name) {
   std::string out = "\"";
   for (const char c : name) out.append(c == '"' ? 2 : 1, c);
   return out + '"';
 }
 
-// Of the objects of a scene in which some move.
+// Names of all objects. @throws UsageError if none of them moves
 std::vector<std::string> names_of(const haptics::Scene& scene) {
   const auto moves = [](const haptics::SceneObject& object) {
     return object.matter.mass > 0 || object.carried;

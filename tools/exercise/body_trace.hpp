@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every step of every body as a line of CSV.
+// Writes every step of every body as a CSV line.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@
 
 namespace reckon::tools {
 
-/// A CSV file with a header line; SI units, scene frame. A body that sleeps has no lines.
+/// A CSV file with a header line; SI units, scene frame. A sleeping body has no lines.
 class BodyTrace {
  public:
-  /// @throws UsageError where the file cannot be written, or the scene has nothing that moves.
+  /// @throws UsageError if the file cannot be written, or nothing in the scene moves.
   BodyTrace(const std::filesystem::path& file, const haptics::Scene& scene);
 
   void write(const haptics::BodyStep& step);
@@ -24,7 +24,7 @@ class BodyTrace {
   void close() { file_.close(); }
 
  private:
-  std::vector<std::string> objects_;  // their names, as CSV
+  std::vector<std::string> objects_;  // names, as CSV
   CsvOutput file_;
   std::string line_;
 };

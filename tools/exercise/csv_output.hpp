@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A file of lines that are written while something runs.
+// A CSV file that is written during a run.
 #pragma once
 
 #include <cstdio>
@@ -11,15 +11,15 @@
 
 namespace reckon::tools {
 
-/// A CSV file that is open; one that stands there already is replaced.
+/// An open CSV file; an existing file is replaced.
 class CsvOutput {
  public:
-  /// @param header without line end  @throws UsageError where the file cannot be written.
+  /// @param header without line end  @throws UsageError if the file cannot be written.
   CsvOutput(const std::filesystem::path& file, std::string_view header);
 
-  /// @param line with its end
+  /// @param line with its line end
   void write(std::string_view line);
-  /// Writes what is left. @throws EnvironmentError where the disk is full.
+  /// Flushes the file. @throws EnvironmentError if the disk is full.
   void close();
 
  private:

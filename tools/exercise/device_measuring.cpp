@@ -101,7 +101,7 @@ haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) 
 std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor& known,
                             const haptics::MeasuredDevice& found,
                             const std::vector<std::string>& remarks) {
-  // Of what is sure two standard deviations are left out.
+  // Two standard deviations are subtracted from the measured damping.
   const double sure = std::max(0.0, found.damping - 2 * found.damping_error);
   std::string text;
   for (const std::string& remark : remarks) text += fmt::format("# {}\n", remark);
@@ -117,7 +117,8 @@ std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor&
   text += fmt::format("friction = \"{:.3g} N\"  # measured\n", found.friction);
   text += fmt::format("delay = \"{:.1f} ms\"  # measured {:.3g}\n", 1e3 * found.delay,
                       1e3 * found.delay);
-  // Where several encoders make a place, its steps along an axis are no multiples of one.
+  // If several encoders determine a position, its steps along an axis are not multiples of one
+  // step.
   const bool has_steps = found.resolution > 0 || known.resolution <= 0;
   text += fmt::format("resolution = \"{:.3g} um\"  # {}; noise at rest {:.2g} um\n",
                       1e6 * (has_steps ? found.resolution : known.resolution),

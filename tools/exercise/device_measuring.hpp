@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon devices measure`: from a run of pushes to a descriptor.
+// `reckon devices measure`: makes a device descriptor from a series of pushes.
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@
 
 namespace reckon::tools {
 
-/// A simulated device of a descriptor, at 1 kHz, that nobody holds.
+/// A simulated device by its descriptor, at 1 kHz, with no hand on it.
 [[nodiscard]] haptics::SimulatedDeviceConfig free_device_of(const peer::DeviceDescriptor& device);
 
-/// What kept it from being measured, and the remedy; empty for `none`.
+/// Why the device could not be measured, and the remedy; empty for `none`.
 [[nodiscard]] std::string_view sentence_of(haptics::MeasurementProblem problem) noexcept;
 
-/// Pushes a simulated device of `device` to the end, in no time. @throws std::runtime_error with
-/// the reason where it cannot be measured
+/// Measures a simulated device of `device` in simulated time. @throws std::runtime_error with the
+/// reason if it cannot be measured
 [[nodiscard]] haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device);
 
-/// The text of a descriptor: what was measured, and of the rest what `known` says. @param remarks
-/// lines that it begins with
+/// The text of a descriptor: the measured values, and all others from `known`. @param remarks
+/// comment lines at its begin
 [[nodiscard]] std::string descriptor_text(std::string_view name,
                                           const peer::DeviceDescriptor& known,
                                           const haptics::MeasuredDevice& found,

@@ -22,8 +22,8 @@ void EntityEvents::begin_pass(peer::ModelLoop&) noexcept {}
 void EntityEvents::hear(const pdu::PduHeader&, std::span<const std::byte>,
                         const peer::InteractionSender&) noexcept {}
 
-// While the last letter is read, changes gather in the table: of each entity the newest. What has
-// merely been updated is reported too, so that its count is known when it goes.
+// While the reader holds the last letter, changes gather in the table: the newest of each entity.
+// Updates are reported too, so that the update count is known when the entity goes.
 void EntityEvents::end_pass(peer::ModelLoop& loop) noexcept {
   if (!letters_.is_free()) return;
   Letter& letter = letters_.letter();

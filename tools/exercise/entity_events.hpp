@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A line for each remote entity that appears or goes, of all that a peer hears: not only of those
-// that a picture has room for.
+// Prints a line for each remote entity that appears or goes. It covers all entities that a peer
+// receives, also beyond the capacity of a view.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@
 
 namespace reckon::tools {
 
-/// Follows the table of remote entities through its changes, which needs
-/// PeerOptions::record_changes. One that comes and goes between two calls of report() is not
-/// reported. The model loop's thread gathers, another one reports; neither waits for the other.
+/// Follows the table of remote entities by its changes; needs PeerOptions::record_changes. An
+/// entity that comes and goes between two calls of report() is not reported. The model loop's
+/// thread gathers the changes, another thread reports them; neither waits for the other.
 ///
-///   peer.model().receive(&events);  // while the loops stand still
+/// peer.model().receive(&events);  // while the loops are stopped
 ///   ...
 ///   events.report(elapsed, stdout);
 class EntityEvents final : public peer::ModelGuest {
@@ -31,10 +31,10 @@ class EntityEvents final : public peer::ModelGuest {
             const peer::InteractionSender& sender) noexcept override;
   void end_pass(peer::ModelLoop& loop) noexcept override;
 
-  /// Writes what has come and gone since the last call as JSON Lines: entities that went first, in
-  /// the order of the changes. @param elapsed [s] since the start
+  /// Writes the entities that came and went since the last call as JSON Lines: first the ones that
+  /// went, in the order of the changes. @param elapsed [s] since the start
   void report(double elapsed, std::FILE* out);
-  /// The same with what has not been gathered yet, once the loops stand still.
+  /// The same, including changes that are not gathered yet. Only after the loops have stopped.
   void report_rest(peer::ModelLoop& loop, double elapsed, std::FILE* out);
 
   /// Remote entities that have appeared and not gone.
@@ -46,15 +46,16 @@ class EntityEvents final : public peer::ModelGuest {
     std::array<char, 12> marking{};
     std::uint64_t updates = 0;
   };
-  // With room for a whole table, so that the loop allocates nothing; memory is taken as it is used.
+  // Has room for a whole table, so that the loop allocates nothing; pages are used only as it
+  // fills.
   struct Letter {
     Letter();
-    std::vector<Heard> heard;  // that have come or changed
+    std::vector<Heard> heard;  // new or changed
     std::vector<pdu::EntityId> removed;
   };
 
   peer::LetterBox<Letter> letters_;
-  std::map<pdu::EntityId, Heard> known_;  // the reporting thread's
+  std::map<pdu::EntityId, Heard> known_;  // used by the reporting thread
 };
 
 }  // namespace reckon::tools

@@ -19,17 +19,19 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
-// Updates of remote hands that may wait: at 125 a second of each of two, half a second.
+constexpr std::size_t kTraceSteps = 4096;  // capacity for recorded steps until collect()
+// Capacity for updates of remote hands: half a second of two hands at 125 Hz each.
 constexpr std::size_t kContactSets = 128;
 constexpr std::size_t kBodySteps = 65'536;  // of all bodies
 constexpr std::size_t kLoopSteps = 16'384;  // of one peer: 20 ms of passes 5 us after one another
 constexpr nanoseconds kCollect = milliseconds(20);
-constexpr nanoseconds kTick = milliseconds(1);  // simulated: all peers look at the network
+constexpr nanoseconds kTick = milliseconds(1);  // simulated time: period at which all peers read
+                                                // the network
 constexpr std::uint16_t kSite = 1;
 
-// Steps of one hand taken at once while it runs, several times what comes in kCollect: on a host
-// that cannot keep up there is always more, and the end has to come all the same.
+// Limit of the steps taken from one hand at once during a run, several times the number that
+// kCollect produces. A host that cannot keep up always finds more steps; the limit lets the run
+// end.
 std::size_t most_steps(nanoseconds period) {
   return static_cast<std::size_t>(6 * kCollect / period) + 8;
 }
@@ -40,10 +42,10 @@ struct Exercise::Member {
   SimulatedHands hands;
   std::unique_ptr<peer::JoinedPeer> joined;
   std::size_t first_hand = 0;              // in hands_
-  std::vector<peer::EntityTrack> tracks;   // of its entities without a hand, in their order
+  std::vector<peer::EntityTrack> tracks;   // of its entities without a hand, in scene order
   pdu::SimulationAddress address;          // as of the last collect()
   std::unique_ptr<peer::LoopRing> stages;  // with trace_loops
-  bool awake = false;                      // simulated time: has something to do at this instant
+  bool awake = false;                      // simulated time: has work at this instant
 };
 
 /// One device of a member.
@@ -221,14 +223,14 @@ void Exercise::run_simulated(nanoseconds span) {
   collect(true);
 }
 
-// The next tick, or what is due before it.
+// The next tick or an earlier servo step.
 nanoseconds Exercise::next_instant() const noexcept {
   nanoseconds next = next_tick_;
   for (const Hand& hand : hands_) next = std::min(next, hand.due);
   return next;
 }
 
-// Of those that have nothing to do at this instant nothing is called: live they would sleep.
+// Members without work at this instant are skipped: in real time their threads would sleep.
 void Exercise::pass_instant(nanoseconds now) {
   const bool is_tick = now >= next_tick_;
   if (is_tick) next_tick_ += kTick;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that a program runs itself: on loopback multicast in real time, or over a simulated network
-// in simulated time. The demo, the tests and the studies share it.
+// Runs several peers in one process: on loopback multicast in real time, or over a simulated
+// network in simulated time. Used by the demo, the tests and the studies.
 #pragma once
 
 #include <chrono>
@@ -36,80 +36,83 @@ namespace reckon::tools {
 struct ExerciseOptions {
   std::size_t peers = 2;
   std::string iface = "lo";  ///< real time: interface of all peers
-  /// No sockets, no waiting: as fast as the machine goes. Every servo steps at the period of its
-  /// own device, to the instant, and its model loop after it, as live; all peers each 1 ms.
+  /// No sockets and no waiting: runs as fast as the host can. Every servo steps exactly at the
+  /// period of its device, followed by its model loop as in real time; all peers step each 1 ms.
   bool simulated_time = false;
-  bool transfer = true;             ///< energy given on demand
+  bool transfer = true;             ///< energy is transferred on demand
   bool measure = true;              ///< compare the peers with one another
   std::uint32_t epoch = 0;          ///< 0 = drawn at random
   bool impairment_changes = false;  ///< real time: change_impairment() may be called
   bool trace_contacts = false;      ///< fill contacts()
-  bool trace_bodies = false;        ///< for on_body()
-  bool trace_loops = false;         ///< for on_stage()
-  /// Move the hands one by one in the place of the scene's operators, which still hold them.
+  bool trace_bodies = false;        ///< call the sink of on_body()
+  bool trace_loops = false;         ///< call the sink of on_stage()
+  /// Scripts that move the hands, one per peer, instead of the scene's operators; the operators'
+  /// impedances still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool even_if_slow = false;                 ///< real time: see FederateOptions
-  haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null: none
-  bool time_servo = false;                   ///< simulated time: measure what servo steps take
-  std::vector<std::string> plugins = {};     ///< real time: files of drivers that may be loaded
+  haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null:
+                                             ///< none
+  bool time_servo = false;                   ///< simulated time: measure the duration of servo
+                                             ///< steps
+  std::vector<std::string> plugins = {};     ///< real time: driver files that may be loaded
 };
 
-/// A few peers in one process. One thread drives it.
+/// A few peers in one process. Driven by one thread.
 class Exercise {
  public:
-  /// Builds the peers and announces them. The impairment of `scene` sits in front of every peer;
-  /// hands take its operators in turn.
-  /// @throws what the parts throw, with value and remedy.
+  /// Builds the peers and announces them. Each peer receives through the impairment of `scene`;
+  /// hands use the scene's operators in turn.
+  /// @throws the exceptions of its parts, with value and remedy.
   Exercise(const peer::SceneFile& scene, const ExerciseOptions& options);
   ~Exercise();
 
-  /// Lets `span` pass: waits in real time, computes in simulated time. Collects what is measured.
+  /// Lets `span` pass: waits in real time, computes in simulated time. Collects the measurements.
   void run(std::chrono::nanoseconds span);
-  /// Ends the loops and says good-bye. run() must not follow.
+  /// Ends the loops and resigns the peers. run() must not follow.
   void stop();
 
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
-  /// Devices of all peers.
+  /// Number of devices of all peers.
   [[nodiscard]] std::size_t hands() const noexcept;
   [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
-  /// The hands of a peer that follow pointers; they go with the exercise.
+  /// The hands of a peer that follow pointers; valid as long as the exercise.
   [[nodiscard]] std::span<const PointerHand> pointers(std::size_t index) const noexcept;
-  /// With trace_contacts: the contact sets that the servo of a device finds; one reader, within the
-  /// sink of on_step() or after run(). Else null.
+  /// With trace_contacts: the contact sets that the servo of a device receives; else null. One
+  /// reader, within the sink of on_step() or after run().
   [[nodiscard]] haptics::ContactRing* contacts(std::size_t peer, std::size_t device) noexcept;
-  /// That the peers go by.
+  /// The clock of the peers.
   [[nodiscard]] const peer::Clock& clock() const noexcept;
-  /// What the network does to all peers from now on, see JoinedPeer::change_impairment(). By one
+  /// Sets the network impairment of all peers from now on, see JoinedPeer::change_impairment(). One
   /// thread, any.
   void change_impairment(const peer::ImpairmentLaw& law);
-  /// Newest picture of a peer, as of the last run().
+  /// Newest view of a peer, as of the last run().
   [[nodiscard]] const peer::PeerView& view(std::size_t index) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;
   [[nodiscard]] const DemoMeasurement& measurement() const noexcept { return *measurement_; }
   [[nodiscard]] ServoReport servo_report() const;
-  /// Servo steps that measurement() lacks: the host had no time to look at them.
+  /// Servo steps missing from measurement() because the host had no time to collect them.
   [[nodiscard]] std::uint64_t unmeasured_steps() const noexcept;
-  /// Median time of one servo step of one peer, its simulated device too [ns]; 0 where it
-  /// was not to be measured.
+  /// Median time of one servo step of one peer, including its simulated device [ns]; 0 without
+  /// time_servo.
   [[nodiscard]] double servo_step_ns() const noexcept;
   /// Sum of a counter over all peers.
   [[nodiscard]] std::uint64_t total(std::string_view counter) const;
-  /// Longest time until a peer had shown a remote entity; negative while one still waits.
+  /// Longest time until a peer showed its first remote entity; negative while one has shown none.
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
   [[nodiscard]] std::vector<ReceivedNotice> take_notices();
-  /// Sentences of devices that are no simulation, or could not follow, since the last call.
+  /// Notices of real devices, and of simulated ones that could not follow, since the last call.
   [[nodiscard]] std::vector<std::string> device_notices();
-  /// Updates a second of peers that would send each hand at each step of its servo.
+  /// Updates per second if each hand were sent at each step of its servo.
   [[nodiscard]] double raw_rate() const noexcept;
-  /// With (peer, device, step), both numbered from 0.
+  /// Arguments: peer, device (both numbered from 0), step.
   using StepSink = std::function<void(std::size_t, std::size_t, const haptics::ServoSnapshot&)>;
   /// Called for each recorded servo step of every device; see `demo --trace`.
   void on_step(StepSink sink) { sink_ = std::move(sink); }
   using BodySink = std::function<void(const haptics::BodyStep&)>;
   /// With trace_bodies: called for each recorded step of a body of the first peer.
   void on_body(BodySink sink) { body_sink_ = std::move(sink); }
-  /// With the peer, numbered from 0.
+  /// Arguments: peer (numbered from 0), step.
   using StageSink = std::function<void(std::size_t, const peer::LoopStep&)>;
   /// With trace_loops: called for each recorded stage of the model loop of every peer.
   void on_stage(StageSink sink) { stage_sink_ = std::move(sink); }

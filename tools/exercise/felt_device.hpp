@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device of a scene as its servo sees it, where nobody holds it: for what is said of a scene.
+// A scene's device as its servo sees it, with no real device opened: for checks of a scene.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace reckon::tools {
 
-/// Its limits are those of the real device. Nothing is opened.
+/// Has the limits of the real device. Opens nothing.
 class FeltDevice {
  public:
   /// @throws as make_held_device()
@@ -28,13 +28,13 @@ class FeltDevice {
 
  private:
   haptics::EvdevExchange exchange_;
-  std::optional<haptics::EvdevDevice> evdev_;  // of a device that renders springs
+  std::optional<haptics::EvdevDevice> evdev_;  // for a device that renders springs
   std::unique_ptr<haptics::HapticDevice> held_;
   std::optional<haptics::MappedDevice> mapped_;
 };
 
-/// @throws std::invalid_argument that names what a device of the scene cannot show: one that
-/// renders springs by itself
+/// @throws std::invalid_argument with the name of an effect that a device of the scene cannot show,
+/// if that device renders springs by itself
 void check_felt(const peer::SceneFile& scene, const haptics::EffectPlan& plan);
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Columns that fit a terminal's width, for tables that are drawn in place.
+// Columns that fit the width of a terminal, for tables that are redrawn in place.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +13,22 @@
 
 namespace reckon::tools {
 
-/// A column, and how soon it is given up where the terminal is narrow: the greatest first.
+/// A column and its rank: on a narrow terminal the columns of greatest rank are dropped first.
 template <typename Cell>
 struct FittedColumn {
   std::string_view title;
   TextTable::Align align;
-  std::size_t width;  ///< at least
+  std::size_t width;  ///< minimum
   int rank;
   std::string (*text)(const Cell& cell);
-  std::size_t more = 0;  ///< it takes at most of what is left over in a wide terminal
+  std::size_t more = 0;  ///< maximum extra width in a wide terminal
 };
 
-/// Lines of one kind: columns of least use are left out until the rest fits.
+/// Rows of one kind: columns of the greatest rank are dropped until the rest fits.
 template <typename Cell, std::size_t N>
 class FittedColumns {
  public:
-  /// @param columns outlive it; one of them at most takes more  @param room of the terminal
+  /// @param columns outlive it; at most one of them has `more`  @param room width of the terminal
   FittedColumns(const std::array<FittedColumn<Cell>, N>& columns, std::size_t room)
       : columns_(columns) {
     for (std::size_t i = 0; i < N; ++i) shown_[i] = true;
@@ -41,7 +41,7 @@ class FittedColumns {
         more_ = std::max(more_, std::min(columns_[i].more, room - width()));
   }
 
-  /// What is left over, as far as a column takes it.
+  /// Extra width that the widening column gets.
   [[nodiscard]] std::size_t more() const { return more_; }
 
   [[nodiscard]] std::string titles() const {
@@ -65,7 +65,7 @@ class FittedColumns {
   template <typename Text>
   [[nodiscard]] std::string line(const Text& text_of) const {
     std::string line;
-    std::size_t end = 0;  // where the column ends if nothing is wider than it should be
+    std::size_t end = 0;  // end of the column if no text is too wide
     for (std::size_t i = 0; i < N; ++i) {
       if (!shown_[i]) continue;
       const std::string text = text_of(columns_[i]);

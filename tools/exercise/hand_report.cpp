@@ -19,7 +19,7 @@ using haptics::ServoTally;
 using haptics::Shortfall;
 using peer::HandView;
 
-constexpr std::size_t kNamed = 4;  // of those that a sentence is about
+constexpr std::size_t kNamed = 4;  // hands named in a sentence
 
 std::string text_of(const pdu::EntityId& id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
@@ -39,7 +39,7 @@ std::string names(const Hands& hands) {
   return hands.size() > kNamed ? text + fmt::format(" and {} more", hands.size() - kNamed) : text;
 }
 
-// Nothing where all are meant.
+// Empty if all hands are meant.
 std::string behind(const Hands& some, std::size_t all) {
   return some.size() == all ? "" : " (" + names(some) + ")";
 }
@@ -54,11 +54,11 @@ void print_softer(std::FILE* out, const Hands& hands) {
     print_line(out, "softer than asked", sentence + behind(some, hands.size()));
 }
 
-/// A kind of shortfall, of what it is a share, and why it is.
+/// A kind of shortfall, the time of which it is a share, and its cause.
 struct Kind {
   std::string_view name;
   Shortfall ServoTally::*shortfall;
-  double ServoTally::*of;  // [s]; null: of nothing that is counted
+  double ServoTally::*of;  // [s]; null: no such time is counted
   std::string_view why;
 };
 constexpr Kind kKinds[] = {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What hands were shown less than they asked for, at the end of a run: softer springs, forces held
-// back, steps that came late; and whom they touched.
+// Report at the end of a run: where hands were shown less force than requested (softer springs,
+// forces held back, late steps), and which hands touched nothing.
 #pragma once
 
 #include <cstdio>
@@ -12,20 +12,21 @@
 
 namespace reckon::tools {
 
-/// The hands of a run; not null.
+/// The hands of a run; no null pointers.
 using Hands = std::vector<const peer::HandView*>;
 
 /// Adds the hands of a peer, which must outlive the list.
 void add_hands(const peer::PeerView& view, Hands& hands);
 
-/// "walls 1425 of 20000 N/m": one for each thing that this device shows softer than the scene asks.
+/// "walls 1425 of 20000 N/m": a sentence for each stiffness that this device shows softer than the
+/// scene asks.
 [[nodiscard]] std::vector<std::string> softer_than_asked(const peer::DeviceStiffness& device);
 
-/// Lines of a summary; what did not happen has none, but that no hand was touched is said.
+/// Prints lines of a summary, only for events that occurred; and a line if no hand touched another.
 void print_hands(std::FILE* out, const Hands& hands);
-/// An array with an object for each hand; docs/json_lines.md has its keys.
+/// A JSON array with an object for each hand; docs/json_lines.md lists its keys.
 [[nodiscard]] std::string hands_json(const Hands& hands);
-/// A line for each hand: what it feels of each entity of others at this instant. @param seconds
+/// A JSON line for each hand: the force from each remote entity at this instant. @param seconds
 /// since the start
 [[nodiscard]] std::string felt_lines(const peer::PeerView& view, double seconds);
 

@@ -27,7 +27,7 @@ haptics::ServoConfig servo_config(const peer::SceneFile& scene, const PointerHan
   return config;
 }
 
-/// As hands that touch are told: by the position that makes the scene's error of force.
+/// [m], as for hands in contact: the position error that causes the scene's force error.
 double threshold_of(const peer::SceneFile& scene) {
   const deadreckon::Thresholds& thresholds = scene.dead_reckoning.thresholds;
   return std::min(thresholds.position, thresholds.force / std::max(scene.hand.k1, 1e-9));
@@ -63,12 +63,12 @@ struct HandTwins::Twin {
   PointerRecorder recorder;
   haptics::ContactRing& contacts;
   haptics::ContactSet received;
-  bool is_changed = false;  // what it received, since its twin was told
+  bool is_changed = false;  // whether `received` changed since the last step of the twin
   haptics::UngatedTwin twin;
-  std::deque<HandMotion> steps;  // of the hand, that the twin has not done yet
+  std::deque<HandMotion> steps;  // of the hand, not yet done by the twin
   TwinTeller teller;
   std::uint64_t told = 0;
-  std::vector<TwinLine> lines;  // from each of the twins
+  std::vector<TwinLine> lines;  // one from each twin
 };
 
 HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
@@ -77,7 +77,7 @@ HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
       hand_(to_force_model(scene.hand)),
       seed_(scene.impairment.seed) {
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
-  if (plan->has_moving()) return;  // there is one of each, which the real hands push
+  if (plan->has_moving()) return;  // bodies exist once, and the real hands push them
   for (std::size_t peer = 0; peer < exercise.size(); ++peer) {
     SimulatedHands hands = make_simulated_hands(scene, static_cast<std::uint32_t>(peer + 1));
     for (const PointerHand& pointer : hands.pointers) {
@@ -116,7 +116,8 @@ void HandTwins::take(std::size_t peer, std::size_t device, const haptics::ServoS
   while (Twin* due = next()) this->step(*due);
 }
 
-// Nobody goes ahead of what another may still have done, but for one that is not heard of any more.
+// The twin with the earliest step, once every twin has one. If one hand stops reporting, the others
+// wait for kMostWaiting steps at most.
 HandTwins::Twin* HandTwins::next() const noexcept {
   Twin* first = nullptr;
   bool is_complete = true;
@@ -144,7 +145,8 @@ void HandTwins::step(Twin& twin) {
   report_others(twin);
 }
 
-// All at once, for the books of each alone would hold what it had of the others.
+// All are reset together: if only one were, its energy account would keep its exchange with the
+// others.
 void HandTwins::look_for_lost(const Twin& twin) {
   const bool is_lost = twin.twin.resets() > resets_;
   if (!is_lost && energy() >= -kMostMade) return;
@@ -168,8 +170,8 @@ void HandTwins::take_contacts(Twin& twin, nanoseconds now) const {
   }
 }
 
-// A model that its sender has softened for want of energy is shown whole: a raw coupling knows no
-// energy.
+// A model that its sender has softened for lack of energy is shown at full stiffness: a raw
+// coupling keeps no energy account.
 void HandTwins::show_contacts(Twin& twin) const {
   haptics::ContactSet set = twin.received;
   for (std::size_t i = 0; i < set.count; ++i) {
@@ -198,7 +200,7 @@ void HandTwins::report_others(Twin& twin) {
   for (std::size_t i = 0; i < twins_.size(); ++i) {
     if (i == own) continue;
     peer::Fate fate = networks_[i].decide(own, twin.told, update->time - begun_);
-    if (twins_[i]->peer == twin.peer) fate = {};  // no network is between them
+    if (twins_[i]->peer == twin.peer) fate = {};  // no network between them
     for (std::size_t copy = 0; copy < fate.copies; ++copy)
       twins_[i]->lines[own].send(*update, update->time + fate.delay.at(copy));
   }

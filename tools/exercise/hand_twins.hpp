@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hidden twins of the hands of an exercise that follow pointers: what these would feel without the
-// gate, computed beside the peers from what they record.
+// Hidden twins of an exercise's hands that follow pointers: the forces these hands would feel
+// without the gate, computed separately from the peers, from recorded steps.
 #pragma once
 
 #include <chrono>
@@ -19,49 +19,49 @@
 
 namespace reckon::tools {
 
-/// Each twin has the pointer, the operator and the device of its hand, and of the contact sets that
-/// the hand's servo gets the models as they came. Where one of these is of a hand that has a twin
-/// too, it stands where that twin is: twins feel each other as two hands would that both lack the
-/// gate. What they tell each other of their motion goes by the scene's thresholds and over what the
-/// network does to the peers.
+/// A twin has the same pointer, operator and device as its hand. It uses the contact models as its
+/// hand received them; if the other hand has a twin, its model is placed at that twin. So twins
+/// feel each other as two hands without the gate. Twins send each other updates by the scene's
+/// thresholds, over the same simulated network.
 ///
-/// Where one gets lost, or all together have made kMostMade of energy, all begin anew.
+/// If one twin diverges, or if all together have generated kMostMade of energy, all are reset.
 ///
-/// One thread, that which runs the exercise; it steps a twin once for each recorded step of its
-/// hand, all of them in the order of time. So they catch up as fast as the exercise collects, and
-/// what their hands did is done again, not what the clock says.
+/// Runs on the thread of the exercise. It steps a twin once for each recorded step of its hand, all
+/// twins in the order of time. So the twins repeat the recorded motion as fast as the exercise
+/// collects it, independent of the clock.
 class HandTwins {
  public:
-  /// More hands than this have no twins: the first ones have.
+  /// Only the first kMost hands have twins.
   static constexpr std::size_t kMost = 8;
-  /// Steps of a hand that wait for those of others, at most: then it goes on without them.
+  /// Limit of the steps of a hand that wait for another hand; beyond it, it continues alone.
   static constexpr std::size_t kMostWaiting = 500;
 
-  /// [J], that twins may make: two of them shake for about a second.
+  /// [J] of generated energy before a reset: two twins oscillate for about a second.
   static constexpr double kMostMade = 0.25;
 
-  /// Before the exercise first runs. @param exercise with ExerciseOptions::trace_contacts, of
-  /// `scene`; outlives this. @throws as make_simulated_hands()
+  /// Construct before the first run of the exercise. @param exercise runs `scene` with
+  /// ExerciseOptions::trace_contacts; outlives this. @throws as make_simulated_hands()
   HandTwins(const peer::SceneFile& scene, Exercise& exercise);
   ~HandTwins();
   HandTwins(const HandTwins&) = delete;
   HandTwins& operator=(const HandTwins&) = delete;
 
-  /// A recorded step of the exercise, see Exercise::on_step(). Nothing for a hand without a twin.
+  /// Takes a recorded step of the exercise, see Exercise::on_step(). Ignored for a hand without a
+  /// twin.
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step);
-  /// Any thread: what the network does from now on. @param law without a problem()
+  /// Any thread: changes the network impairment. @param law without a problem()
   void change_impairment(const peer::ImpairmentLaw& law);
 
-  /// Null for a hand without one.
+  /// The twin of a hand; null: it has none.
   [[nodiscard]] const haptics::UngatedTwin* find(std::size_t peer,
                                                  std::size_t device) const noexcept;
-  /// How often they all began anew.
+  /// Number of resets of all twins.
   [[nodiscard]] std::uint64_t resets() const noexcept { return resets_; }
-  /// What all their hands have given to the couplings and to their devices' damping less what they
-  /// got back [J]: what one hand puts in and another gets out is in it once, so that a passive
-  /// coupling keeps it at zero or above.
+  /// Energy that all their hands have given to the couplings and to their devices' damping, minus
+  /// the energy that they got back [J]. Energy that passes from one hand to another cancels, so a
+  /// passive coupling keeps the sum at zero or above.
   [[nodiscard]] double energy() const noexcept;
-  /// A hand of Exercise::pointers() whose twin follows the same pointer.
+  /// A hand of Exercise::pointers(), with a recorder for its twin.
   [[nodiscard]] PointerHand followed(std::size_t peer, const PointerHand& pointer) const noexcept;
 
  private:
@@ -79,12 +79,12 @@ class HandTwins {
 
   Exercise& exercise_;
   std::chrono::nanoseconds begun_;
-  deadreckon::ForceModel hand_;  // that a hand of the scene shows
+  deadreckon::ForceModel hand_;  // force model of the scene's hands
   std::uint64_t seed_;
   std::vector<std::unique_ptr<Twin>> twins_;
   std::vector<peer::Impairment> networks_;  // by receiver, in the order of twins_
   std::uint64_t resets_ = 0;
-  std::mutex mutex_;  // of new_law_
+  std::mutex mutex_;  // guards new_law_
   std::optional<peer::ImpairmentLaw> new_law_;
 };
 

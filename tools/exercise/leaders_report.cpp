@@ -24,7 +24,7 @@ std::string json_name_of(const pdu::SimulationAddress& id) {
   return id == pdu::SimulationAddress{} ? "null" : '"' + name_of(id) + '"';
 }
 
-// What the peers follow, each beacon once; found where any of them has found it.
+// The beacons that the peers follow, each once; found if any peer has found it.
 std::string followed_text(std::span<const peer::PeerView* const> views) {
   std::map<std::string, std::string> places;
   for (const peer::PeerView* view : views) {

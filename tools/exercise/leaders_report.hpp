@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who leads the scene and its cells, for people and programs.
+// Reports the leaders of the scene and of its cells, as text and as JSON.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace reckon::tools {
 
-/// "scene by 1:1, map 3 has 4 cells; cells by 1:1: 3, by 1:2: 1", of all cells in which one of
-/// these peers is; with "; beacon gate in cell 7,0" for what is followed. Empty where the scene has
-/// no leaders. @param views not null
+/// "scene by 1:1, map 3 has 4 cells; cells by 1:1: 3, by 1:2: 1" for all cells that contain one of
+/// these peers; followed by "; beacon gate in cell 7,0" for each followed beacon. Empty if the
+/// scene has no leaders. @param views not null
 [[nodiscard]] std::string leaders_text(std::span<const peer::PeerView* const> views);
 
-/// `,"leaders":{..}`, a member of an object of one peer; docs/json_lines.md has its keys. Empty
-/// where the scene has no leaders.
+/// `,"leaders":{..}`, a member of a peer's JSON object; docs/json_lines.md lists its keys. Empty
+/// if the scene has no leaders.
 [[nodiscard]] std::string leaders_json(const peer::LeadersView& leaders);
 
 }  // namespace reckon::tools

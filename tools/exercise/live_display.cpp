@@ -28,7 +28,7 @@ LiveDisplay::~LiveDisplay() {
   try {
     close();
   } catch (const std::exception&) {
-    // Nobody reads what there was to tell.
+    // A destructor cannot report errors of the output.
   }
 }
 

@@ -39,14 +39,14 @@ std::string id_text(const pdu::EntityId& id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
 }
 
-// What a cell is made from. A hand has the line of its peer, where it is the first one.
+// Input of a cell. The first hand shares the line of its peer.
 struct HandCell {
   const TablePeer& peer;
   const peer::HandView* hand;  // null: the peer has none
   bool first;
-  std::size_t shown;  // remote entities that have a line
+  std::size_t shown;  // remote entities with a line
   double elapsed;
-  std::size_t bar;  // columns that a force of `whole` [N] fills
+  std::size_t bar;  // columns of a bar for a force of `whole` [N]
   double whole;
 };
 struct EntityCell {
@@ -54,7 +54,7 @@ struct EntityCell {
   const PeerView& view;
 };
 
-// Of the springs of hands: what the energy, and their number, let be shown.
+// Share of the springs of hands that energy and the number of contacts allow.
 double shown_share(const haptics::ServoSnapshot& servo) {
   return servo.spring_share * servo.crowd_share;
 }
@@ -75,7 +75,8 @@ bool is_cut(const haptics::ServoSnapshot& servo) {
   return servo.limit_share < 1.0 - haptics::Shortfall::kLeastShare;
 }
 
-// What a column of newtons with two digits does not show as 0.00.
+// Whether the force column (two digits of newtons) shows more than 0.00, or the hand touches or
+// grabs.
 bool is_felt(const haptics::ServoSnapshot& servo) {
   constexpr double kLeastShown = 0.005;  // [N]
   return servo.in_mesh_contact || servo.grabs || servo.force.norm() >= kLeastShown;
@@ -125,7 +126,7 @@ double bar_end(const LivePicture& picture) {
   return round_end(picture.strongest, kParts);
 }
 
-/// Of a number with its unit, and of a force's bar behind it, at least and at most.
+/// Widths of a number with its unit, and minimum and maximum of the force bar after it.
 constexpr std::size_t kNewtons = 7, kLeastBar = 3, kMostBar = 24;
 
 std::string force_text(const HandCell& cell) {
@@ -187,19 +188,19 @@ constexpr std::array<FittedColumn<EntityCell>, 10> kEntityColumns{{
      }},
 }};
 
-// Lines that a peer would like to have beside its first one.
+// Lines that a peer needs in addition to its first one.
 std::size_t hand_lines(const PeerView& view) {
   return view.hand_count - std::min<std::size_t>(view.hand_count, 1);
 }
 std::size_t wanted(const PeerView& view) {
-  // One says that there are more, or that there are none.
+  // One line states the number of hidden entities, or that there are none.
   const bool remark = view.entities > view.count || view.entities == 0;
   const auto emitting = std::count_if(view.rows.begin(), view.rows.begin() + view.count,
                                       [](const EntityView& row) { return row.emits.any(); });
   return hand_lines(view) + view.count + static_cast<std::size_t>(emitting) + (remark ? 1 : 0);
 }
 
-// Lines of each peer beside its first: one after the other, until none is left.
+// Lines of each peer after its first, distributed round-robin until none is left.
 std::vector<std::size_t> shares(std::span<const TablePeer> peers, std::size_t room) {
   std::vector<std::size_t> share(peers.size(), 0);
   for (bool given = true; given && room > 0;) {
@@ -214,7 +215,7 @@ std::vector<std::size_t> shares(std::span<const TablePeer> peers, std::size_t ro
   return share;
 }
 
-// The nearest of a view, in the order of their IDs.
+// The nearest entities of a view, in the order of their IDs.
 std::vector<std::size_t> nearest(const PeerView& view, std::size_t most) {
   std::vector<std::size_t> places(view.count);
   std::iota(places.begin(), places.end(), std::size_t{0});
@@ -244,13 +245,13 @@ class Table {
     return {{hands_.titles(), LineStyle::title}, {entities_.titles(), LineStyle::faint}};
   }
 
-  /// That it would like to have.
+  /// Number of lines for all hands and entities.
   [[nodiscard]] std::size_t wanted_lines() const {
     std::size_t lines = picture_.peers.size();
     for (const TablePeer& peer : picture_.peers) lines += wanted(*peer.view);
     return lines;
   }
-  /// Of all peers, in at most `room` lines.
+  /// Lines of all peers, at most `room`.
   [[nodiscard]] std::vector<ScreenLine> lines(std::size_t room) const {
     std::vector<ScreenLine> out;
     std::span<const TablePeer> peers = picture_.peers;
@@ -268,7 +269,7 @@ class Table {
     const PeerView& view = *peer.view;
     const std::size_t more_hands = std::min(lines, hand_lines(view));
     lines -= more_hands;
-    // A line that says how many are missing tells less than an entity where it is the only one.
+    // With one line left, an entity is more useful than the number of hidden ones.
     const bool cut = lines < view.entities;
     const std::size_t shown = std::min(view.count, cut && lines > 1 ? lines - 1 : lines);
     for (std::size_t i = 0; i <= more_hands; ++i) {
@@ -295,7 +296,7 @@ class Table {
   const LivePicture& picture_;
   FittedColumns<HandCell, kHandColumns.size()> hands_;
   FittedColumns<EntityCell, kEntityColumns.size()> entities_;
-  double whole_;  // [N], that fills a bar
+  double whole_;  // [N], force of a full bar
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The table that demo and peer show while they run: one line a hand, one line a remote entity, as
-// many as the terminal has room for.
+// The table of demo and peer during a run: one line for each hand and each remote entity, as far as
+// they fit the terminal.
 #pragma once
 
 #include <span>
@@ -15,30 +15,29 @@
 
 namespace reckon::tools {
 
-/// One peer as the table shows it.
+/// A peer as the table shows it.
 struct TablePeer {
   const peer::PeerView* view;
   const peer::Counters* counters;
 };
 
-/// Everything that the table shows.
+/// All input of the table.
 struct LivePicture {
   std::span<const TablePeer> peers;
   const peer::SceneFile& scene;
   double elapsed = 0;                    ///< [s]
   std::span<const std::string> notices;  ///< the newest last
-  double strongest = 1;                  ///< [N], of forces that bars are compared with
+  double strongest = 1;                  ///< [N], greatest force so far; scales the bars
   std::string head;                      ///< ASCII, below the title; empty: none
 };
 
-/// The whole screen: exactly `size.rows` lines of at most `size.columns` columns. What does not fit
-/// in width are the columns of least use. Behind the force of a hand is a bar: what is left over of
-/// the width makes it longer. Every peer has a line of its own, the rest of the lines
-/// is shared among them; of its remote entities a peer shows the nearest, in the order of their
-/// IDs, and says how many there are more.
+/// The whole screen: exactly `size.rows` lines of at most `size.columns` columns. Columns of the
+/// greatest rank are dropped if the terminal is too narrow. Remaining width extends the bar after
+/// the force of a hand. Every peer has its own line; the peers share the other lines. A peer lists
+/// its nearest remote entities, in the order of their IDs, and the number of hidden ones.
 [[nodiscard]] std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size);
 
-/// The same in one line, for where no terminal can show a screen.
+/// A one-line summary for output that cannot show a screen.
 [[nodiscard]] std::string live_status(const LivePicture& picture);
 
 }  // namespace reckon::tools

@@ -16,9 +16,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kHistory = 8192;                      // steps of truth kept
-constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a peer that stands still
-constexpr double kLargestError = 1e3;                       // stands for anything larger
+constexpr std::size_t kHistory = 8192;                      // recorded steps kept per hand
+constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a stopped peer
+constexpr double kLargestError = 1e3;                       // replaces anything larger
 
 double own_energy(const haptics::ServoSnapshot& step) {
   double energy = step.port_energy + step.loan + step.source_energy();
@@ -138,8 +138,8 @@ double DemoMeasurement::possible(std::size_t observer, std::size_t owner, double
   return spring + std::max(device.damper_shown(hand_.damping) * closing, -spring);
 }
 
-// Hands that cannot have touched at the step, by where the owner's was last and by the greatest
-// speed of any: of many nearly all.
+// Hands that cannot have touched at the step, by the owner's last position and the greatest speed
+// of any hand. Skips nearly all pairs of many hands.
 bool DemoMeasurement::is_far(std::size_t owner, const haptics::ServoSnapshot& step) const {
   constexpr double kFastest = 20.0;  // [m/s]
   if (history_[owner].empty()) return true;
@@ -148,7 +148,7 @@ bool DemoMeasurement::is_far(std::size_t owner, const haptics::ServoSnapshot& st
   return (last.device - step.device).norm() > 2.0 * hand_.radius + kFastest * since;
 }
 
-// [s] that passed with this step: of those that were not recorded none. The first has no begin.
+// [s] since the last step, divided by the number of steps. 0 for the first one.
 double DemoMeasurement::length_of(std::size_t index, const haptics::ServoSnapshot& step) {
   const Place before = std::exchange(last_[index], {step.step, step.time, true});
   if (!before.known || step.step <= before.step) return 0.0;
@@ -174,12 +174,12 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
   }
 }
 
-// Whether the two touch, by what is felt or by where they are.
+// @return whether the two touch, by the rendered force or by their positions
 bool DemoMeasurement::compare_force(std::size_t observer, std::size_t owner,
                                     const haptics::ServoSnapshot& step) {
   const auto other = truth(owner, step.time);
   if (!other) return false;
-  // The owner's full model: its sphere where its device really is.
+  // The owner's full model: its sphere at the true position of its device.
   deadreckon::Pose pose;
   pose.position = other->device;
   pose.velocity = other->velocity;
@@ -209,7 +209,7 @@ void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot
   energy_min_ = std::min(energy_min_, step.port_energy_min);
   late_costs_[index] = step.late_cost;
   loan_most_ = std::max(loan_most_, step.loan_most);
-  // Of many hands the steps of one are times enough to look at the sum of all.
+  // With many hands, the steps of one hand sample the sum of all often enough.
   constexpr std::size_t kFew = 8;
   if (history_.size() > kFew && index != 0) return;
   double sum = own_energy(step);

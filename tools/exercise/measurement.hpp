@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the demo claims, measured from outside the peers: their recorded servo steps and shown poses
-// are compared with each other's truth at the same instant. Only a program that holds all peers can
+// Measures the claims of the demo from outside the peers: recorded servo steps and shown poses are
+// compared with the owner's true state at the same instant. Only a program that runs all peers can
 // do this.
 #pragma once
 
@@ -23,49 +23,51 @@
 
 namespace reckon::tools {
 
-/// Compares N hands with one another, and what peers show of other entities with where these are.
-/// One thread.
+/// Compares N hands with one another, and the shown positions of other entities with their true
+/// positions. One thread.
 class DemoMeasurement {
  public:
-  /// @param hand the force model that all hands of the scene show to others.
-  /// @param peers of each hand the peer that has it: hands of one peer do not feel each other.
+  /// @param hand force model that all hands of the scene show to others.
+  /// @param peers the peer of each hand: hands of one peer do not feel each other.
   DemoMeasurement(std::vector<std::size_t> peers, const peer::HandModel& hand);
 
-  /// One recorded servo step of hand `index`; times rise.
+  /// One recorded servo step of hand `index`; times increase.
   void add_step(std::size_t index, const haptics::ServoSnapshot& step);
-  /// What some peer showed of hand `owner`.
+  /// A pose of hand `owner` that some peer showed.
   void add_shown(std::size_t owner, const peer::ShownSample& sample);
-  /// What some peer showed of an entity that no hand moves, which was at `position` [m] then.
+  /// A pose that some peer showed of an entity without a hand; its true position was `position`
+  /// [m].
   void add_shown_entity(const peer::ShownSample& sample, const Eigen::Vector3d& position);
-  /// Who is who; IDs may change while a conflict is settled.
+  /// IDs of the hands; they may change while a conflict is resolved.
   void set_ids(std::span<const pdu::EntityId> ids) { ids_.assign(ids.begin(), ids.end()); }
-  /// What the device of hand `index` can show; before the first evaluate(), else it has no limits.
+  /// Limits of the device of hand `index`. Call before the first evaluate(); without it there are
+  /// none.
   void set_device(std::size_t index, const peer::DeviceStiffness& device) {
     devices_[index] = device;
   }
 
-  /// Evaluates all that has a truth to compare with by now.
+  /// Evaluates all samples whose true state is known by now.
   void evaluate();
 
-  /// [m] shown remote position against the owner's at that instant, of hands and of what moves
-  /// along a track or stands. No samples: nothing of others was shown.
+  /// [m] shown remote position against the owner's at that instant, of hands and of entities on a
+  /// track or at rest. No samples: no remote entity was shown.
   [[nodiscard]] peer::Spread pose_error() const { return pose_error_.spread(); }
   /// [N] rendered force between hands against the owner's full model at the same probe state, while
   /// either is not zero.
   [[nodiscard]] peer::Spread force_error() const { return force_error_.spread(); }
-  /// [N] the same against as much of that model as the two devices can show: no stiffer than the
-  /// softer of them holds, no stronger than the one that shows it pushes.
+  /// [N] the same against the part of that model that the two devices can show: limited to the
+  /// stiffness of the softer one and to the greatest force of the one that shows it.
   [[nodiscard]] peer::Spread possible_force_error() const { return possible_error_.spread(); }
-  /// [N] RMS of the same; 0 where no hands touched.
+  /// [N] RMS of the same; 0 if no hands touched.
   [[nodiscard]] double force_error_rms() const;
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }
-  /// Greatest part of it that late steps account for [J], added over the ports.
+  /// Greatest part of energy_min() that late steps account for [J], added over the ports.
   [[nodiscard]] double late_cost() const;
-  /// Most that was lent to a port to hands that found one another inside [J].
+  /// Largest loan to a port because hands began inside one another [J].
   [[nodiscard]] double loan_most() const { return loan_most_; }
-  /// [s] of hand-to-hand contact, on the static scene, and with entities that no hand moves, each
-  /// summed over the hands: the lengths of their servo steps in contact.
+  /// [s] of contact with hands, with the static scene, and with entities without a hand, each
+  /// summed over the hands: durations of their servo steps in contact.
   [[nodiscard]] double touching_hands() const { return touching_hands_; }
   [[nodiscard]] double touching_scene() const { return touching_scene_; }
   [[nodiscard]] double touching_entities() const { return touching_entities_; }
@@ -76,7 +78,7 @@ class DemoMeasurement {
   struct Truth {
     std::chrono::nanoseconds time{0};
     Eigen::Vector3d device, scp, velocity;
-    double energy = 0;  // work + damping of this port alone
+    double energy = 0;  // work + damping of this port
   };
   struct Shown {
     std::size_t owner;
@@ -100,11 +102,11 @@ class DemoMeasurement {
     std::chrono::nanoseconds time{0};
     bool known = false;
   };
-  // All by hand.
+  // Indexed by hand.
   std::vector<std::size_t> peers_;
   std::vector<pdu::EntityId> ids_;
   std::vector<peer::DeviceStiffness> devices_;
-  std::vector<Place> last_;         // step that was compared
+  std::vector<Place> last_;         // last compared step
   std::vector<double> late_costs_;  // [J]
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;

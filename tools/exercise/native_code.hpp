@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which native code a scene asks for (driver = "plugin"), and which of it may be loaded. A scene is
-// data of somebody else: it names a driver, and the user of this host says where that is.
+// The native code that a scene requests (driver = "plugin"), and the rules for loading it. A scene
+// is foreign data: it names a driver, and the user of this host gives its location.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@
 
 namespace reckon::tools {
 
-/// "runs native code: honey.so (driver plugin of device 1)" for each that the scene names; loads
-/// nothing.
+/// "runs native code: honey.so (driver plugin of device 1)" for each plugin that the scene names;
+/// loads nothing.
 [[nodiscard]] std::vector<std::string> native_code_of(const peer::SceneFile& scene);
 
-/// Prints these lines on err.
+/// Prints these lines to err.
 void say_native_code(const peer::SceneFile& scene, const Console& console);
 
-/// Where drivers are installed: ../lib/reckon/plugins from the program's folder.
+/// Folder of installed drivers: ../lib/reckon/plugins relative to the program's folder.
 [[nodiscard]] std::filesystem::path plugin_folder();
 
-/// The file of a driver: that of `given` (--plugin) which has the same name, else the installed
-/// one. @param name as the scene has it; where it has a folder, no installed one is taken
+/// The file of a driver: the file of `given` (--plugin) with the same name, else the installed one.
+/// @param name as written in the scene; with a folder, no installed driver is used
 /// @throws UsageError with the remedy for any other
 [[nodiscard]] std::filesystem::path trusted_plugin(const std::filesystem::path& name,
                                                    const std::vector<std::string>& given);

@@ -19,16 +19,16 @@ namespace {
 using peer::NoticeKind;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kNamed = 4;  // of those that a sentence is about
+constexpr std::size_t kNamed = 4;  // peers named in a sentence
 
-// Peers in the order of their numbers.
+// Orders peers by their numbers.
 using Numbers = std::pair<unsigned, unsigned>;
 Numbers numbers_of(const aoim::PeerId& peer) { return {peer.site, peer.application}; }
 
 struct Words {
   NoticeKind kind;
-  std::string_view many;  ///< "7 peers ..."
-  std::string_view each;  ///< "8 peers: each ..."
+  std::string_view many;  ///< "7 peers .."
+  std::string_view each;  ///< "8 peers: each .."
 };
 constexpr Words kWords[] = {
     {NoticeKind::joined, "joined", "sees {}"},

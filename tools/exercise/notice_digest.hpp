@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Notices of several peers gathered, so that what happens to all of them is one sentence.
+// Groups notices of several peers, so that an event common to all of them is one sentence.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@
 
 namespace reckon::tools {
 
-/// A notice, and which peer of this program had it.
+/// A notice and the peer of this program that received it.
 struct ReceivedNotice {
   aoim::PeerId by;
   peer::Notice notice;
 };
 
-/// Gathers notices of one kind, or with the same sentence, until none has come for kCalm, and
+/// Gathers notices of one kind, or with the same sentence, until none has come for kCalm, or for
 /// kLongest at most. One thread.
 ///
 ///   8 peers: each sees 7 others
@@ -29,14 +29,14 @@ class NoticeDigest {
   static constexpr std::chrono::nanoseconds kCalm = std::chrono::milliseconds(300);
   static constexpr std::chrono::nanoseconds kLongest = std::chrono::seconds(1);
 
-  /// @param several whether this program has more peers than one: then a sentence begins with whose
-  /// notice it is.
+  /// @param several whether this program has more than one peer: then a sentence begins with the
+  /// peer of its notice.
   explicit NoticeDigest(bool several) : several_(several) {}
 
   void add(const ReceivedNotice& heard, std::chrono::nanoseconds now);
-  /// The sentences that are ready, in the order in which their first notices came.
+  /// The sentences that are ready, in the order of their first notices.
   [[nodiscard]] std::vector<std::string> take(std::chrono::nanoseconds now);
-  /// All of them.
+  /// All pending sentences.
   [[nodiscard]] std::vector<std::string> take_all();
 
  private:

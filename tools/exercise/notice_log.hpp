@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A file of notices, for programs that watch an exercise and for who looks later.
+// A log file of notices.
 #pragma once
 
 #include <cstdio>
@@ -17,11 +17,11 @@ namespace reckon::tools {
 /// Adds `--log FILE` to a verb.
 void add_log_flag(CommandLine& line, std::string& path);
 
-/// Appends a line for each notice, with the time of this host in UTC, and writes it out at once:
+/// Appends a line for each notice, with the time of this host in UTC, and flushes it at once:
 ///
 ///   2026-11-29T08:15:02.413Z warning touch-refused 1:2 900:1:4 at 10.77.0.3:52634 is not felt: ..
 ///
-/// A file that cannot be written any more is reported once. One thread.
+/// A file that cannot be written any more is reported once and closed. One thread.
 class NoticeLog {
  public:
   /// @param path empty: nothing is written  @param console outlives it  @throws UsageError

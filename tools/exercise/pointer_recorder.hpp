@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a pointer does, with the times, for a second device that follows the same pointer later.
+// Records pointer samples with their times, for a second device that follows the same pointer
+// later.
 #pragma once
 
 #include <chrono>
@@ -12,19 +13,19 @@
 
 namespace reckon::tools {
 
-/// One thread puts, one plays; neither waits for the other. Up to kMost samples wait, some four
-/// seconds of a page; newer ones are dropped.
+/// One thread records, one thread plays; neither waits for the other. Holds up to kMost samples,
+/// about four seconds of input from a page; newer ones are dropped.
 class PointerRecorder {
  public:
   static constexpr std::size_t kMost = 256;
 
-  /// @param clock of the servo whose device takes the samples; outlives this
+  /// @param clock of the servo of the first device; outlives this
   explicit PointerRecorder(const peer::Clock& clock) : clock_(clock) {}
 
-  /// As a PointerInbox of the servo gets it now.
+  /// Records a sample with the present time.
   void put(const haptics::PointerSample& sample) noexcept { ring_.push({clock_.now(), sample}); }
 
-  /// Hands what a servo finds at `now` to the inbox of another device.
+  /// Puts the samples recorded until `now` into the inbox of another device.
   void play(std::chrono::nanoseconds now, haptics::PointerInbox& inbox) noexcept {
     for (const Put* next = ring_.front(); next != nullptr && next->time <= now;
          next = ring_.front()) {

@@ -31,7 +31,7 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-// Drivers that a word is enough for.
+// Drivers that need no further argument.
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
   for (const auto& word : peer::kWords<DeviceDriver>) {
@@ -55,7 +55,7 @@ bool is_plugin(const std::string& device) {
          (device.find('/') != std::string::npos || device.ends_with(".so"));
 }
 
-// Of LINE or LINE@BAUD.
+// Parses PORT or PORT@BAUD.
 haptics::SerialPlace place_of(const std::string& device) {
   const std::size_t at = device.rfind('@');
   if (at == std::string::npos) return {device};
@@ -71,7 +71,7 @@ haptics::SerialPlace place_of(const std::string& device) {
   return {device.substr(0, at), baud};
 }
 
-// The driver of what has one of these USB numbers.
+// The driver for one of these USB IDs.
 DeviceDriver driver_of(const peer::DeviceDescriptor& described, const std::string& file) {
   DeviceConfig device;
   std::string known;
@@ -105,7 +105,7 @@ DeviceDriver driver_of(const std::string& device) {
   return *peer::value_of<DeviceDriver>(device);
 }
 
-// All devices by name, where the file has none.
+// Adds the default devices of all peers to a scene that lists none.
 void say_devices(peer::SceneFile& scene, std::size_t peers) {
   if (!scene.devices.empty()) return;
   std::vector<DeviceConfig> devices;
@@ -122,7 +122,7 @@ std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
   return std::make_unique<haptics::FalconDriver>(std::move(firmware));
 }
 
-// The servo calls it, and no thread of its own.
+// The servo calls it directly; it has no thread of its own.
 class LoadedPlugin final : public peer::RealDevice {
  public:
   LoadedPlugin(const std::filesystem::path& file, const std::string& options)
@@ -203,7 +203,7 @@ void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     first->admittance.mass = 0.0;
-    // What the scene says of a simulated device's friction and delay is not said of this one.
+    // The scene's friction and delay are those simulated, and do not apply to a real device.
     const DeviceDriver chosen = driver_of(choice.device);
     if (chosen == DeviceDriver::plugin) first->plugin = std::filesystem::absolute(choice.device);
     if (chosen == DeviceDriver::serial) {
@@ -289,7 +289,7 @@ std::unique_ptr<peer::RealDevice> RealDevices::open_evdev(const DeviceConfig& co
   return device;
 }
 
-// One that takes forces and reports where it is.
+// A device that takes forces and reports its position.
 std::unique_ptr<peer::RealDevice> RealDevices::open_by_forces(const DeviceConfig& config) {
   const haptics::UsbFacts& facts = *peer::usb_facts_of(config);
   const haptics::DeviceLimits limits = haptics::usb_limits(facts, peer::usb_settings_of(config));

@@ -39,10 +39,10 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kServoPeriod{1};
-constexpr milliseconds kGlance{20};      // so late may a key be
-constexpr milliseconds kSettling{3000};  // after Enter, where its readings fail now and then
-constexpr milliseconds kFarewell{50};    // in which a zero reaches the device
-constexpr std::chrono::seconds kReadyWithin{60};  // until it is ready, where nobody is asked
+constexpr milliseconds kKeyPollInterval{20};  // maximum delay of a key
+constexpr milliseconds kSettling{3000};       // after Enter, for readings that fail now and then
+constexpr milliseconds kShutdownDrain{50};    // for a zero force to reach the device
+constexpr std::chrono::seconds kReadyWithin{60};  // until it is ready, if there is no terminal
 
 void check_measurable(const RealMeasuring& wanted) {
   const std::string& name = wanted.choice.device;
@@ -61,7 +61,7 @@ void check_measurable(const RealMeasuring& wanted) {
   }
 }
 
-/// The device of a scene that says nothing else, and its driver.
+/// The device of an otherwise empty scene, and its driver.
 class OpenedDevice {
  public:
   /// @throws UsageError, EnvironmentError with the remedy
@@ -71,7 +71,7 @@ class OpenedDevice {
     choose_device(wanted.choice, scene_, 1, 1);
     peer::DeviceConfig& config = scene_.devices.front();
     if (config.driver == peer::DeviceDriver::serial) {
-      config.resolution = 1e-3;  // is measured: boards with any step are driven
+      config.resolution = 1e-3;  // is measured: boards with any step are accepted
       if (!wanted.max_force.empty()) config.max_force = max_force_of(wanted.max_force);
     }
     try {
@@ -80,7 +80,7 @@ class OpenedDevice {
     } catch (const std::runtime_error& error) {
       throw EnvironmentError(error.what());
     }
-    // What its servo would rely on: no servo relies on it here.
+    // Notices about limits that a servo would use; here no servo uses them.
     static_cast<void>(real_.take_notices());
     const haptics::DeviceLimits limits = device().limits();
     if (limits.kind != haptics::DeviceKind::impedance || limits.axes != 3) {
@@ -93,7 +93,7 @@ class OpenedDevice {
 
   [[nodiscard]] haptics::HapticDevice& device() noexcept { return *hands_.wired.front().device; }
   [[nodiscard]] RealDevices& real() noexcept { return real_; }
-  /// What is known of it besides.
+  /// The properties that are known without a measurement.
   [[nodiscard]] peer::DeviceDescriptor known() {
     const haptics::DeviceLimits limits = device().limits();
     peer::DeviceDescriptor known;
@@ -124,7 +124,7 @@ class OpenedDevice {
   RealDevices real_;
 };
 
-/// Steps a servo at 1 kHz while it exists.
+/// Steps a servo at 1 kHz during its lifetime.
 class ServoBeside {
  public:
   ServoBeside(const peer::Clock& clock, MeasuringServo& servo) : servo_(servo), thread_(clock) {
@@ -134,15 +134,15 @@ class ServoBeside {
     stepped.is_urgent = [&servo] { return servo.stage() == MeasuringStage::pushing; };
     number_ = thread_.add(std::move(stepped));
   }
-  /// What it pushes ends first.
+  /// Ends a running push first.
   ~ServoBeside() {
     if (servo_.stage() == MeasuringStage::pushing) {
       servo_.halt();
-      std::this_thread::sleep_for(kFarewell);
+      std::this_thread::sleep_for(kShutdownDrain);
     }
     thread_.remove(number_);
   }
-  /// Why its steps may come late; empty: nothing says so.
+  /// Why its steps may be late; empty: no known reason.
   [[nodiscard]] std::string weakness() const {
     return thread_.real_time() ? std::string() : "the servo has " + thread_.describe();
   }
@@ -155,7 +155,7 @@ class ServoBeside {
   std::size_t number_ = 0;
 };
 
-/// The talk with the person from the start to the end of the pushes.
+/// The dialogue with the user from the start to the end of the pushes.
 class Conversation {
  public:
   Conversation(const RealMeasuring& wanted, const Console& console, OpenedDevice& opened,
@@ -207,12 +207,12 @@ class Conversation {
       if (servo_.judge() && servo_.run()->judged() > told)
         say(fmt::format("{} of {} axes measured", ++told, std::ranges::count(axes, true)));
     }
-    // What the servo writes from now on are zeros.
-    std::this_thread::sleep_for(kFarewell);
+    // From now on the servo writes zeros.
+    std::this_thread::sleep_for(kShutdownDrain);
     tell_notices();
   }
 
-  /// @throws EnvironmentError where there is nothing to give
+  /// @throws EnvironmentError if there is no result
   [[nodiscard]] const haptics::MeasuredDevice& found() const {
     const MeasuringStage stage = servo_.stage();
     if (stage == MeasuringStage::halted)
@@ -238,10 +238,10 @@ class Conversation {
   void tell_notices() const {
     for (const std::string& notice : opened_.real().take_notices()) say(notice);
   }
-  // Waits a glance for a key; 0: there was none.
+  // Waits kKeyPollInterval for a key. @return 0: none was pressed
   char key() {
     std::array<char, 16> pressed{};
-    const std::size_t count = keys_.read(pressed, kGlance);
+    const std::size_t count = keys_.read(pressed, kKeyPollInterval);
     tell_notices();
     return count > 0 ? pressed[0] : '\0';
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon devices measure` of a real device: the person is asked, the handle is pushed, any of them
-// may stop it.
+// `reckon devices measure` with a real device: asks the user, pushes the handle; a key or a signal
+// stops it.
 #pragma once
 
 #include <string>
@@ -14,37 +14,38 @@
 
 namespace reckon::tools {
 
-/// What is asked for.
+/// Options of a measurement.
 struct RealMeasuring {
-  DeviceChoice choice;     ///< as of --device, not empty
-  std::string max_force;   ///< --max-force, of a serial board; empty: as its driver assumes
-  bool is_agreed = false;  ///< --yes: nobody is asked
-  int keys = 0;            ///< descriptor of the person's keys, stdin
+  DeviceChoice choice;     ///< as for --device, not empty
+  std::string max_force;   ///< --max-force, for a serial board; empty: the driver's default
+  bool is_agreed = false;  ///< --yes: do not ask
+  int keys = 0;            ///< descriptor of the user's keys, stdin
 };
 
-/// Opens the device, waits until it is ready, tells what will happen and asks, pushes it at 1 kHz
-/// from a servo thread, and gives its descriptor. Sentences go to console.err. A key, Ctrl-C,
-/// SIGUSR1 and each surprise end it without a force.
-/// @throws UsageError for a device that cannot be measured, or where nobody can be asked;
-/// EnvironmentError where it was ended, with the reason and the remedy
+/// Opens the device, waits until it is ready, warns and asks the user, pushes the device at 1 kHz
+/// from a servo thread, and returns its descriptor. Messages go to console.err. A key, Ctrl-C,
+/// SIGUSR1 or a fault ends it with zero force.
+/// @throws UsageError for a device that cannot be measured, or if the user cannot be asked;
+/// EnvironmentError if it was ended, with the reason and the remedy
 [[nodiscard]] std::string measure_real(const RealMeasuring& wanted, const Console& console);
 
-/// What the person reads before anything moves. @param asks whether Enter is waited for
+/// The warning before anything moves. @param asks whether Enter is required
 [[nodiscard]] std::string warning_of(const haptics::DeviceLimits& limits, bool asks);
 
-/// What was relied on so far, and what a servo may rely on from now on.
+/// The limits used so far, and the measured ones.
 struct MeasuredChain {
   haptics::MeasuredDevice found;
-  haptics::DeviceLimits limits;  ///< that its driver gave
+  haptics::DeviceLimits limits;  ///< given by its driver
   double period = 1e-3;          ///< [s], of the servo
-  int needed_delay = 0;          ///< see haptics::UsbDevice::needed_delay; 0: it has no such chain
+  int needed_delay = 0;          ///< see haptics::UsbDevice::needed_delay; 0: it sends no
+                                 ///< reports
 };
 
-/// The delay to state [s]: of a chain with reports what these need, and what motors lag behind
-/// them, which is what pushes found beyond the delay that was stated. Half a period of that is
-/// error.
+/// The delay to declare [s]. For a device with reports: the delay that the reports need, plus the
+/// lag of the motors behind them, which is the measured delay beyond the declared one. Lags up to
+/// half a period are treated as error.
 [[nodiscard]] double delay_to_state(const MeasuredChain& chain);
-/// Lines for a descriptor: what was assumed beside what was measured.
+/// Comment lines for a descriptor: assumed values and measured ones.
 [[nodiscard]] std::vector<std::string> remarks_of(const MeasuredChain& chain);
 
 }  // namespace reckon::tools

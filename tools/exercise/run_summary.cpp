@@ -24,7 +24,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Something that a peer can run into, by the counter that tells of it.
+/// A limit that a peer can reach, by the counter that reports it.
 struct Wall {
   std::string_view counter;
   std::string_view sentence;
@@ -47,7 +47,7 @@ std::uint64_t most(std::span<const peer::Counters* const> peers, std::string_vie
   return most;
 }
 
-// Of all hands: the least energy, and the cuts of the force.
+// Over all hands: the least energy, and the number of force cuts.
 struct Ports {
   double energy_min = 0;
   double late_cost = 0;

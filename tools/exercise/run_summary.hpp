@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run as one peer of a LAN cost, reported at its end.
+// Report of a single peer at the end of its run on a LAN.
 #pragma once
 
 #include <cstdio>
@@ -13,22 +13,22 @@
 
 namespace reckon::tools {
 
-/// A run that is over: nothing may change any more.
+/// A finished run: nothing may change any more.
 struct FinishedRun {
   peer::Peer& peer;
   const peer::PeerThreads& threads;
   double seconds = 0;  ///< how long it ran
 };
 
-/// One JSON object on one line; docs/json_lines.md has its keys.
+/// One JSON object on one line; docs/json_lines.md lists its keys.
 void print_run_json(std::FILE* out, const FinishedRun& run);
-/// The same for a person.
+/// The same as text.
 void print_run_text(std::FILE* out, const FinishedRun& run);
 
-/// The walls that peers ran into, one line each, with the count of the peer that ran into it most:
-/// hands that were not felt, a full table, full rings. Nothing where there were none.
+/// The limits that peers reached, one line each, with the largest count of any peer: hands that
+/// were not felt, a full table, full rings. Nothing if no limit was reached.
 void print_walls(std::FILE* out, std::span<const peer::Counters* const> peers);
-/// The same as members of a JSON object, a comma before each.
+/// The same as members of a JSON object, each with a comma before it.
 [[nodiscard]] std::string walls_json(std::span<const peer::Counters* const> peers);
 
 }  // namespace reckon::tools

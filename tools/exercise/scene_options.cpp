@@ -29,7 +29,7 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
 
 namespace {
 
-// What is wrong with the key is reported before anything is begun.
+// Reports problems of the key before anything starts.
 void check_key(const peer::SceneFile& scene) {
   if (scene.network.key.empty()) return;
   static_cast<void>(peer::load_group_key(scene.network.key));

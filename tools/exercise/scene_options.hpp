@@ -14,11 +14,11 @@
 
 namespace reckon::tools {
 
-/// What may be said about a scene on the command line.
+/// Scene options of the command line.
 struct SceneOptions {
-  std::string scene;   ///< file; empty = the shipped one
-  std::string mesh;    ///< takes the first object's place
-  std::string hand;    ///< trace that the hands follow
+  std::string scene;   ///< file; empty: the shipped scene
+  std::string mesh;    ///< replaces the first object's shape
+  std::string hand;    ///< hand trace that the hands follow
   std::string impair;  ///< see impairment_text.hpp
   std::string iface;
   std::string key;  ///< key file of a sealed exercise
@@ -30,14 +30,14 @@ struct SceneOptions {
 /// Declares --mesh, --hand, --impair, --seed, --iface, --key and --even-if-slow.
 void add_scene_options(CommandLine& line, SceneOptions& options);
 
-/// What is wrong with the scene, and what may be done.
+/// The problem of the scene, and the remedy.
 [[nodiscard]] std::string refusal_of(const peer::StepTooDear& slow);
 
-/// Whether the network draws by its seed what happens to a datagram.
+/// Whether the impairment uses random numbers.
 [[nodiscard]] bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept;
 
-/// Reads the scene, changes it as asked, and opens every file that `hands` hands need.
-/// @param shipped scene used where none is named. @throws UsageError with the place and the remedy.
+/// Reads the scene, applies the options, and opens every file that `hands` hands need.
+/// @param shipped default scene. @throws UsageError with the place and the remedy.
 [[nodiscard]] peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
                                          std::size_t hands);
 

@@ -31,7 +31,8 @@ bool has_open(const fs::path& process, const fs::path& line) {
   return false;
 }
 
-// @return name and number of a process that has it open, as far as this user may see; empty: none
+// @return name and number of a process that has the port open, among the processes visible to this
+// user; empty: none
 std::string user_of(const fs::path& line) {
   std::error_code error;
   for (fs::directory_iterator process("/proc", error), end; !error && process != end;

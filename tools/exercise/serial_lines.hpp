@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Serial lines of this host that a board may be on, and what is in the way.
+// Serial ports of this host to which a board may be connected, and the problems that block their
+// use.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +12,12 @@
 
 namespace reckon::tools {
 
-/// Where lines have names that stay when they are plugged in elsewhere.
+/// Folder with port names that do not depend on the socket.
 inline constexpr const char* kSerialFolder = "/dev/serial/by-id";
 
-/// Of each line of `folder`: what is in the way of a board on it. None is opened, for that resets
-/// many boards, and what else is on a line is none of our business. Cost: reads what all processes
-/// of this user have open.
+/// Checks each port of `folder` for problems. Opens none: that would reset many boards, and other
+/// devices on serial ports must not be disturbed. Cost: reads the open files of all processes of
+/// this user.
 [[nodiscard]] std::vector<AttachedDevice> look_at_serial_lines(
     const std::filesystem::path& folder = kSerialFolder);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the servos of a run kept time.
+// Timing of the servos of a run.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,7 @@
 
 namespace reckon::tools {
 
-/// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory
-/// locked".
+/// Scheduling of a peer's servo: "SCHED_FIFO 50, wakes 100 us early and spins; memory locked".
 [[nodiscard]] std::string servo_text(const peer::PeerThreads& threads);
 
 /// Percentiles of the servo's lateness over all peers (the worst of each), and missed periods.
@@ -22,7 +21,7 @@ struct ServoReport {
   std::uint64_t steps = 0;
   std::uint64_t missed = 0;
   LoopReports loops;   ///< the worst of each
-  std::string thread;  ///< how the thread that serves them keeps time; empty in simulated time
+  std::string thread;  ///< scheduling of their thread; empty in simulated time
 
   void add(const peer::PeerThreads& threads);
 };

@@ -38,7 +38,7 @@ void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::Serv
   vector(step.force);
   vector(step.mesh_force);
 
-  // All hands together: as rendered, and as their records say.
+  // Sums over all remote hands: as rendered, and as their records state.
   Eigen::Vector3d hands = Eigen::Vector3d::Zero(), records = Eigen::Vector3d::Zero();
   double ledger = 0.0, need = 0.0;
   for (std::size_t i = 0; i < step.count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every servo step as a line of CSV, for plots and for reproducing a run.
+// Writes every servo step as a CSV line, for plots and to reproduce a run.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace reckon::tools {
 class ServoTrace {
  public:
   /// @param turns with columns of torque, orientation and turn rate
-  /// @throws UsageError where the file cannot be written.
+  /// @throws UsageError if the file cannot be written.
   explicit ServoTrace(const std::filesystem::path& file, bool turns = false);
 
   /// @param peer, device numbered from 0; from 1 in the file

@@ -19,17 +19,17 @@ namespace {
 using haptics::HandTarget;
 using std::chrono::nanoseconds;
 
-constexpr double kMeshSize =
-    0.2;                        // [m], bounding diagonal of a mesh that takes another shape's place
-constexpr double kDip = 0.015;  // [m], how far a fitted trace goes above and below the top
-constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a little
+constexpr double kMeshSize = 0.2;    // [m], bounding diagonal of a mesh that replaces another shape
+constexpr double kDip = 0.015;       // [m], amplitude of a fitted trace above and below the top
+constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a
+                                     // little
 
-// They come from farther aside in this time: hands that appear inside each other feel nothing.
+// Duration of an approach from the side: hands that appear inside each other feel nothing.
 constexpr nanoseconds kComes = std::chrono::seconds(1);
 
-constexpr double kAside = 6.0;  // radii that hands with the same operator are apart, upwards
+constexpr double kAside = 6.0;  // radii between hands with the same operator, upwards
 
-// Of a way, by minimum jerk.
+// State of a minimum-jerk approach.
 struct Approach {
   double left = 1.0;  // 1 at its begin, 0 at its end
   double rate = 0.0;  // [1/s]
@@ -41,7 +41,7 @@ Approach approach(double time, double duration) {
           -30.0 * u * u * (1.0 - u) * (1.0 - u) / duration};
 }
 
-// Comes from aside, starts late, plays faster, begins within the recording, stands elsewhere.
+// Applies approach, start time, speed, offset within the recording and offset of position.
 haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig& config) {
   return [trace = std::move(trace), config](double time) {
     const double start = pdu::to_seconds(config.start);
@@ -85,7 +85,7 @@ haptics::TurnScript straight_turns_of(const peer::DeviceConfig& device,
   };
 }
 
-/// In axes of the device; as the sweep goes.
+/// In axes of the device, in phase with the sweep.
 haptics::TurnScript turns_of(const peer::DeviceConfig& device, const peer::OperatorConfig& config) {
   haptics::TurnScript turns = straight_turns_of(device, config);
   if (!device.left_handed) return turns;
@@ -115,7 +115,7 @@ haptics::HandScript script_of(const peer::OperatorConfig& config) {
   };
 }
 
-/// A target in S as the device sees it.
+/// Maps a target from frame S to the device.
 haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandScript in_scene) {
   Eigen::Matrix3d R_DS = device.orientation.conjugate().toRotationMatrix();
   if (device.left_handed) R_DS.row(0) *= -1.0;
@@ -129,12 +129,12 @@ haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandSc
   };
 }
 
-// A force that is held on while the servo is late moves the hand with what is out of date.
+// A force that is held while the servo is late acts on the hand with outdated values.
 nanoseconds hold_of(nanoseconds period) {
   return std::min<nanoseconds>(3 * period / 2, haptics::HapticDevice::kWatchdog);
 }
 
-/// A device and who holds it.
+/// A device and the operator's hand on it.
 struct Held {
   haptics::SimulatedDeviceConfig config;
   haptics::HandScript script;
@@ -186,7 +186,7 @@ peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t num
   config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
   if (scene.operators.empty()) return config;
   config = scene.operators[index % scene.operators.size()];
-  // A second hand with the same operator stands beside the first.
+  // A second hand with the same operator is placed beside the first.
   const auto round = static_cast<double>(index / scene.operators.size());
   const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
   config.position += aside;
@@ -332,7 +332,7 @@ void put_trace(peer::SceneFile& scene, const std::filesystem::path& file) {
   const haptics::EffectPlan plan(scene.scene);
   Eigen::AlignedBox3d bounds = plan.objects().front().bounds;
   if (!bounds.sizes().allFinite() || bounds.sizes().norm() > 10.0) {
-    // A plane goes on for ever: take a patch of it.
+    // A plane is unbounded: use a patch of it.
     const Eigen::Vector3d centre = plan.objects().front().position;
     bounds = Eigen::AlignedBox3d(centre - Eigen::Vector3d(0.05, 0.05, 0.1),
                                  centre + Eigen::Vector3d(0.05, 0.05, 0.0));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From an operator in a scene file to a simulated device that the operator holds.
+// Makes a simulated device, held by an operator of the scene file.
 #pragma once
 
 #include <chrono>
@@ -21,60 +21,60 @@
 
 namespace reckon::tools {
 
-/// Operator `number` from 1 as it holds a hand; see make_simulated_hand.
+/// Operator `number` (from 1) as it holds a hand; see make_simulated_hand.
 [[nodiscard]] peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number);
 
-/// Where operator `number` begins [m] in S: of a trace the point to which the hand comes, of a
-/// sweep its middle. @throws std::runtime_error for a trace that cannot be read, with FILE:LINE
+/// Start position of operator `number` [m] in S: of a trace the end of its approach, of a sweep the
+/// middle. @throws std::runtime_error for a trace that cannot be read, with FILE:LINE
 [[nodiscard]] Eigen::Vector3d begin_of(const peer::SceneFile& scene, std::uint32_t number);
 
-/// The hand of operator `index`; a scene with fewer operators starts again at the first, a
-/// little aside, and one without any gets hands that hold still above its origin. @param script
-/// moves it in S in the place of the operator, who still holds it; none: the operator does.
+/// The hand of operator `index`. A scene with fewer operators reuses them from the first, a little
+/// aside; a scene without operators gets hands at rest above its origin. @param script moves the
+/// hand in S instead of the operator, whose impedance still holds it; none: the operator does.
 /// @throws std::runtime_error for a trace that cannot be read, with FILE:LINE.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
     const peer::SceneFile& scene, std::size_t index, const haptics::HandScript& script = nullptr);
 
-/// Places of its tool [m], as haptics::ServoConfig has them.
+/// Positions of its tool's probes [m], as in haptics::ServoConfig.
 [[nodiscard]] std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device);
 
-/// How its handle moves its hand.
+/// Mapping from the handle to the hand.
 [[nodiscard]] haptics::HandMapping mapping_of(const peer::DeviceConfig& device);
 
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
-/// from 1), who moves in S: the servo needs mapping_of(), `device.position` and
-/// `device.orientation` too. A force is held for 1.5 servo periods, and 10 ms at most: a step that
-/// comes later finds it let go. A pointer's device follows its pointer, but for a script. @throws
-/// as above.
+/// from 1). The operator moves in S: the servo also needs mapping_of(), `device.position` and
+/// `device.orientation`. The device holds a force for 1.5 servo periods, 10 ms at most, and then
+/// drops it. A pointer's device follows its pointer unless there is a script. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
 
-/// The same of a device with a virtual mass. @throws as above.
+/// The same for a device with a virtual mass. @throws as above.
 [[nodiscard]] std::unique_ptr<AdmittanceHand> make_admittance_hand(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
 
-/// Whichever of the two it is. @throws as above.
+/// The one of the two that `device` asks for. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::HapticDevice> make_held_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
 
-/// One device of a scene that follows a pointer, whatever its table says of that, and its operator
-/// while nobody points. @throws as above.
+/// One device of a scene that follows a pointer, regardless of its `source`; it follows its
+/// operator while no pointer is active. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::PointerDevice> make_pointer_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
 
-/// A hand that follows a pointer, for whoever has the pointer: a page, a program. It refers to the
-/// device, which outlives it.
+/// A hand that follows a pointer of a page or a program. It refers to the device, which outlives
+/// it.
 struct PointerHand {
   std::size_t device = 0;  ///< of the peer, from 0
   haptics::PointerInbox* inbox = nullptr;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();                 ///< [m], origin of frame D in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  PointerRecorder* recorder = nullptr;  ///< gets the same, for a second device; null: none
-  std::size_t held = 0;                 ///< of SimulatedHands::devices, from 0
+  PointerRecorder* recorder = nullptr;  ///< receives the same samples, for a second device;
+                                        ///< null: none
+  std::size_t held = 0;                 ///< index in SimulatedHands::devices, from 0
 
-  /// Leads the hand to a point of S [m]; see haptics::PointerInbox::put, whose thread it is.
+  /// Moves the hand to a point of S [m]; see haptics::PointerInbox::put for the thread.
   bool lead(const Eigen::Vector3d& p_S, bool grabs = false) const noexcept {
     return put({orientation.conjugate() * (p_S - origin), true, grabs});
   }
@@ -87,20 +87,22 @@ struct PointerHand {
   }
 };
 
-/// The devices of one peer, and how they stand in the scene.
+/// The devices of one peer, and their placement in the scene.
 struct SimulatedHands {
   std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
-  std::vector<std::unique_ptr<AdmittanceHand>> admittance;     ///< beside `devices`
-  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< before those that have a mapping
-  std::vector<peer::PeerDevice> wired;  ///< all, in their order, or what maps them
-  std::vector<PointerHand> pointers;    ///< those of `devices` that follow one
+  std::vector<std::unique_ptr<AdmittanceHand>> admittance;     ///< not among `devices`
+  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< wrap the devices that have
+                                                               ///< a mapping
+  std::vector<peer::PeerDevice> wired;  ///< all devices in scene order, or their mapping
+                                        ///< wrappers
+  std::vector<PointerHand> pointers;    ///< the pointer devices among `devices`
 
-  /// Sentences since the last call, of devices that could not follow. One thread, any.
+  /// Notices since the last call, of devices that could not follow. One thread, any.
   [[nodiscard]] std::vector<std::string> take_notices();
 };
 
-/// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script
-/// where there is one. @throws as above.
+/// All devices of peer `peer` (from 1) by devices_of(), maybe none; moved by the script if there is
+/// one. @throws as above.
 [[nodiscard]] SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
                                                   const haptics::HandScript& script = nullptr);
 
@@ -110,12 +112,12 @@ struct SimulatedHands {
 void check_files(const peer::SceneFile& scene, std::size_t hands);
 
 /// Replaces the first object's shape by the mesh in `file`, centred there and scaled to the same
-/// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or
+/// size (0.2 m if the object is no mesh). @throws std::runtime_error if there is no object or
 /// the mesh cannot be read.
 void put_mesh(peer::SceneFile& scene, const std::filesystem::path& file);
 
 /// Makes all hands follow the recorded trace in `file`, side by side so that they touch. The trace
-/// is shrunk and moved until it runs through the top of the first object.
+/// is scaled and moved to pass through the top of the first object.
 void put_trace(peer::SceneFile& scene, const std::filesystem::path& file);
 
 }  // namespace reckon::tools

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How much simulated time passes at once where a scene is run for its results.
+// Step of simulated time in runs whose results are evaluated.
 #pragma once
 
 #include <chrono>
 
 namespace reckon::tools {
 
-/// Results depend on it: everything that runs a scene to its end uses it.
+/// Results depend on it: every complete run of a scene uses it.
 inline constexpr std::chrono::nanoseconds kSimulatedSlice = std::chrono::milliseconds(200);
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every stage of every pass of the model loops as a line of CSV.
+// Writes every stage of every pass of the model loops as a CSV line.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace reckon::tools {
 
-/// A CSV file with a header line, in the order in which the stages of a peer ran.
+/// A CSV file with a header line; a peer's stages are in the order in which they ran.
 class StageTrace {
  public:
-  /// @throws UsageError where the file cannot be written.
+  /// @throws UsageError if the file cannot be written.
   explicit StageTrace(const std::filesystem::path& file);
 
   /// @param peer numbered from 0; from 1 in the file

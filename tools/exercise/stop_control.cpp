@@ -12,7 +12,7 @@ namespace {
 
 using haptics::StopCause;
 
-// For the handler, which may do no more than read and change it.
+// For the signal handler, which may only read and change it.
 std::atomic<haptics::ForceStop*> handled{nullptr};
 static_assert(std::atomic<haptics::ForceStop*>::is_always_lock_free);
 
@@ -47,7 +47,7 @@ StopControl::StopControl() {
 
 StopControl::~StopControl() {
   handled.store(nullptr);
-  // The handler stays where the default would end the program while it says good-bye.
+  // The handler remains if the default action would end the program while it resigns.
   const bool ends = (before_.sa_flags & SA_SIGINFO) == 0 && before_.sa_handler == SIG_DFL;
   if (!ends) sigaction(SIGUSR1, &before_, nullptr);
 }

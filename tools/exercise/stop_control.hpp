@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the user of a demo or a peer presses the software stop, and what is told of it.
+// Control of the software stop by the user of a demo or a peer, and its notices.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,8 @@
 namespace reckon::tools {
 
 /// The software stop of a program: pressed and released by SIGUSR1, by a key, and by the buttons of
-/// devices. Made before any thread and any device; one at a time. One thread, but for stop().
+/// devices. Construct it before any thread and any device; one at a time. One thread, except for
+/// stop().
 ///
 ///     StopControl stop;
 ///     options.force_stop = &stop.stop();
@@ -22,27 +23,27 @@ namespace reckon::tools {
 ///     display.add(stop.take_notices());
 class StopControl {
  public:
-  /// From now on SIGUSR1 presses and releases it.
+  /// From now on SIGUSR1 presses and releases the stop.
   StopControl();
-  /// SIGUSR1 does again what it did before, but ends no program that is about to end.
+  /// Restores the earlier action of SIGUSR1, except the default action, which would end the
+  /// program.
   ~StopControl();
   StopControl(const StopControl&) = delete;
   StopControl& operator=(const StopControl&) = delete;
 
-  /// A key that is pressed again sooner than this does not release: who presses in haste wants no
-  /// force.
+  /// A second press within this time does not release the stop: hasty presses mean a stop.
   static constexpr std::chrono::milliseconds kLeastHeld{500};
 
   [[nodiscard]] haptics::ForceStop& stop() noexcept { return stop_; }
-  /// @param now steady
+  /// @param now steady time
   void press_key(std::chrono::nanoseconds now) noexcept;
-  /// A sentence where it was pressed or released since the last call.
+  /// A sentence if it was pressed or released since the last call.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:
   haptics::ForceStop stop_;
-  std::chrono::nanoseconds pressed_at_{0};  // by the key
-  std::uint32_t told_ = 0;                  // changes
+  std::chrono::nanoseconds pressed_at_{0};  // press by the key
+  std::uint32_t told_ = 0;                  // reported changes
   struct sigaction before_ {};
 };
 

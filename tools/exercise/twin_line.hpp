@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the twin of one hand hears of the twin of another: updates by the scene's thresholds, over
-// what the network does.
+// Updates between the twins of two hands: sent by the scene's thresholds, over the simulated
+// network.
 #pragma once
 
 #include <chrono>
@@ -14,22 +14,22 @@
 
 namespace reckon::tools {
 
-/// The motion of a twin as an update states it.
+/// The motion of a twin in an update.
 struct TwinUpdate {
   std::chrono::nanoseconds time{0};  ///< of the state
-  deadreckon::KinematicState state;  ///< of first order, frame S
+  deadreckon::KinematicState state;  ///< first order, frame S
 };
 
-/// Decides when a twin's motion is told: where its last update is too far off, and after
-/// kLongestSilence. One thread.
+/// Decides when a twin sends its motion: when the error of its last update exceeds the threshold,
+/// and after kLongestSilence. One thread.
 class TwinTeller {
  public:
   static constexpr std::chrono::milliseconds kLongestSilence{60};
 
-  /// @param threshold [m] > 0, at which the error of dead reckoning is told
+  /// @param threshold [m] > 0, error of dead reckoning that causes an update
   explicit TwinTeller(double threshold) : threshold_(threshold) {}
 
-  /// The update that is due at this motion; none: others are near enough.
+  /// The update that is due at this motion; none: the prediction is accurate enough.
   [[nodiscard]] std::optional<TwinUpdate> tell(const haptics::HandMotion& motion);
 
  private:
@@ -37,16 +37,16 @@ class TwinTeller {
   std::optional<TwinUpdate> last_;
 };
 
-/// Updates of one twin on their way to one other. One thread.
+/// Updates of one twin in transit to another. One thread.
 class TwinLine {
  public:
-  /// On their way at once; beyond it the oldest is lost.
+  /// Capacity of updates in transit; beyond it the oldest is dropped.
   static constexpr std::size_t kMost = 1024;
 
   void send(const TwinUpdate& update, std::chrono::nanoseconds arrival);
-  /// What arrives until `now`. @return whether last() is another
+  /// Takes the updates that arrive until `now`. @return whether last() changed
   bool receive(std::chrono::nanoseconds now);
-  /// The newest state that has arrived; none so far.
+  /// The newest state that has arrived; empty: none yet.
   [[nodiscard]] const std::optional<TwinUpdate>& last() const noexcept { return last_; }
 
  private:

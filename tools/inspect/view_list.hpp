@@ -18,12 +18,12 @@ namespace reckon::tools {
 /// The kind with that name, or the first row if there is none.
 [[nodiscard]] const InspectViewKind& inspect_view_kind(std::string_view name);
 
-/// Puts the words SOURCE and VIEW of a command line in their places: they come in either order. A
-/// view alone selects the live groups.
+/// Assigns the words SOURCE and VIEW of a command line, which may come in either order. A view
+/// alone selects the live groups.
 /// @throws UsageError if neither is a view
 void sort_inspect_words(InspectOptions& options);
 
-/// "stats, check, bundles": the views that are a table.
+/// "stats, check, bundles": the views that are tables.
 [[nodiscard]] std::string views_with_csv();
 
 }  // namespace reckon::tools

@@ -20,7 +20,7 @@ bool differ(double a, double b) {
   return std::abs(a - b) > EntityForces::kNewShare * std::max(std::abs(a), std::abs(b));
 }
 
-/// Whether coefficients differ; where the contact point went shows in the force.
+/// Whether coefficients differ; a moved contact point is found by the force.
 bool is_new(const ForceModel& a, const ForceModel& b) {
   return a.kind != b.kind || a.surface != b.surface || differ(a.k1, b.k1) || differ(a.k3, b.k3) ||
          differ(a.damping, b.damping) || differ(a.mass, b.mass) || differ(a.radius, b.radius) ||
@@ -58,7 +58,7 @@ bool EntityForces::note_model(const Listener& listener, const ModelUpdate& updat
   if (!entity.is_haptic()) rows_.emplace_back();
   Row& row = entity.is_haptic() ? rows_[entity.model] : rows_.back();
 
-  // The Entity State in front of it is of the same instant, and the same update.
+  // The Entity State before it has the same arrival, and belongs to the same update.
   const ForcePredictor current = predictor_of(listener, entity);
   if (row.updated != now) row.before = current;
   row.updated = now;

@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRateWindow = std::chrono::seconds(5);
 constexpr std::uint64_t kRateUpdates = 4;
-constexpr double kRateOfGone = 1.0;  // [s] for which the rate of an entity that went is kept
+constexpr double kRateOfGone = 1.0;  // [s] for which the rate of a removed entity is kept
 
 ListenerRules rules_for(std::size_t most_rows) {
   ListenerRules rules = kMonitorRules;
@@ -25,7 +25,8 @@ ListenerRules rules_for(std::size_t most_rows) {
   return rules;
 }
 
-/// An update is taken: the entity's last one came at `arrival`, it is number `updates`.
+/// Moves the window of the rate. @param arrival of the entity's last update  @param updates its
+/// number
 void move_window(EntityRow& row, nanoseconds arrival, std::uint64_t updates) {
   if (updates - row.window_updates[1] < kRateUpdates || arrival - row.window_time[1] < kRateWindow)
     return;
@@ -56,7 +57,7 @@ std::vector<double> EntityRow::recent_jumps() const {
   return out;
 }
 
-/// The listener notifies it of each PDU, and it counts.
+/// Updates the row for each PDU that the listener takes.
 struct EntityTable::Counting : ListenerObserver {
   Counting(EntityTable& the_table, const PduRow& the_pdu, const peer::SourceDatagram& the_datagram,
            Watch* the_watch)
@@ -85,7 +86,7 @@ struct EntityTable::Counting : ListenerObserver {
     if (watch != nullptr) watch->before_model(table.entities()[update.place], update);
     const bool is_new = table.forces_.note_model(table.listener_, update);
     if (!is_new || table.entities()[update.place].arrival != update.arrival) return;
-    // Weaker causes of the Entity State in front give way.
+    // A changed force model replaces the weaker cause of the Entity State before it.
     EntityRow& row = table.rows_[update.place];
     if (row.cause == UpdateCause::heartbeat || row.cause == UpdateCause::repeat) {
       --row.causes[static_cast<std::size_t>(row.cause)];
@@ -104,7 +105,7 @@ struct EntityTable::Counting : ListenerObserver {
     row.last_is_bad = true;
   }
 
-  // Nothing can be compared with what was before.
+  // No comparison with the state before is possible.
   static UpdateCause begin_anew(EntityRow& row, const ReceivedEntity& last,
                                 const StateUpdate& update) {
     row.window_time = {update.arrival, update.arrival};
@@ -143,7 +144,7 @@ struct EntityTable::Counting : ListenerObserver {
   EntityTable& table;
   const PduRow& pdu;
   const peer::SourceDatagram& datagram;
-  Watch* watch;  // null: nobody
+  Watch* watch;  // null: none
 };
 
 EntityTable::EntityTable(std::size_t most_rows) : listener_(rules_for(most_rows)) {}
@@ -158,7 +159,7 @@ void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagr
   Counting counting(*this, row, datagram, watch);
   if (row.decoded)
     return listener_.take_pdu(row.bytes, row.header, datagram.time, counting, row.entity_state);
-  // Entity States alone make an entity known, so broken ones do too.
+  // Only Entity States create an entity, so broken ones do too.
   if (row.status != PduStatus::error || !row.id.has_value() ||
       row.header.pdu_type != pdu::PduType::entity_state)
     return;
@@ -171,7 +172,7 @@ void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagr
 
 template <typename IsOver>
 void EntityTable::drop_where(IsOver&& is_over) {
-  // The last one moves into the hole, so the same place is looked at again.
+  // The last row moves to the free place, so this place is checked again.
   for (std::size_t i = 0; i < rows_.size();) {
     const ReceivedEntity& entity = entities()[i];
     if (!is_over(entity)) {

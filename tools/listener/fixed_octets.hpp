@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An Entity State as a listener keeps it: the octets that all of them have.
+// The fixed octets of an Entity State, as a listener keeps them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace reckon::tools {
 inline constexpr std::size_t kFixedOctets = 144;
 using FixedOctets = std::array<std::byte, kFixedOctets>;
 
-/// The timestamp in such octets.
+/// The timestamp field.
 [[nodiscard]] inline std::uint32_t timestamp_of(const FixedOctets& octets) noexcept {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i < 8; ++i)

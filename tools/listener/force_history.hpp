@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Forces over time for a plot, in memory that does not grow: the span doubles as it fills, each
-// column then keeps the greater of two.
+// Forces over time for a plot, in bounded memory: when it is full, the time span doubles, and each
+// column keeps the greater of two.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace reckon::tools {
 
-/// Greatest force in each of at most kColumns equal parts of the time. Several histories that were
-/// fed at the same times have the same parts. One thread.
+/// Greatest force in each of at most kColumns equal time intervals. Histories with samples at the
+/// same times have the same intervals. One thread.
 class ForceHistory {
  public:
   static constexpr std::size_t kColumns = 2048;
 
-  /// @param step [> 0] of the samples; the first column is that wide.
+  /// @param step > 0, interval of the samples and width of the first column.
   explicit ForceHistory(std::chrono::nanoseconds step) : width_(step) {}
 
-  /// @param since the start of all histories, >= 0, not falling; NaN counts as 0.
+  /// @param since time since the start of all histories, >= 0, not decreasing; NaN counts as 0.
   void add(std::chrono::nanoseconds since, double newtons) {
     reach(since);
     float& column = peaks_[static_cast<std::size_t>(since / width_)];
     if (newtons > static_cast<double>(column)) column = static_cast<float>(newtons);
   }
-  /// Makes the columns wide enough for `since`, and fills up with zeros to there.
+  /// Widens the columns to cover `since`, and adds zeros up to there.
   void reach(std::chrono::nanoseconds since) {
     while (since / width_ >= static_cast<std::chrono::nanoseconds::rep>(kColumns)) halve();
     const auto column = static_cast<std::size_t>(since / width_);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far off predictions were, for very many entities at once: percentiles from 600 octets.
+// Prediction errors of many entities at once: a histogram with percentiles in 600 octets.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,9 @@
 
 namespace reckon::tools {
 
-/// Sizes of any unit, 1e-5 to 1e6, in buckets 9 to 12.5 % wide (8 a power of two), by one thread.
-/// Negative or NaN counts as 0, above the last bucket as its end; sizes below 1e-5 give 0.
+/// Values in any unit, 1e-5 to 1e6, in buckets 9 to 12.5 % wide (8 per power of two); one thread.
+/// Negative values and NaN count as 0, values above the last bucket as its end; values below 1e-5
+/// give 0.
 struct JumpScale {
   using Value = double;
   using Kept = float;
@@ -21,7 +22,7 @@ struct JumpScale {
   using Buckets = peer::LogLinear<3>;
   static constexpr std::size_t kBuckets = 8 * 38 + 1;
   static constexpr bool kShared = false;
-  static constexpr std::size_t kMerged = 7;       ///< buckets of the rule that share the first one
+  static constexpr std::size_t kMerged = 7;       ///< buckets of LogLinear that share the first one
   static constexpr double kUnitsPerOne = 0x1p20;  ///< powers from 2^-17, 7.6e-6,
   static constexpr double kLargest = 0x1.ep20;    ///< to 2^21, 2.1e6: within the last bucket
 

@@ -22,12 +22,13 @@ using std::chrono::nanoseconds;
 using Timing = ListenerRules::Timing;
 using Frame = ListenerRules::Frame;
 
-/// Entities of one datagram that are remembered as they were; a bundle below the MTU holds fewer.
+/// Limit of entities of one datagram whose earlier state is kept; a bundle below the MTU holds
+/// fewer.
 constexpr std::size_t kMostTouched = 128;
-/// Keys that the index has room for at first; it grows with the entities.
+/// Initial capacity of the index; it grows with the entities.
 constexpr std::size_t kFirstKeys = 512;
 
-/// A PDU's fixed part as a whole PDU.
+/// Copies a PDU's fixed part, and makes it a complete PDU.
 void keep_fixed(std::span<const std::byte> pdu, FixedOctets& out) {
   std::memcpy(out.data(), pdu.data(), out.size());
   out[8] = std::byte{0};
@@ -44,7 +45,7 @@ bool is_deactivated(const pdu::EntityState& pdu) {
   return (pdu.appearance & pdu::kAppearanceDeactivated) != 0;
 }
 
-/// The last row goes to the place that became free.
+/// Moves the last row to the free place.
 template <typename Row>
 void drop_row(std::vector<Row>& rows, std::size_t place) {
   if (rows.empty()) return;
@@ -60,7 +61,7 @@ Listener::Listener(const ListenerRules& rules)
   if (rules_.by_datagram) touched_.reserve(kMostTouched);
 }
 
-// Who is known
+// Known entities
 // ------------------------------------------------------------------------------------------------
 
 std::uint64_t Listener::key_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept {
@@ -76,7 +77,7 @@ std::size_t Listener::place_of(std::uint8_t exercise, const pdu::EntityId& id) c
   return place_of_key(key_of(exercise, id));
 }
 
-// The place of an entity, new or not; kNone where there is no room.
+// The place of an entity, known or new; kNone if there is no room.
 std::size_t Listener::admit(std::uint8_t exercise, const pdu::EntityId& id) {
   const std::uint64_t key = key_of(exercise, id);
   if (const std::size_t known = place_of_key(key); known != kNone) return known;
@@ -117,7 +118,7 @@ void Listener::drop_model(std::size_t place) {
 }
 
 void Listener::forget_silent(nanoseconds time) {
-  // The last one moves into the hole, so the same place is looked at again.
+  // The last entity moves to the free place, so this place is checked again.
   for (std::size_t i = 0; i < entities_.size();) {
     if (entities_[i].is_silent(time))
       forget_entity(i);
@@ -130,7 +131,7 @@ TouchedEntity& Listener::touch(std::uint8_t exercise, const pdu::EntityId& id) {
   const std::uint64_t key = key_of(exercise, id);
   const auto known = std::ranges::find(touched_, key, &TouchedEntity::key);
   if (known != touched_.end()) return *known;
-  // Beyond the room the last place is used anew: what was before it is lost, nothing else.
+  // When full, the last place is reused: only the earlier state of its entity is lost.
   if (touched_.size() == kMostTouched) touched_.pop_back();
   TouchedEntity& touched = touched_.emplace_back();
   touched.key = key;
@@ -168,7 +169,7 @@ bool Listener::read_state(Bytes pdu, const pdu::PduHeader& header, const pdu::En
   return true;
 }
 
-// An Entity State Update is the last Entity State with what it names changed.
+// An Entity State Update is the last Entity State with some fields changed.
 bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate& update) {
   pdu::EntityStateUpdate partial;
   if (!rules_.partial || decode(pdu, partial) != DecodeError::none) return false;
@@ -184,13 +185,13 @@ bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate
   return encode(read_, update.octets) == update.octets.size();
 }
 
-// Into read_ and restored_; false where it awaits a key or cannot be read.
+// Restores into read_ and restored_. @return false if its key is missing, or it cannot be read
 bool Listener::restore(const pdu::CompressedStates& states, const pdu::CompressedState& state) {
   const auto verdict = keys_.restore(states, state, read_);
   return verdict == peer::RestoreVerdict::good && encode(read_, restored_) == restored_.size();
 }
 
-// Finds its entity and judges it; false where it is about nobody who is to be known.
+// Finds the entity and checks the state. @return false if the rules ignore such an entity
 bool Listener::place_state(StateUpdate& update) {
   const pdu::PduHeader& header = update.pdu->header;
   const pdu::EntityId& id = update.pdu->entity_id;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE picture that a listener has of the entities in a stream: what of its PDUs is taken and what
-// is refused, when each state was true, where each entity is by now. What a view makes of it is
-// the view's own: forces between pairs (ContactForces), why updates came (EntityTable), how far two
-// pictures lie apart (MotionDifference). Pure: PDUs and times in, no I/O.
+// THE state of all entities that a listener receives: which PDUs are accepted or refused, the time
+// at which each state was valid, and the present pose of each entity. Views evaluate it further:
+// forces between pairs (ContactForces), causes of updates (EntityTable), the difference of two
+// streams (MotionDifference). Pure: PDUs and times in, no I/O.
 #pragma once
 
 #include <array>
@@ -28,39 +28,42 @@
 
 namespace reckon::tools {
 
-/// Where listeners differ, on purpose. The three kinds are below.
+/// Intended differences between listeners. The three kinds are below.
 struct ListenerRules {
-  /// What lays a state on the listener's time.
+  /// Source of the local time of a state.
   enum class Timing : std::uint8_t {
-    sender_clock,             ///< its clock, as a peer does: what is not newer is refused
-    sender_clock_or_arrival,  ///< where timestamps do not run, its arrival; refuses none
-    pace                      ///< its arrival; UpdatePace finds copies and what is late
+    sender_clock,             ///< the sender's clock, as in a peer: older or equal states are
+                              ///< refused
+    sender_clock_or_arrival,  ///< the same, but arrival if timestamps do not advance; refuses none
+    pace                      ///< arrival; UpdatePace finds copies and late updates
   };
   enum class Frame : std::uint8_t {
-    geocentric,   ///< W, of the wire itself
-    first_place,  ///< east, north, up where the first entity is: forces point in it
-    equator       ///< the same at latitude and longitude 0: one for several streams
+    geocentric,   ///< W, as on the wire
+    first_place,  ///< east, north, up at the first entity: frame of the forces
+    equator       ///< the same at latitude and longitude 0: common to several streams
   };
 
   std::size_t most_entities = 0;
   Timing timing = Timing::pace;
   Frame frame = Frame::geocentric;
-  bool by_exercise = false;  ///< the same id in another exercise is another entity
-  bool uncoupled = false;    ///< entities become known without CEI too
+  bool by_exercise = false;  ///< the same ID in another exercise is another entity
+  bool uncoupled = false;    ///< entities without the CEI flag are accepted too
   bool models = false;       ///< force models are taken
   bool accounts = false;     ///< energy accounts are taken
   bool partial = false;      ///< Entity State Update and Remove Entity are taken
-  bool keeps = false;        ///< who left, fell silent or sent nothing usable stays, and is marked
-  bool sweeps = false;       ///< each state drops all who are silent past their time-out
-  bool by_datagram = false;  ///< keeps what was before a datagram, and refuses models behind a
-                             ///< refused state of it; end_datagram() has to be called
-  bool holds = false;        ///< who is silent past the time-out stands still
-  bool rests = false;        ///< who stands still may be silent for longer, as DIS 7 has it
+  bool keeps = false;        ///< entities that left, are silent or sent nothing usable are kept and
+                             ///< marked
+  bool sweeps = false;       ///< each state drops all entities that are silent past their time-out
+  bool by_datagram = false;  ///< keeps the states before a datagram, and refuses models after a
+                             ///< refused state in it; requires end_datagram()
+  bool holds = false;        ///< a silent entity stops at its time-out
+  bool rests = false;        ///< entities at rest have a longer time-out, as in DIS 7
 };
 
-/// As a peer hears coupled entities: what a peer refuses is refused, who left is forgotten.
+/// Like a peer that receives coupled entities: the same PDUs are refused, and entities that left
+/// are dropped.
 inline constexpr ListenerRules kPeerRules{
-    .most_entities = 512,  // haptic ones: their pairs are looked at
+    .most_entities = 512,  // haptic entities: all pairs are evaluated
     .timing = ListenerRules::Timing::sender_clock,
     .frame = ListenerRules::Frame::first_place,
     .models = true,
@@ -68,14 +71,14 @@ inline constexpr ListenerRules kPeerRules{
     .sweeps = true,
     .by_datagram = true,
     .holds = true};
-/// Motions of all entities of a capture, to lay beside another capture.
+/// Motions of all entities of a capture, for comparison with another capture.
 inline constexpr ListenerRules kCaptureRules{
     .most_entities = 4096,
     .timing = ListenerRules::Timing::sender_clock_or_arrival,
     .frame = ListenerRules::Frame::equator,
     .uncoupled = true,
     .holds = true};
-/// All that is received, good or bad, of streams of any make: to show who does what.
+/// All PDUs received, good or bad, of streams of any origin, for display.
 inline constexpr ListenerRules kMonitorRules{.most_entities = std::size_t{1} << 16,
                                              .timing = ListenerRules::Timing::pace,
                                              .frame = ListenerRules::Frame::geocentric,
@@ -86,66 +89,67 @@ inline constexpr ListenerRules kMonitorRules{.most_entities = std::size_t{1} << 
                                              .keeps = true,
                                              .rests = true};
 
-/// What became of a state or a model.
+/// Result for a state or a model.
 enum class ReceiveVerdict : std::uint8_t {
   taken,
-  values,     ///< impossible numbers
-  stale,      ///< not newer than what was known
-  duplicate,  ///< a copy of what was known
+  values,     ///< impossible values
+  stale,      ///< not newer than the known state
+  duplicate,  ///< a copy of the known state
 };
 
-/// What could not be used.
+/// Counters of unusable data.
 struct ListenerRefusals {
-  std::uint64_t values = 0;    ///< states, models and accounts with impossible numbers
-  std::uint64_t stale = 0;     ///< states not newer than what was known
+  std::uint64_t values = 0;    ///< states, models and accounts with impossible values
+  std::uint64_t stale = 0;     ///< states not newer than the known one
   std::uint64_t unplaced = 0;  ///< models of an entity without a state
-  std::uint64_t crowded = 0;   ///< states and accounts beyond the room
+  std::uint64_t crowded = 0;   ///< states and accounts without room
 };
 
-/// A state on its way into the picture.
+/// A state before it is taken.
 struct StateUpdate {
-  std::size_t place = 0;  ///< of its entity, which still is as it was before
+  std::size_t place = 0;  ///< of its entity, whose data are still the earlier ones
   ReceiveVerdict verdict = ReceiveVerdict::taken;
-  deadreckon::ConversionError error = deadreckon::ConversionError::none;  ///< which impossible one
-  bool is_first = true;  ///< nothing before it can be compared (Timing::pace)
+  deadreckon::ConversionError error = deadreckon::ConversionError::none;  ///< reason of verdict
+                                                                          ///< `values`
+  bool is_first = true;  ///< no comparison with an earlier state is possible (Timing::pace)
   Interval between;      ///< since the state before (Timing::pace)
   double heartbeat = 0;  ///< [s] from now on
   const pdu::EntityState* pdu = nullptr;
-  std::size_t compressed = 0;  ///< octets that it came in, where it came compressed
+  std::size_t compressed = 0;  ///< octets of its compressed form; 0: not compressed
   FixedOctets octets;
   deadreckon::KinematicState state;
   std::chrono::nanoseconds state_time{};
   std::chrono::nanoseconds arrival{};
 };
 
-/// A force model on its way into the picture.
+/// A force model before it is taken.
 struct ModelUpdate {
-  std::size_t place = 0;  ///< of its entity, which still is as it was before
+  std::size_t place = 0;  ///< of its entity, whose data are still the earlier ones
   deadreckon::ForceModel model;
   std::chrono::nanoseconds arrival{};
 };
 
-/// An entity that the datagram at hand is about, as it was before.
+/// An entity in the present datagram, with its data before the datagram.
 struct TouchedEntity {
   std::uint64_t key = 0;
   pdu::EntityId id;
-  bool known = false;    ///< the rest holds what was
-  bool refused = false;  ///< its state: the model behind it is not taken either
+  bool known = false;    ///< `before` is valid
+  bool refused = false;  ///< its state was refused: so is the model after it
   ReceivedEntity before;
-  ReceivedModel model_before;  ///< where before.is_haptic()
+  ReceivedModel model_before;  ///< if before.is_haptic()
 };
 
-/// What one entity last stated of the energy that it gave to another.
+/// Last values of an entity's energy account for another entity.
 struct StatedEnergy {
   double given = 0;  ///< [J], running total
   double need = 0;   ///< [J]
 };
 
-/// Looks at nothing; the base of what looks at some.
+/// Observer that ignores everything; a base class.
 struct ListenerObserver {
-  /// A state that was judged, before it is taken.
+  /// A state after its check, before it is taken.
   void receive_state(const StateUpdate&) {}
-  /// A set of records about the entity at `place`, one of `sets` in its PDU.
+  /// A set of records for the entity at `place`, one of `sets` in its PDU.
   void receive_records(std::size_t /*place*/, std::size_t /*sets*/) {}
   /// A model that will be taken.
   void receive_model(const ModelUpdate&) {}
@@ -158,64 +162,63 @@ struct ListenerObserver {
 ///   listener.end_datagram();
 ///   for (const ReceivedEntity& entity : listener.entities()) draw(entity.pose_at(now));
 ///
-/// Any octets will do. Places of entities and models are dense, from 0; forget_*() moves the last
-/// one to the place that became free. One thread. Compressed States are restored: of the
-/// residual form from each entity's first key on that comes after the first of them; of more than
-/// 4,096 compressed entities the oldest await a key. Allocates as entities come, within bounds,
-/// never for known ones. Some 0.1 us a state by `pace`; `sweeps` costs some ns more for each
-/// entity.
+/// Accepts any octets. Places of entities and models are dense, from 0; forget_*() moves the last
+/// one to the free place. One thread. Compressed States are restored: the residual form from the
+/// first key of each entity that follows the first residual. Beyond 4,096 compressed entities the
+/// oldest must wait for a new key. Allocates for new entities, within bounds, never for known ones.
+/// Some 0.1 us per state with `pace`; `sweeps` costs some ns more for each entity.
 class Listener {
  public:
   static constexpr std::size_t kNone = ~std::size_t{0};
-  /// Directed pairs whose energy accounts are remembered.
+  /// Limit of directed pairs whose energy accounts are kept.
   static constexpr std::size_t kMostAccounts = 4096;
 
   explicit Listener(const ListenerRules& rules);
 
-  /// One PDU of any type.
-  /// @param arrival not falling by much. Where it is of the time since 1970-01-01 UTC, timestamps
-  /// near it are taken at their word.
+  /// Takes one PDU of any type.
+  /// @param arrival almost non-decreasing. If it is time since 1970-01-01 UTC, timestamps near it
+  /// are taken as absolute.
   void take_pdu(std::span<const std::byte> pdu, const pdu::PduHeader& header,
                 std::chrono::nanoseconds arrival);
-  /// The same, telling `observer` (see ListenerObserver) of each thing before it is taken.
-  /// @param decoded the body of an Entity State, where the caller has decoded it already
+  /// The same; calls `observer` (see ListenerObserver) before anything is taken.
+  /// @param decoded the body of an Entity State, if the caller has decoded it already
   template <typename Observer>
   void take_pdu(std::span<const std::byte> pdu, const pdu::PduHeader& header,
                 std::chrono::nanoseconds arrival, Observer& observer,
                 const pdu::EntityState* decoded = nullptr);
-  /// An Entity State that cannot be read: where the rules keep such an entity, its place.
+  /// Takes an Entity State that cannot be decoded. @return the entity's place, if the rules keep it
   std::size_t take_unreadable(std::uint8_t exercise, const pdu::EntityId& id,
                               std::chrono::nanoseconds arrival);
-  /// The end of a datagram: touched() begins anew.
+  /// Ends a datagram: clears touched().
   void end_datagram() noexcept { touched_.clear(); }
 
-  /// Drops all who are silent past their time-out.
+  /// Drops all entities that are silent past their time-out.
   void forget_silent(std::chrono::nanoseconds time);
   void forget_entity(std::size_t place);
 
   [[nodiscard]] std::span<const ReceivedEntity> entities() const noexcept { return entities_; }
   [[nodiscard]] std::span<const ReceivedModel> models() const noexcept { return models_; }
-  /// An entity; null where it is not known. The exercise counts by the rules.
+  /// An entity; null if it is unknown. The exercise is ignored unless the rules distinguish it.
   [[nodiscard]] const ReceivedEntity* find_entity(const pdu::EntityId& id,
                                                   std::uint8_t exercise = 0) const noexcept {
     const std::size_t place = place_of(exercise, id);
     return place == kNone ? nullptr : &entities_[place];
   }
-  /// The place of an entity; kNone where it is not known.
+  /// The place of an entity; kNone if it is unknown.
   [[nodiscard]] std::size_t place_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept;
   /// The same by ReceivedEntity::key.
   [[nodiscard]] std::size_t place_of_key(std::uint64_t key) const noexcept;
-  /// Its force model; null where it has none.
+  /// Its force model; null if it has none.
   [[nodiscard]] const ReceivedModel* model_of(const ReceivedEntity& entity) const noexcept {
     return entity.is_haptic() ? &models_[entity.model] : nullptr;
   }
-  /// What the datagram at hand is about, at most 128 of it.
+  /// The entities of the present datagram, at most 128.
   [[nodiscard]] std::span<const TouchedEntity> touched() const noexcept { return touched_; }
 
-  /// What `from` last stated about `to`; zeros where it stated nothing.
+  /// Last account of `from` for `to`; zeros if there is none.
   [[nodiscard]] StatedEnergy stated_energy(const pdu::EntityId& from,
                                            const pdu::EntityId& to) const noexcept;
-  /// Its `given` and `need` summed over all counterparts.
+  /// `given` and `need` of `from`, summed over all counterparts.
   [[nodiscard]] StatedEnergy stated_energy(const pdu::EntityId& from) const noexcept;
 
   [[nodiscard]] const ListenerRefusals& refusals() const noexcept { return refusals_; }
@@ -261,14 +264,14 @@ class Listener {
   ListenerRules rules_;
   std::optional<deadreckon::LocalFrame> frame_;
   std::vector<ReceivedEntity> entities_;
-  std::vector<peer::SenderClock> clocks_;  // one an entity, where the timing asks for it
+  std::vector<peer::SenderClock> clocks_;  // one per entity, if the timing requires it
   std::vector<ReceivedModel> models_;
   peer::KeyIndex index_;
   std::map<AccountKey, StatedEnergy> accounts_;
   std::vector<TouchedEntity> touched_;
-  pdu::EntityState read_;  // room for the one at hand
+  pdu::EntityState read_;  // buffer of the present state
   StateKeys keys_;
-  FixedOctets restored_;  // of the state at hand
+  FixedOctets restored_;  // of the present state
   ListenerRefusals refusals_;
 };
 

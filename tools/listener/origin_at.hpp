@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The origin of a scene frame where a capture has none: at a position in it.
+// Origin of a scene frame for a capture without one: at a position in the capture.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,12 @@
 
 namespace reckon::tools {
 
-/// The geodetic place of a geocentric position [m], finite. Height is cut to +-1e8 m. Nearer than
-/// 1000 km to the earth's centre only a made-up position can be: there the place is at latitude 0,
-/// as far from the axis as the position.
+/// The geodetic coordinates of a geocentric position [m], finite. Height is limited to +-1e8 m. A
+/// position nearer than 1000 km to the earth's centre is fictitious: it is mapped to latitude 0, at
+/// its distance from the axis.
 [[nodiscard]] peer::OriginConfig origin_at(const Eigen::Vector3d& position) noexcept;
 
-/// The scene frame with that origin: east, north, up of the ellipsoid there.
+/// The scene frame with that origin: east, north, up of the ellipsoid.
 [[nodiscard]] deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position);
 
 }  // namespace reckon::tools

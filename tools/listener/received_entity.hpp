@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a listener knows of one entity: its newest state, when that was true, and its force model.
+// Data of one received entity: its newest state, the time of that state, and its force model.
 #pragma once
 
 #include <chrono>
@@ -21,29 +21,29 @@ namespace reckon::tools {
 struct ReceivedEntity {
   static constexpr std::size_t kNoModel = ~std::size_t{0};
 
-  std::uint64_t key = 0;  ///< entity_key; without the exercise where the rules say so
+  std::uint64_t key = 0;  ///< entity_key; without the exercise if the rules ignore it
   pdu::EntityId id;
   std::uint8_t exercise = 0;
   bool has_state = false;     ///< a state was taken
-  bool gone = false;          ///< said that it leaves, or was removed
+  bool gone = false;          ///< it announced its end, or was removed
   std::uint64_t updates = 0;  ///< states taken
-  FixedOctets octets{};       ///< of the last one: length 144, no variable parameters
+  FixedOctets octets{};       ///< of the last state: length 144, no variable parameters
   deadreckon::KinematicState state;
-  std::chrono::nanoseconds state_time{};  ///< local time at which it was true
+  std::chrono::nanoseconds state_time{};  ///< local time at which the state was valid
   std::chrono::nanoseconds arrival{};     ///< of that state; before any, of the last unusable one
   std::chrono::nanoseconds gone_at{};
   double heartbeat = 0;  ///< of the entity's kind [s]
-  /// Age of the state [s] past which the entity is taken to stand still.
+  /// Age of the state [s] from which the entity is assumed at rest.
   double hold_after = std::numeric_limits<double>::infinity();
-  UpdatePace pace;               ///< of its timestamps, where the rules lay states on time by it
-  std::size_t model = kNoModel;  ///< place among the models
+  UpdatePace pace;               ///< of its timestamps, with Timing::pace
+  std::size_t model = kNoModel;  ///< index of its model
 
   [[nodiscard]] bool is_haptic() const noexcept { return model != kNoModel; }
   /// Seconds since `arrival`.
   [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept;
   /// Silent for more than 2.4 heartbeats of its kind, and not gone.
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
-  /// Dead reckoned, in the frame of the listener. What is frozen has a model that stands still.
+  /// Dead reckoned pose, in the frame of the listener. A frozen entity is at rest.
   [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
   /// The last state as a PDU; its fields are 0 before the first.
   [[nodiscard]] pdu::EntityState entity_state() const noexcept;
@@ -51,16 +51,16 @@ struct ReceivedEntity {
 
 /// The force model of one entity.
 struct ReceivedModel {
-  std::size_t owner = 0;  ///< place among the entities
+  std::size_t owner = 0;  ///< index of its entity
   deadreckon::ForceModel model;
-  std::chrono::nanoseconds since{};  ///< arrival of the state that it came with
+  std::chrono::nanoseconds since{};  ///< arrival of its state
 
-  /// The last instant at which it is valid.
+  /// The last instant of its validity.
   [[nodiscard]] std::chrono::nanoseconds valid_until() const noexcept;
-  /// A ball or a field, which others push; planes and regions are pushed by nobody.
+  /// A sphere or a field, which others push; planes and regions are not pushed.
   [[nodiscard]] bool is_probe() const noexcept;
-  /// What others push, of the entity at `pose`. The ball of a hand is where its device is: the
-  /// model's point, not the body's origin (SCP).
+  /// The probe that others push, of the entity at `pose`. The sphere of a hand is at its device:
+  /// the model's point, not the body's origin (SCP).
   [[nodiscard]] deadreckon::ProbeState probe_at(const deadreckon::Pose& pose) const noexcept;
 };
 

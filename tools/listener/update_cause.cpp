@@ -12,16 +12,16 @@
 namespace reckon::tools {
 namespace {
 
-constexpr double kNearHeartbeat = 0.85;  // of the period
-constexpr double kOldHeartbeat = 5.0;    // of everything, before DIS 7 [s]
+constexpr double kNearHeartbeat = 0.85;  // share of the period
+constexpr double kOldHeartbeat = 5.0;    // of all kinds, before DIS 7 [s]
 constexpr double kOldSpread = 0.6;       // [s]
 
-// Noise of an extrapolation: float32 fields; that of its time comes with the interval.
+// Noise of an extrapolation by float32 fields; the interval adds the noise of its time.
 constexpr double kLeastJump = 5e-5;         // [m]
 constexpr double kTurnTolerance = 1e-4;     // [rad]
 constexpr double kVelocityRounding = 2e-7;  // of a float32, of both updates
 
-// Fields of which a change is an event: force, types, appearance, algorithm, marking, capabilities.
+// Fields whose change is an event: force ID, types, appearance, algorithm, marking, capabilities.
 struct OctetRange {
   std::size_t begin, size;
 };

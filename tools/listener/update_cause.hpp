@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Why an entity's update was sent and how far it was off the prediction, as far as a listener can
-// tell from this update and the one before.
+// Cause of an entity's update and its difference from the prediction, as far as they follow from
+// this update and the one before.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@
 
 namespace reckon::tools {
 
-/// Why an update was sent: the first that holds.
+/// Cause of an update: the first that applies.
 enum class UpdateCause : std::uint8_t {
   none,       ///< no update yet
-  first,      ///< the entity was not known, or had been silent past its time-out
+  first,      ///< the entity was unknown, or silent past its time-out
   event,      ///< force, type, appearance, marking, capabilities or dead reckoning model changed
-  threshold,  ///< the pose is off the extrapolation of the update before
+  threshold,  ///< the pose differs from the extrapolation of the update before
   force,      ///< the force model changed
   heartbeat,  ///< about a heartbeat after the update before
-  repeat      ///< nothing new, and sooner than the heartbeat
+  repeat      ///< nothing new, and earlier than the heartbeat
 };
 inline constexpr std::size_t kUpdateCauses = 7;
 [[nodiscard]] std::string_view name(UpdateCause cause) noexcept;
 
-/// How far an update was off the extrapolation of the one before.
+/// Difference of an update from the extrapolation of the one before.
 struct Innovation {
   double jump = 0;  ///< [m]
   double turn = 0;  ///< [rad]
@@ -38,12 +38,12 @@ struct Innovation {
                                     const deadreckon::KinematicState& now,
                                     const Interval& between) noexcept;
 
-/// Whether something changed that is sent at once, whatever the motion.
+/// Whether a field changed that is sent at once, independent of motion.
 [[nodiscard]] bool is_event(const FixedOctets& before, const FixedOctets& now) noexcept;
 
-/// Threshold, heartbeat or repeat. What comes near the heartbeat [s] counts as such unless it is
-/// off by more than what came before its time: `least_early_jump` [m], 0 before any, which it
-/// keeps.
+/// Threshold, heartbeat or repeat. An update near the heartbeat [s] counts as a heartbeat unless
+/// its jump reaches the least jump of earlier threshold updates: `least_early_jump` [m], 0 before
+/// any; maintained by this function.
 [[nodiscard]] UpdateCause cause_of(const Innovation& found, double interval, double heartbeat,
                                    double& least_early_jump) noexcept;
 

@@ -13,13 +13,14 @@ namespace {
 
 using pdu::to_seconds;
 
-constexpr double kDuplicateWithin = 1.0;  // a copy on the network comes soon [s]
-constexpr double kLateWithin = 5.0;       // what was overtaken comes soon [s]
-constexpr std::uint8_t kLateInARow = 3;   // then the clock was set back
-constexpr double kPace = 100;    // timestamps may run so much faster than arrivals (a replay)
-constexpr double kSlowness = 4;  // or so much slower,
-constexpr double kSlack = 0.25;  // and so much beside that, for delays [s]
-constexpr double kTimestampNoise = 4e-6;  // of units of 1.7 us [s]
+constexpr double kDuplicateWithin = 1.0;  // a network copy arrives within this time [s]
+constexpr double kLateWithin = 5.0;       // an overtaken update arrives within this time [s]
+constexpr std::uint8_t kLateInARow = 3;   // more in a row: the clock was set back
+constexpr double kPace = 100;    // factor by which timestamps may be faster than arrivals (a
+                                 // replay)
+constexpr double kSlowness = 4;  // factor by which they may be slower,
+constexpr double kSlack = 0.25;  // plus this, for delays [s]
+constexpr double kTimestampNoise = 4e-6;  // units of 1.7 us [s]
 constexpr double kArrivalNoise = 0.02;    // [s]
 constexpr std::size_t kBodyAt = 12;
 

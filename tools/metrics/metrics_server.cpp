@@ -44,7 +44,7 @@ std::optional<MetricsAddress> metrics_address(const std::string& typed) {
     return at;
   }
   const auto endpoint = peer::IpEndpoint::parse(typed);
-  // Without a port it would be any.
+  // IpEndpoint::parse() also accepts an address without a port.
   const std::size_t colon = typed.rfind(':');
   if (!endpoint || colon == std::string::npos ||
       !port_of(std::string_view(typed).substr(colon + 1)) ||

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a running program answers those who ask for its metrics.
+// HTTP server for the metrics of a running program.
 #pragma once
 
 #include <atomic>
@@ -20,42 +20,41 @@ namespace reckon::tools {
 /// An address and a TCP port of this host.
 struct MetricsAddress {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;  ///< 0: any that is free
+  std::uint16_t port = 0;  ///< 0: any free port
 };
 
 /// Declares --metrics.
 void add_metrics_flag(CommandLine& line, std::string& typed);
-/// What was typed: "127.0.0.1:9464", "[::1]:9464", or a port of the loopback interface alone;
-/// nothing where it is empty. @throws UsageError for anything else
+/// Parses "127.0.0.1:9464", "[::1]:9464", or a port, which means the loopback interface only; none
+/// if `typed` is empty. @throws UsageError for anything else
 [[nodiscard]] std::optional<MetricsAddress> metrics_address(const std::string& typed);
 
-/// Answers GET /metrics in a thread of its own, with the last text that it was given. Whoever asks
-/// slowly, or for anything else, costs the program nothing but some octets of this thread. It
-/// answers requests only that name one of its own addresses, as ViewServer does.
+/// Answers GET /metrics in its own thread, with the last text that it was given. Slow clients and
+/// other requests cost the program only some memory of this thread. Like ViewServer, it answers
+/// only requests that name one of its own addresses.
 class MetricsServer {
  public:
-  /// How often a new text is worth its making.
+  /// Interval between new texts.
   static constexpr std::chrono::nanoseconds kEvery = std::chrono::milliseconds(500);
 
-  /// @throws EnvironmentError with the remedy where it cannot listen there
+  /// @throws EnvironmentError with the remedy if it cannot listen there
   explicit MetricsServer(const MetricsAddress& at);
   ~MetricsServer();
   MetricsServer(const MetricsServer&) = delete;
   MetricsServer& operator=(const MetricsServer&) = delete;
 
-  /// Whether kEvery has passed since show(). By the thread that shows.
+  /// Whether kEvery has passed since show(). For the thread that calls show().
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept { return now >= due_; }
-  /// The text that is answered from now on. By one thread. @param now steady
+  /// Sets the text of further answers. By one thread. @param now steady time
   void show(std::string text, std::chrono::nanoseconds now);
-  /// "metrics: http://127.0.0.1:9464/metrics", and who else may read them where it is not this host
-  /// alone.
+  /// "metrics: http://127.0.0.1:9464/metrics", and a warning if other hosts can read it too.
   [[nodiscard]] std::string sentence() const;
 
  private:
   [[nodiscard]] std::string text() const;
   void run();
 
-  mutable std::mutex mutex_;  // of text_
+  mutable std::mutex mutex_;  // guards text_
   std::string text_;
   std::chrono::nanoseconds due_{0};
   std::unique_ptr<ViewServer> server_;
@@ -64,7 +63,7 @@ class MetricsServer {
   std::thread thread_;
 };
 
-/// The server that was asked for, null where `typed` is empty. @throws as metrics_address() and
+/// The requested server, null if `typed` is empty. @throws as metrics_address() and
 /// MetricsServer
 [[nodiscard]] std::unique_ptr<MetricsServer> metrics_server(const std::string& typed);
 

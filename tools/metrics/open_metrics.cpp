@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "reckon_";
 
-/// A counter whose name alone does not say what it counts, or in which "out" is not the way.
+/// A counter whose name is ambiguous without context, or in which "out" is not a direction.
 struct Renamed {
   std::string_view counter, metric;
 };
@@ -26,20 +26,20 @@ constexpr std::array<Renamed, 5> kRenamed{{{"entered", "entities_entered"},
                                            {"snaps", "updates_shown_at_once"},
                                            {"timed_out", "entities_timed_out"}}};
 
-/// A word of a counter's name that a metric says otherwise.
+/// A word of a counter's name and its replacement in a metric.
 struct Reworded {
   std::string_view word, other;
 };
 constexpr std::array<Reworded, 2> kReworded{{{"in", "received"}, {"out", "sent"}}};
 
-/// A word that is a unit, which a metric has at its end, and in the base unit.
+/// A unit within a counter's name; a metric has it at its end, as the base unit.
 struct Measure {
   std::string_view word, base;
   double scale;
 };
 constexpr std::array<Measure, 3> kMeasures{
     {{"octets", "bytes", 1}, {"bytes", "bytes", 1}, {"uj", "joules", 1e-6}}};
-/// Base units, which OpenMetrics names in a line of their own.
+/// Base units, which get a UNIT line in OpenMetrics.
 constexpr std::array<std::string_view, 5> kBaseUnits{"bytes", "joules", "meters", "newtons",
                                                      "seconds"};
 
@@ -48,7 +48,7 @@ void append_word(std::string& text, std::string_view word) {
   text += word;
 }
 
-// A text within a line, between quotes or not.
+// Escapes a text for a line, inside or outside of quotes.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char letter : text) {
@@ -58,7 +58,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-// As the format has it, which is not as fmt has it where there is no number.
+// Formats a number; OpenMetrics and fmt differ for NaN and infinity.
 std::string number(double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "+Inf" : "-Inf";

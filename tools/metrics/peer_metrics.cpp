@@ -12,7 +12,7 @@
 namespace reckon::tools {
 namespace {
 
-/// A number of a peer's picture.
+/// A value from a peer's view.
 struct ViewNumber {
   std::string_view name, meaning;
   double (*value)(const peer::PeerView& view);
@@ -34,7 +34,7 @@ constexpr std::array<ViewNumber, 7> kViewNumbers{{
      [](const peer::PeerView& view) { return static_cast<double>(view.leaders.leaderless); }},
 }};
 
-/// A number of a hand.
+/// A value of a hand.
 struct HandNumber {
   std::string_view name, meaning;
   double haptics::ServoSnapshot::*value;

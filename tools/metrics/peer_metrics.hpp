@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a running peer counts, as metrics.
+// The metrics of a running peer.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace reckon::tools {
 
-/// The peer's counters, those of its link, and what its newest picture and its loops say, as
+/// The counters of the peer and of its link, and values from its newest view and its loops, as
 /// OpenMetrics text. Allocates; for the thread that reads the peer's views.
 /// @param seconds since the start
 [[nodiscard]] std::string peer_metrics(peer::Peer& peer, const peer::PeerThreads& threads,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a source of datagrams counts, as metrics.
+// The metrics of a datagram source.
 #pragma once
 
 #include "reckon/peer/capture/datagram_source.hpp"
@@ -8,7 +8,7 @@
 
 namespace reckon::tools {
 
-/// Adds the counts of a source, and for live groups what came over each interface.
+/// Adds the counters of a source, and for live groups the counts of each interface.
 void add_source(OpenMetrics& out, const peer::SourceReport& report);
 
 }  // namespace reckon::tools

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kNone = "NA";
 
-/// Fields whose name ends in this have this unit; the first matching row is used.
+/// Unit of fields with this ending of their name; the first matching row is used.
 struct UnitRow {
   std::string_view record, ending, unit;
 };

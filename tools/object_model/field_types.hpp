@@ -100,7 +100,7 @@ class FieldTypes {
     add(name, array("HLAoctet", "Dynamic"));
   }
 
-  /// The name of the type of a record, which is entered with all its fields.
+  /// Adds a record type with all its fields. @return the name of the type
   template <typename Record>
   [[nodiscard]] std::string record(const Record& value, std::string_view field) {
     const std::string name = plain(struct_name<Record>());
@@ -108,7 +108,7 @@ class FieldTypes {
     const std::string_view unit = by_use ? unit_here(field) : std::string_view{};
     const std::string full = name + (by_use ? suffix(unit) : "");
     if (types_.records.contains(full)) return full;
-    types_.records[full];  // so that it is entered only once
+    types_.records[full];  // prevents a second entry
     FieldTypes inner(types_, name, unit);
     fields(inner, value);
     types_.records[full] = inner.members();

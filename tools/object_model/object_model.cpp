@@ -123,7 +123,7 @@ void write_objects(Xml& xml, ModelTypes& types) {
   xml.close();
 }
 
-// All PDUs except states of objects and those between peers.
+// All PDUs except object states and PDUs between peers.
 template <typename T>
 constexpr bool kIsInteraction = T::kPduType != pdu::PduType::entity_state&& T::kPduType !=
                                 pdu::PduType::entity_state_update&& T::kPduType !=

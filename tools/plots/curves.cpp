@@ -16,7 +16,7 @@
 namespace reckon::tools {
 namespace {
 
-// Of the picture; of the area inside the axes, whose top varies.
+// Size of the picture and of the area inside the axes; the top of the area varies.
 constexpr double kWidth = 760;
 constexpr double kLeft = 64;
 constexpr double kRight = 740;
@@ -24,12 +24,12 @@ constexpr double kTop = 66;
 constexpr double kTall = 224;
 constexpr double kLegendRow = 18;
 constexpr std::size_t kLegendColumns = 3;
-/// A line is drawn with fewer points as long as it moves by less [px].
+/// Points are dropped as long as the line moves by less than this [px].
 constexpr double kStraight = 0.05;
-/// Far outside of the picture [px]; readers of SVG fail on much more.
+/// Far outside the picture [px]; SVG renderers fail on much larger values.
 constexpr double kFar = 1e4;
 
-/// Distinct on white and on black, and to most who see few colours (Okabe and Ito).
+/// Distinct on white and on black, and for most colour-blind readers (Okabe and Ito).
 constexpr std::array<std::string_view, SvgPlot::kMostCurves> kColours{
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 
@@ -40,7 +40,7 @@ struct Point {
   double x = 0, y = 0;
 };
 
-/// One plot on the picture.
+/// One plot of the picture.
 class Area {
  public:
   Area(const SvgPlot& plot, double top);
@@ -105,7 +105,7 @@ double distance_to_line(const Point& p, const Point& a, const Point& b) {
   return std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
 }
 
-/// The points that the line needs, ends included (Douglas and Peucker).
+/// The points that the line needs, including its ends (Douglas and Peucker).
 std::vector<Point> straightened(std::span<const Point> points) {
   if (points.size() < 3) return {points.begin(), points.end()};
   std::vector<bool> kept(points.size());
@@ -203,12 +203,12 @@ void append_legend(std::string& out, const SvgPlot& plot, double top, std::size_
   }
 }
 
-/// The plot with axes, curves and legend. @returns where it ends
+/// Appends the plot with axes, curves and legend. @returns its lower end
 double append_plot(std::string& out, const SvgPlot& plot, double top, std::size_t columns,
                    bool dashed) {
   const Area area(plot, top);
   append_axes(out, plot, area);
-  // A picture within cuts off what leaves the area.
+  // A nested picture clips the curves to the area.
   fmt::format_to(end_of(out),
                  "<svg x=\"{0:g}\" y=\"{1:g}\" width=\"{2:g}\" height=\"{3:g}\" "
                  "viewBox=\"{0:g} {1:g} {2:g} {3:g}\">\n",

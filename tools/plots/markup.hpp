@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Text as HTML, SVG and XML may hold it.
+// Escapes text for HTML, SVG and XML.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace reckon::tools {
 
-/// Appends `text` of any origin as it may stand in an element or an attribute.
+/// Appends `text` of any origin, escaped for an element or an attribute.
 inline void append_escaped(std::string& out, std::string_view text) {
   for (const char letter : text) {
     if (letter == '&')

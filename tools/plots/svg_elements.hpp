@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The elements that the SVG pictures are made of.
+// Elements of the SVG pictures.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,9 +13,9 @@
 
 namespace reckon::tools {
 
-constexpr double kSvgNoteRow = 17;  ///< of lines of notes below a title [px]
+constexpr double kSvgNoteRow = 17;  ///< height of a note line below a title [px]
 
-/// `text` as SVG may hold it: octets outside of printable ASCII become question marks.
+/// Appends `text` escaped for SVG: octets outside printable ASCII become question marks.
 inline void append_svg_escaped(std::string& out, std::string_view text) {
   for (const char letter : text) {
     const auto octet = static_cast<unsigned char>(letter);

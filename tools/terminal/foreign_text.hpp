@@ -21,7 +21,7 @@ namespace reckon::tools {
 /// becomes a dot, each invalid octet U+FFFD.
 void append_clean_text(std::string& out, std::string_view text);
 
-/// The same of each line of a text of ours that quotes others, such as the problems of a file.
+/// Cleans each line of our own text that quotes foreign text, such as the problems of a file.
 [[nodiscard]] std::string clean_lines(std::string_view text);
 
 }  // namespace reckon::tools

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// JSON, member by member, and untrusted text as a JSON string. pdu/print.hpp prints whole PDUs as
-// JSON.
+// Writes JSON, member by member, with untrusted text as JSON strings. pdu/print.hpp prints whole
+// PDUs as JSON.
 #pragma once
 
 #include <fmt/compile.h>
@@ -15,8 +15,8 @@
 
 namespace reckon::tools {
 
-/// Appends `text` in quotes; control characters, quotes and backslashes are escaped. Any octets:
-/// invalid UTF-8 becomes U+FFFD, so that the line stays valid JSON.
+/// Appends `text` in quotes; control characters, quotes and backslashes are escaped. Accepts any
+/// octets: invalid UTF-8 becomes U+FFFD, so that the line stays valid JSON.
 void append_json_string(std::string& out, std::string_view text);
 
 /// One object, appended to a growing string. Keys are ours: letters and underscores.
@@ -38,7 +38,7 @@ class JsonObject {
     fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
     return *this;
   }
-  /// A number; null where there is none or it is not finite.
+  /// A number; null if there is none or it is not finite.
   JsonObject& number(std::string_view key, std::optional<double> number) {
     if (number && std::isfinite(*number)) return value(key, *number);
     return value(key, "null");

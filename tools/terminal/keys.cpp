@@ -17,7 +17,7 @@ namespace {
 struct Shared {
   int descriptor = -1;
   termios before{};
-  volatile std::sig_atomic_t taken = 0;  ///< the terminal is in our mode
+  volatile std::sig_atomic_t taken = 0;  ///< the terminal is in key mode
 };
 Shared shared;
 
@@ -27,7 +27,7 @@ void restore_terminal() {
   tcsetattr(shared.descriptor, TCSANOW, &shared.before);
 }
 
-/// Not after a signal has asked for the end; after Ctrl-Z the next read() takes it again.
+/// Does nothing after a signal has requested the end; after Ctrl-Z the next read() calls it again.
 void take_terminal() {
   if (shared.taken != 0 || SignalGuard::has_ended() || !in_foreground(shared.descriptor)) return;
   SignalGuard::undisturbed([] {
@@ -78,7 +78,7 @@ std::size_t TerminalKeys::read(std::span<char> out, std::chrono::nanoseconds pat
   if (ppoll(&entry, 1, &limit, nullptr) <= 0) return 0;
   const ssize_t count = ::read(descriptor_, out.data(), out.size());
   if (count > 0) return static_cast<std::size_t>(count);
-  // A closed terminal would be ready at once, for ever.
+  // A closed terminal is always ready: without the wait, callers would loop.
   if (patience.count() > 0) sleep_for(patience);
   return 0;
 }

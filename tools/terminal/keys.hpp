@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads single keys of a terminal, without Enter. The terminal is restored in whatever way the
-// program ends.
+// Reads single keys of a terminal, without Enter. The terminal is restored however the program
+// ends.
 #pragma once
 
 #include <chrono>
@@ -25,8 +25,7 @@ class TerminalKeys {
   TerminalKeys& operator=(const TerminalKeys&) = delete;
 
   [[nodiscard]] bool is_active() const { return active_; }
-  /// Waits at most `patience` for keys and returns the available ones; 0 is none. A signal ends the
-  /// wait.
+  /// Waits at most `patience` for keys. @return their number, 0 for none. A signal ends the wait.
   std::size_t read(std::span<char> out, std::chrono::nanoseconds patience);
 
  private:

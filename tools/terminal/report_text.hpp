@@ -19,7 +19,7 @@ namespace reckon::tools {
                      s.p999, s.max);
 }
 
-/// The same for errors; null for each if none was measured.
+/// The same for errors; null values if none was measured.
 [[nodiscard]] inline std::string errors_json(const peer::Spread& s) {
   return s.count > 0 ? spread_json(s) : R"({"p50":null,"p99":null,"p999":null,"max":null})";
 }

@@ -10,7 +10,7 @@
 
 #include "reckon/tools/terminal/signal_guard.hpp"
 
-// Its macros have names as common as "clear", "timeout" and "lines".
+// The macros of ncurses have common names such as "clear", "timeout" and "lines".
 #define NCURSES_NOMACROS
 #include <ncurses.h>
 #include <term.h>
@@ -20,7 +20,7 @@
 namespace reckon::tools {
 namespace {
 
-constexpr int kEscapeDelay_ms = 25;  // after it, an Escape is a key of its own
+constexpr int kEscapeDelay_ms = 25;  // after it, an Escape is a separate key
 constexpr int kAsciiDelete = 127;
 constexpr int kAsciiEscape = 27;
 constexpr short kBadColour = 1;
@@ -76,7 +76,7 @@ attr_t attributes_of(LineStyle style, bool colour) {
   return A_NORMAL;
 }
 
-/// State for a signal handler that restores the terminal: there is only one.
+/// State for a signal handler that restores the terminal: there is only one terminal.
 struct Shared {
   int descriptor = -1;
   termios before{};
@@ -86,11 +86,11 @@ Shared shared;
 
 void give_back() {
   const auto written = write(shared.descriptor, shared.farewell.data(), shared.farewell.size());
-  static_cast<void>(written);  // there is nobody to report to
+  static_cast<void>(written);  // an error cannot be reported here
   tcsetattr(shared.descriptor, TCSANOW, &shared.before);
 }
 
-// Without the delay marks, which no present terminal needs.
+// Without padding marks ($<..>), which present terminals do not need.
 std::string capability(const char* name) {
   const char* text = tigetstr(name);
   if (text == nullptr || text == reinterpret_cast<const char*>(-1)) return {};
@@ -100,7 +100,7 @@ std::string capability(const char* name) {
   return all;
 }
 
-/// Whether lines can be drawn in place, by TERM: not on "dumb" and unknown terminals.
+/// Whether TERM supports drawing in place: not "dumb" or unknown.
 bool can_draw(int descriptor) {
   int found = 0;
   if (setupterm(nullptr, descriptor, &found) != OK) return false;
@@ -126,7 +126,7 @@ std::unique_ptr<TerminalScreen> TerminalScreen::open(std::FILE* out, bool colour
   const int descriptor = fileno(out);
   if (isatty(descriptor) != 1 || isatty(STDIN_FILENO) != 1) return nullptr;
   if (!in_foreground(descriptor) || !can_draw(descriptor)) return nullptr;
-  std::setlocale(LC_CTYPE, "");  // lets ncurses find whether the terminal has UTF-8
+  std::setlocale(LC_CTYPE, "");  // for ncurses: whether the terminal uses UTF-8
   set_escdelay(kEscapeDelay_ms);
   shared.descriptor = descriptor;
   tcgetattr(descriptor, &shared.before);

@@ -12,7 +12,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Signals that end a program while it holds the terminal; the last one stops it.
+/// Signals that end a program while it uses the terminal; the last one stops it.
 constexpr std::array kSignals{SIGINT,  SIGTERM, SIGQUIT, SIGHUP, SIGABRT,
                               SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGTSTP};
 
@@ -21,7 +21,7 @@ struct Shared {
   void (*give_back)() = nullptr;
   FirstRequest first = FirstRequest::gives_back;
   std::size_t count = 0;                 ///< number of kSignals that are handled
-  volatile std::sig_atomic_t ended = 0;  ///< a signal asked for the end
+  volatile std::sig_atomic_t ended = 0;  ///< a signal has requested the end
   std::array<struct sigaction, kSignals.size()> actions{};
 };
 Shared shared;
@@ -46,7 +46,7 @@ extern "C" void give_back_and_go_on(int signal) {
     return;
   }
   if (action.sa_handler == SIG_IGN) return;
-  // The program's own handler has run.
+  // The program's own handler has already run.
   if (has_handler(action))
     (void)std::signal(signal, SIG_DFL);
   else

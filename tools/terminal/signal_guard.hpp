@@ -7,13 +7,13 @@
 
 namespace reckon::tools {
 
-/// Whether the program may use the terminal: one in the background would be stopped.
+/// Whether the program may use the terminal: a background program would be stopped.
 [[nodiscard]] bool in_foreground(int descriptor);
 
 /// Effect of the first Ctrl-C or SIGTERM for which the program has its own handler.
 enum class FirstRequest : std::uint8_t {
   gives_back,  ///< restores the terminal, then calls the handler
-  leaves_it,   ///< only calls the handler, which ends the program in good order
+  leaves_it,   ///< only calls the handler, which ends the program in an orderly way
 };
 
 /// While the object exists, a signal that ends the program restores the terminal and then has its
@@ -28,7 +28,7 @@ class SignalGuard {
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 
-  /// Whether a signal has asked for the end.
+  /// Whether a signal has requested the end.
   [[nodiscard]] static bool has_ended() noexcept;
   /// Calls `act` with the signals blocked.
   static void undisturbed(void (*act)());

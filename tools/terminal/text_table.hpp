@@ -22,7 +22,7 @@ class TextTable {
   };
 
   explicit TextTable(std::vector<Column> columns);
-  /// Missing cells are empty; more cells than columns are an error of the caller.
+  /// Missing cells are empty; too many cells are an error of the caller.
   void add(std::vector<std::string> cells);
   /// Titles first, two spaces between columns, no spaces at the end of a line.
   void print(std::FILE* out) const;
@@ -44,8 +44,8 @@ class TextTable {
 /// become dots.
 [[nodiscard]] std::string cut_to(std::string_view utf8, std::size_t columns);
 
-/// A sentence in lines of so many columns, cut between words where they allow it; from the second
-/// on they are set in by two. @param columns >= 8
+/// Wraps a sentence at `columns`, between words where possible; further lines are indented by two.
+/// @param columns >= 8
 [[nodiscard]] std::vector<std::string> wrap(std::string_view utf8, std::size_t columns);
 
 /// A count with its noun: "1 error", "2 errors".
@@ -57,7 +57,7 @@ class TextTable {
 /// An angle as text: "0.21 deg", "14 deg"; "0" below 0.001 deg.
 [[nodiscard]] std::string angle_text(double degrees);
 
-/// Received octets made safe for a terminal: those that are not printable ASCII become dots.
+/// Received octets made safe for a terminal: octets other than printable ASCII become dots.
 [[nodiscard]] std::string printable_text(std::string_view text);
 
 }  // namespace reckon::tools

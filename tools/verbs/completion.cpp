@@ -27,7 +27,7 @@ struct Taken {
   std::vector<std::string> words;  ///< choices of each word after the verb; empty: a file
 };
 
-/// The verb's description of itself.
+/// The verb's list of its flags.
 std::string asked(const Verb& verb) {
   char* text = nullptr;
   std::size_t size = 0;
@@ -48,7 +48,7 @@ std::string verb_names(Verbs verbs) {
   return names;
 }
 
-/// Asks the verb itself, so that there is no second list to maintain.
+/// Gets the flags from the verb itself, so that there is no second list to maintain.
 Taken taken_by(const Verb& verb, Verbs verbs) {
   Taken taken;
   std::istringstream lines(asked(verb));
@@ -82,7 +82,7 @@ std::string in_quotes(std::string_view text) {
   return word + '\'';
 }
 
-/// The words of each place as elements of a shell array.
+/// The words of each position as elements of a shell array.
 std::string quoted_words(const Taken& taken) {
   std::string elements;
   for (const std::string& words : taken.words)

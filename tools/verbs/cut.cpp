@@ -78,7 +78,7 @@ ExitCode cut(const CutOptions& options, const Console& console) {
   return tell(options, console, seen, *writer, source->report());
 }
 
-// A Signal PDU has to match by itself: others in its datagram may be of another radio.
+// A Signal PDU must match by itself: other PDUs in its datagram may belong to another radio.
 ExitCode cut_audio(const CutOptions& options, const Console& console) {
   CaptureSelection selection(options.selection);
   const auto source = open_recording(options.in);

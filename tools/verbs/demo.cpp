@@ -38,7 +38,7 @@ struct DemoOptions {
   DeviceChoice device;
   TraceFiles traces;
   std::optional<std::uint64_t> asked_peers;
-  std::uint64_t peers = 2;  // what is run
+  std::uint64_t peers = 2;  // number of peers to run
   std::optional<nanoseconds> duration;
   bool json = false;
   bool simulated_time = false;
@@ -74,8 +74,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   return line.parse(arguments, console);
 }
 
-// Demos beside each other on one loopback are not to join each other. What is simulated hears
-// nobody and stays as it is.
+// Concurrent demos on one loopback interface must not join each other. A simulated network is
+// isolated and keeps its exercise.
 std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
   if (scene.network.exercise_named || simulated) return scene.network.exercise;
   std::random_device random;
@@ -107,7 +107,7 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
       peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
     display.show(peers, scene, exercise.elapsed());
   }
-  tell();  // what was told at the start, even where a busy host had no time for a look
+  tell();  // notices of the start, even if a busy host never entered the loop
 }
 
 void check_flags(const DemoOptions& options) {
@@ -154,7 +154,7 @@ void say_where(const DemoOptions& options, const peer::SceneFile& scene, const C
              scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
 }
 
-/// Of a scene with bodies, those that have a device.
+/// For a scene with bodies, the number of peers that have a device.
 std::uint64_t peers_of(const DemoOptions& options, const peer::SceneFile& scene) {
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
   if (options.asked_peers || std::ranges::none_of(scene.scene.objects, moves))
@@ -196,7 +196,7 @@ int run(const DemoOptions& asked, const Console& console) {
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   const auto flags = flags_of_switch(options.view);
   const bool has_key = !scene.network.key.empty();
-  if (flags) (void)server_options(*flags, has_key);  // refused before anything begins
+  if (flags) (void)server_options(*flags, has_key);  // reports bad options before anything starts
   if (flags) let_pages_move_hands(scene, options.peers);
   StopControl stop;  // before the devices
   const std::unique_ptr<Exercise> exercise = started_exercise(scene, options, stop.stop());
@@ -220,7 +220,7 @@ int run(const DemoOptions& asked, const Console& console) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
   }
   if (flags) {
-    exercise->run(SelfView::kLookEvery);  // till its hands have numbers
+    exercise->run(SelfView::kLookEvery);  // until its hands have IDs
     page.emplace(*flags, scene, page_options(options, *exercise), *exercise, *twins);
     show_address(page->view(), has_key, display);
     browser = open_browser(*flags, page->view().address());

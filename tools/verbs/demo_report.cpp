@@ -70,7 +70,7 @@ void print_touching(std::FILE* out, const DemoMeasurement& measured) {
           : "");
 }
 
-/// What was sent against what peers without dead reckoning would send.
+/// Compares the packets sent with peers without dead reckoning.
 std::string against_raw(double raw, double now, std::size_t peers) {
   if (peers == 1) return "one peer: nobody to send to";
   if (!(raw > 0)) return "no hand whose steps could be streamed";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon demo` prints at its end.
+// Report of `reckon demo` at its end.
 #pragma once
 
 #include <cstdio>
@@ -9,11 +9,11 @@
 
 namespace reckon::tools {
 
-/// What a peer without dead reckoning would send every servo step: one Entity State and one
-/// Attribute PDU with one force model, alone in a datagram.
+/// Octets that a peer without dead reckoning would send every servo step: one Entity State and one
+/// Attribute PDU with one force model, in one datagram.
 inline constexpr double kRawOctets = 144 + 32 + 8 + 72;
 
-/// What an exercise cost.
+/// Cost of a run.
 struct DemoCost {
   double seconds = 0;
   double remote_seen = -1;

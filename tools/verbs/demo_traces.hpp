@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `demo --trace ..` writes.
+// Output of `demo --trace ..`.
 #pragma once
 
 #include <cstddef>
@@ -17,30 +17,30 @@
 
 namespace reckon::tools {
 
-/// Files that are asked for; empty: none.
+/// Requested files; empty: none.
 struct TraceFiles {
   std::string servo, bodies, loop;
 };
 
 void add_trace_options(CommandLine& line, TraceFiles& files);
 
-/// The files, open. Used by the thread that drives the exercise.
+/// The open files. Used by the thread that runs the exercise.
 class DemoTraces {
  public:
-  /// @param exercise with trace_bodies and trace_loops as the files ask; outlives it
-  /// @throws UsageError where a file cannot be written, or would have no line.
+  /// @param exercise has trace_bodies and trace_loops set for the requested files; outlives it
+  /// @throws UsageError if a file cannot be written, or would be empty.
   DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise);
   DemoTraces(const DemoTraces&) = delete;
   DemoTraces& operator=(const DemoTraces&) = delete;
 
-  /// Whether take() is to be called.
+  /// Whether take() must be called.
   [[nodiscard]] bool takes_steps() const noexcept { return servo_.has_value(); }
   /// @param peer, device numbered from 0
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
     if (servo_) servo_->write(peer, device, step);
   }
-  /// Writes what is left; after the exercise has stopped. @throws EnvironmentError where the disk
-  /// is full.
+  /// Flushes the files; call it after the exercise has stopped. @throws EnvironmentError if the
+  /// disk is full.
   void close();
 
  private:

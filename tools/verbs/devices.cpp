@@ -105,7 +105,7 @@ int list_devices(const DevicesOptions& options, const Console& console) {
   return exit_status(any ? ExitCode::findings : ExitCode::good);
 }
 
-/// What a servo of 1 kHz makes of it.
+/// The stiffness that a 1 kHz servo can show with it.
 peer::DeviceStiffness stiffness_of(const peer::DeviceDescriptor& device) {
   haptics::SimulatedDevice simulated(free_device_of(device));
   const haptics::ServoLoop servo(simulated, haptics::EffectPlan(), {});
@@ -173,7 +173,7 @@ void print_descriptor_json(std::FILE* out, const std::filesystem::path& file,
   std::fwrite(line.data(), 1, line.size(), out);
 }
 
-/// Those that come with Reckon, by their names.
+/// Names of the shipped descriptors.
 std::vector<std::string> shipped_descriptors() {
   std::vector<std::string> names;
   for (const std::filesystem::path& folder : peer::device_folders()) {
@@ -231,7 +231,7 @@ int measure_device(const DevicesOptions& options, const Console& console) {
           ? measure_real({{options.name, options.firmware}, options.max_force, options.is_agreed},
                          console)
           : simulated_text(options);
-  // What was written is a descriptor in every case.
+  // Checks that the output is a valid descriptor.
   static_cast<void>(peer::parse_device_descriptor(text, options.name));
   std::fwrite(text.data(), 1, text.size(), console.out);
   if (options.simulate.empty())

@@ -144,7 +144,7 @@ void examine_usb(std::vector<peer::Finding>& findings) {
                         "USB can be used; no device that a hand could hold is attached", ""});
 }
 
-// What is on a serial line may be a board that a hand could hold, or anything.
+// A serial port may have a haptic board, or any other device.
 void examine_serial_lines(std::vector<peer::Finding>& findings) {
   for (const AttachedDevice& line : look_at_serial_lines()) {
     findings.push_back({line.problem.empty() ? peer::FindingLevel::ok : peer::FindingLevel::note,

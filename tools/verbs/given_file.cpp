@@ -14,12 +14,12 @@
 namespace reckon::tools {
 namespace {
 
-/// What `reckon FILE` does with a kind of file.
+/// The verb for a kind of file in `reckon FILE`.
 struct Opening {
   FileKind kind;
   std::string_view name;
-  std::vector<std::string> words;  ///< before the file; none: no verb opens it by itself
-  std::string_view remedy = {};    ///< with the file for {0}
+  std::vector<std::string> words;  ///< words before the file; none: no verb opens it directly
+  std::string_view remedy = {};    ///< {0} is the file
 };
 
 const std::vector<Opening>& openings() {

@@ -11,9 +11,9 @@
 
 namespace reckon::tools {
 
-/// The words by which a verb opens `words`, the first of which names a file; what they are is
-/// written to `console.err`. Nothing if there is no such file.
-/// @throws UsageError that names the verbs where none opens it by itself
+/// The words of the verb that opens `words`, the first of which is a file; also prints them to
+/// `console.err`. Nothing if there is no such file.
+/// @throws UsageError that names the verbs, if none opens the file directly
 [[nodiscard]] std::optional<std::vector<std::string>> words_for_file(Arguments words,
                                                                      const Console& console);
 

@@ -80,7 +80,7 @@ class Output {
   void write_if_large() {
     if (text_.size() >= kWriteSize) write();
   }
-  /// Throws where writing fails, as on a full disk. A closed pipe is no fault; ferror() has it.
+  /// Throws if writing fails, as on a full disk. A closed pipe is no error; ferror() reports it.
   void write() {
     errno = 0;
     const std::size_t written = std::fwrite(text_.data(), 1, text_.size(), file_);
@@ -187,7 +187,7 @@ bool Inspection::is_in_range(nanoseconds time) {
     range_.begin_at(time);
     inspector_.start_at(time);
   }
-  // A capture that is still written has no end of its own.
+  // A capture that is still being written has no end of its own.
   full_ = full_ || (options_.source.follow && range_.is_past(time));
   return range_.has(time);
 }
@@ -204,7 +204,7 @@ void Inspection::show(const peer::SourceDatagram& datagram) {
   const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
   end_datagram(datagram, shown_.all_pdus() > before);
-  // A capture on stdin may be growing, and its source cannot tell when it is quiet.
+  // A capture on stdin may be growing, and its source does not report when it is quiet.
   if (options_.source.source == "-")
     output_.write();
   else

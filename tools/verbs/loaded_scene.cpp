@@ -33,7 +33,7 @@ LoadedScene load_whole_scene(const std::string& path) {
 
 namespace {
 
-// Whom `touch` admits besides the peers of the scene.
+// Reports that `touch` admits peers outside the scene.
 std::string touch_note(const peer::NetworkConfig& network) {
   if (network.touch_rule().text() != "all" || !network.key.empty()) return {};
   std::string note = "everybody on the LAN may press a hand ('touch' is all)";

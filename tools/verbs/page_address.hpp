@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a verb that serves its own page says of it.
+// Reports the address of a verb's page.
 #pragma once
 
 #include "reckon/tools/exercise/live_display.hpp"
@@ -8,7 +8,7 @@
 
 namespace reckon::tools {
 
-/// Puts the page's address in the display's head, and among its notices whom else it lets in.
+/// Shows the page's address in the display's head, and access by other hosts among its notices.
 void show_address(const SelfView& view, bool has_key, LiveDisplay& display);
 
 }  // namespace reckon::tools

@@ -43,8 +43,8 @@ constexpr nanoseconds kPeerLookEvery = std::chrono::milliseconds(100);
 /// Letters of an entity marking on the wire.
 constexpr std::size_t kLongestMarking = 11;
 
-/// The first part of this host's name as a marking, so that others know whose hand it is. A letter
-/// is left for the number of a second hand.
+/// The first part of this host's name as a marking, so that others can identify the hand. One
+/// letter is reserved for the number of a second hand.
 std::string marking_of_host() {
   std::array<char, 256> host{};
   static_cast<void>(::gethostname(host.data(), host.size() - 1));
@@ -97,7 +97,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   return line.parse(arguments, console);
 }
 
-// What there is to tell since the last look.
+// Reports notices since the last call.
 void tell_notices(RunningPeer& running, const Console& console, bool as_events,
                   LiveDisplay& display, PeerPage* page) {
   const pdu::SimulationAddress own = running.peer().views().read().own.simulation();
@@ -131,7 +131,7 @@ std::vector<peer::NamedPeer> read_list(const std::string& list) {
   }
 }
 
-// What this peer follows is its own matter: the scene's hash stays.
+// Followed beacons concern only this peer: the scene's hash stays the same.
 void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
   if (options.follow.empty()) return;
   if (!scene.aoim.hand_out)
@@ -141,7 +141,7 @@ void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
   scene.aoim.follow = options.follow;
 }
 
-// Where the flag names somebody, that goes before what the scene says.
+// Peers named by the flag replace the scene's list.
 void send_to(const std::vector<peer::NamedPeer>& list, peer::NetworkConfig& network,
              const Console& console) {
   if (list.empty()) return;
@@ -168,7 +168,7 @@ void check_application(const peer::SceneFile& scene, const PeerVerbOptions& opti
                                  *options.application, kMostApplications));
 }
 
-/// @param lines whether the output has lines of its own, which a summary would end
+/// @param lines whether the output is a stream of lines, without a summary
 void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& finished,
                const Console& console) {
   if (options.json) {
@@ -185,11 +185,12 @@ peer::SceneFile checked_scene(const PeerVerbOptions& options, const Console& con
   check_balance(scene, options);
   check_application(scene, options);
   if (const auto flags = flags_of_switch(options.view))
-    (void)server_options(*flags, !scene.network.key.empty());  // refused before it joins
+    (void)server_options(*flags, !scene.network.key.empty());  // reports bad options before it
+                                                               // joins
   return scene;
 }
 
-/// A page opens with the first picture, which has the hands.
+/// Opens the page at the first view, which contains the hands.
 class PageWhenSeen {
  public:
   PageWhenSeen(const PeerVerbOptions& options, const peer::SceneFile& scene)
@@ -227,7 +228,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   EntityEvents events;  // outlives the peer
   std::optional<BalanceLines> balance;
   if (options.balance) balance.emplace(*options.balance, console.out);
-  // Before the peer: it does not join where its metrics cannot be asked for.
+  // Before the peer: it does not join if the metrics port cannot be used.
   const auto metrics = metrics_server(options.metrics);
   const std::unique_ptr<RunningPeer> running =
       joined_peer(scene, options, console, events, balance ? &balance->tap() : nullptr);
@@ -238,7 +239,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   PageWhenSeen page(options, scene);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
-  bool shown = false;  // a picture has come
+  bool shown = false;  // a view has been published
   nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kPeerLookEvery;
   if (page.is_wanted()) look_every = SelfView::kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {

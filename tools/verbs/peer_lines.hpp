@@ -14,12 +14,12 @@
 
 namespace reckon::tools {
 
-/// At once, for whoever reads them from a pipe.
+/// Flushes at once, for readers of a pipe.
 void print_line(std::FILE* out, const std::string& text);
 void print_notice(std::FILE* out, peer::NoticeKind kind, peer::Severity severity,
                   std::string_view text, double seconds);
 
-/// What became of each datagram, reported so often.
+/// Prints the fate of each datagram, every `every`.
 class BalanceLines {
  public:
   BalanceLines(std::chrono::nanoseconds every, std::FILE* out)
@@ -32,7 +32,7 @@ class BalanceLines {
     next_ += every_;
     tell(running, false);
   }
-  /// The last line: nothing happens any more.
+  /// Prints the last line; call it after the peer has stopped.
   void end(const RunningPeer& running) {
     balance_.look();
     tell(running, true);

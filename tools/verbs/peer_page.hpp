@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The page of one peer: its own hands, which pages may take.
+// The page of one peer: shows its own hands, which pages may take over.
 #pragma once
 
 #include <span>
@@ -15,23 +15,24 @@
 
 namespace reckon::tools {
 
-/// What the page of a peer says of it.
+/// Properties of the peer for its page.
 struct PeerPageOptions {
   std::string source;  ///< the scene, as named
-  std::string iface;   ///< on which the peer sends; empty: the scene's, else chosen by rule
+  std::string iface;   ///< interface of the peer; empty: the scene's, else chosen by rule
 };
 
-/// One thread: that which looks at the peer.
+/// One thread, the reader of the peer's views.
 class PeerPage {
  public:
-  /// @param view of the peer, with its hands  @param pointers those of its hands that follow one;
-  /// their devices outlive this. @throws as SelfView
+  /// @param view of the peer, with its hands
+  /// @param pointers the hands that follow pointers; their devices outlive this
+  /// @throws as SelfView
   PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerPageOptions& options,
            const peer::PeerView& view, std::span<const PointerHand> pointers);
 
-  /// show() shows from now on how the peer receives others, too. @param peer outlives this
+  /// From now on show() shows the reception statistics of `peer` too. @param peer outlives this
   void add_receiver(const peer::Peer& peer) { view_.add_receiver(peer); }
-  /// Shows the hands as they are now.
+  /// Shows the present state of the hands.
   void show(const peer::PeerView& view);
   void note(const peer::Notice& notice) { view_.note(notice.text.data()); }
   [[nodiscard]] const SelfView& view() const noexcept { return view_; }
@@ -41,7 +42,7 @@ class PeerPage {
   [[nodiscard]] OwnHands hands_of(const peer::SceneFile& scene, const peer::PeerView& view);
 
   std::vector<PointerHand> pointers_;
-  ViewControls controls_;  // of the page, and so before it
+  ViewControls controls_;  // used by the page, so declared before it
   SelfView view_;
 };
 

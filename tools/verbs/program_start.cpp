@@ -24,8 +24,8 @@ namespace {
 
 bool can_run(const std::filesystem::path& path) { return access(path.c_str(), X_OK) == 0; }
 
-/// Path of a program: beside this one, else in ../libexec/reckon, else in a folder of PATH. Empty
-/// if it is in none.
+/// Path of a program: in this program's folder, else in ../libexec/reckon, else in a folder of
+/// PATH. Empty if it is in none.
 std::filesystem::path find_program(std::string_view name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -93,7 +93,8 @@ int run_copied(const std::filesystem::path& program, const Words& words, const C
   return WIFEXITED(status) ? WEXITSTATUS(status) : exit_status(ExitCode::internal);
 }
 
-/// Answers without the program what manual page and completion ask of each verb.
+/// Answers requests of the manual page and completion for a verb whose program is missing; other
+/// calls are an error.
 int answer_without_program(const VerbRow& row, Arguments arguments, const Console& console) {
   const std::string_view first = arguments.empty() ? std::string_view{} : arguments.front();
   if (first == kManualSection || first == kListFlags) {
@@ -116,7 +117,7 @@ int start_program(const VerbRow& row, Arguments arguments, const Console& consol
   if (program.empty()) return answer_without_program(row, arguments, console);
   const Words words(program, row.name, arguments);
   std::fflush(console.out);
-  // A manual page and completion ask one verb after the other.
+  // A manual page and completion call one verb after the other.
   const bool asked = !arguments.empty() &&
                      (arguments.front() == kManualSection || arguments.front() == kListFlags);
   const bool own_streams = console.out == stdout && console.err == stderr;

@@ -61,7 +61,7 @@ struct RecordOptions {
   std::string rotate_size;
   std::string rotate_total;
   std::optional<nanoseconds> duration;
-  SelectionOptions selection;  ///< only the filter of it
+  SelectionOptions selection;  ///< only its filter is used
   std::string key;             ///< file; empty: none
   std::string metrics;         ///< as typed; empty: none
   bool json = false;
@@ -81,7 +81,7 @@ class Recording {
         status_(console.err, begin_),
         silence_(options.source, begin_) {}
 
-  /// Records until it is asked to end. Throws EnvironmentError if the file is full. Reports the
+  /// Records until the end is requested. Throws EnvironmentError if the file is full. Reports the
   /// recorded datagrams in either case.
   void run();
 
@@ -113,7 +113,7 @@ class Recording {
   CaptureSelection selection_;
   SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
-  std::unique_ptr<MetricsServer> metrics_;  ///< null: nobody asks
+  std::unique_ptr<MetricsServer> metrics_;  ///< null: not requested
   std::unique_ptr<peer::CaptureWriter> writer_;
   StampOrder order_{[this](const peer::SourceDatagram& datagram) { writer_->write(datagram); }};
   peer::SteadyClock clock_;

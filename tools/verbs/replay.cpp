@@ -48,7 +48,7 @@ struct ReplayCounts {
   std::uint64_t sent = 0;
   std::uint64_t octets = 0;
   std::uint64_t incomplete = 0;  ///< fragments are missing, or the capture truncated them
-  std::uint64_t not_chosen = 0;  ///< by the words of the user
+  std::uint64_t not_chosen = 0;  ///< excluded by the options
   std::uint64_t refused = 0;     ///< by the kernel
   nanoseconds latest{};          ///< greatest lateness
 };
@@ -148,8 +148,8 @@ void Replay::play_lap() {
   }
 }
 
-// Whether there is a datagram to send. An opened datagram goes to its plain destination, the port
-// below.
+// @return whether there is a datagram to send. An opened datagram is sent to its plain destination,
+// the next lower port.
 bool Replay::unseal(peer::SourceDatagram& datagram) {
   const std::span<const std::byte> sealed = datagram.bytes;
   const bool is_read = sealed_.open(datagram);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a user asks of `reckon replay`.
+// Options of `reckon replay`.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace reckon::tools {
 
 struct ReplayOptions {
   std::string file;
-  std::vector<std::string> to;  ///< as given: a destination, the end of the range, or both
+  std::vector<std::string> to;  ///< as typed: a destination, the end of the range, or both
   std::optional<peer::IpEndpoint> destination;
   bool broadcast = false;
   std::string interface;  ///< empty: lo, or the interface of the broadcast address
@@ -30,7 +30,7 @@ struct ReplayOptions {
   ExerciseMapOptions map;
 };
 
-/// @return the status to exit with, if there is nothing to run  @throws UsageError
+/// @return the exit status, if there is nothing to run  @throws UsageError
 [[nodiscard]] std::optional<int> parse_replay(Arguments arguments, const Console& console,
                                               ReplayOptions& options);
 

@@ -38,11 +38,10 @@ struct PeerVerbOptions {
   std::string metrics, log;
 };
 
-/// Whether it asks who is there which peer of the scene it is.
+/// Whether the peer gets its number in the scene from the other peers.
 [[nodiscard]] bool asks_for_number(const peer::SceneFile& scene, const PeerVerbOptions& options);
 
-/// The peer that `options` ask for, with its simulated hands, and what there is to report of its
-/// link.
+/// The peer for `options`, with its simulated hands, and the reports of its link.
 class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
@@ -55,7 +54,7 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
-  /// Of its devices, and of the software stop.
+  /// Notices of its devices and of the software stop.
   [[nodiscard]] std::vector<std::string> device_notices();
   void press_stop_key() { stop_.press_key(now()); }
   /// Its hands that a page may move.
@@ -68,8 +67,8 @@ class RunningPeer {
                                                 peer::DatagramTap* tap, haptics::ForceStop& stop);
 
   StopControl stop_;      // before the devices
-  SimulatedHands hands_;  // before the peer, which makes them while it joins
-  RealDevices real_;      // as well
+  SimulatedHands hands_;  // before the peer, which creates them while it joins
+  RealDevices real_;      // the same
   peer::JoinedPeer joined_;
 };
 

@@ -19,8 +19,8 @@ namespace {
 using Eigen::Vector3d;
 using haptics::PlannedObject;
 
-constexpr double kNearAxis = 1e-6;           // of a direction, from an axis of the scene
-constexpr std::size_t kMostPairs = 100'000;  // that are measured
+constexpr double kNearAxis = 1e-6;           // deviation of a direction from an axis of the scene
+constexpr std::size_t kMostPairs = 100'000;  // limit of measured pairs
 constexpr double kRoundedUp = 0.1e-6;        // [m]
 
 // "+z", or "(0.6, 0, 0.8)"
@@ -31,12 +31,13 @@ std::string direction_text(const Vector3d& direction) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", direction.x(), direction.y(), direction.z());
 }
 
-// Rounded up to 0.1 um, so that a translation by it suffices but for a thousandth of that.
+// Rounded up to 0.1 um, with a tolerance of a thousandth of that, so that a translation by it
+// suffices.
 std::string length_text(double length) {
   return fmt::format("{:.6g} mm", std::ceil(length / kRoundedUp - 1e-3) * 1e3 * kRoundedUp);
 }
 
-// A solid without end.
+// An unbounded implicit solid.
 bool is_passed_through(const PlannedObject& object) {
   const auto* solid = std::get_if<std::shared_ptr<const haptics::ImplicitSolid>>(&object.shape);
   return solid != nullptr && !(*solid)->bounds().sizes().allFinite();
@@ -79,7 +80,7 @@ std::vector<peer::SceneProblem> crowded_bodies(const haptics::EffectPlan& plan) 
   for (const haptics::BoxPair& pair : near) {
     const PlannedObject& first = objects[pair.first];
     const PlannedObject& second = objects[pair.second];
-    // Of two bodies the later one is the one to move.
+    // If both are bodies, the later one is to be moved.
     auto problem = second.moves() ? problem_of(second, first) : problem_of(first, second);
     if (problem) problems.push_back(std::move(*problem));
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies of a scene that begin inside something that bodies do not pass through.
+// Finds bodies that begin inside other objects which bodies cannot pass through.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace reckon::tools {
 
-/// Bodies rest at some depth; what begins no deeper than this is no finding [m].
+/// Bodies at rest have some depth; a depth up to this is not reported [m].
 inline constexpr double kDepthAtRest = 10e-6;
 
-/// One for each pair of a body and another body, box, ball, plane or mesh that it begins in, with
-/// the depth and the translation that parts them. In the order of the file. Solids of a signed
-/// function are left out: bodies pass through them. Some milliseconds for a body in a mesh.
+/// One problem for each pair of a body and another body, box, sphere, plane or mesh in which it
+/// begins, with the depth and the translation that separates them. In the order of the file.
+/// Implicit solids are left out: bodies pass through them. Some milliseconds for a body in a mesh.
 [[nodiscard]] std::vector<peer::SceneProblem> crowded_bodies(const haptics::EffectPlan& plan);
 
 }  // namespace reckon::tools

@@ -56,7 +56,7 @@ std::string over_delivery_text(const peer::AoimConfig& aoim) {
   const auto* tree = cells.as<aoim::QuadTree>();
   if (tree == nullptr || aoim.quad_tree.density.empty()) return {};
   const auto places = peer::read_density(aoim.quad_tree.density, aoim.quad_tree.reach);
-  // Squares that cover the same area with as many groups.
+  // Squares that cover the same area with the same number of groups.
   const double across = std::max(1.0, std::floor(std::sqrt(static_cast<double>(tree->cells()))));
   const double side = tree->config().side / across;
   const aoim::CellGrid equal({aoim::CellScheme::square, side, aoim::kMaximumPool});

@@ -31,10 +31,10 @@ namespace {
 
 using peer::format_quantity;
 
-/// An effect that objects or regions lack, and the line that would add it.
+/// An effect that is missing, and the line that would add it.
 struct LeftOut {
   std::string effect;
-  std::vector<std::string> objects;  ///< that lack it; none: no region has it
+  std::vector<std::string> objects;  ///< objects without it; none: no region has it
   std::string declaration;
 };
 
@@ -128,13 +128,13 @@ TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
 
 constexpr auto kRight = TextTable::Align::right;
 
-/// "31 ns"; nothing for what was not measured.
+/// "31 ns"; empty if it was not measured.
 std::string time_text(double seconds) {
   if (seconds < 0) return "";
   return fmt::format("{:.0f} ns", 1e9 * seconds);
 }
 
-/// What a servo step takes of this host, and whether it can be had.
+/// Duration of a servo step on this host, and whether the host can run it.
 std::string step_text(const peer::StageCosts& costs) {
   constexpr double kStep = 1e-3, kMost = 0.5;  // [s], and the share of it that is left to the servo
   const std::string what = costs.dearest_object.empty()

@@ -12,7 +12,7 @@ namespace reckon::tools {
 /// Nodes of the scene with all copies, without the root and the objects; 0 without a graph.
 [[nodiscard]] std::size_t node_count(const peer::SceneFile& file);
 
-/// Its size, copies, what chooses or moves, and objects that hands do not feel; empty without a
+/// Its size, copies, nodes that select or move, and objects that hands do not feel; empty without a
 /// graph.
 [[nodiscard]] SettingRows scene_graph_rows(const peer::SceneFile& file);
 

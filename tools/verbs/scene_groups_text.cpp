@@ -30,7 +30,7 @@ void add_beacons(const peer::SceneFile& file, SettingRows& rows) {
                       file.aoim.follow + ": listens to the cell of each and shows what is in it");
 }
 
-// Most groups that the tiers with these recipients need at once.
+// Maximum number of groups that the tiers with these recipients need at once.
 std::size_t within_tiers(const peer::SceneFile& file, peer::Recipients to) {
   const std::vector<std::size_t> within = peer::group_needs(file).within_tiers;
   std::size_t sum = 0;

@@ -26,13 +26,13 @@ void note_distance(const haptics::PlannedObject& object, std::vector<std::string
       haptics::length_text(distance)));
 }
 
-// The file of a mesh, or of the picture that became one.
+// The file of a mesh, or of the picture of a height field.
 std::string file_of(const haptics::Shape& shape) {
   const auto* picture = std::get_if<haptics::HeightsShape>(&shape);
   return (picture != nullptr ? picture->file : std::get<haptics::MeshShape>(shape).file).string();
 }
 
-// Patches with a number: a list of name and triangles.
+// Numbered patches: a list of name and triangle count.
 void append_patches(std::string& out, const haptics::SurfacePatches* patches) {
   out += '[';
   for (std::size_t id = 1; patches != nullptr && id < patches->patches.size(); ++id) {

@@ -126,7 +126,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   return config;
 }
 
-/// What regions may put into its hand.
+/// Energy that regions may put into the hand.
 std::string sources_of(const peer::DeviceConfig& device) {
   return fmt::format("potentials are lent at most {}; oscillations put in at most {}, {} at once",
                      peer::format_quantity(device.region_loan, "J"),
@@ -134,7 +134,7 @@ std::string sources_of(const peer::DeviceConfig& device) {
                      peer::format_quantity(device.oscillation_energy, "J"));
 }
 
-/// Force rate limit of the device, and the shown share of the file's request.
+/// Force rate limit of the device, and the requested rate if it is higher.
 std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   FeltDevice hand(scene, device);
   const haptics::ServoLoop servo(hand.get(), haptics::EffectPlan(), servo_of(scene, device));
@@ -144,7 +144,7 @@ std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
                             peer::format_quantity(device.max_force_rate, "N/s"));
 }
 
-/// "; hands as asked": kinds of things that are not softened. Softer ones are printed with their
+/// "; hands as asked": kinds of things that are not softened. Softened ones are listed with their
 /// stiffness between peers, see softened_notes().
 std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& can) {
   std::string text;
@@ -186,7 +186,7 @@ std::string described_text(const peer::DeviceConfig& device) {
                      peer::format_quantity(described.friction, "N"), size.x(), size.y(), size.z());
 }
 
-/// How the handle moves the hand; empty: one to one.
+/// Mapping from the handle to the hand; empty: one to one.
 std::string mapping_text(const peer::DeviceConfig& device) {
   std::string text;
   const auto add = [&](bool is, const std::string& what) {
@@ -283,7 +283,7 @@ Facts facts_of(const peer::EntityConfig& entity, const peer::EntityTrack& track)
           {"felt", model_of(entity)}};
 }
 
-/// What moves when it is pushed, and what does not even stand in its way.
+/// Objects that can be pushed or are carried, and solids that bodies pass through.
 std::vector<PeerFact> body_facts(const haptics::EffectPlan& plan) {
   std::size_t count = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;

@@ -15,10 +15,10 @@ namespace reckon::tools {
 using SettingRows = std::vector<std::pair<std::string, std::string>>;
 
 /// The scene's settings for the network, cells and dead reckoning. Up to some seconds if the scene
-/// has a sample of positions. Asks the host how many groups it can join.
+/// has a sample of positions. Queries the host for the number of groups that it can join.
 [[nodiscard]] SettingRows scene_settings(const peer::SceneFile& file);
 
-/// Capacities, and what is dropped beyond them.
+/// Capacities, and the items that are dropped beyond them.
 [[nodiscard]] SettingRows scene_limits(const peer::SceneFile& file);
 
 }  // namespace reckon::tools

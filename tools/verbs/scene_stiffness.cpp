@@ -42,14 +42,14 @@ std::string device_text(const Softened& row) {
 
 constexpr double kAlmost = 1.0 - 1e-9;
 
-// Subject of one sentence: things of one kind that the same devices show alike.
+// Subject of one sentence: things of one kind that the same devices show equally.
 struct Group {
   Softened first;
   std::set<std::string> things, devices;
   double most_asked = 0.0;
 };
 
-// Of its effects that hold back by speed, but for the damper of its surface [N s/m].
+// Greatest velocity-dependent coefficient of its effects, except the damper of its surface [N s/m].
 double greatest_drag(const haptics::PlannedObject& object) {
   double most = 0.0;
   object.effects.for_each([&]<class Effect>(const Effect& effect) {
@@ -59,7 +59,7 @@ double greatest_drag(const haptics::PlannedObject& object) {
   return most;
 }
 
-// Of any patch [N s/m].
+// Greatest damping of its surface or of any patch [N s/m].
 double greatest_damping(const haptics::PlannedObject& object) {
   double most = object.effects.find<haptics::SpringDamper>()->damping();
   if (object.patches == nullptr) return most;

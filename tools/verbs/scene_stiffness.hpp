@@ -19,7 +19,7 @@ struct SceneDevice {
   std::string name;  ///< "device 1 LEFT"
   peer::DeviceStiffness stiffness;
   double period = 0.001;   ///< [s], of its servo
-  bool has_limit = false;  ///< its own max_stiffness is what it shows of walls
+  bool has_limit = false;  ///< its max_stiffness limits the walls that it shows
 };
 
 /// Every device of every peer, with limits from the servo that would drive it. @throws
@@ -31,15 +31,15 @@ struct SceneDevice {
 struct Softened {
   std::uint32_t peer = 1;
   std::string device;  ///< as SceneDevice::name
-  std::string what;    ///< "object NAME", "hand", "entity MARKING", "dampers of NAME"
+  std::string what;    ///< "object NAME", "hand", "entity MARKING", "dampers of NAME", ..
   double shown = 0.0;  ///< [N/m]
-  double asked = 0.0;  ///< [N/m]; 0: a slope that grows by k3 up to the device's limit
+  double asked = 0.0;  ///< [N/m]; 0: a slope that increases by k3 up to the device's limit
   double from = 0.0;   ///< [m], depth from which the device cannot show it
-  double alone = 0.0;  ///< [N/m], shown stiffness without the damper beside it; 0: there is none
-  /// Whether it is of dampers: `asked` and what is kept for it of the device's damping [N s/m].
+  double alone = 0.0;  ///< [N/m], shown stiffness without its damper; 0: there is none
+  /// Whether it is a damper: `asked` and `shown` are in [N s/m].
   bool damps = false;
   bool has_limit = false;  ///< as SceneDevice::has_limit
-  /// Whether it is of a body that is light for the effect's coefficient [N s/m].
+  /// Whether a light body limits the effect's coefficient [N s/m].
   bool is_light = false;
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
@@ -49,7 +49,7 @@ struct Softened {
                                              const haptics::EffectPlan& plan,
                                              const std::vector<SceneDevice>& devices);
 
-/// The same as sentences, one for each kind of thing and set of devices that show it alike.
+/// The same as sentences, one for each kind of thing and set of devices that show it equally.
 [[nodiscard]] std::vector<std::string> softened_notes(const std::vector<Softened>& rows,
                                                       std::size_t devices);
 

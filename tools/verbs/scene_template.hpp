@@ -7,8 +7,8 @@
 
 namespace reckon::tools {
 
-/// A scene file to start from: a table and a hand, and comments with a device, entities and the
-/// rest. Each comment line is valid without its "# ".
+/// A scene file as a starting point: a table and a hand, with commented examples of a device,
+/// entities and the rest. Each example line is valid without its "# ".
 [[nodiscard]] std::string_view scene_template() noexcept;
 
 }  // namespace reckon::tools

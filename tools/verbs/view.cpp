@@ -34,7 +34,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Of a capture, in memory [octets].
+/// Limit of a capture in memory [octets].
 constexpr std::size_t kCaptureRoom = std::size_t{1} << 30;
 
 constexpr std::string_view kSummary =
@@ -198,8 +198,8 @@ int save(const ViewOptions& options, const Console& console) {
   const std::optional<peer::SceneFile> scene = scene_of(options.source);
   StageOptions stage_of_all = stage_options(options);
   stage_of_all.kind = "saved";
-  stage_of_all.is_capture = true;  // all of it is heard before it is shown
-  // The folder is nobody else's business.
+  stage_of_all.is_capture = true;  // all of it is received before it is shown
+  // The path of the folder is private.
   if (!options.source.source.starts_with("udp://"))
     stage_of_all.source = std::filesystem::path(stage_of_all.source).filename();
   stage_of_all.scene = scene ? &*scene : nullptr;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What pages may do in an exercise of this program: take hands that follow pointers, and change the
-// network between its peers.
+// Lets pages take over hands that follow pointers, and change the network between the peers of this
+// program.
 #pragma once
 
 #include <atomic>
@@ -17,18 +17,18 @@
 
 namespace reckon::tools {
 
-/// All by the viewer's thread, but add_hand() and is_free().
+/// Called by the viewer's thread, except add_hand() and is_free().
 class ViewControls final : public ViewerControls {
  public:
   using ChangeNetwork = std::function<void(const peer::ImpairmentLaw&)>;
 
-  /// @param law what the network does at the start; what a page does not set is kept
-  /// @param change may be null: then there is no network to change
+  /// @param law impairment at the start; values that a page does not set are kept
+  /// @param change null: there is no network to change
   ViewControls(peer::ImpairmentLaw law, ChangeNetwork change);
 
-  /// Before pages come. @param index of the hand among those of the program
+  /// Call it before the first page connects. @param index of the hand among the program's hands
   void add_hand(std::size_t index, const PointerHand& pointer);
-  /// Any thread: whether no page has this hand; false for one that follows no pointer.
+  /// Any thread: whether no page has this hand; false for a hand that follows no pointer.
   [[nodiscard]] bool is_free(std::size_t index) const;
 
   HandAnswer take_hand(Watcher watcher) override;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
                   place.string()));
 }
 
-/// A folder that only this user enters.
+/// Makes a folder that only this user may enter.
 fs::path make_folder() {
   const char* const own = std::getenv("XDG_RUNTIME_DIR");
   std::error_code none;

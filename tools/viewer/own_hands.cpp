@@ -16,7 +16,7 @@ namespace {
 using haptics::ContactAccount;
 using haptics::ServoSnapshot;
 
-/// Less of a spring than this share is told as softened.
+/// A spring below this share is reported as softened.
 constexpr double kWhole = 0.999;
 
 bool touches(const ContactAccount& contact) { return contact.depth > 0; }
@@ -75,7 +75,7 @@ std::vector<TouchHand> OwnHands::names() const {
   return names;
 }
 
-// [N], as DemoMeasurement compares: the others' full models where their devices really are.
+// [N], as in DemoMeasurement: the others' full models at the true positions of their devices.
 std::optional<double> OwnHands::true_force(std::size_t index) const {
   const ServoSnapshot& own = hands_[index].step;
   Eigen::Vector3d sum = own.mesh_force;
@@ -87,7 +87,7 @@ std::optional<double> OwnHands::true_force(std::size_t index) const {
     sum += deadreckon::evaluate(to_force_model(hand_), pose, own.device, own.device_velocity,
                                 hand_.radius);
   }
-  // Of bodies that no hand moves the truth is not known here.
+  // The true state of entities without a hand is unknown here.
   for (std::size_t k = 0; k < own.count; ++k)
     if (touches(own.contacts[k]) && !own.contacts[k].has_device) return std::nullopt;
   return sum.norm();

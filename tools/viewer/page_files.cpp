@@ -14,8 +14,8 @@
 
 #include "reckon/tools/viewer/page_frame.hpp"
 
-// Made by page_archive.cmake: for each file its name with a NUL, eight octets each with its sizes
-// compressed and plain, and its octets in both forms; then an empty name.
+// Made by page_archive.cmake. Each file has its name with a NUL, its compressed and plain sizes of
+// eight octets each, and its octets in both forms; an empty name ends the archive.
 extern "C" const char reckon_page_archive[];
 
 namespace reckon::tools {
@@ -64,7 +64,7 @@ std::string_view text_of(std::string_view name) {
   return file == nullptr ? std::string_view() : file->text;
 }
 
-// Made when it is asked for first: few save.
+// Made at the first request: few users save.
 const PageFile* frame_file() {
   static const std::string kFrame = page_frame(text_of);
   static const PageFile kFile{kFramePath, content_type_of(kFramePath), {}, kFrame};

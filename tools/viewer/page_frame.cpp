@@ -29,7 +29,7 @@ std::string_view imported_by(std::string_view line) {
   return line;
 }
 
-/// Modules that are added one after the other.
+/// Concatenates modules.
 class Bundle {
  public:
   explicit Bundle(const ReadPageFile& read) : read_(read) {}
@@ -60,7 +60,7 @@ class Bundle {
   std::string text_;
 };
 
-// As a content policy names a script or a style.
+// In the form that a content security policy requires for a script or style.
 std::string digest_of(std::string_view text) {
   std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
   crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(text.data()),
@@ -101,7 +101,7 @@ std::string filled_frame(std::string_view frame, std::string_view items) {
   const std::size_t place = frame.find(kFramePlace) + kFramePlace.size();
   std::string file(frame.substr(0, place));
   file.reserve(frame.size() + items.size());
-  // JSON has it in strings alone.
+  // In JSON, `<` occurs only in strings.
   for (const char letter : items)
     if (letter == '<')
       file += "\\u003c";

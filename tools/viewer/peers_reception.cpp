@@ -40,7 +40,7 @@ std::optional<ReceptionSample> PeersReception::look(std::chrono::nanoseconds now
   TransitTimes::Counts came{};
   std::transform(looks_.back().came.begin(), looks_.back().came.end(), looks_.front().came.begin(),
                  came.begin(), std::minus<>());
-  // A late one makes them fewer.
+  // A late datagram lowers the count.
   const auto lost = std::max<std::int64_t>(looks_.back().lost - looks_.front().lost, 0);
   looks_.pop_front();
   const auto all = std::accumulate(came.begin(), came.end(), std::uint64_t{0});

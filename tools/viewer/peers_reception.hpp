@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a program's own peers receive each other, from what their loops count anyway: behind the
-// impairment of the scene, which a listener beside them does not have.
+// Reception statistics of a program's own peers, from the counters of their loops. They include the
+// impairment of the scene, which a separate listener does not receive.
 #pragma once
 
 #include <chrono>
@@ -14,22 +14,22 @@
 
 namespace reckon::tools {
 
-/// Over the second before `time`, of all peers together. What is absent is not known.
+/// Over the second before `time`, of all peers together. Absent values are unknown.
 struct ReceptionSample {
   std::chrono::nanoseconds time{};
-  std::optional<double> lost_share;               ///< by the numbers of trailers
+  std::optional<double> lost_share;               ///< by the sequence numbers of trailers
   std::optional<double> delay_median, delay_p95;  ///< [s], one way, rounded up by 1/16 at most
 };
 
-/// One thread, any: that which looks at the peers.
+/// One thread, the reader of the peers' views.
 class PeersReception {
  public:
   static constexpr std::chrono::nanoseconds kEvery = std::chrono::milliseconds(250);
 
   /// @param peer outlives it
   void add(const peer::Peer& peer) { peers_.push_back(&peer); }
-  /// A sample where one is due; nothing without peers, and in the first second.
-  /// @param now of any clock that rises
+  /// A sample if one is due; nothing without peers, and in the first second.
+  /// @param now of any monotonic clock
   [[nodiscard]] std::optional<ReceptionSample> look(std::chrono::nanoseconds now);
 
  private:

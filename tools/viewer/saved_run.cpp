@@ -22,10 +22,10 @@
 namespace reckon::tools {
 namespace {
 
-/// Text that a saved file keeps, as recorder.js does; of numbers one a second.
+/// Texts that a saved file keeps, as in recorder.js; numbers once a second.
 constexpr std::array<std::string_view, 6> kKeptText{"hello", "roster", "touch",
                                                     "cells", "groups", "numbers"};
-/// Pictures farther apart are played faster, for between those of one speed the stage tells a gap.
+/// Pictures farther apart are played faster: at normal speed the stage would mark a gap.
 constexpr double kApart = 0.25;  // [s]
 
 double seconds_of(std::chrono::nanoseconds time) { return pdu::to_seconds(time); }
@@ -44,7 +44,7 @@ std::uint16_t entities_in(const std::string& picture) {
   return count;
 }
 
-/// A tab that draws each picture at once, and keeps it.
+/// A tab that draws each picture at once and stores it.
 class SavingTab {
  public:
   SavingTab(ViewStage& stage, const SaveOptions& options)
@@ -75,7 +75,7 @@ class SavingTab {
   }
 
  private:
-  /// From a picture of so many octets to the next one [s].
+  /// Time from a picture of `octets` to the next one [s].
   [[nodiscard]] double spacing_after(std::size_t octets) const {
     return std::max(seconds_of(ViewServer::kTick), static_cast<double>(octets) / budget_ * span_);
   }
@@ -94,7 +94,7 @@ class SavingTab {
     }
     texts_.push_back(message.payload);
   }
-  // Text stands before the picture that comes next.
+  // Texts are stored before the next picture.
   void take_picture(const std::string& picture) {
     time_ = seconds_of(*watcher_->shown - stage_.history().start());
     if (run_.pictures++ == 0) first_ = time_;

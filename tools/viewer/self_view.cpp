@@ -11,12 +11,12 @@
 namespace reckon::tools {
 namespace {
 
-/// Null where the peers speak by unicast, which nobody else hears.
+/// Null for unicast, which no other socket receives.
 std::unique_ptr<peer::DatagramSource> heard_source(const peer::SceneFile& scene,
                                                    const std::string& iface) {
   if (!scene.network.peers.empty()) return nullptr;
   try {
-    // The interface of the peer, which is one.
+    // The interface of the peer; there is one.
     const std::string& asked = iface.empty() ? scene.network.iface : iface;
     return peer::open_groups(
         {.interface = peer::choose_interface(asked, scene.network.group.is_v6).interface.name,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A program that runs peers and serves their page itself: it hears on the network what they say, as
-// anybody else would, and shows its own hands from what their servos publish. No loop of a peer is
-// asked for anything.
+// Serves the page of a program that runs peers. It receives their datagrams from the network like
+// any listener, and shows the program's hands from the snapshots of their servos. It puts no load
+// on the loops of the peers.
 #pragma once
 
 #include <cstddef>
@@ -22,37 +22,37 @@
 
 namespace reckon::tools {
 
-/// What a program is.
+/// Properties of the program.
 struct SelfViewOptions {
   std::string_view kind;     ///< "demo" or "peer"
-  std::string source;        ///< its scene, as named
-  std::string iface;         ///< on which its peers speak; empty: the scene's, else chosen by rule
-  double raw_bit_per_s = 0;  ///< that it would send without dead reckoning; 0: not known
-  bool knows_all = false;    ///< all hands of the exercise are its own
-  ViewerControls* controls = nullptr;  ///< outlives it; null: pages only look
+  std::string source;        ///< its scene, as named by the user
+  std::string iface;         ///< interface of its peers; empty: the scene's, else chosen by rule
+  double raw_bit_per_s = 0;  ///< rate without dead reckoning; 0: unknown
+  bool knows_all = false;    ///< all hands of the exercise belong to the program
+  ViewerControls* controls = nullptr;  ///< outlives the view; null: pages cannot change anything
 };
 
-/// One thread: that which looks at the peers.
+/// One thread, the reader of the peers' views.
 class SelfView {
  public:
-  /// How often hands are looked at.
+  /// Interval between readings of the hands.
   static constexpr std::chrono::nanoseconds kLookEvery = std::chrono::milliseconds(33);
 
-  /// Serves from now on. @param hands of the program, as of now
-  /// @throws EnvironmentError where the network or the port cannot be used
+  /// Starts to serve. @param hands of the program, as of now
+  /// @throws EnvironmentError if the network or the port cannot be used
   SelfView(const ViewFlags& flags, const peer::SceneFile& scene, const SelfViewOptions& options,
            OwnHands hands);
 
-  /// To be changed by what is new, then shown.
+  /// Update these with new snapshots, then call show_hands().
   [[nodiscard]] OwnHands& hands() noexcept { return hands_; }
   void show_hands();
-  /// From now on show_hands() shows how this peer receives others, too. @param peer outlives it
+  /// From now on show_hands() shows the reception statistics of `peer` too. @param peer outlives it
   void add_receiver(const peer::Peer& peer) { reception_.add(peer); }
-  /// A line for the pages' log.
+  /// Adds a line to the pages' log.
   void note(std::string_view text) { thread_->put_note("info", std::string(text)); }
-  /// What a user opens.
+  /// URL for this user.
   [[nodiscard]] const std::string& address() const noexcept { return thread_->address(); }
-  /// By which users of other hosts open it; none where it serves this host alone.
+  /// URLs for users of other hosts; none if it serves this host only.
   [[nodiscard]] const std::vector<std::string>& addresses_for_others() const noexcept {
     return thread_->addresses_for_others();
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The flags that say where a page is served, as the verbs share them.
+// Flags of the verbs for the address of a page.
 #pragma once
 
 #include <cstdint>
@@ -29,35 +29,35 @@ struct ViewFlags {
 /// Declares --port, --listen, --tls, --behind-tunnel and --open.
 void add_view_flags(CommandLine& line, ViewFlags& flags);
 
-/// The flags of a verb that serves itself, as typed.
+/// The flags of a verb that can serve its own page, as typed.
 struct ViewSwitch {
   std::string view;  ///< "true" or a port; empty: not given
-  ViewFlags page;    ///< the port is that of --view
+  ViewFlags page;    ///< with the port of --view
 };
 
 /// Declares --view[=PORT], --listen, --tls, --behind-tunnel and --open.
 void add_view_switch(CommandLine& line, ViewSwitch& typed);
-/// What they say; nothing where --view was not given.
-/// @throws UsageError for what is no port, and for a flag of the page without --view
+/// Parses them; none if --view was not given.
+/// @throws UsageError for an invalid port, and for a flag of the page without --view
 [[nodiscard]] std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed);
 
-/// The first flag that was given, --port aside; empty: none.
+/// The first given flag other than --port; empty: none.
 [[nodiscard]] std::string_view given_flag(const ViewFlags& flags);
 
-/// What they mean, with a new word. @param has_key the exercise is sealed: the page needs the word,
-/// and other hosts reach it by TLS or a tunnel alone
-/// @throws UsageError for a port that there is not, for --listen with a key in clear, and as
+/// Server options for the flags, with a new access word. @param has_key the exercise is sealed: the
+/// page needs the word, and other hosts reach it only by TLS or a tunnel
+/// @throws UsageError for an invalid port, for --listen with a key without encryption, and as
 /// check_tls
 [[nodiscard]] ViewServerOptions server_options(const ViewFlags& flags, bool has_key);
 
-/// Lines that say that others reach it too, what they may do, and by which addresses.
+/// Lines which state that other hosts can reach the page, what they may do, and the addresses.
 [[nodiscard]] std::vector<std::string> invitation(const std::vector<std::string>& addresses,
                                                   bool has_key);
 
-/// Prints the address on out, and on err whom else it lets in, and by which addresses.
+/// Prints the address on out, and the notes about access by other hosts on err.
 void tell_addresses(const ViewServer& server, bool has_key, const Console& console);
 
-/// Opens the browser where that is asked for; what is returned lives as long as the page.
+/// Opens the browser if requested; keep the result as long as the page.
 [[nodiscard]] std::unique_ptr<BrowserRedirect> open_browser(const ViewFlags& flags,
                                                             const std::string& address);
 

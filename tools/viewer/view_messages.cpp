@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The text that a stage has for its tabs.
+// The text messages of a stage for its tabs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -218,7 +218,7 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   return out;
 }
 
-// What every tab gets, however slow: once, or as the answer to what it asked.
+// Text for every tab, even a slow one: sent once, or as the answer to a request.
 ViewStage::Text ViewStage::next_text(Watcher& watcher) {
   const auto text = [](std::string&& message) {
     return std::make_shared<const std::string>(std::move(message));
@@ -237,7 +237,7 @@ ViewStage::Text ViewStage::next_text(Watcher& watcher) {
   return next_regular_text(watcher);
 }
 
-// What comes again and again: only for who draws what it gets.
+// Regular text: only for a tab that draws its pictures.
 ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   const auto text = [](std::string&& message) {
     return std::make_shared<const std::string>(std::move(message));
@@ -258,7 +258,7 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   return next_scenery(watcher);
 }
 
-// What the scene gives a meaning to, where it has changed.
+// Text about cells and groups of the scene, if it has changed.
 ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
   const auto renew = [](std::string& known, std::string&& message) -> Text {
     if (message == known) return nullptr;

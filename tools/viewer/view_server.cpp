@@ -28,7 +28,7 @@ using asio::ip::tcp;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kReadSize = 1024;
-/// A file of the page takes no longer.
+/// Time limit to send a file of the page.
 constexpr nanoseconds kSlowest = std::chrono::minutes(1);
 constexpr ServerPurpose kPage{"the page", "--port or --listen"}, kMetrics{"metrics", "--metrics"};
 
@@ -39,7 +39,7 @@ std::optional<asio::ssl::context> tls_of(const TlsFiles& files) {
 
 }  // namespace
 
-/// All that is connected. Asio calls its functions within poll() alone.
+/// All connections. Asio calls its functions only within poll().
 class ViewServer::Connections {
  public:
   /// @param stage of the page; null: none
@@ -82,7 +82,7 @@ class ViewServer::Connections {
   using Pointer = std::shared_ptr<Connection>;
 
   void accept();
-  /// For one more connection of this address.
+  /// Makes room for one more connection of this address.
   void make_room(const std::string& from);
   template <typename Which>
   [[nodiscard]] std::size_t count(Which&& which) const {
@@ -110,7 +110,7 @@ class ViewServer::Connections {
   ViewServerCounts counts_;
 };
 
-/// One browser's connection: a request, then an answer and the end, or a tab until it goes.
+/// A browser's connection: one request and its answer, or a tab until it closes.
 class ViewServer::Connections::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Connections& all, tcp::socket socket)
@@ -121,7 +121,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
 
   [[nodiscard]] bool is_tab() const { return watcher_ != nullptr; }
   [[nodiscard]] bool is_head() const { return !is_tab() && !is_answered_; }
-  /// A tab without the word.
+  /// A tab without the access word.
   [[nodiscard]] bool is_stranger() const { return is_tab() && !knows_word_; }
   [[nodiscard]] const std::string& from() const { return stream_.from(); }
 
@@ -140,7 +140,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (is_stranger() && all_.now_ - since_ > kSilence) return close();
     send_next();
   }
-  /// The last words to a tab, as far as they go out at once.
+  /// Sends the last message of a tab, as far as it can be written without waiting.
   void say_bye(std::string_view text) {
     if (!is_tab() || is_writing_) return;
     const std::string last = last_frames(bye_message(text));
@@ -168,7 +168,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     watcher_.reset();
   }
 
-  // False where there is nothing more to read.
+  // @return false if nothing more can be read
   bool take_in() {
     if (is_answered_) return false;
     return is_tab() ? take_frames() : take_request();
@@ -253,7 +253,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (!in_.empty()) (void)take_frames();
   }
 
-  // Why it becomes no tab, as the page shows it; empty: it may, and there is room.
+  // Why it may not become a tab, as the page shows it; empty: it may.
   [[nodiscard]] std::string refusal_of(bool knows_word) {
     if (!knows_word && all_.needs_word_)
       return "this exercise has a key: open the address that reckon printed";
@@ -300,7 +300,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     send(std::move(message->payload), &head_);
   }
 
-  /// Sends; when all of it is out, what there is next.
+  /// Sends a message, and after it the next one.
   void send(std::shared_ptr<const std::string> payload, const FrameHead* head) {
     is_writing_ = true;
     out_ = std::move(payload);
@@ -317,7 +317,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
 
   Connections& all_;
   ByteStream stream_;
-  nanoseconds since_;  // it began, was answered, or as a tab owes a drawing
+  nanoseconds since_;  // start, time of the answer, or of a tab's oldest picture that is not drawn
   std::string in_;
   std::array<char, kReadSize> room_{};
   std::unique_ptr<Watcher> watcher_;
@@ -355,7 +355,8 @@ void ViewServer::Connections::accept() {
   is_accepting_ = true;
   acceptor_.async_accept([this](std::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    // With no descriptor left, for example, another try would fail at once: the next tick tries.
+    // Without free descriptors, for example, another try would fail at once: the next tick tries
+    // again.
     if (error) return void(is_accepting_ = false);
     const auto connection = std::make_shared<Connection>(*this, std::move(socket));
     make_room(connection->from());

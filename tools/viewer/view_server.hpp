@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The viewer's server: files of the page by HTTP, and to each tab what the stage has for it, by
-// WebSocket. Whoever is slow gets the newest picture when there is room for one, never an old one.
-// Without a page it answers for metrics alone.
+// The viewer's server: sends files of the page by HTTP, and the stage's messages to each tab by
+// WebSocket. A slow tab gets the newest picture when it can take one, never an old one. Without a
+// page it serves only metrics.
 #pragma once
 
 #include <chrono>
@@ -21,31 +21,31 @@
 
 namespace reckon::tools {
 
-/// Where metrics are asked for.
+/// Path of the metrics.
 inline constexpr std::string_view kMetricsPath = "/metrics";
 
-/// The metrics of a program as a server hands them out.
+/// Metrics that a server serves.
 struct ServedMetrics {
   std::string_view content_type;
-  std::function<std::string()> text;  ///< as it is now, some 10 kB; called by poll()
+  std::function<std::string()> text;  ///< present text, some 10 kB; called by poll()
 };
 
-/// Where it listens.
+/// Options of the server.
 struct ViewServerOptions {
   static constexpr std::uint16_t kDefaultPort = 8642;
-  std::string address = "127.0.0.1";  ///< of an interface of this host; "0.0.0.0": of all
-  /// None: kDefaultPort or the next that is free. 0: any that is free.
+  std::string address = "127.0.0.1";  ///< of an interface of this host; "0.0.0.0": all interfaces
+  /// None: kDefaultPort or the next free one. 0: any free port.
   std::optional<std::uint16_t> port = {};
-  std::string word = {};       ///< by which tabs may push; see draw_word
-  ServedMetrics metrics = {};  ///< of a server without a page
-  bool needs_word = false;     ///< to look, too: the exercise has a key
-  TlsFiles tls = {};           ///< without: plain HTTP
+  std::string word = {};       ///< access word of tabs that change the exercise; see draw_word
+  ServedMetrics metrics = {};  ///< for a server without a page
+  bool needs_word = false;     ///< to view, too: the exercise has a key
+  TlsFiles tls = {};           ///< empty: plain HTTP
 };
 
-/// What it has done so far.
+/// Counters of the server.
 struct ViewServerCounts {
-  std::uint64_t tabs = 0;      ///< that were served
-  std::uint64_t refused = 0;   ///< requests by 403, 400 and 404, and tabs beyond kMostTabs
+  std::uint64_t tabs = 0;      ///< tabs served
+  std::uint64_t refused = 0;   ///< requests answered by 403, 400 or 404, and tabs beyond kMostTabs
   std::uint64_t pictures = 0;  ///< sent
   std::uint64_t octets = 0;    ///< of messages sent
 
@@ -60,46 +60,46 @@ struct ViewServerCounts {
   }
 };
 
-/// One thread. What comes from a socket neither throws nor takes more than some 10 kB a connection,
-/// 50 kB with TLS.
+/// One thread. Socket input never throws, and takes at most some 10 kB per connection, 50 kB with
+/// TLS.
 class ViewServer {
  public:
   static constexpr std::size_t kMostTabs = 64;
-  /// Beyond it the oldest connection that is no tab makes room for the next.
+  /// Beyond it the oldest connection that is no tab is closed.
   static constexpr std::size_t kMostConnections = 256;
-  /// Connections of one address without a request yet; the oldest makes room for the next.
+  /// Limit of connections from one address without a request yet; beyond it the oldest is closed.
   static constexpr std::size_t kMostHeads = 8;
-  /// Tabs of one address without the word. One with the word makes the oldest without end where
-  /// there are kMostTabs.
+  /// Limit of tabs from one address without the access word. If there are kMostTabs, a tab with the
+  /// word closes the oldest tab without it.
   static constexpr std::size_t kMostStrangers = 8;
-  /// Who has not sent its request by then is closed.
+  /// A connection without a request after this time is closed.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::seconds(5);
-  /// A tab without the word that draws nothing of what it was sent for so long is closed.
+  /// A tab without the word that draws none of its pictures for this long is closed.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(10);
   static constexpr std::chrono::nanoseconds kTick = std::chrono::nanoseconds(1'000'000'000 / 30);
 
-  /// Listens. @param stage outlives it. @throws std::runtime_error with the value and the remedy
-  /// where it cannot.
+  /// Starts to listen. @param stage outlives it. @throws std::runtime_error with the value and the
+  /// remedy if it cannot.
   ViewServer(ViewStage& stage, const ViewServerOptions& options);
-  /// The same without a page: GET kMetricsPath is answered by options.metrics, nothing else is.
+  /// The same without a page: answers GET kMetricsPath from options.metrics, and nothing else.
   explicit ViewServer(const ViewServerOptions& options);
-  /// Says good-bye.
+  /// Sends a last message to the tabs.
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
-  /// Handles what has come, and waits for it at most so long.
+  /// Handles pending events, and waits for some at most `patience`.
   void poll(std::chrono::nanoseconds patience);
-  /// After ViewStage::pass(): gives every tab what it has room for. @param now steady
+  /// Call after ViewStage::pass(): sends every tab as much as it can take. @param now steady time
   void tick(std::chrono::nanoseconds now);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
-  /// Where it is reached from this host: "http://127.0.0.1:8642"; with TLS by the first name of its
+  /// Its origin for this host: "http://127.0.0.1:8642"; with TLS by the first name of its
   /// certificate.
   [[nodiscard]] std::string origin() const;
-  /// What a user opens: "http://127.0.0.1:8642/#word=1f2e..".
+  /// URL for the user: "http://127.0.0.1:8642/#word=1f2e..".
   [[nodiscard]] std::string address() const;
-  /// The same as other hosts reach it; none where only this one does.
+  /// URLs for other hosts; none if only this host can reach it.
   [[nodiscard]] std::vector<std::string> addresses_for_others() const;
   [[nodiscard]] std::size_t tabs() const noexcept;
   [[nodiscard]] const ViewServerCounts& counts() const noexcept;

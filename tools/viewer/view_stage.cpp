@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Pictures farther apart than this, at the speed that time passes, have a gap between them.
+/// Pictures farther apart than this, divided by the playback speed, have a gap between them.
 constexpr nanoseconds kGap = std::chrono::milliseconds(500);
 constexpr nanoseconds kSecond = std::chrono::seconds(1);
 
@@ -26,7 +26,7 @@ HistoryOptions history_options(const StageOptions& options) {
   return history;
 }
 
-/// Rows with a time: those older than `span` before the last go.
+/// Removes rows older than `span` before the last one.
 template <typename Rows>
 void forget_old(Rows& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
@@ -138,7 +138,8 @@ nanoseconds ViewStage::shown_time(const Watcher& watcher) const {
   return std::clamp(watcher.time, history_.begin(), std::max(history_.begin(), live_end()));
 }
 
-// Moves a playing tab on; where it catches up with now it is live, at a capture's end it stops.
+// Advances a playing tab; if it reaches the present it becomes live, at the end of a capture it
+// stops.
 void ViewStage::advance(Watcher& watcher) const {
   const Time passed = now_ - std::exchange(watcher.advanced, now_);
   if (watcher.state != PlayState::playing) return;
@@ -159,13 +160,13 @@ void ViewStage::show_at(Watcher& watcher, Time time, PlayState state) const {
   watcher.needs_picture = true;
 }
 
-/// What each kind of request does.
+/// The action of each kind of request.
 struct ViewStage::Requests {
   ViewStage& stage;
   Watcher& watcher;
 
   void operator()(const DrawnRequest& request) const {
-    // A picture that is drawn says the same of those before it.
+    // A drawn picture confirms all pictures before it.
     auto& under_way = watcher.under_way;
     const auto drawn = std::find(under_way.begin(), under_way.end(), request.number);
     if (drawn == under_way.end()) return;

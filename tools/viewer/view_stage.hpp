@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer shows, and to whom: takes datagrams and hands in, keeps the history, and has for
-// each tab the next message when there is room for one. No sockets; time is passed in.
+// Content of the viewer: takes datagrams and hands, keeps the history, and makes the next message
+// for each tab that can take one. No sockets; time is passed in.
 #pragma once
 
 #include <chrono>
@@ -31,45 +31,45 @@
 
 namespace reckon::tools {
 
-/// What is shown.
+/// Properties of the source.
 struct StageOptions {
   std::string source;                      ///< as the user named it
   std::string_view kind = "live";          ///< "demo", "peer", "live" or "capture"
   std::string help;                        ///< a sentence for an empty page
-  const peer::SceneFile* scene = nullptr;  ///< null: none is known; read at construction only
-  bool is_capture = false;                 ///< all of it is taken before anybody looks
+  const peer::SceneFile* scene = nullptr;  ///< null: unknown; read at construction only
+  bool is_capture = false;                 ///< all datagrams are taken before the first tab
   HistoryOptions history;
-  double raw_bit_per_s = 0;            ///< of a stream without dead reckoning; 0: not known
-  ViewerControls* controls = nullptr;  ///< null: pages only look; outlives the stage
+  double raw_bit_per_s = 0;            ///< rate of a stream without dead reckoning; 0: unknown
+  ViewerControls* controls = nullptr;  ///< null: pages cannot change anything; outlives the stage
 };
 
-/// One of the program's own hands, as it is told once.
+/// Constant properties of a hand of the program.
 struct TouchHand {
   std::string name;
   double radius = 0;  ///< [m]
   std::string_view device = "simulated";
-  double limit = 0;  ///< [N], its largest force
+  double limit = 0;  ///< [N], greatest force
 };
 
-/// The hidden twin of a hand, which has no gate.
+/// The hidden twin of a hand, without the gate.
 struct TwinMark {
-  std::uint16_t hand = 0;    ///< index of it
+  std::uint16_t hand = 0;    ///< index of the hand
   double energy = 0;         ///< [J], at the twin's port
-  std::uint64_t resets = 0;  ///< times that it got lost and began anew
+  std::uint64_t resets = 0;  ///< number of resets
 };
 
-/// All hands of the program at one instant. Their slots are set by `ids`; what they touch has the
-/// number that it has in its own mesh.
+/// All hands of the program at one instant. `ids` determines their slots; their patches have the
+/// numbers of their own meshes.
 struct HandFrame {
   std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
   std::vector<HandMark> hands;
-  std::vector<ToolMark> tools;   ///< of those that turn
+  std::vector<ToolMark> tools;   ///< of hands that turn
   std::vector<BodyMark> bodies;  ///< of the scene
   std::vector<pdu::EntityId> ids;
   std::vector<TwinMark> twins;
 };
 
-/// One thread. Times are since 1970-01-01 UTC, those of a capture its own.
+/// One thread. Times are since 1970-01-01 UTC, or the times of the capture.
 class ViewStage {
  public:
   /// A message for a tab.
@@ -79,37 +79,38 @@ class ViewStage {
   };
   static constexpr std::chrono::nanoseconds kNumbersEvery = std::chrono::milliseconds(250);
   static constexpr std::chrono::nanoseconds kRosterEvery = std::chrono::milliseconds(500);
-  /// Haptic entities beyond which contacts are not computed: their pairs are looked at.
+  /// Beyond this number of haptic entities, contacts are not computed, as the cost grows with the
+  /// pairs.
   static constexpr std::size_t kMostHaptic = 512;
 
   /// Reads the scene's meshes.
   explicit ViewStage(const StageOptions& options);
 
-  /// A datagram of the source. @return false where a capture's history is full
+  /// Takes a datagram of the source. @return false if a capture's history is full
   bool take(const peer::SourceDatagram& datagram) { return history_.take(datagram); }
   void set_touch(const std::vector<TouchHand>& hands);
   void take_hands(HandFrame frame);
-  /// How the program's peers receive each other; times rise.
+  /// Takes reception statistics of the program's peers, with rising times.
   void take_reception(const ReceptionSample& sample);
-  /// A line for the log of all tabs; the last kMostNotes are kept.
+  /// Adds a line to the log of all tabs; the last kMostNotes are kept.
   void note(std::string_view level, std::string_view text);
-  /// The source lost something: what is shown from now on has a gap before it.
+  /// The source lost data: the next pictures have a gap before them.
   void note_gap() noexcept { ++gaps_; }
-  /// Time has come to `now`, by a clock of its own for a capture: a new picture may be shown.
+  /// Advances the time to `now` (a capture has its own clock): a new picture may be shown.
   void pass(std::chrono::nanoseconds now);
 
-  /// A tab has come. @param knows_word it may push
+  /// Adds a tab. @param knows_word it may change the exercise
   [[nodiscard]] std::unique_ptr<Watcher> admit(bool knows_word);
-  /// It goes.
+  /// Removes a tab.
   void leave(const Watcher& watcher);
-  /// What it asked. @return false where that is no request: it is to be closed
+  /// Handles a message of a tab. @return false if it is no request: close the connection
   [[nodiscard]] bool answer(Watcher& watcher, std::span<const std::byte> message);
-  /// The same of a request that is read already.
+  /// Handles a decoded request.
   void heed(Watcher& watcher, const PageRequest& request);
-  /// The next thing to send to it, by importance; nothing where it has all there is by now.
+  /// The next message for a tab, by importance; none if it is up to date.
   [[nodiscard]] std::optional<Message> next_message(Watcher& watcher);
 
-  /// The latest that was passed.
+  /// The last time of pass().
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept { return now_; }
   [[nodiscard]] std::size_t watchers() const noexcept { return watchers_; }
   [[nodiscard]] const History& history() const noexcept { return history_; }
@@ -118,7 +119,7 @@ class ViewStage {
   using Time = std::chrono::nanoseconds;
   using Text = std::shared_ptr<const std::string>;
   static constexpr std::size_t kMostNotes = 64;
-  struct Requests;  // what each kind of request does
+  struct Requests;  // the action of each kind of request
 
   [[nodiscard]] double seconds(Time time) const noexcept;
   [[nodiscard]] Time live_end() const noexcept;
@@ -154,8 +155,8 @@ class ViewStage {
   std::optional<deadreckon::LocalFrame> frame_;
   peer::OriginConfig origin_;
   std::optional<ShownThresholds> thresholds_;
-  std::unique_ptr<SubscribedCells> cells_;  // null where none are known
-  std::unique_ptr<DrawnGroups> groups_;     // null where the scene has none
+  std::unique_ptr<SubscribedCells> cells_;  // null without a scene
+  std::unique_ptr<DrawnGroups> groups_;     // null if the scene has none
   Text touch_;
   std::vector<DrawnSolid> solids_, regions_;
   std::deque<HandFrame> hands_;

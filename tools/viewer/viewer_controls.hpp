@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a page may change in the exercise that serves it: the one way in, for who knows the word of
-// this start.
+// Interface by which a page changes the exercise that serves it; only for pages with this start's
+// access word.
 #pragma once
 
 #include <chrono>
@@ -13,27 +13,26 @@
 
 namespace reckon::tools {
 
-/// Called by the viewer's thread, with requests that are checked already: numbers are finite and in
-/// their ranges. Nothing here may wait for a loop of a peer.
+/// Called by the viewer's thread, with checked requests: numbers are finite and in their ranges.
+/// The functions must not wait for a loop of a peer.
 class ViewerControls {
  public:
-  using Watcher = std::uint64_t;  ///< number of a tab; never the same twice
+  using Watcher = std::uint64_t;  ///< unique number of a tab
   struct HandAnswer {
-    std::optional<std::uint16_t>
-        hand;          ///< index among the program's hands; none: there is none free
-    std::string text;  ///< a sentence for the user
+    std::optional<std::uint16_t> hand;  ///< index among the program's hands; none: none is free
+    std::string text;                   ///< a sentence for the user
   };
 
-  /// A tab asks for a hand; asked again, it gets the same.
+  /// Assigns a hand to a tab; a repeated call returns the same hand.
   virtual HandAnswer take_hand(Watcher watcher) = 0;
-  /// It gives it back, or was closed; nothing where it has none.
+  /// Releases the hand of a tab, if it has one; also called when the tab is closed.
   virtual void give_hand(Watcher watcher) = 0;
-  /// Where the tab's hand is to go; nothing where the hand is another's.
+  /// Moves the tab's hand; ignored if the hand belongs to another tab.
   virtual void point(Watcher watcher, const PointerRequest& request,
                      std::chrono::nanoseconds now) = 0;
-  /// @return a sentence: what the network does from now on
+  /// @return a sentence about the new impairment
   virtual std::string set_network(const NetworkRequest& request) = 0;
-  /// What the network does now.
+  /// The present impairment.
   [[nodiscard]] virtual NetworkRequest network() const { return {}; }
 
  protected:

@@ -21,11 +21,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-/// Datagrams that are taken before tabs are looked at again.
+/// Limit of datagrams taken before tabs are served again.
 constexpr int kMostAtOnce = 512;
 constexpr nanoseconds kLongestWait = milliseconds(10);
-constexpr nanoseconds kPatience = milliseconds(100);  // with a quiet source
-/// A step that comes so late tells that the process stood still: what is shown has a gap.
+constexpr nanoseconds kPatience = milliseconds(100);  // for a quiet source
+/// After a step this late, the process was stopped: the picture has a gap.
 constexpr nanoseconds kStoodStill = std::chrono::seconds(1);
 
 std::unique_ptr<ViewServer> open_server(ViewStage& stage, const ViewServerOptions& options) {

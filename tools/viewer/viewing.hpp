@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A source, a stage and a server put together: what `reckon view` runs by itself, and demo and peer
-// in a thread beside them.
+// Combines a source, a stage and a server: `reckon view` runs it directly, demo and peer in a
+// separate thread.
 #pragma once
 
 #include <atomic>
@@ -23,34 +23,34 @@
 
 namespace reckon::tools {
 
-/// What to serve, and where.
+/// Content and address of a view.
 struct ViewingOptions {
   StageOptions stage;
   ViewServerOptions server;
   std::string key;               ///< key file of a sealed exercise; empty: plain
-  std::vector<TouchHand> hands;  ///< of the program itself
+  std::vector<TouchHand> hands;  ///< of this program
 };
 
-/// Takes a source into a stage until it ends, its stage is full, or `is_over` says so, which is
-/// asked at least ten times a second. @return what there is to tell of it
+/// Reads a source into a stage until it ends, the stage is full, or `is_over` returns true; calls
+/// that at least ten times a second. @return messages about problems and omitted datagrams
 [[nodiscard]] std::vector<std::string> take_source(peer::DatagramSource& source,
                                                    SealedDatagrams& sealed, ViewStage& stage,
                                                    const std::function<bool()>& is_over);
 
-/// One thread drives it.
+/// Driven by one thread.
 class Viewing {
  public:
   /// Opens the server, then reads a capture to its end.
   /// @param source may be null: then only hands are shown
-  /// @throws EnvironmentError where the address cannot be used, UsageError for the key
+  /// @throws EnvironmentError if the address cannot be used, UsageError for the key
   Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source);
 
-  /// One round: takes what has arrived, serves the tabs, and waits up to 10 ms for more.
+  /// One round: takes arrived datagrams, serves the tabs, and waits up to 10 ms for more.
   void step();
 
   [[nodiscard]] ViewStage& stage() noexcept { return stage_; }
   [[nodiscard]] ViewServer& server() noexcept { return *server_; }
-  /// What happened to the source, as it says itself.
+  /// The counters of the source.
   [[nodiscard]] const peer::SourceReport& report() const noexcept;
 
  private:
@@ -68,7 +68,7 @@ class Viewing {
   std::uint64_t dropped_ = 0;
 };
 
-/// The same in a thread of ordinary priority, a little below that of others.
+/// The same in a thread of normal scheduling, at slightly lower priority.
 class ViewThread {
  public:
   /// @throws as Viewing
@@ -77,11 +77,11 @@ class ViewThread {
   ViewThread(const ViewThread&) = delete;
   ViewThread& operator=(const ViewThread&) = delete;
 
-  /// From the thread that looks at the peers: where the hands are now.
+  /// From the thread that reads the peers' views: the present state of the hands.
   void put_hands(HandFrame frame);
-  /// The same: how the peers receive each other.
+  /// From the same thread: reception statistics of the peers.
   void put_reception(const ReceptionSample& sample);
-  /// The same: a line for the pages' log.
+  /// From the same thread: a line for the pages' log.
   void put_note(std::string level, std::string text);
   [[nodiscard]] const std::string& address() const noexcept { return address_; }
   [[nodiscard]] const std::vector<std::string>& addresses_for_others() const noexcept {
@@ -94,7 +94,7 @@ class ViewThread {
   Viewing viewing_;
   std::string address_;
   std::vector<std::string> addresses_for_others_;
-  std::mutex mutex_;  // of what is handed over
+  std::mutex mutex_;  // guards the pending input
   std::vector<HandFrame> frames_;
   std::vector<ReceptionSample> receptions_;
   std::vector<std::pair<std::string, std::string>> notes_;

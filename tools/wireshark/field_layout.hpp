@@ -36,7 +36,7 @@ struct FieldPlace {
 struct BlockPlace {
   std::string kind;  ///< records, datums, octets, bits, attribute_sets, rest, other
   std::string name;
-  FieldPlace count;                ///< field of the number of records; no size if none
+  FieldPlace count;                ///< field with the number of records; size 0 if none
   std::size_t size = 0;            ///< octets of one record of `records`
   std::vector<FieldPlace> fields;  ///< of one record of `records`; empty if its layout varies
 };

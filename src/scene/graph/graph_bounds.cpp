@@ -13,7 +13,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// A box around the bounds, a little larger, so that rounding excludes nothing that touches it.
+/// A box around the bounds, slightly larger, so that rounding excludes nothing that touches it.
 AlignedBox3d box_around(const ContentBounds& bounds, const NodePose& pose) {
   Vector3d centre, half;
   if (const auto* const ball = std::get_if<SphereBounds>(&bounds)) {
@@ -28,7 +28,7 @@ AlignedBox3d box_around(const ContentBounds& bounds, const NodePose& pose) {
   return {centre - half, centre + half};
 }
 
-/// How far along `normal` the bounds lie at least.
+/// Least coordinate of the bounds along `normal`.
 double least_along(const ContentBounds& bounds, const NodePose& pose, const Vector3d& normal) {
   if (const auto* const ball = std::get_if<SphereBounds>(&bounds))
     return normal.dot(pose * ball->centre) - pose.scale * ball->radius;
@@ -41,7 +41,7 @@ double least_along(const AlignedBox3d& box, const Vector3d& normal) {
   return normal.dot(box.center()) - normal.cwiseAbs().dot(0.5 * box.sizes());
 }
 
-/// Where a ray enters a box around the origin; none: it misses it.
+/// Distance at which a ray enters a box around the origin; none: it misses.
 std::optional<double> entry(const Vector3d& half, const Vector3d& origin, const Vector3d& along) {
   double from = 0.0, to = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ std::optional<double> entry(const Vector3d& half, const Vector3d& origin, const 
   return from <= to ? std::optional(from) : std::nullopt;
 }
 
-/// Where a ray enters a ball around the origin; `along` has length 1.
+/// Distance at which a ray enters a sphere around the origin; `along` has length 1.
 std::optional<double> entry(double radius, const Vector3d& origin, const Vector3d& along) {
   const double nearest = -origin.dot(along);
   const double aside = (origin + nearest * along).squaredNorm();

@@ -14,7 +14,7 @@ namespace {
 
 using Places = std::unordered_map<std::string_view, std::size_t>;
 
-/// Looks for faults of one list and collects them.
+/// Collects the faults of one list.
 class GraphCheck {
  public:
   explicit GraphCheck(std::span<const GraphNode> nodes)
@@ -71,7 +71,7 @@ class GraphCheck {
     }
   }
 
-  // Whoever does not come to the root along parents is in a circle, or hangs on one.
+  // Nodes that do not reach the root by their parents are in a cycle, or below one.
   void check_circles() {
     enum : std::uint8_t { unseen, open, seen };
     std::vector<std::uint8_t> state(nodes_.size(), unseen);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A scene graph as it is written down: nodes by name, each with its parent. What is wrong with one
-// is told here, before a graph is made of it.
+// Declaration of a scene graph: nodes by name, each with its parent, and the check for faults
+// before a graph is made.
 #pragma once
 
 #include <cstddef>
@@ -18,53 +18,53 @@
 
 namespace reckon::peer {
 
-/// What a node is to the walk.
+/// Role of a node in the walk.
 enum class NodeKind : std::uint8_t {
   content,          ///< a leaf: geometry or a light
   group,            ///< a frame for the nodes below it
-  switch_,          ///< procedural: of its children one is shown
-  level_of_detail,  ///< procedural: which child is shown follows from the distance
+  switch_,          ///< procedural: one of its children is shown
+  level_of_detail,  ///< procedural: the distance determines the shown child
 };
 
-/// What a content node has; `index` counts in a list of the graph's user.
+/// Content of a node; `index` counts in a list of the graph's user.
 struct NodeContent {
   enum class Kind : std::uint8_t { geometry, light };
   Kind kind = Kind::geometry;
-  std::uint32_t index = 0;     ///< of the thing itself
+  std::uint32_t index = 0;     ///< of the geometry or light
   std::uint32_t geometry = 0;  ///< of its shape, which instances share
 };
 
-/// One node as written down. The order of a parent's children is that of the list.
+/// One declared node. The children of a parent are in the order of the list.
 struct GraphNode {
-  std::string name{};                   ///< of nodes that are no content: unlike all others
-  std::optional<std::string> parent{};  ///< a node that is no content; none: this is the root
+  std::string name{};                   ///< unique, except for content nodes
+  std::optional<std::string> parent{};  ///< not a content node; none: this is the root
   NodeKind kind = NodeKind::group;
-  NodePose pose{};                     ///< in the parent; that of the root in S
-  std::optional<NodeMotion> motion{};  ///< in time, from `pose`; such a node is procedural
+  NodePose pose{};                     ///< in the parent; for the root in S
+  std::optional<NodeMotion> motion{};  ///< motion over time, from `pose`; makes the node procedural
   std::string shows{};                 ///< switch: the name of a child; empty: the first
-  /// Child of a level of detail: it is shown up to this distance [m, of the level's frame].
+  /// Child of a level of detail: greatest distance at which it is shown [m, of the level's frame].
   double farthest = std::numeric_limits<double>::infinity();
   NodeContent content{};  ///< of a content node
 };
 
-/// A rule that a node breaks.
+/// A violated rule of a node.
 struct GraphFault {
   std::size_t node = 0;  ///< in the list
-  /// The member that breaks it: "name", "parent", "scale", "farthest"...
+  /// The member that violates it: "name", "parent", "scale", "farthest"...
   std::string_view member;
   std::string sentence;  ///< error and remedy
 };
 
-/// What is wrong with a list of nodes; nothing: a SceneGraph can be made of it. The rules: one
-/// root, and each parent a node of the list; nobody is its own ancestor; names are unlike; nothing
-/// hangs on content; poses are finite and scales above 0; a switch shows a child; the levels of
-/// detail reach farther and farther.
+/// The faults of a list of nodes; none: a SceneGraph can be made of it. The rules: one root; each
+/// parent is in the list; no cycles; names are unique; content has no children; poses are finite
+/// and scales above 0; a switch shows one of its children; levels of detail have increasing
+/// distances.
 [[nodiscard]] std::vector<GraphFault> faults_of(std::span<const GraphNode> nodes);
 
-/// The place of each parent in a list without faults; the root has the list's size.
+/// The index of each node's parent in a list without faults; the root has the list's size.
 [[nodiscard]] std::vector<std::size_t> parents_of(std::span<const GraphNode> nodes);
 
-/// For each node of the list its children, in the list's order. @param parents of parents_of()
+/// The children of each node, in the list's order. @param parents from parents_of()
 [[nodiscard]] std::vector<std::vector<std::size_t>> children_of(
     std::span<const std::size_t> parents);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walk through a scene graph with a state that nodes modify on the way: top to bottom, left to
-// right (thesis fig 5.2).
+// Walks a scene graph with a state that nodes modify: top to bottom, left to right (thesis fig
+// 5.2).
 //
 //   GraphWalk<int> walk(graph);                       // depth as a state
 //   walk.run(0, [](NodeIndex node, int& own, int&) { ++own; return true; });
@@ -14,17 +14,17 @@
 
 namespace reckon::peer {
 
-/// Walks through the shown nodes of a graph, which outlives it. Allocates when it is made; run()
-/// does not, unless copies of State do.
+/// Walks the shown nodes of a graph, which outlives it. Allocates at construction; run() does not,
+/// unless copies of State do.
 template <class State>
 class GraphWalk {
  public:
   explicit GraphWalk(const SceneGraph& graph) : graph_(&graph), open_(graph.depth() + 1) {}
 
-  /// Calls `visit(node, own, around)` for each shown node. `own` is what the walk brought to the
-  /// node; modified, it holds for what hangs on the node. `around`, modified, holds for the later
-  /// siblings of the node and what hangs on them. On the way up the states of before hold again.
-  /// If `visit` returns false, nothing below the node is visited.
+  /// Calls `visit(node, own, around)` for each shown node. `own` is the state at the node; changes
+  /// of it apply to the node's subtree. Changes of `around` apply to the later siblings of the node
+  /// and their subtrees. On the way up the earlier states are restored. If `visit` returns false,
+  /// the subtree below the node is skipped.
   template <class Visit>
   void run(const State& initial, Visit visit) {
     std::size_t level = 0;  // of open_: the state around the node
@@ -46,22 +46,22 @@ class GraphWalk {
  private:
   struct Open {
     State state{};
-    NodeIndex end = 0;  ///< behind the last node for which it holds
+    NodeIndex end = 0;  ///< after the last node to which it applies
   };
 
   const SceneGraph* graph_;
   std::vector<Open> open_;
 };
 
-/// A node with geometry as the walk comes to it.
+/// A geometry node during the walk.
 struct DrawnNode {
   NodeIndex node;
   const NodePose& pose;               ///< in S
-  std::span<const NodeIndex> lights;  ///< the lights that hold for it, in the order of the walk
+  std::span<const NodeIndex> lights;  ///< active lights, in walk order
 };
 
-/// Draws a scene: a node's pose holds for all below it; a light holds for its later siblings and
-/// all below them (thesis 5.2: it "is added to the currently active set of lights").
+/// Draws a scene: a node's pose applies to its subtree; a light applies to its later siblings and
+/// their subtrees (thesis 5.2: it "is added to the currently active set of lights").
 class DrawWalk {
  public:
   /// @param graph outlives the walk
@@ -75,7 +75,7 @@ class DrawWalk {
       own.pose = placed(around.pose, graph_->local(node));
       if (graph_->kind(node) != NodeKind::content) return true;
       if (graph_->content(node).kind == NodeContent::Kind::light)
-        lights_[around.lights++] = node;  // over those of subtrees that are left
+        lights_[around.lights++] = node;  // overwrites lights of finished subtrees
       else
         draw(DrawnNode{node, own.pose, std::span(lights_).first(around.lights)});
       return true;

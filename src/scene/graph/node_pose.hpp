@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The pose of a node in its parent, how poses follow from each other, and how a pose moves.
+// The pose of a node in its parent, composition of poses, and their velocities.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +20,12 @@ struct alignas(64) NodePose {                                       // one cache
   }
 };
 
-/// `inner` is a pose in A, `outer` that of A in B; the result is the former in B.
+/// `inner` is a pose in A, `outer` the pose of A in B; returns the pose in B.
 [[nodiscard]] inline NodePose placed(const NodePose& outer, const NodePose& inner) noexcept {
   return {outer * inner.position, outer.scale * inner.scale, outer.orientation * inner.orientation};
 }
 
-/// How a frame moves in another one, B; its scale is constant.
+/// Velocity of a frame in another one, B; its scale is constant.
 struct NodeVelocity {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the frame's origin [m/s], B
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [rad/s], B
@@ -36,8 +36,8 @@ struct NodeVelocity {
   }
 };
 
-/// How A moves in C, if it moves by `inner` in B, where it has the position `position` [m], and B
-/// has the pose `outer` in C and moves there by `moves`.
+/// Velocity of A in C: A moves by `inner` in B at the position `position` [m]; B has the pose
+/// `outer` in C and moves there by `moves`.
 [[nodiscard]] inline NodeVelocity carried(const NodePose& outer, const NodeVelocity& moves,
                                           const Eigen::Vector3d& position,
                                           const NodeVelocity& inner) noexcept {

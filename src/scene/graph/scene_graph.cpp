@@ -25,7 +25,7 @@ SceneGraph::SceneGraph(std::span<const GraphNode> nodes) {
   const std::vector<std::vector<std::size_t>> children = children_of(parents);
   places_.resize(nodes.size());
   const auto root = std::ranges::find(parents, nodes.size()) - parents.begin();
-  // What is to come next is on top, so children go in from the last one.
+  // The next node is on top of the stack, so children are pushed in reverse order.
   std::vector<std::pair<std::size_t, std::size_t>> open{{static_cast<std::size_t>(root), 1}};
   while (!open.empty()) {
     const auto [index, depth] = open.back();
@@ -110,7 +110,7 @@ void SceneGraph::mark(NodeIndex node) noexcept {
   any_mark_ = true;
 }
 
-// Into a list with room for all, from left to right.
+// Collects the marks from left to right, in a list with room for all.
 std::span<const NodeIndex> SceneGraph::take_marks() noexcept {
   if (!any_mark_) return {};
   any_mark_ = false;
@@ -162,8 +162,8 @@ void SceneGraph::evaluate(std::chrono::nanoseconds time) noexcept {
   update();
 }
 
-// Of a node whose pose is about to change this may tell the wrong level; it is then marked, which
-// costs time and changes nothing, or lies in a marked subtree, which is chosen for anew.
+// For a node whose pose is about to change, this may find a wrong level. The node is then marked,
+// which costs time but changes nothing; or it is in a marked subtree, whose level is chosen again.
 void SceneGraph::mark_other_levels() noexcept {
   if (!is_seen_anew_) return;
   is_seen_anew_ = false;
@@ -172,8 +172,8 @@ void SceneGraph::mark_other_levels() noexcept {
   }
 }
 
-// Changed nodes lie scattered over the memory; asked for in time, they cost a third. That is no
-// function of its own, because GCC 12 leaves out calls of one that only asks.
+// Changed nodes are scattered in memory; prefetching reduces the cost to a third. This is no
+// separate function, because GCC 12 removes calls of a function that only prefetches.
 void SceneGraph::update() noexcept {
   constexpr std::size_t kAhead = 8;
   mark_other_levels();
@@ -202,7 +202,7 @@ void SceneGraph::rewrite() noexcept {
   rewrite(0, size());
 }
 
-// From left to right a parent is rewritten before its children.
+// From left to right, a parent is rewritten before its children.
 void SceneGraph::rewrite(NodeIndex begin, NodeIndex end) noexcept {
   for (NodeIndex node = begin; node < end; ++node) {
     Link& link = links_[at(node)];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The scene graph: who hangs on whom, and where each node is in the scene, in arrays in the order
-// of the walk: top to bottom, left to right.
+// The scene graph: the parent and the scene pose of each node, in arrays in walk order (top to
+// bottom, left to right).
 //
 //   const std::vector<GraphNode> nodes = {{.name = "scene"},
 //                                         {.name = "arm", .parent = "scene"},
@@ -27,17 +27,17 @@
 
 namespace reckon::peer {
 
-/// The place of a node in the walk, from 0, which is the root. A node's subtree is the range from
-/// its place to end(), and its first child stands right behind it.
+/// The position of a node in the walk, from 0, the root. A node's subtree is the range from its
+/// index to end(); its first child follows it directly.
 using NodeIndex = std::int32_t;
 
 /// No node: the parent of the root.
 inline constexpr NodeIndex kNoNode = -1;
 
-/// The nodes of a scene, in one tree. The shape of the tree is fixed once it is built; poses,
+/// The nodes of a scene, in one tree. The shape of the tree is fixed at construction; poses,
 /// choices of switches, viewpoint and time change. A change marks a node; the next update() or
-/// evaluate() rewrites the subtrees of marked nodes, from left to right, and no other. What these
-/// leave is equal, bit by bit, to what rewrite() leaves.
+/// evaluate() rewrites only the subtrees of marked nodes, from left to right. The result is equal,
+/// bit by bit, to the result of rewrite().
 ///
 /// Cost: 7 to 40 ns for each rewritten node, 60 more for one with a time function (graph_bench).
 /// After the constructor nothing allocates or throws. One thread at a time; copies are independent.
@@ -57,7 +57,7 @@ class SceneGraph {
   // Below, each node is one of this graph: 0 <= node < size().
 
   [[nodiscard]] NodeIndex parent(NodeIndex node) const noexcept { return links_[at(node)].parent; }
-  /// The place behind the last node of its subtree: its next sibling, if it has one.
+  /// The index after the last node of its subtree: its next sibling, if it has one.
   [[nodiscard]] NodeIndex end(NodeIndex node) const noexcept { return links_[at(node)].end; }
   [[nodiscard]] NodeKind kind(NodeIndex node) const noexcept { return links_[at(node)].kind; }
   [[nodiscard]] const std::string& name(NodeIndex node) const noexcept { return name_[at(node)]; }
@@ -70,43 +70,44 @@ class SceneGraph {
   [[nodiscard]] const NodeMotion* motion(NodeIndex node) const noexcept;
   /// Whether it or one of its ancestors has a time function.
   [[nodiscard]] bool moves(NodeIndex node) const noexcept { return links_[at(node)].moves; }
-  /// Of a child of a level of detail: how far it is shown [m, of that level's frame].
+  /// For a child of a level of detail: greatest distance at which it is shown [m, of that level's
+  /// frame].
   [[nodiscard]] double farthest(NodeIndex node) const noexcept { return farthest_[at(node)]; }
-  /// Of the node at `index` in the list that the graph was made of.
+  /// The index of the node at `index` in the list given to the constructor.
   [[nodiscard]] NodeIndex place_of(std::size_t index) const noexcept { return places_[index]; }
-  /// The first node of this name; searches all, for set-up.
+  /// The first node with this name; a linear search, for set-up.
   [[nodiscard]] std::optional<NodeIndex> find(std::string_view name) const noexcept;
 
   // As of the last update() or evaluate():
 
-  /// In the parent, at the time of the last evaluate().
+  /// Pose in the parent, at the time of the last evaluate().
   [[nodiscard]] const NodePose& local(NodeIndex node) const noexcept { return local_[at(node)]; }
-  /// In the parent, without its time function.
+  /// Pose in the parent, without its time function.
   [[nodiscard]] const NodePose& rest(NodeIndex node) const noexcept;
-  /// In S.
+  /// Pose in S.
   [[nodiscard]] const NodePose& world(NodeIndex node) const noexcept { return world_[at(node)]; }
-  /// How world() changes by the time functions, exactly; zero where moves() is false.
+  /// Exact velocity of world() by the time functions; zero if moves() is false.
   [[nodiscard]] const NodeVelocity& velocity(NodeIndex node) const noexcept {
     return velocity_[at(node)];
   }
   /// Whether no switch and no level of detail above hides it.
   [[nodiscard]] bool shown(NodeIndex node) const noexcept { return links_[at(node)].shown; }
-  /// The child that a switch or a level of detail shows; kNoNode: none, or the node is no such.
+  /// The child that a switch or a level of detail shows; kNoNode: none, or another kind of node.
   [[nodiscard]] NodeIndex chosen(NodeIndex node) const noexcept;
 
-  // Changes, seen after the next update() or evaluate():
+  // Changes that take effect in the next update() or evaluate():
 
-  /// Gives a node a pose in its parent; one with a time function moves from there. Its scale is
-  /// above 0 and all is finite. The orientation need not have length 1.
+  /// Sets the pose of a node in its parent; a node with a time function moves from there. The scale
+  /// must be above 0 and all values finite. The orientation need not have length 1.
   void place(NodeIndex node, const NodePose& pose) noexcept;
   /// Lets a switch show `child`, one of its children.
   void show(NodeIndex node, NodeIndex child) noexcept;
-  /// From where levels of detail are seen [m], S.
+  /// Sets the viewpoint for levels of detail [m], S.
   void look_from(const Eigen::Vector3d& viewpoint) noexcept;
 
-  /// Rewrites what changed.
+  /// Rewrites changed subtrees.
   void update() noexcept;
-  /// Gives the nodes with time functions their poses at `time`, and rewrites what changed.
+  /// Sets the nodes with time functions to `time`, and rewrites changed subtrees.
   /// @param time since the begin of the scene
   void evaluate(std::chrono::nanoseconds time) noexcept;
   /// Rewrites everything, at the time of the last evaluate().
@@ -116,7 +117,7 @@ class SceneGraph {
   static constexpr NodeIndex kEvery = -1;  ///< all children are shown
   static constexpr NodeIndex kNone = -2;
 
-  /// All of a node but its poses.
+  /// All data of a node except its poses.
   struct Link {
     NodeIndex parent, end;
     NodeIndex chosen = kEvery;  ///< a child, kEvery or kNone
@@ -124,7 +125,7 @@ class SceneGraph {
     bool shown = true, moves;
   };
 
-  /// A node that has a time function.
+  /// A node with a time function.
   struct Moving {
     NodeIndex node;
     NodePose rest;
@@ -145,7 +146,7 @@ class SceneGraph {
   void set_time(Moving& one, std::chrono::nanoseconds time) noexcept;
   [[nodiscard]] NodeIndex level_of(NodeIndex node) const noexcept;
 
-  // Of each node, in the order of the walk.
+  // Per node, in walk order.
   std::vector<Link> links_;
   std::vector<NodePose> local_, world_;
   std::vector<NodeVelocity> velocity_;
@@ -153,11 +154,11 @@ class SceneGraph {
   std::vector<NodeContent> content_;
   std::vector<std::string> name_;
 
-  std::vector<NodeIndex> places_;     ///< by the place in the list it was made of
-  std::vector<Moving> moving_;        ///< in the order of the walk
-  std::vector<NodeIndex> levels_;     ///< nodes with levels of detail, likewise
-  std::vector<std::uint64_t> marks_;  ///< a bit for each node
-  std::vector<NodeIndex> marked_;     ///< of the last update: the first of them
+  std::vector<NodeIndex> places_;     ///< by index in the constructor's list
+  std::vector<Moving> moving_;        ///< in walk order
+  std::vector<NodeIndex> levels_;     ///< nodes with levels of detail, in walk order
+  std::vector<std::uint64_t> marks_;  ///< one bit for each node
+  std::vector<NodeIndex> marked_;     ///< of the last update; only the first ones are used
   bool any_mark_ = false;
   std::size_t depth_ = 0;
   Eigen::Vector3d viewpoint_ = Eigen::Vector3d::Zero();

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kTimestampAt = 4;  // in the header
 constexpr double kLeastDegrees = 1.0;    // smallest turn reported with a jump
 
-/// For a code of the codec without a row, so that it is reported all the same.
+/// For a code of the codec without a row, so that it is reported too.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
 
 const CheckRule& rule_of(std::string_view code) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `check`: every finding of every rule, and at the end the number of violations of each
-// rule.
+// The view `check`: every finding of every rule, then the number of violations of each rule.
 #pragma once
 
 #include <array>
@@ -25,8 +24,8 @@ namespace reckon::tools {
 /// Prints THE rules: a table, JSON Lines or CSV.
 void append_check_rules(Format format, std::string& out);
 
-/// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some
-/// 1.4 kB each. PDUs of further entities are checked individually, which is reported.
+/// Runs the rules over datagrams; one thread. Keeps at most `most_entities` entities, some 1.4 kB
+/// each. PDUs of further entities are checked individually, which is reported.
 class CheckView final : public View {
  public:
   static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
@@ -36,13 +35,13 @@ class CheckView final : public View {
 
   /// Titles, if the format has them.
   void begin(std::string& out) override;
-  /// Called before the PDUs of a datagram: finds PDUs that belong together.
+  /// Called before the PDUs of a datagram: finds related PDUs.
   void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
            std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// At the end of the source: what only the end decides, and the counts.
+  /// At the end of the source: writes findings that need the end, and the counts.
   void finish(const InspectTally& tally, std::string& out) override;
 
   /// Findings of this status.
@@ -61,13 +60,13 @@ class CheckView final : public View {
     std::chrono::nanoseconds time;
     std::optional<pdu::EntityId> id;
     std::string_view reason;
-    std::optional<double> metres = {};   // size of a jump
-    std::optional<double> degrees = {};  // of a turn
+    std::optional<double> metres = {};   // of the orientation jump
+    std::optional<double> degrees = {};  // of the orientation jump
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
-  /// True for an unknown type after its first PDU, and for what is no PDU after the first such
-  /// datagram, so that each is reported once.
+  /// True for an unknown type after its first PDU, and for foreign datagrams after the first, so
+  /// that each is reported once.
   [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
   void check_stamp(EntityMemory& memory, const PduRow& row, std::string& out);
@@ -77,7 +76,7 @@ class CheckView final : public View {
   void text(const Finding& finding, std::string& out) const;
   void json(const Finding& finding, std::string& out) const;
   void csv(const Finding& finding, std::string& out) const;
-  /// About the last Entity State of an entity.
+  /// Reports a finding about the last Entity State of an entity.
   void tell_last(const EntityMemory& memory, std::string_view code, std::size_t field,
                  std::string_view reason, std::string& out);
   void report_entities(std::string& out);

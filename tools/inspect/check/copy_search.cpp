@@ -18,7 +18,7 @@ std::uint64_t hash_of(const peer::SourceDatagram& datagram) {
   const auto* octets = reinterpret_cast<const char*>(datagram.bytes.data());
   const std::uint64_t content = std::hash<std::string_view>{}({octets, datagram.bytes.size()});
   const std::hash<peer::IpEndpoint> endpoint;
-  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;  // so that the three do not cancel out
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;  // so that the three hashes do not cancel out
   return (content * kOdd + endpoint(datagram.source)) * kOdd + endpoint(datagram.group);
 }
 

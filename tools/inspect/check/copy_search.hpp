@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Search for datagrams that a capture holds twice, as one of all interfaces or of a mirrored port
-// does. A copy that another host repeats has another sender, and is none here.
+// Finds datagrams that a capture contains twice, as captures of all interfaces or of a mirrored
+// port do. A copy repeated by another host has another sender, and does not count.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace reckon::tools {
 
-/// Counts datagrams whose octets, sender and group are those of an earlier one within 5 ms, among
-/// the last 64. One thread, no allocation, some 0.1 us a datagram.
+/// Counts datagrams with the same octets, sender and group as an earlier one within 5 ms, among the
+/// last 64. One thread, no allocation, some 0.1 us per datagram.
 class CopySearch {
  public:
   struct Copy {
@@ -39,7 +39,7 @@ class CopySearch {
     std::chrono::nanoseconds time{};
   };
 
-  std::array<Seen, kRemembered> seen_{};  // a ring: the next goes to datagrams_ % 64
+  std::array<Seen, kRemembered> seen_{};  // a ring: the next is written at datagrams_ % 64
   std::uint64_t datagrams_ = 0;
   std::uint64_t copies_ = 0;
   Copy first_;

@@ -15,8 +15,8 @@ namespace reckon::tools {
 [[nodiscard]] std::optional<RuleFault> unknown_kind(const CheckedPdu& checked);
 /// Checks the domain only if the kind has a name.
 [[nodiscard]] std::optional<RuleFault> unknown_domain(const CheckedPdu& checked);
-/// The first value without a name among the fixed fields of a PDU, except those of the rules above.
-/// Only the first Entity State of an entity is checked.
+/// The first value without a name among the fixed fields of a PDU, except the fields of the rules
+/// above. Only the first Entity State of an entity is checked.
 [[nodiscard]] std::optional<RuleFault> unnamed_value(const CheckedPdu& checked);
 
 }  // namespace reckon::tools

@@ -16,26 +16,26 @@ namespace {
 
 using deadreckon::KinematicState;
 
-constexpr double kLeastExplained = 5.0;       // thresholds of senders lie below it [m]
-constexpr double kTimeError = 0.1;            // of a place against its timestamp [s]
-constexpr double kHiddenAcceleration = 10.0;  // [m/s^2] that updates do not show,
-constexpr double kLongestHidden = 5.0;        // and for how long [s]
-constexpr double kMostAcceleration = 150.0;   // beyond it a change of velocity explains nothing
+constexpr double kLeastExplained = 5.0;       // senders' thresholds are smaller [m]
+constexpr double kTimeError = 0.1;            // of a position against its timestamp [s]
+constexpr double kHiddenAcceleration = 10.0;  // [m/s^2] not visible in updates,
+constexpr double kLongestHidden = 5.0;        // and its longest duration [s]
+constexpr double kMostAcceleration = 150.0;   // limit of a plausible change of velocity
 constexpr double kSimilar = 3.0;              // ratio of speeds
-constexpr double kUnstatedMargin = 2.0;       // of the speed that is not stated
+constexpr double kUnstatedMargin = 2.0;       // factor of the unstated speed
 
 Eigen::Vector3d velocity_of(const KinematicState& state) {
   const bool body = deadreckon::drm_terms(state.algorithm).body_axes;
   return body ? Eigen::Vector3d(state.orientation * state.velocity) : state.velocity;
 }
 
-/// Whether the velocities of two updates cannot both be those of a body.
+/// Whether no body could have both velocities in this interval.
 bool is_wild(const KinematicState& before, const KinematicState& now, double interval) {
   const double change = (velocity_of(now) - velocity_of(before)).norm();
   return change > kMostAcceleration * std::max(interval, 1.0);
 }
 
-/// By the timestamps, however fast they run against the arrivals (a replay without pauses).
+/// By timestamps, even if they run faster than the arrivals (a replay without pauses).
 std::optional<double> stated_interval(const ReceivedEntity& last, const StateUpdate& update) {
   const std::uint32_t before = timestamp_of(last.octets);
   const std::uint32_t now = timestamp_of(update.octets);
@@ -46,7 +46,7 @@ std::optional<double> stated_interval(const ReceivedEntity& last, const StateUpd
 
 }  // namespace
 
-/// The listener notifies it of each state of the PDU at hand.
+/// Called by the listener for each state of the present PDU.
 struct JumpSearch::Observer : ListenerObserver {
   Observer(JumpSearch& the_search, const PduRow& the_pdu, const peer::SourceDatagram& the_datagram,
            const Tell& the_tell)
@@ -63,7 +63,7 @@ struct JumpSearch::Observer : ListenerObserver {
       row.spike.reset();
       return;
     }
-    // Two senders of one ID, or a program that began anew: no jump of one entity.
+    // Two senders with one ID, or a restarted program: no jump of one entity.
     if (other_sender) {
       row.suspect.reset();
       return;
@@ -110,7 +110,7 @@ double JumpSearch::explained(const KinematicState& before, const KinematicState&
       std::clamp(std::max(before.acceleration.norm(), now.acceleration.norm()), kHiddenAcceleration,
                  kMostAcceleration);
   // With equal velocities at both ends, a body that accelerates for half of the time and brakes for
-  // the other half ends a t^2 / 4 from the straight way.
+  // the other half ends a t^2 / 4 from the straight line.
   const double hidden = std::min(interval, kLongestHidden);
   return kLeastExplained + kTimeError * velocity.norm() + 0.5 * change * interval +
          0.25 * acceleration * hidden * hidden;
@@ -160,8 +160,8 @@ void JumpSearch::suspect(Row& row, const KinematicState& before, const Intervals
   row.suspect->jump.interval = passed[0];
 }
 
-// The update after a suspect: it follows the one before the suspect (a spike), or the suspect (a
-// teleport), or the entity just goes on at that speed and does not say so.
+// Classifies a suspect by the next update: it continues the update before the suspect (a spike), or
+// the suspect (a teleport), or the entity moves at a speed that it does not state.
 void JumpSearch::decide(Row& row, const StateUpdate& update, const Intervals& passed,
                         const Jump& here, const Tell& tell) {
   const KinematicState& there = heard_.entities()[update.place].state;

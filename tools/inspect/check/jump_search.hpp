@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Search for updates that put an entity where its motion cannot have brought it: teleports, and
-// spikes of a single update. The update after decides which of the two it was.
+// Finds positions that an entity cannot have reached by its motion: teleports, and spikes of a
+// single update. The next update decides between the two.
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@
 
 namespace reckon::tools {
 
-/// An update that is not explained by the one before.
+/// An update that the previous one does not explain.
 struct Jump {
   enum class Kind : std::uint8_t {
-    teleport,  ///< it stays there, or nothing more is heard of it
-    spike,     ///< the next update is where the one before had led
-    by_turns,  ///< every other update is at a second place: two entities under one ID
+    teleport,  ///< the entity stays there, or sends nothing more
+    spike,     ///< the next update continues the motion before
+    by_turns,  ///< every other update is at a second position: two entities with one ID
   };
   Kind kind = Kind::teleport;
   pdu::EntityId id;
@@ -35,24 +35,24 @@ struct Jump {
   std::chrono::nanoseconds time{};  ///< arrival
   double metres = 0;                ///< from the extrapolation of the update before
   double degrees = 0;               ///< the same of the orientation
-  double explained = 0;             ///< [m] that the motion can explain
+  double explained = 0;             ///< [m], limit explained by the motion
   double interval = 0;              ///< since the update before [s]
 };
 
-/// The search, over PDUs in order of arrival; one thread. An update is a jump if its place is
-/// farther than explained() both from the extrapolation of the update before and from the way by
+/// The search, over PDUs in order of arrival; one thread. An update is a jump if its position is
+/// farther than explained() both from the extrapolation of the update before and from the motion at
 /// the mean of both velocities, over the interval by timestamps and over the one by arrivals. Not
-/// compared: the first update of an entity, one after a time-out, a deactivation or a change of
-/// sender, and one that is late or a copy. Some 800 octets an entity.
+/// compared: the first update of an entity, an update after a time-out, a deactivation or a change
+/// of sender, and late updates and copies. Some 800 octets per entity.
 class JumpSearch {
  public:
   using Tell = std::function<void(const Jump&)>;
 
   explicit JumpSearch(std::size_t most_entities);
 
-  /// Takes a PDU that decodes and is finite; `tell` gets the jumps that are decided by it.
+  /// Takes a PDU that decodes and is finite; calls `tell` for the jumps that it decides.
   void take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, const Tell& tell);
-  /// The jumps whose entities sent nothing after them.
+  /// Reports jumps after which the entity sent nothing.
   void finish(const Tell& tell);
 
   /// Distance that the motion between two updates can explain [m]: 5 m, 0.1 s of the speed, half
@@ -65,13 +65,13 @@ class JumpSearch {
   /// Since the update before, by timestamps and by arrivals [s].
   using Intervals = std::array<double, 2>;
 
-  /// A jump that the next update decides.
+  /// A possible jump, which the next update decides.
   struct Suspect {
     deadreckon::KinematicState before;
     Intervals since{};
     Jump jump;
   };
-  /// Where the last spike was.
+  /// State of the last spike.
   struct LastSpike {
     deadreckon::KinematicState state;
     Intervals ago{};
@@ -79,17 +79,18 @@ class JumpSearch {
   };
   struct Row {
     peer::IpEndpoint sender;
-    double unstated_speed = 0;  ///< [m/s] of an entity that moves otherwise than it says
-    bool by_turns = false;      ///< told: spikes of it are told no more
+    double unstated_speed = 0;  ///< [m/s] of an entity whose motion differs from its stated
+                                ///< velocity
+    bool by_turns = false;      ///< reported: its spikes are no longer reported
     std::unique_ptr<Suspect> suspect;
     std::unique_ptr<LastSpike> spike;
   };
-  /// How well an update follows another.
+  /// How well an update continues another.
   struct Fit {
     double off = 0;       ///< [m] by the better interval, from the nearer of both predictions
     double allowed = 0;   ///< [m]
     double metres = 0;    ///< from the extrapolation
-    double interval = 0;  ///< that it is by [s]
+    double interval = 0;  ///< used interval [s]
     [[nodiscard]] bool is_explained() const { return off <= allowed; }
   };
   struct Observer;
@@ -107,7 +108,7 @@ class JumpSearch {
                                double unstated_speed = 0);
 
   Listener heard_;
-  std::vector<Row> rows_;  // by the places of the listener, which keeps all
+  std::vector<Row> rows_;  // indexed as in the listener, which keeps all entities
 };
 
 }  // namespace reckon::tools

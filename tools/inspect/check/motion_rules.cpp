@@ -31,18 +31,18 @@ constexpr std::size_t kAccelerationAt = 104;
 constexpr std::size_t kAngularVelocityAt = 116;
 constexpr std::size_t kParametersAt = 144;
 
-constexpr double kShortestInterval = 0.05;   // [s], positions round too much below it
-constexpr double kLongestInterval = 5.0;     // [s], the motion may have changed unseen beyond it
-constexpr double kGrossly = 0.5;             // of the displacement, or of the turn
+constexpr double kShortestInterval = 0.05;   // [s], below it rounding of positions is too large
+constexpr double kLongestInterval = 5.0;     // [s], above it the motion may have changed unseen
+constexpr double kGrossly = 0.5;             // share of the displacement, or of the turn
 constexpr std::uint8_t kContradictions = 3;  // in a row: a sharp turn causes one, a spike two
 
 constexpr double kLeastContradiction = 2.0;  // [m]
 
-constexpr double kAngleRounding = 1e-5;  // of a float32, and of a sender's own pi [rad]
+constexpr double kAngleRounding = 1e-5;  // of a float32, and of a sender's value of pi [rad]
 constexpr double kLeastTurn = pi / 6;    // [rad]
 constexpr double kTurnTimeError = 0.02;  // of an orientation against its timestamp [s]
-constexpr double kFlip = pi / 2;         // least turn to and fro
-constexpr double kBackWithin = 0.2;      // of the orientation before the last [rad]
+constexpr double kFlip = pi / 2;         // least turn back and forth
+constexpr double kBackWithin = 0.2;      // from the orientation before the last [rad]
 
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
@@ -71,8 +71,8 @@ Eigen::Vector3d velocity_of(const pdu::EntityState& pdu) {
   return terms_of(pdu).body_axes ? orientation_of(pdu) * velocity : velocity;
 }
 
-/// Since the entity's last update by timestamps [s], if both can be compared: neither is frozen,
-/// and it is neither too short nor too long.
+/// Interval since the entity's last update by timestamps [s]; none if either is frozen, or the
+/// interval is too short or too long.
 std::optional<double> comparable_interval(const CheckedPdu& checked) {
   if (!checked.has_history() || checked.memory->frozen || is_frozen(*checked.entity_state))
     return std::nullopt;
@@ -82,8 +82,8 @@ std::optional<double> comparable_interval(const CheckedPdu& checked) {
   return interval;
 }
 
-/// Distance between the entity's displacement since the last update and the one from its velocities
-/// [m], if it is gross; else 0.
+/// Difference between the entity's displacement since the last update and its velocities [m], if it
+/// is gross; else 0.
 double contradiction(const CheckedPdu& checked) {
   const auto interval = comparable_interval(checked);
   if (!interval.has_value()) return 0;
@@ -96,12 +96,12 @@ double contradiction(const CheckedPdu& checked) {
   return error > kLeastContradiction && error > kGrossly * scale ? error : 0;
 }
 
-/// What an entity's orientation did since the last update.
+/// Change of an entity's orientation since the last update.
 struct Turn {
   double seconds = 0;
   double turned = 0;  ///< [rad], at most pi
   double stated = 0;  ///< by the mean of both turn rates [rad]
-  double error = 0;   ///< [rad] between both, if it is gross; else 0
+  double error = 0;   ///< [rad], difference if it is gross; else 0
   bool is_flip = false;
 };
 

@@ -89,8 +89,8 @@ Fault missed_heartbeat(const CheckedPdu& checked) {
 }
 
 /// Whether two senders use one entity. A different address counts at once. The same address with
-/// another port counts only when the first port returns, because a restarted program has a new port
-/// too.
+/// another port counts only when the first port returns, because a restarted program also has a new
+/// port.
 bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
   if (memory.reported_duplicate || sender == memory.sender) return false;
   return sender.octets != memory.sender.octets || sender == memory.earlier_sender;

@@ -31,7 +31,7 @@ struct EntityMemory {
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
   bool gone = false;    ///< deactivated: silence is no fault
   bool frozen = false;
-  bool out_of_range = false;             ///< has had an angle that is none
+  bool out_of_range = false;             ///< has sent an invalid angle
   bool turns = false;                    ///< its model states a turn rate
   std::uint8_t contradictions = 0;       ///< by positions, updates in a row
   std::uint8_t turn_contradictions = 0;  ///< by orientations
@@ -56,9 +56,9 @@ struct CheckedPdu {
   const DatagramSurvey& survey;
   std::uint8_t highest_rank;             ///< bundle_rank of the PDUs before it
   const pdu::EntityState* entity_state;  ///< null for other types
-  const EntityMemory* memory;            ///< of that entity; null if there was no room for one
+  const EntityMemory* memory;            ///< of that entity; null if there was no room
 
-  /// Whether it is an update of an entity that is remembered.
+  /// Whether it is an update of a known entity.
   [[nodiscard]] bool has_history() const {
     return entity_state != nullptr && memory != nullptr && memory->updates > 0;
   }
@@ -74,13 +74,13 @@ struct RuleFault {
 using RuleFunction = std::optional<RuleFault> (*)(const CheckedPdu& checked);
 
 struct CheckRule {
-  std::string_view code;        ///< E- error, W- warning, I- note
+  std::string_view code;        ///< begins with E- error, W- warning, I- note
   std::string_view sentence;    ///< meaning
-  std::string_view remedy;      ///< what the user can do
+  std::string_view remedy;      ///< action for the user
   RuleFunction look = nullptr;  ///< null: found by the codec, or by the view itself
 };
 
-/// All rules, those of the codec first.
+/// All rules, beginning with the rules of the codec.
 [[nodiscard]] std::span<const CheckRule> check_rules();
 /// The rule of a code; null if there is none.
 [[nodiscard]] const CheckRule* find_check_rule(std::string_view code);

@@ -17,24 +17,24 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kWindow = 2.0;  // arrivals jitter by less [s]
-// Paces between these may be a clock that drifts; others count in another unit, or are replayed.
+constexpr double kWindow = 2.0;  // longer than the jitter of arrivals [s]
+// Rates between these may be a drifting clock; others count in another unit, or are replayed.
 constexpr double kSlowest = 0.6;
 constexpr double kFastest = 1.9;
 constexpr double kCountsPerSecond = 0x1p32 / 3600.0;  // of the whole field, bit 0 included
 constexpr double kDay = 86400;                        // [s]
 
-/// What else people count in the field.
+/// Another unit that senders use in the field.
 struct Unit {
-  double counts;  ///< a second
+  double counts;  ///< per second
   std::string_view name;
 };
 constexpr std::array kUnits{Unit{1, "seconds"}, Unit{1e3, "milliseconds"},
                             Unit{1e6, "microseconds"},
                             Unit{kCountsPerSecond / 2, "units that are not shifted over bit 0"}};
-constexpr double kUnitError = 0.01;  // of the rate, beside one count
+constexpr double kUnitError = 0.01;  // of the rate, in addition to one count
 
-/// The unit of which so many passed; null if it is none of these.
+/// The unit that matches `counts` in this time; null if there is none.
 const Unit* unit_of(double counts, double passed) {
   const auto* found = std::ranges::find_if(kUnits, [&](const Unit& unit) {
     const double expected = unit.counts * passed;

@@ -12,7 +12,8 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-/// "variable_parameters[2].value" is counted as "variable_parameters[].value".
+/// Field name without indices: "variable_parameters[2].value" becomes
+/// "variable_parameters[].value".
 std::string without_indices(std::string_view path) {
   std::string name;
   bool inside = false;

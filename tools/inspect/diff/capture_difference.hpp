@@ -74,31 +74,31 @@ struct PduPair {
 /// A field and its number of differences.
 struct ChangedField {
   std::uint64_t pdus = 0;
-  PduPlace a;  ///< the first of them
+  PduPlace a;  ///< the first PDU with a difference
   PduPlace b;
   FieldDifference first;
 };
 
-/// How the times of B follow those of A where it was played at another rate.
+/// Linear map from times of B to times of A, for a B that was played at another rate.
 struct PairedTimes {
-  std::chrono::nanoseconds a{};  ///< of the first PDU in both
+  std::chrono::nanoseconds a{};  ///< time of the first PDU in both
   std::chrono::nanoseconds b{};
   double rate = 1;  ///< of B; 2: twice as fast as A
 
-  /// The time in A of an arrival in B.
+  /// The time in A for an arrival in B.
   [[nodiscard]] std::chrono::nanoseconds in_a(std::chrono::nanoseconds time_b) const;
 };
 
 class CaptureDifference {
  public:
-  /// Greatest number of PDUs of one capture, for each, that are pending until their counterpart is
-  /// found. Moves of further ones are not detected.
+  /// Limit of PDUs of each capture that are pending until their counterpart is found. Moves of
+  /// further ones are not detected.
   static constexpr std::size_t kMostPending = 65536;
   /// Greatest number of fields with a row.
   static constexpr std::size_t kMostFields = 1024;
 
-  /// @param shift subtracted from B's times; no value: that of the first PDU in both
-  /// @param times takes another rate off too
+  /// @param shift subtracted from B's times; no value: the shift of the first PDU in both
+  /// @param times corrects for another rate
   explicit CaptureDifference(std::optional<std::chrono::nanoseconds> shift,
                              std::optional<PairedTimes> times = std::nullopt)
       : shift_(shift), paired_(times) {}
@@ -121,12 +121,12 @@ class CaptureDifference {
 
   /// Shift of B's times against A's; no value if no PDU is in both.
   [[nodiscard]] const std::optional<std::chrono::nanoseconds>& shift() const { return shift_; }
-  /// The times of a B that has at least half of the PDUs and lasts for more than 1 % and 50 ms
-  /// longer or shorter with them; no value: it was played at the rate of A.
+  /// The map of times if B has at least half of the PDUs and its duration differs by more than 1 %
+  /// and 50 ms; no value: it was played at the rate of A.
   [[nodiscard]] std::optional<PairedTimes> other_rate() const;
-  /// The rate that was taken off.
+  /// The rate for which times are corrected; 1: none.
   [[nodiscard]] double rate() const { return paired_.has_value() ? paired_->rate : 1; }
-  /// Differences between the arrivals of the same PDU, less the shift and at A's rate [s].
+  /// Differences between the arrivals of the same PDU, corrected by shift and rate [s].
   [[nodiscard]] const peer::ErrorHistogram& times() const { return times_; }
   [[nodiscard]] double greatest_time() const { return greatest_time_; }
   /// Whether all PDUs are the same and in the same order.

@@ -95,7 +95,7 @@ int run_inspect_diff(Arguments arguments, const Console& console) {
   PduStream again_a(of_a);
   PduStream again_b(of_b);
   if (other_rate.has_value()) {
-    // The rate is known at the end only.
+    // The rate is known only at the end.
     difference.emplace(std::nullopt, other_rate);
     align(again_a, again_b);
     PduStream last_a(of_a);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect diff A B`: differences of two captures and their size.
+// `reckon inspect diff A B`: kinds and sizes of the differences of two captures.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ namespace reckon::tools {
 /// cannot be read, or wrong usage.
 int run_inspect_diff(Arguments arguments, const Console& console);
 
-/// Findings of a run, to be written.
+/// Findings of a run, for output.
 struct DiffFindings {
   std::string path_a;
   std::string path_b;
@@ -26,8 +26,8 @@ struct DiffFindings {
   std::string problem_b;
   const CaptureDifference& difference;
   const MotionDifference& motion;
-  std::chrono::nanoseconds step{};  ///< between the times of the motion comparison
-  /// Difference of arrivals above which they count as different; no value: none does.
+  std::chrono::nanoseconds step{};  ///< interval of the motion comparison
+  /// Differences of arrivals above this count as different; no value: arrivals are not compared.
   std::optional<std::chrono::nanoseconds> tolerance;
 
   [[nodiscard]] bool is_same() const;

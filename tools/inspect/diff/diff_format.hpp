@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Common parts of the formats of `inspect diff`: names of places, properties of entities in both
-// captures.
+// Common parts of the formats of `inspect diff`: entities and types in both captures.
 #pragma once
 
 #include <fmt/format.h>

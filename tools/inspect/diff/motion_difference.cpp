@@ -24,7 +24,7 @@ void copy_timestamp(const std::vector<std::byte>& from, std::vector<std::byte>& 
 
 void ReckonedCapture::take_pdu(const HeldPdu& pdu) {
   if (!pdu.decoded) return;
-  // As relative time: a replayed or shifted capture then gives the result of the original.
+  // As relative time, so that a replayed or shifted capture gives the result of the original.
   std::vector<std::byte> relative = pdu.octets;
   relative[7] &= std::byte{0xFE};
   poses_.take_pdu(relative, pdu.header, pdu.time);

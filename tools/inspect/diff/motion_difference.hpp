@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Distances between the entities of two captures, and differences of their contact forces: both are
+// Distances between the entities of two captures, and differences of their contact forces; both are
 // dead reckoned to common times.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace reckon::tools {
 
-/// A distribution with its exact greatest value and the time of that.
+/// A distribution with its exact maximum and the time of the maximum.
 struct TimedSpread {
   peer::ErrorHistogram histogram;
   double max = 0;
@@ -41,8 +41,8 @@ struct PoseDifference {
 /// Two models of one capture: poses of all entities, and forces of the haptic ones.
 class ReckonedCapture {
  public:
-  /// Takes one PDU in order of arrival. The timestamps give the times between the updates of an
-  /// entity if they advance, else the arrivals do.
+  /// Takes one PDU in order of arrival. Intervals between updates of an entity follow the
+  /// timestamps if they advance, else the arrivals.
   void take_pdu(const HeldPdu& pdu);
   void forget_silent(std::chrono::nanoseconds now) { poses_.forget_silent(now); }
   [[nodiscard]] const Listener& poses() const { return poses_; }
@@ -51,7 +51,7 @@ class ReckonedCapture {
 
  private:
   Listener poses_{kCaptureRules};
-  Listener haptic_{kPeerRules};  // its frame lies near the capture's entities
+  Listener haptic_{kPeerRules};  // its frame is near the capture's entities
   ContactForces forces_;
 };
 
@@ -63,11 +63,11 @@ class MotionDifference {
   using EntityKey = std::array<std::uint16_t, 3>;
   using PairKey = std::array<std::uint16_t, 6>;  // on, by
 
-  /// @param shift of B's arrivals against A's, subtracted  @param step > 0, time step
+  /// @param shift of B's arrivals against A's, is subtracted  @param step > 0, time step
   MotionDifference(std::chrono::nanoseconds shift, std::chrono::nanoseconds step)
       : shift_(shift), step_(step) {}
 
-  /// Reads both to their ends, or until `stopped()`.
+  /// Reads both to their ends, or until `stopped()` is true.
   template <typename Stopped>
   void run(PduStream& a, PduStream& b, Stopped&& stopped) {
     begin(a, b);
@@ -75,8 +75,8 @@ class MotionDifference {
     }
   }
 
-  /// For a B of another rate: lays its PDUs on the times that their counterparts have in A,
-  /// arrivals and timestamps, and those that are in B alone between them.
+  /// For a B of another rate: uses A's arrivals and timestamps for PDUs in both, and times between
+  /// them for PDUs in B only.
   template <typename Stopped>
   void run_paired(PduAlignment& alignment, const PairedTimes& times, Stopped&& stopped) {
     pairs_ = times;
@@ -105,7 +105,7 @@ class MotionDifference {
   void take_step(AlignedPdus& step);
   void compare_to_end();
   void compare_now();
-  /// The next instant; where there is nothing to compare, the one at `arrival`.
+  /// Advances to the next instant; without entities to compare, to the one at `arrival`.
   void step_on(std::chrono::nanoseconds arrival);
   void compare_poses();
   void compare_forces();

@@ -9,7 +9,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Whether two PDUs can be versions of one.
+/// Whether one PDU can be a changed version of the other.
 bool same_role(const HeldPdu& a, const HeldPdu& b) {
   return a.has_header == b.has_header && a.header.pdu_type == b.header.pdu_type && a.id == b.id;
 }

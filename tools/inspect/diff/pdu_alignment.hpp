@@ -17,7 +17,7 @@ struct AlignedPdus {
   enum class Kind : std::uint8_t {
     same,     ///< octet for octet, except ignored fields
     changed,  ///< the same type, entity and place, with other octets
-    only_a,   ///< not in B here; it may be at another place
+    only_a,   ///< not in B at this position; it may be at another one
     only_b
   };
   Kind kind = Kind::same;
@@ -25,13 +25,13 @@ struct AlignedPdus {
   HeldPdu b;  ///< not filled for only_a
 };
 
-/// Steps through two captures. Where they differ it searches the next kWindow PDUs of both for the
-/// nearest equal ones. PDUs before those count as changed if type and entity agree in order, else
-/// as in one capture only. Memory: 2 x kWindow PDUs. One thread.
+/// Steps through two captures. At a difference it searches the next kWindow PDUs of both for the
+/// nearest equal ones. PDUs before them count as changed if type and entity agree in order, else as
+/// in one capture only. Memory: 2 x kWindow PDUs. One thread.
 class PduAlignment {
  public:
   static constexpr std::size_t kWindow = 512;
-  /// Number of PDUs that are at once paired by type and entity if nothing in the window is equal.
+  /// Number of PDUs paired at once by type and entity if nothing in the window is equal.
   static constexpr std::size_t kBlindBlock = 64;
 
   /// Both streams outlive this object.

@@ -19,7 +19,7 @@ namespace {
 
 using Octets = std::span<const std::byte>;
 
-/// Greatest number of a block's octets to print; "..." replaces the rest.
+/// Limit of printed octets of a block; "..." replaces the rest.
 constexpr std::size_t kMostHex = 16;
 
 std::string hex_text(Octets octets) {
@@ -31,7 +31,7 @@ std::string hex_text(Octets octets) {
 }
 
 /// Visitor that steps through the fields of the first PDU and compares the same octets of the
-/// second. Reads inside both.
+/// second. Never reads beyond either.
 class Comparer {
  public:
   Comparer(Octets a, Octets b, std::size_t most) : a_(a), b_(b), most_(most) {}
@@ -149,7 +149,7 @@ class Comparer {
     };
     FieldDifference& difference = found_.emplace_back();
     difference = {path_, at, value(part(a_, at, size)), value(part(b_, at, size))};
-    // Payloads of NaN, letters after a NUL: the text is equal, the octets are not.
+    // NaN payloads, or letters after a NUL: the texts are equal, the octets are not.
     if (difference.a != difference.b) return;
     difference.a += " = 0x" + hex_text(part(a_, at, size));
     difference.b += " = 0x" + hex_text(part(b_, at, size));

@@ -19,8 +19,8 @@ struct FieldDifference {
 };
 
 /// The fields in which two PDUs differ, in wire order, at most `most`; empty if all octets are
-/// equal. The layout is that of `a`. For two different types only the header is compared. Octets
-/// without a field table are compared as "body". Any octets.
+/// equal. Uses the layout of `a`. For two different types only the header is compared. Octets
+/// without a field table are compared as "body". Accepts any octets.
 [[nodiscard]] std::vector<FieldDifference> pdu_differences(std::span<const std::byte> a,
                                                            std::span<const std::byte> b,
                                                            std::size_t most = 32);

@@ -40,7 +40,7 @@ std::uint64_t thousandths_of(double value) {
   return whole + ((rest > half || (rest == half && whole % 2 == 1)) ? 1 : 0);
 }
 
-/// Whether a spreadsheet would evaluate the cell as a formula: it accepts full-width signs too.
+/// Whether a spreadsheet would evaluate the cell as a formula: some accept full-width signs too.
 bool is_formula(std::string_view cell) {
   constexpr std::array<std::string_view, 8> kSigns{"=",      "+",      "-",      "@",
                                                    "\uff1d", "\uff0b", "\uff0d", "\uff20"};

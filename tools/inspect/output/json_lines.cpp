@@ -26,7 +26,7 @@ void append_member(std::string& out, std::string_view key, std::uint64_t value) 
   append_number(out, value);
 }
 
-/// Metres to the millimetre; null if JSON has no such number.
+/// Metres to the millimetre; null for a number that JSON lacks.
 void append_millimetres(std::string& out, double metres) {
   if (std::isfinite(metres))
     append_thousandths(out, metres);
@@ -41,7 +41,7 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   append_member(out, ",\"force_id\":", static_cast<unsigned>(pdu.force_id));
 }
 
-/// Degrees to 9 decimals, within 360; null if JSON has no such number.
+/// Degrees to 9 decimals, within 360; null for a number that JSON lacks.
 void append_degrees(std::string& out, double degrees) {
   if (!std::isfinite(degrees)) {
     out += "null";
@@ -52,7 +52,7 @@ void append_degrees(std::string& out, double degrees) {
   append_time(out, std::chrono::nanoseconds(scaled));
 }
 
-/// Where the PDU is, geocentric and as people read it, and with `full` how its entity lies.
+/// Location of the PDU, geocentric and geodetic; with `full` also the orientation of its entity.
 void append_place(std::string& out, const PduRow& row, bool full) {
   const auto location = first_location(row);
   if (!location.has_value()) return;
@@ -103,7 +103,7 @@ void append_records(std::string& out, std::string_view key, const pdu::Attribute
   if (!first) out += ']';
 }
 
-/// The states of Compressed States, or why one cannot be restored.
+/// The states of Compressed States, or the reason why one cannot be restored.
 void append_states(std::string& out, const std::vector<RestoredState>& states, bool full);
 
 void append_body(std::string& out, const PduRow& row, bool full) {

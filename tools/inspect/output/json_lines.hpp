@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// JSON Lines of the inspector. docs/json_lines.md explains every key, and other tools depend on
-// them.
+// JSON Lines of the inspector. docs/json_lines.md documents every key; other tools depend on them.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ struct InspectOptions {
   std::string by;        ///< stats: a single table; empty: all
   std::string where;     ///< filter; empty: all PDUs
   std::string from;      ///< of a recording: first instant; empty: the beginning
-  std::string to;        ///< of a recording: instant behind the last; empty: the end
+  std::string to;        ///< of a recording: instant after the last; empty: the end
   std::string fields;    ///< PDU type whose fields are listed instead of a run; empty: a run
   std::string key;       ///< key file; empty: sealed datagrams are only counted
   std::string svg;       ///< haptics: file for a plot; empty: none

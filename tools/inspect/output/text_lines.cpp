@@ -30,7 +30,7 @@ void append_fault(std::string& out, const PduRow& row, bool colour) {
   out += row.reason;
 }
 
-/// A marking may have any octets: those that are not printable ASCII become dots.
+/// A marking may have any octets: octets other than printable ASCII become dots.
 void append_printable(std::string& out, std::string_view text) {
   for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
 }
@@ -120,7 +120,7 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
     records += set.count;
     for (const pdu::AttributeRecord& record : set.records()) {
       (void)pdu::visit_attribute_record(record, [&](const auto& typed) {
-        ours += "; ";  // with one set the ID column has the entity
+        ours += "; ";  // with one set, the ID column shows the entity
         if (pdu.record_sets.count > 1) ours += id_text(set.entity_id) + ": ";
         append_record(ours, typed);
       });
@@ -131,7 +131,7 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
   out += ours;
 }
 
-/// Visitor: the numbers and names of a PDU in one line, without header and padding.
+/// Visitor: numbers and names of a PDU in one line, without header and padding.
 class BriefFields {
  public:
   template <typename Pdu>
@@ -256,13 +256,13 @@ void append_indented(std::string& out, std::string_view lines, std::size_t depth
   }
 }
 
-/// Its name, or the number that a sender has put there.
+/// Its name, or its number if it has none.
 std::string form_text(pdu::CompressedForm form) {
   const std::string_view name = pdu::name(form);
   return name.empty() ? fmt::format("form {}", static_cast<unsigned>(form)) : std::string(name);
 }
 
-/// A line for each state of Compressed States, below the PDU.
+/// A line for each state of Compressed States, after the PDU's line.
 void append_states(std::string& out, const std::vector<RestoredState>& states) {
   for (const RestoredState& state : states) {
     fmt::format_to(end_of(out), FMT_COMPILE("{:>17} {:>12}    {:<22} {:>6}  {:<16} "),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Interface of the inspector's views. A new view = one file with a class that overrides the hooks
-// it needs and the row that makes it, and that row's name in view_list.cpp.
+// Interface of the inspector's views. A new view is one file with a class that overrides the
+// required hooks and the row that makes it, and the name of that row in view_list.cpp.
 //
 //   class LengthsView final : public View {
 //     void pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds,
@@ -23,8 +23,8 @@
 
 namespace reckon::tools {
 
-/// Hooks in the order of a run, called by one thread. By default they do nothing. `out` goes to
-/// stdout; `start` is the time of the first datagram [since 1970-01-01 UTC].
+/// Hooks in the order of a run, called by one thread. By default they do nothing. `out` is written
+/// to stdout; `start` is the time of the first datagram [since 1970-01-01 UTC].
 class View {
  public:
   View() = default;
@@ -36,21 +36,21 @@ class View {
   virtual void begin(std::string&) {}
   /// A datagram, before its PDUs.
   virtual void expect(const peer::SourceDatagram&) {}
-  /// Each of its PDUs, including those that --where excludes.
+  /// Each of its PDUs, including PDUs that --where excludes.
   virtual void look(const PduRow&) {}
   /// Each PDU to be shown.
   virtual void pdu(const peer::SourceDatagram& /*datagram*/, const PduRow& /*row*/,
                    std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// After the PDUs of a datagram of which at least one was shown.
+  /// After the PDUs of a datagram with at least one shown PDU.
   virtual void datagram(const peer::SourceDatagram& /*datagram*/,
                         std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// After the PDUs of a datagram of which none was shown.
+  /// After the PDUs of a datagram without a shown PDU.
   virtual void skip() {}
   /// Live sources: after each datagram and every 0.1 s; `now` since 1970-01-01 UTC.
   virtual void tick(std::chrono::nanoseconds /*now*/, const peer::SourceReport& /*report*/,
                     std::string& /*out*/) {}
-  /// A sentence for the user while a live source is silent.
-  /// @returns false if the view has no place for it, and it goes to stderr
+  /// Shows a sentence for the user while a live source is silent.
+  /// @returns false if the view has no place for it: then it is printed to stderr
   [[nodiscard]] virtual bool show_notice(const std::string& /*sentence*/) { return false; }
   /// Whether the user ended the view itself, such as by a key.
   [[nodiscard]] virtual bool has_ended() const { return false; }

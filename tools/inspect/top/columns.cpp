@@ -58,7 +58,7 @@ std::string percentile(const Cell& cell, double share) {
   return distance_text(cell.row.jumps.percentile(share));
 }
 
-/// The same of the orientation.
+/// The same for the orientation.
 std::string turn(const Cell& cell, double degrees) {
   return cell.row.turns.count() == 0 ? "-" : angle_text(degrees);
 }
@@ -117,7 +117,7 @@ std::string remarks(const Cell& cell) {
   return text;
 }
 
-/// Reason of the last update, or that updates have stopped.
+/// Cause of the last update, or a note that updates have stopped.
 std::string why(const Cell& cell) {
   if (cell.entity.gone) return "gone";
   if (cell.entity.is_silent(cell.now)) return "STALE";

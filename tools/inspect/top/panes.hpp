@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Further panes of `top` besides its table: one entity in detail, the fill of datagrams, and broken
-// rules.
+// Further panes of `top` next to its table: one entity in detail, the fill of datagrams, and
+// violated rules.
 #pragma once
 
 #include <span>

@@ -21,17 +21,18 @@ namespace reckon::tools {
 
 /// All data that `top` shows.
 struct TopData {
-  std::string source;  ///< as the user entered it
+  std::string source;  ///< as typed
   EntityTable entities;
   TrafficTotals totals;
   TrailerLoss loss;
   std::bitset<256> exercises;
   std::array<std::uint64_t, 17> bundle_sizes{};      ///< by number of PDUs; last: 16 and more
-  std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by the rule that they break
-  std::vector<std::string> notices;                  ///< while nothing is heard
-  std::string interfaces;                            ///< that have brought something: "lo, eth0"
+  std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by violated rule
+  std::vector<std::string> notices;                  ///< while the source is silent
+  std::string interfaces;                            ///< that have received a datagram: "lo, eth0"
   std::uint64_t dropped = 0;                         ///< by the kernel, before reception
-  std::chrono::nanoseconds now{};  ///< reference time of ages; in a file that of the last datagram
+  std::chrono::nanoseconds now{};  ///< reference time of ages; in a file the time of the last
+                                   ///< datagram
 };
 
 /// "capture.pcap   on lo   ex 1   0:42   1206 PDU/s   134 dgram/s   1.43 Mbit/s   9.0 PDU/dgram
@@ -39,8 +40,8 @@ struct TopData {
 /// kernel.
 [[nodiscard]] std::string top_head(const TopData& data, const TrafficRates::Rates& rates);
 
-/// The simulation that sends most octets, with its jumps. Empty below half of all octets or for few
-/// entities.
+/// The simulation that sends most octets, with its jumps. Empty if it sends less than half of all
+/// octets, or there are few entities.
 [[nodiscard]] std::string top_advice(const TopData& data);
 
 /// Head and table.

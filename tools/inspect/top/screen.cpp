@@ -18,7 +18,7 @@ constexpr std::size_t kShiftStep = 8;
 constexpr std::size_t kMostHeadLines = 3;
 constexpr std::size_t kRowsForAdvice = 16;
 constexpr std::string_view kGap = "  ";
-// The first ones are shown at any width.
+// The first keys are shown at any width.
 constexpr auto kKeys = std::to_array<std::string_view>(
     {"[q] quit", "[/] filter", "[s] sort", "[r] reverse", "[Enter] follow", "[b] bundles",
      "[c] check", "[space] freeze"});
@@ -31,7 +31,7 @@ std::string window_of(std::string_view text, std::size_t shift, std::size_t colu
   return std::string(begin.substr(0, columns));
 }
 
-/// The first of the keys that fit, none cut.
+/// The first keys that fit, without cutting one.
 std::string keys_text(std::span<const std::string_view> keys, std::size_t columns) {
   std::string line;
   for (const std::string_view key : keys) {
@@ -205,7 +205,7 @@ void TopScreen::take_filter() {
     editing_ = false;
     cursor_ = top_ = 0;
   } catch (const FilterError& error) {
-    // The first line has the reason; the others are for a terminal without a cursor.
+    // The first line has the reason; the others mark the column, which the screen does itself.
     error_ = error.what();
     error_.resize(std::min(error_.find('\n'), error_.size()));
     error_column_ = error.column;
@@ -304,7 +304,7 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
   const std::size_t end = std::min(places.size(), top_ + page_);
   for (std::size_t i = top_; i < end; ++i)
     rows.push_back(top_cells({data.entities, places[i], data.now}));
-  // Columns grow and never shrink, so that the table does not move.
+  // Columns only grow, so that the table does not move.
   widths_.resize(columns.size());
   for (const auto& cells : rows)
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -341,7 +341,7 @@ void TopScreen::pane(const TopData& data, ScreenSize size, std::vector<ScreenLin
 void TopScreen::footer(ScreenSize size, std::vector<ScreenLine>& out) const {
   if (editing_) {
     constexpr std::string_view kPrompt = "filter: ";
-    // Of a long filter the end is shown, where the user types.
+    // Shows the end of a long filter, where the user types.
     const std::size_t room = size.columns - std::min(size.columns, kPrompt.size() + 1);
     const std::size_t cut = edited_.size() - std::min(edited_.size(), room);
     out.push_back({std::string(kPrompt) + edited_.substr(cut) + "_", LineStyle::title});

@@ -71,7 +71,7 @@ bool TopView::show_notice(const std::string& sentence) {
   return true;
 }
 
-// Takes the pressed keys and draws at once if there were any.
+// Handles the pressed keys, and schedules a redraw if there were any.
 void TopView::show(nanoseconds now) {
   next_keys_ = now + kLookForKeysEvery;
   while (const auto key = terminal_->key()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `top`: every entity with its rate, the reasons of its updates and its jumps.
+// The view `top`: every entity with its rate, the causes of its updates and its jumps.
 #pragma once
 
 #include <chrono>
@@ -34,7 +34,7 @@ class TopView final : public View {
   /// Live sources: keys and the screen on a terminal, else the table each second if requested.
   void tick(std::chrono::nanoseconds now, const peer::SourceReport& report,
             std::string& out) override;
-  /// Whether the user ended it with a key.
+  /// On the screen, or not at all without a terminal.
   [[nodiscard]] bool show_notice(const std::string& sentence) override;
   [[nodiscard]] bool has_ended() const override { return screen_.quit(); }
   /// Restores the terminal, or writes the table.
@@ -46,7 +46,7 @@ class TopView final : public View {
 
   Format format_;
   bool follow_;
-  bool grows_;  // the source is live
+  bool grows_;  // more datagrams may arrive
   const Console& console_;
   TopData data_;
   TrafficRates rates_;

@@ -15,7 +15,8 @@
 namespace reckon::tools {
 namespace {
 
-// Octets as plain Entity States over the octets of the PDUs that contain them.
+// Octets of the states as plain Entity States, relative to the octets of the PDUs that contain
+// them.
 double ratio(std::size_t states, std::size_t octets) {
   return static_cast<double>(states * pdu::kFixedSize<pdu::EntityState>) /
          static_cast<double>(octets);
@@ -45,7 +46,7 @@ void BundlesView::look(const PduRow& row) {
   rank_ = std::max(rank, rank_);
 }
 
-// Counts the states that are present, whatever number the PDU states.
+// Counts the states that are present, independent of the number in the PDU.
 void BundlesView::count_states(const PduRow& row, Run& run) {
   pdu::CompressedStates states;
   if (!row.decoded || pdu::decode(row.bytes, states) != pdu::DecodeError::none) return;

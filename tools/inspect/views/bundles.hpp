@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `bundles`: one line a datagram with its PDUs in order.
+// The view `bundles`: one line per datagram with its PDUs in order.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class BundlesView final : public View {
   /// Writes the datagram's line; `start` is the time of the first datagram.
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Replaces datagram() for a datagram that is not to be shown.
+  /// Called instead of datagram() for a datagram that is not shown.
   void skip() override;
 
  private:
@@ -50,7 +50,7 @@ class BundlesView final : public View {
   std::size_t pdus_ = 0;
   std::size_t pdu_octets_ = 0;
   std::size_t broken_octets_ = 0;
-  std::size_t order_broken_at_ = 0;  // PDU number, 0 = kept
+  std::size_t order_broken_at_ = 0;  // PDU number, 0 = order is correct
   std::uint8_t rank_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `emissions`: who emitted what, since when, at the end of the source.
+// The view `emissions`: at the end of the source, all emissions with their entity and start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// What is over stays in the table as long as there is room.
+/// Ended emissions stay in the table as long as there is room.
 class EmissionsView final : public View {
  public:
   explicit EmissionsView(bool json) : json_(json) {}

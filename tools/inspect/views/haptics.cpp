@@ -23,8 +23,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Longest silence of all that is sampled, the heartbeat of haptic entities, so that the work is
-/// bounded.
+/// Longest silence that is sampled, the heartbeat of haptic entities; it bounds the work.
 constexpr nanoseconds kLongestSilence = std::chrono::seconds(5);
 constexpr nanoseconds kLeastStep = std::chrono::microseconds(100);
 /// Number of plots in the terminal: the contacts with the greatest forces.
@@ -87,7 +86,7 @@ void HapticsView::expect(const peer::SourceDatagram& datagram) {
   for (; next_ < until && !heard_.entities().empty(); next_ += step_) sample(next_);
   last_ = std::max(last_, time);
   if (next_ >= time) return;
-  // There are no samples to take until this datagram, at any distance.
+  // There are no samples before this datagram, however late it is.
   const auto steps = (time - next_ + step_ - nanoseconds(1)) / step_;
   number_ += static_cast<std::uint64_t>(steps);
   next_ += steps * step_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `haptics`: the contact forces between haptic entities over time from the models on the
+// The view `haptics`: contact forces between haptic entities over time, from the models on the
 // wire, before any receiver's gate.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace reckon::tools {
 
-/// Course of the force of one entity's model on another entity.
+/// Time course of the force of one entity's model on another entity.
 struct ContactCourse {
   explicit ContactCourse(std::chrono::nanoseconds step) : history(step) {}
 
@@ -44,8 +44,8 @@ struct ContactCourse {
 
 class HapticsView final : public View {
  public:
-  /// Number of directed pairs whose course is kept. Samples of others are written, but not in the
-  /// tables.
+  /// Limit of directed pairs whose course is kept. Samples of further pairs are written, but not in
+  /// the tables.
   static constexpr std::size_t kMostContacts = 128;
   static constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(10);
 
@@ -59,7 +59,7 @@ class HapticsView final : public View {
            std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Writes samples that are pending without a datagram to be shown.
+  /// Writes pending samples when no datagram arrives.
   void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) override {
     flush(out);
   }
@@ -112,7 +112,7 @@ class HapticsView final : public View {
   std::chrono::nanoseconds start_{};
   std::chrono::nanoseconds next_{};
   std::chrono::nanoseconds last_{};
-  std::string rows_;  // of samples, not yet written
+  std::string rows_;  // samples not yet written
 };
 
 }  // namespace reckon::tools

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `stats`: traffic by type and sender, fill of datagrams, loss, which is counted from the
-// sequence numbers in trailers, and the greatest jumps of entities.
+// The view `stats`: traffic by type and sender, fill of datagrams, loss by the sequence numbers in
+// trailers, and the greatest jumps of entities.
 #pragma once
 
 #include <array>
@@ -26,9 +26,9 @@ namespace reckon::tools {
 /// Sums of one row of the view.
 struct TrafficShare {
   std::uint64_t pdus = 0;
-  std::uint64_t octets = 0;     ///< of its PDUs; broken ones as far as they are present
-  std::uint64_t datagrams = 0;  ///< that contain it; senders and groups only
-  std::uint64_t errors = 0;     ///< PDUs that could not be read
+  std::uint64_t octets = 0;     ///< of its PDUs; of broken ones the octets that are present
+  std::uint64_t datagrams = 0;  ///< datagrams that contain it; senders and groups only
+  std::uint64_t errors = 0;     ///< unreadable PDUs
   std::int64_t lost = 0;        ///< datagrams, from trailers; senders and groups only
 };
 
@@ -58,7 +58,7 @@ class StatsView final : public View {
     std::unordered_map<Key, TrafficShare> rows;
     TrafficShare others;
   };
-  /// Greatest jumps of an entity from where its update before led.
+  /// Greatest jumps of an entity from the prediction by its update before.
   struct Jumps {
     double metres = 0;
     double degrees = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which of a scene's groups carry what only some receive: near groups, of those who are near, and
-// contact groups, of those within touch (docs/area_of_interest_mechanisms.md).
+// Finds the near groups and contact groups among a scene's groups; only entities near, or within
+// touch, receive them (docs/area_of_interest_mechanisms.md).
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,22 @@
 
 namespace reckon::tools {
 
-/// What a group is for. `cell`: all else, the base group and foreign ones too.
+/// Recipient tier of a group. `cell`: all other groups, including the base group and foreign ones.
 enum class GroupTier : std::uint8_t { cell, near, contact };
 
 struct TieredGroup {
   GroupTier tier = GroupTier::cell;
-  std::uint16_t number = 0;  ///< of the group in its scene, from 1; 0 where tier is `cell`
+  std::uint16_t number = 0;  ///< number of the group in its scene, from 1; 0 if tier is `cell`
 };
 
-/// Immutable. Without a scene it knows of no near and contact groups.
+/// Immutable. Without a scene there are no near and contact groups.
 class GroupTiers {
  public:
   GroupTiers() = default;
-  /// @throws std::invalid_argument where the groups of the scene cannot be
+  /// @throws std::invalid_argument if the groups of the scene are invalid
   GroupTiers(const peer::NetworkConfig& network, const peer::AoimConfig& aoim);
 
-  /// Of an address. The port counts for nothing: a sealed exercise has another. Some ns.
+  /// The tier of an address. Ignores the port, which differs in a sealed exercise. Some ns.
   [[nodiscard]] TieredGroup of(peer::GroupAddress group) const noexcept;
   /// Whether the scene has any near or contact group.
   [[nodiscard]] bool any() const noexcept { return groups_.has_value(); }

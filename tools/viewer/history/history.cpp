@@ -9,12 +9,12 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A segment ends where looking at all of it would take some 30 ms,
+// A segment ends where a scan of it would take some 30 ms,
 constexpr std::size_t kMostPdus = 32768;
 // and, once the world that the next one keeps is no more than four times as large, after so long.
 constexpr nanoseconds kShort = std::chrono::seconds(5), kLong = std::chrono::seconds(30);
 constexpr std::size_t kWorldShare = 4;
-/// Of the bound of octets, for one segment.
+/// Share of HistoryOptions::octets for one segment.
 constexpr std::size_t kOctetShare = 4;
 
 }  // namespace
@@ -92,7 +92,7 @@ void History::forget_old(Time now) {
     drop_first();
   if (first_number_ == before) return;
   numbers_.forget_before(begin());
-  // Who is in no picture that can still be shown.
+  // Forgets entities that no picture can show any more.
   roster_.forget_before(begin() - std::chrono::minutes(2));
 }
 
@@ -112,7 +112,7 @@ const History::Segment* History::segment_at(std::uint64_t number) const noexcept
   return segments_[number - first_number_].get();
 }
 
-// The last segment that begins by `time`, else the first.
+// The last segment that begins at or before `time`, else the first.
 std::uint64_t History::number_for(Time time) const noexcept {
   const auto after = std::upper_bound(
       segments_.begin(), segments_.end(), time,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The datagrams of the last minute, or of a whole capture, and now and then the world as it was
-// when they came: so that any instant can be shown again without looking at all that was before it.
+// The datagrams of the last minute, or of a whole capture, with snapshots of the world at
+// intervals. Any instant can be shown by replay from the snapshot before it.
 #pragma once
 
 #include <chrono>
@@ -21,12 +21,12 @@
 namespace reckon::tools {
 
 struct HistoryOptions {
-  /// How long what was received is kept; none: all of it, until `octets` are full.
+  /// How long received datagrams are kept; none: all, until `octets` are full.
   std::optional<std::chrono::nanoseconds> span = std::chrono::seconds(60);
-  /// Of datagrams and worlds. A live history that would take more is shorter.
+  /// Limit of datagrams and snapshots. A live history that would exceed it is shortened.
   std::size_t octets = std::size_t{64} << 20;
-  std::size_t entities = 16384;          ///< shown at most; below kNoNumber
-  std::optional<std::uint8_t> exercise;  ///< alone; none: all
+  std::size_t entities = 16384;          ///< limit of shown entities; below kNoNumber
+  std::optional<std::uint8_t> exercise;  ///< only this exercise; none: all
   bool lenient = false;                  ///< as DatagramInspector
   deadreckon::ConvergenceSettings convergence;
   GroupTiers tiers;
@@ -46,48 +46,48 @@ class History {
     explicit Cursor(const ReceivedWorld& world) : world_(world) {}
     ReceivedWorld world_;
     std::chrono::nanoseconds time_{};
-    std::uint64_t segment_ = 0;  // number of the one whose datagrams are being taken
-    std::size_t next_ = 0;       // of them
+    std::uint64_t segment_ = 0;  // number of the segment that is being replayed
+    std::size_t next_ = 0;       // its next entry
   };
 
   explicit History(const HistoryOptions& options);
 
-  /// A datagram, in the order of arrival. @return false where it found no room: a history without a
-  /// span is full
+  /// Takes a datagram, in the order of arrival. @return false if it found no room: a history
+  /// without a span is full
   bool take(const peer::SourceDatagram& datagram);
-  /// Time has come to `now`: samples are added, and what is too old is forgotten.
+  /// Advances the time to `now`: adds samples, and drops old segments.
   void pass(std::chrono::nanoseconds now);
-  /// Says when the source began, where that is before its first datagram.
+  /// Sets the start of the source, if it is before the first datagram.
   void begin_at(std::chrono::nanoseconds time);
 
-  /// The world after all that was received.
+  /// The world after all received datagrams.
   [[nodiscard]] const ReceivedWorld& live() const noexcept { return live_; }
   [[nodiscard]] Roster& roster() noexcept { return roster_; }
   [[nodiscard]] const Roster& roster() const noexcept { return roster_; }
   [[nodiscard]] const TrafficNumbers& numbers() const noexcept { return numbers_; }
 
-  /// When the source began; zero before that is known.
+  /// Start of the source; zero while unknown.
   [[nodiscard]] std::chrono::nanoseconds start() const noexcept { return start_.value_or(Time{}); }
   /// The first and the last instant that can be shown.
   [[nodiscard]] std::chrono::nanoseconds begin() const noexcept;
   [[nodiscard]] std::chrono::nanoseconds end() const noexcept { return end_; }
 
-  /// The world at `time`, cut to begin(); from `cursor` on where that is on the way, else from the
-  /// world kept before `time`. Makes a cursor where there is none. Up to some 50 ms.
+  /// Moves `cursor` to the world at `time`, limited to begin(): forward from `cursor` if possible,
+  /// else from the snapshot before `time`. Creates a missing cursor. Up to some 50 ms.
   void seek(std::unique_ptr<Cursor>& cursor, std::chrono::nanoseconds time);
-  /// The first datagram's time after `time`, and the last one's before it.
+  /// Time of the first datagram after `time`, and of the last one before it.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> update_after(
       std::chrono::nanoseconds time) const;
   [[nodiscard]] std::optional<std::chrono::nanoseconds> update_before(
       std::chrono::nanoseconds time) const;
 
-  /// Octets that are held, about.
+  /// Octets held, approximately.
   [[nodiscard]] std::size_t weight() const noexcept { return weight_; }
 
  private:
   using Time = std::chrono::nanoseconds;
   struct Entry {
-    Time at{};  // rises
+    Time at{};  // non-decreasing
     Time time{};
     std::size_t offset = 0, size = 0;
     std::uint64_t frame = 0;
@@ -102,7 +102,7 @@ class History {
     std::vector<Entry> entries;
     std::vector<std::byte> octets;
     std::size_t pdus = 0;
-    std::size_t kept = 0;  // octets of `world`, about
+    std::size_t kept = 0;  // octets of `world`, approximately
     [[nodiscard]] std::size_t weight() const noexcept;
   };
 

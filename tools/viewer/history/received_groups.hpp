@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a listener receives beside states: which near or contact group brought updates of whom, and
-// in which cell each beacon is.
+// State in addition to the entities: the near or contact group by which each entity was last
+// received, and the cell of each beacon.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace reckon::tools {
 
-/// Entities that one near or contact group has carried of late.
+/// Entities that a near or contact group has carried recently.
 struct SharedGroup {
   TieredGroup group;
   std::vector<std::uint16_t> slots;  ///< ascending
@@ -30,31 +30,31 @@ struct ReceivedBeacon {
   std::chrono::nanoseconds received{};
 };
 
-/// A copy is what was known at that instant. One thread. Any octets will do; allocates for new
-/// slots and beacons, within bounds.
+/// A copy keeps the state of its instant. One thread. Accepts any octets; allocates for new slots
+/// and beacons, within bounds.
 class ReceivedGroups {
  public:
-  /// A group that carried nothing of an entity for so long is not shown as its own.
+  /// An entity is listed under a group for this long after its last update there.
   static constexpr std::chrono::nanoseconds kLately = std::chrono::seconds(3);
-  /// Owners say each second, or more often, where their beacons are.
+  /// Owners send the cells of their beacons each second, or more often.
   static constexpr std::chrono::nanoseconds kBeaconKept = std::chrono::seconds(3);
   static constexpr std::size_t kMostBeacons = 256;
 
   explicit ReceivedGroups(const GroupTiers& tiers) : tiers_(tiers) {}
 
-  /// An update of the entity at a slot came by this group.
+  /// Notes an update of the entity at a slot that this group carried.
   void note_update(std::uint16_t slot, const peer::GroupAddress& group,
                    std::chrono::nanoseconds time);
-  /// A Cell Roles PDU.
+  /// Takes a Cell Roles PDU.
   void take_roles(std::span<const std::byte> pdu, std::chrono::nanoseconds time);
 
-  /// All that carried something within kLately before `time`, by number.
+  /// All groups that carried something within kLately before `time`, by number.
   [[nodiscard]] std::vector<SharedGroup> shared_at(std::chrono::nanoseconds time) const;
   /// By tag; the last report of some may be older than kBeaconKept.
   [[nodiscard]] const std::map<std::uint32_t, ReceivedBeacon>& beacons() const noexcept {
     return beacons_;
   }
-  /// Octets, about.
+  /// Octets, approximately.
   [[nodiscard]] std::size_t weight() const noexcept;
 
  private:
@@ -62,7 +62,7 @@ class ReceivedGroups {
     std::uint16_t number = 0;  // 0: never
     std::chrono::nanoseconds time{};
   };
-  using Tiers = std::array<Carried, 2>;  // by a near group, by a contact group
+  using Tiers = std::array<Carried, 2>;  // last near group, last contact group
 
   GroupTiers tiers_;
   std::vector<Tiers> slots_;

@@ -26,7 +26,7 @@ std::uint8_t side_of(const ReceivedEntity& entity) {
 
 }  // namespace
 
-/// What the table reports of an update before it takes it.
+/// Called by the table for an update before it takes it.
 struct ReceivedWorld::Watching final : EntityTable::Watch {
   Watching(ReceivedWorld& the_world, const peer::GroupAddress& the_group, Roster& the_roster,
            nanoseconds the_start)

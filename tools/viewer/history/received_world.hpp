@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world as received up to one instant: the listener's table of entities, what is left of their
-// convergence, and the groups that brought their updates. A copy keeps the world of that instant.
+// The world as received up to one instant: the listener's table of entities, their remaining
+// convergence errors, and the groups that carried their updates. A copy keeps the world of its
+// instant.
 #pragma once
 
 #include <chrono>
@@ -19,13 +20,13 @@
 
 namespace reckon::tools {
 
-/// How far updates were off the prediction, since the last call of take_jumps().
+/// Differences between updates and predictions since the last call of take_jumps().
 struct UpdateJumps {
   std::size_t count = 0;
   double sum = 0, worst = 0;  ///< [m]
 };
 
-/// One thread. Allocates as entities come. Some 0.5 us a state.
+/// One thread. Allocates for new entities. Some 0.5 us per state.
 class ReceivedWorld {
  public:
   /// @param most entities
@@ -33,11 +34,12 @@ class ReceivedWorld {
                 const GroupTiers& tiers)
       : table_(most), settings_(settings), groups_(tiers) {}
 
-  /// Takes one PDU as the inspector found it.
+  /// Takes one PDU with the inspector's result.
   /// @param start of the source
   void take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Roster& roster,
                 std::chrono::nanoseconds start);
-  /// Drops who has left, and who was silent for longer than it may and than `silence`.
+  /// Drops entities that left, and entities that were silent for longer than their time-out and
+  /// than `silence`.
   void drop_silent(std::chrono::nanoseconds now, std::chrono::nanoseconds silence) {
     table_.drop_gone(now);
     table_.drop_silent(now, silence);
@@ -48,17 +50,17 @@ class ReceivedWorld {
   /// Position of the first entity with a state; geocentric [m].
   [[nodiscard]] std::optional<Eigen::Vector3d> first_place() const;
   [[nodiscard]] UpdateJumps take_jumps() noexcept { return std::exchange(jumps_, {}); }
-  /// Octets that a copy takes, about.
+  /// Octets of a copy, approximately.
   [[nodiscard]] std::size_t weight() const noexcept;
 
-  /// Adds a mark for each entity that is named and neither gone nor silent at `time`, without its
-  /// cell. @param frame that marks are in  @param start of the source
+  /// Adds a mark for each entity that the roster names and that is neither gone nor silent at
+  /// `time`; without its cell. @param frame of the marks  @param start of the source
   void add_marks(std::chrono::nanoseconds time, std::chrono::nanoseconds start,
                  const Roster& roster, const deadreckon::LocalFrame& frame,
                  std::vector<EntityMark>& out) const;
 
  private:
-  struct Watching;  // of one PDU on its way in
+  struct Watching;  // handles one PDU
   void note_update(const StateUpdate& update, const peer::GroupAddress& group, Roster& roster,
                    std::chrono::nanoseconds start);
 

@@ -15,10 +15,10 @@
 namespace reckon::tools {
 namespace {
 
-// In the fixed octets of an Entity State.
+// Offsets in the fixed octets of an Entity State.
 constexpr std::size_t kSideAt = 18, kTypeAt = 20, kMarkingAt = 128;
 
-/// Copies a field; whether it was another before.
+/// Copies a field. @return whether it changed
 template <std::size_t Size>
 bool renew(std::array<std::byte, Size>& field, const FixedOctets& octets, std::size_t at) {
   if (std::memcmp(field.data(), octets.data() + at, Size) == 0) return false;
@@ -50,7 +50,7 @@ std::string side_text(std::byte side) {
                        : lower_case(named);
 }
 
-/// Its letters up to the first NUL, behind the octet of the character set.
+/// Its letters up to the first NUL, after the octet of the character set.
 std::string_view letters(std::span<const std::byte> marking) {
   const std::string_view all(reinterpret_cast<const char*>(marking.data()) + 1, marking.size() - 1);
   return all.substr(0, all.find('\0'));
@@ -100,7 +100,7 @@ std::uint16_t Roster::admit(const Listener& listener, const StateUpdate& update)
   const std::uint16_t slot = place(entity.key);
   if (slot == kNoNumber) return slot;
   Entry& entry = entries_[slot];
-  // What is replayed to show the past has nothing new.
+  // A replay of the past brings nothing new.
   if (update.arrival < entry.received) return slot;
   entry.received = update.arrival;
   entry.id = entity.id;

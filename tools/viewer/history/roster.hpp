@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who is in the pictures: a small number for each entity, and what is told of it once.
+// The entities in the pictures: a small number for each, and its constant properties.
 #pragma once
 
 #include <array>
@@ -19,48 +19,48 @@
 
 namespace reckon::tools {
 
-/// Slots of entities. A new entity is shown once the roster that names it is published; a slot that
-/// became free is given away again. One thread; allocates as entities come, within its bound.
+/// Assigns slots to entities. A new entity is shown once the roster that names it is published; a
+/// freed slot is reused. One thread; allocates for new entities, within its bound.
 class Roster {
  public:
-  /// @param most entities at a time, below kNoNumber
+  /// @param most limit of entities at a time, below kNoNumber
   explicit Roster(std::size_t most) : most_(most) {}
 
-  /// The slot of an entity that the listener knows; a new one where it has none, kNoNumber where
-  /// there is no room. Keeps what the newest state says of it.
+  /// The slot of an entity of the listener; assigns a new one if it has none, kNoNumber if
+  /// there is no room. Keeps the properties from the newest state.
   std::uint16_t admit(const Listener& listener, const StateUpdate& update);
-  /// Notes the force model of an entity that has a slot, unless a newer state is known.
+  /// Notes the force model of an entity that has a slot, unless a newer state was received.
   void note_model(std::uint64_t key, double radius, std::chrono::nanoseconds arrival);
-  /// By ReceivedEntity::key; kNoNumber where it has none.
+  /// By ReceivedEntity::key; kNoNumber if the entity has none.
   [[nodiscard]] std::uint16_t slot_of(std::uint64_t key) const noexcept;
-  /// The same by ID alone, of whatever exercise.
+  /// The same by ID only, for any exercise.
   [[nodiscard]] std::uint16_t slot_of(const pdu::EntityId& id) const noexcept;
-  /// The key of the entity at a slot; 0 where there is none.
+  /// The key of the entity at a slot; 0 for a free slot.
   [[nodiscard]] std::uint64_t key_at(std::uint16_t slot) const noexcept {
     return slot < entries_.size() ? entries_[slot].key : 0;
   }
-  /// Of the entity at a slot; none where there is none.
+  /// The ID of the entity at a slot; none for a free slot.
   [[nodiscard]] std::optional<pdu::EntityId> id_at(std::uint16_t slot) const noexcept;
-  /// Its marking; empty where there is none.
+  /// The marking of the entity at a slot; empty for a free slot.
   [[nodiscard]] std::string_view marking_at(std::uint16_t slot) const noexcept;
-  /// Whether it has a force model.
+  /// Whether the entity at a slot has a force model.
   [[nodiscard]] bool is_haptic(std::uint16_t slot) const noexcept {
     return key_at(slot) != 0 && entries_[slot].haptic;
   }
-  /// Frees the slots of those whose last update came before `time`.
+  /// Frees the slots of entities whose last update came before `time`.
   void forget_before(std::chrono::nanoseconds time);
 
-  /// Begins another epoch where something has changed. @return whether it did
+  /// Begins a new epoch if something has changed. @return whether it did
   bool publish();
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
-  /// Whether the slot is named in what was published.
+  /// Whether the published roster names the slot.
   [[nodiscard]] bool is_published(std::uint16_t slot) const noexcept {
     return slot < entries_.size() && entries_[slot].published;
   }
-  /// The message that names all, as of the epoch.
+  /// The roster message of the epoch.
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
   [[nodiscard]] std::size_t size() const noexcept { return slots_.size(); }
-  /// Slots given away so far are below this.
+  /// Upper bound of the slots assigned so far.
   [[nodiscard]] std::size_t bound() const noexcept { return entries_.size(); }
 
  private:
@@ -69,10 +69,10 @@ class Roster {
     pdu::EntityId id;
     std::array<std::byte, 1> side{};  // force ID
     std::array<std::byte, 8> type{};
-    std::array<std::byte, 12> marking{};  // with its character set
+    std::array<std::byte, 12> marking{};  // including the character set
     bool haptic = false;
     bool published = false;
-    double radius = 0;  // [m] of its force model
+    double radius = 0;  // [m] of the force model
     std::chrono::nanoseconds received{};
   };
   [[nodiscard]] std::uint16_t place(std::uint64_t key);

@@ -40,7 +40,7 @@ void TrafficNumbers::pass(nanoseconds now) {
   if (now < *next_) return;
   samples_.push_back(sample(now));
   if (samples_.size() > kMostSamples) samples_.pop_front();
-  // After a silence the parts before it are over too.
+  // After a silence, several parts end at once.
   for (std::size_t i = 0; i < kParts && now >= *next_; ++i) {
     part_ = (part_ + 1) % kParts;
     parts_[part_] = {};
@@ -67,7 +67,7 @@ NumbersSample TrafficNumbers::sample(nanoseconds now) const {
   out.pdu_per_s = static_cast<double>(all.pdus) / kSpan;
   out.bit_per_s = 8.0 * static_cast<double>(all.octets) / kSpan;
   if (all.received > 0) {
-    // A late one makes them fewer.
+    // A late datagram lowers the count.
     const double lost = std::max(0.0, static_cast<double>(all.lost));
     out.lost_share = lost / (lost + static_cast<double>(all.received));
     std::sort(all.delays.begin(), all.delays.end());

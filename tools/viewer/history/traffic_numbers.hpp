@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the traffic was like: rates, delay, loss and how far predictions were off, four times a
-// second, kept for as long as the history is.
+// Statistics of the traffic, four times a second: rates, delay, loss and prediction errors; kept as
+// long as the history.
 #pragma once
 
 #include <array>
@@ -16,26 +16,27 @@
 
 namespace reckon::tools {
 
-/// Over the second before `time`. What is absent is not known.
+/// Over the second before `time`. Absent values are unknown.
 struct NumbersSample {
   std::chrono::nanoseconds time{};
-  double pdu_per_s = 0, bit_per_s = 0;            ///< payloads of UDP
-  std::optional<double> lost_share;               ///< by the numbers of trailers
-  std::optional<double> delay_median, delay_p95;  ///< [s], one way, with the clocks' difference
-  std::optional<double> error_mean, error_worst;  ///< [m], of predictions when updates came
+  double pdu_per_s = 0, bit_per_s = 0;            ///< UDP payloads
+  std::optional<double> lost_share;               ///< by the sequence numbers of trailers
+  std::optional<double> delay_median, delay_p95;  ///< [s], one way, including the offset of the
+                                                  ///< clocks
+  std::optional<double> error_mean, error_worst;  ///< [m], of predictions at updates
 };
 
-/// One thread. Holds at most kMostSamples; beyond them the oldest are forgotten.
+/// One thread. Holds at most kMostSamples; older ones are dropped.
 class TrafficNumbers {
  public:
   static constexpr std::chrono::nanoseconds kEvery = std::chrono::milliseconds(250);
   static constexpr std::size_t kMostSamples = 1 << 16;
 
-  /// A PDU of the datagram at hand.
+  /// Counts a PDU of the present datagram.
   void pdu(const PduRow& row, const peer::SourceDatagram& datagram);
-  /// Ends the datagram.
+  /// Ends the present datagram.
   void datagram(const peer::SourceDatagram& datagram, const UpdateJumps& jumps);
-  /// Time has come to `now`: adds a sample where one is due.
+  /// Advances the time to `now`: adds a sample if one is due.
   void pass(std::chrono::nanoseconds now);
   void forget_before(std::chrono::nanoseconds time);
 

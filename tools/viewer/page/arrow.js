@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An arrow from a point, as long as a force is strong.
+// An arrow from a point. Its length is proportional to a force.
 import { ConeGeometry, CylinderGeometry, Group, Mesh, Vector3 } from './libraries.js';
 
 const ARROW_AXIS = new Vector3(0, 1, 0);
@@ -39,7 +39,7 @@ export class Arrow {
   hide() { this.parts.visible = false; }
 }
 
-// As many things as are needed, made once; the rest is hidden.
+// A pool of objects. Each is made once, as needed; unused ones are hidden.
 export class Pool {
   constructor(make) {
     this.make = make;

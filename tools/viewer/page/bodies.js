@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Many bodies as one plain mesh whose corners are written here: instances are drawn one by one by software GL, four times slower.
+// Many bodies as one plain mesh whose corners are computed here. Software GL draws instances one by
+// one, four times slower.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh } from './libraries.js';
 
-// Corners in body axes (x forward, y right, z down) for a radius of 1; faces with their share of light.
+// Corners in body axes (x forward, y right, z down) for a radius of 1; each face with its share of
+// the light.
 const SHAPES = {
   land: [[[1.2, 0, 0], [-0.8, 0.75, 0], [-0.45, 0, 0], [-0.8, -0.75, 0], [-0.3, 0, -0.42]],
     [[0, 1, 4, 0.82], [1, 2, 4, 0.55], [2, 3, 4, 0.62], [3, 0, 4, 1]]],
@@ -45,7 +47,7 @@ export class Bodies {
     }
   }
 
-  // Shapes in the order of the bodies, then colours of them.
+  // Sets the shapes, in the order of the bodies; colours() has to follow.
   shape(shapes) {
     this.shapes = shapes;
     const faces = shapes.reduce((sum, shape) => sum + shape[1].length, 0);
@@ -59,7 +61,7 @@ export class Bodies {
     this.mesh.position.copy(anchor);
   }
 
-  // Body i at a place, turned by a unit quaternion; calls come in order.
+  // Writes body i at a place, rotated by a unit quaternion; calls come in order of i.
   set(i, x, y, z, turns, scale) {
     const { corner, at } = this;
     const anchor = this.mesh.position;
@@ -93,7 +95,7 @@ export class Bodies {
 
   end() { this.send(this.geometry.attributes.position); }
 
-  // A colour each, `colourOf(i)`.
+  // Sets the colour of each body i to `colourOf(i)`.
   colours(colourOf) {
     let o = 0;
     this.shapes.forEach(([, faces], i) => {
@@ -116,7 +118,8 @@ export class Bodies {
   }
 }
 
-// Bodies are drawn at no less than some pixels, so that a vehicle is seen among kilometres.
+// Least drawn size of a body is some pixels, so that a vehicle is visible in a picture of
+// kilometres.
 export function leastScale(view) {
   const { position } = view.orbit.camera;
   const share = 5 / Math.max(200, view.rectangle.height);

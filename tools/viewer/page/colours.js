@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Colours stand in page.css alone, once for each theme: hues of Okabe and Ito, which the colour blind tell apart.
+// Colours are defined only in page.css, once for each theme: hues of Okabe and Ito, which
+// colour-blind people can distinguish.
 import { Color } from './libraries.js';
 
 export function cssColour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the page tells the server: one octet of kind, then little endian fields.
+// Messages from the page to the server: one octet of kind, then little-endian fields.
 
 const WRITE = {
   u8: [1, (view, at, x) => view.setUint8(at, x)],

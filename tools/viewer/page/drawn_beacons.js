@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Beacons: a mark in the middle of the cell that each is announced in, and a ring that goes out when it is heard.
+// Beacons: a mark in the centre of the announced cell of each, and a ring that expands when the
+// beacon is received.
 import { BufferGeometry, DoubleSide, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from './libraries.js';
 import { leastScale } from './bodies.js';
 import { colour } from './colours.js';
@@ -22,7 +23,7 @@ class Beacons {
     this.shape = new SphereGeometry(1, 4, 2).rotateX(Math.PI / 2).scale(0.8, 0.8, 1.3);
     this.ring = flatRing(0.94, 48);
     this.marks = new Pool(() => this.mark(group));
-    this.heard = new Map(); // name -> [heard as said, time of the picture when that came]
+    this.heard = new Map(); // name -> [reception as stated, time of the picture with it]
   }
 
   mark(group) {
@@ -44,7 +45,7 @@ class Beacons {
     for (const name of this.heard.keys()) if (!beacons.some((one) => one.name === name)) this.heard.delete(name);
   }
 
-  // Seconds since a picture showed that it was heard anew; none of a picture before that.
+  // Seconds since a picture first showed this reception; negative in earlier pictures.
   age({ name, heard }, now) {
     const known = this.heard.get(name);
     if (known?.[0] === heard) return now - known[1];
@@ -65,7 +66,7 @@ class Beacons {
     if (this.view.rectangle.width > 400) this.labels.put(this.view, x, y, z + 2.6 * size, foreign(name, 31), 'beacon', 8);
   }
 
-  // Where the lowest entity is.
+  // Height of the lowest entity.
   floor({ shown, count }) {
     let z = Infinity;
     for (let i = 0; i < count; ++i) if (shown[3 * i + 2] < z) z = shown[3 * i + 2];
@@ -73,7 +74,7 @@ class Beacons {
   }
 }
 
-// Round a point, flat, as wide as 1.
+// A flat ring around a point, with an outer radius of 1.
 function flatRing(inner, count) {
   const at = Array.from({ length: count }, (_, i) => {
     const [a, b] = [i, i + 1].map((k) => (2 * Math.PI * k) / count);

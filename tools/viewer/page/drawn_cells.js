@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cells of interest, and lit those that the followed entity hears. Without cells: a plain grid, for the eye.
+// Cells of interest. The cells that the followed entity receives are highlighted. Without cells: a
+// plain grid for orientation.
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial } from './libraries.js';
 import { colour } from './colours.js';
 import { NONE } from './picture.js';
@@ -52,15 +53,15 @@ class Cells {
     this.lit.geometry.setAttribute('position', points(faces));
   }
 
-  // A little below most: height of the lowest twentieth.
+  // Height slightly below the lowest twentieth of the entities.
   floor({ shown, count }) {
     const heights = Array.from({ length: count }, (_, i) => shown[3 * i + 2]).filter(Number.isFinite).sort((a, b) => a - b);
     return (heights[Math.floor(heights.length / 20)] ?? 0) - 0.002 * (this.view.extent?.radius ?? 1);
   }
 }
 
-// About the centre: a square of this side; a hexagon that is so far from centre to corner, with corners to the north and
-// south; of cells without one shape a mark.
+// Corners around the centre: a square with this side; a hexagon with this distance from centre to
+// corner, with corners to the north and south; a mark for cells without one shape.
 function cornersOf(shape, size) {
   const ring = (count, radius, first) => Array.from({ length: count }, (_, i) => {
     const angle = first + (2 * Math.PI * i) / count;

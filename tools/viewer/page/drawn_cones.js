@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Friction cones: a force inside of it holds, at its side the hand slides. Shown on demand.
+// Friction cones: the contact holds while the force is inside the cone, and the hand slides at its
+// side. Shown on demand.
 import { ConeGeometry, DoubleSide, Mesh, MeshBasicMaterial, Vector3 } from './libraries.js';
 import { Pool } from './arrow.js';
 import { colour } from './colours.js';
@@ -20,7 +21,7 @@ class Cones {
     const material = () => new MeshBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false, side: DoubleSide });
     this.holds = material();
     this.slides = material();
-    const shape = new ConeGeometry(1, 1, 40, 1, true).translate(0, -0.5, 0).rotateX(Math.PI); // its point at the contact
+    const shape = new ConeGeometry(1, 1, 40, 1, true).translate(0, -0.5, 0).rotateX(Math.PI); // apex at the contact
     this.cones = new Pool(() => {
       const cone = new Mesh(shape, this.holds);
       cone.hide = () => { cone.visible = false; };
@@ -54,7 +55,8 @@ class Cones {
   }
 }
 
-// Of the nearest solid, or of the hands where another one is nearer than two radii and a half.
+// Friction of the nearest solid, or of the hand if another hand is nearer than two and a half
+// radii.
 function frictionOf(moment, hand) {
   const away = (place) => Math.hypot(...place.map((x, k) => x - hand.surface[k]));
   const radius = moment.handRadius(hand.index);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Contacts between entities of the world, as a listener computes them: an arrow with its newtons.
+// Contacts between entities of the world, as a listener computes them: an arrow with the force in
+// newtons.
 import { MeshBasicMaterial } from './libraries.js';
 import { Arrow, Pool } from './arrow.js';
 import { colour } from './colours.js';

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities as they are shown: shape by kind, nose where they head, colour by side. What the followed one does not hear is faint.
+// Entities as shown: the shape depends on the kind, the nose points forward, the colour depends on
+// the side. Entities that the followed one does not receive are faint.
 import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
 import { Bodies, leastScale, shapeOf } from './bodies.js';
 import { colour, SIDE_COLOURS } from './colours.js';
@@ -34,7 +35,7 @@ class Entities {
       this.bodies.shape(this.rows.map((row) => shapeOf(row?.kind, row?.haptic)));
       this.tinted = '';
     }
-    // Entities go from cell to cell: once a second is often enough for what is faint.
+    // Entities change cells, so the set of faint entities is updated once a second.
     const tinted = `${moment.followed} ${moment.cellsNumber} ${moment.followed === NONE ? '' : Math.floor(moment.time)}`;
     if (tinted !== this.tinted) {
       this.tinted = tinted;

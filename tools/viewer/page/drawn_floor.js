@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A grid under what is touched, with the length of its squares: the eye needs a scale.
+// A grid below the touched objects, with the length of its squares as a scale.
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments } from './libraries.js';
 import { colour } from './colours.js';
 import { roundUp } from './words.js';
@@ -44,7 +44,7 @@ class Floor {
     const far = colour('sky');
     const at = [];
     const tint = [];
-    // Each line in pieces, so that it fades towards the edge.
+    // Each line consists of pieces, so that it fades towards the edge.
     const point = (x, y) => {
       at.push(x * step, y * step, 0);
       const share = Math.min(1, Math.hypot(x, y) / HALF) ** 1.5;

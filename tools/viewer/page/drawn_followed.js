@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The entity that the reader follows: its name, and a mark above it.
+// The followed entity: its name, and a mark above it.
 import { ConeGeometry, Mesh, MeshBasicMaterial } from './libraries.js';
 import { leastScale } from './bodies.js';
 import { colour } from './colours.js';

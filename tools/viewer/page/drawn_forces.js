@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force on each hand: an arrow at its contact point, with its newtons.
+// The force on each hand: an arrow at its contact point, with the force in newtons.
 import { MeshBasicMaterial } from './libraries.js';
 import { Arrow, Pool } from './arrow.js';
 import { colour } from './colours.js';
@@ -29,7 +29,7 @@ class Forces {
   update(moment) {
     this.arrows.begin();
     for (const { surface, force, newtons, index } of moment.hands.slice(0, 64)) {
-      this.put(surface, force, newtons, index % 2 ? '' : ' before'); // as its name: on the side where no other hand of a pair is
+      this.put(surface, force, newtons, index % 2 ? '' : ' before'); // same side as its name: away from the other hand of a pair
     }
     const own = new Set(moment.hands.map((hand) => hand.slot));
     for (const { felt, point, force, newtons } of moment.contacts.slice(0, 64)) {

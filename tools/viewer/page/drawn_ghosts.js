@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where each entity was predicted, beside where it is shown. The way between is drawn larger, so that it is seen at all.
+// The predicted position of each entity, next to the shown one. The distance is drawn enlarged, so
+// that it is visible.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, LineBasicMaterial, LineSegments, MeshBasicMaterial } from './libraries.js';
 import { Bodies, leastScale, shapeOf } from './bodies.js';
 import { colour } from './colours.js';
@@ -47,7 +48,7 @@ class Ghosts {
     this.write(moment, off);
   }
 
-  // Those whose error would be seen: a pixel and more; where software draws, the worst of them.
+  // Entities with a visible error: a pixel or more. With software rendering only the worst of them.
   off({ shown, predicted, count }) {
     const { position } = this.view.orbit.camera;
     const pixel = 0.65 / Math.max(200, this.view.rectangle.height);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who was heard of late in one near or contact group: an outline round them, in the colour of that group.
+// The members received recently in one near or contact group: an outline around them, in the colour
+// of that group.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshBasicMaterial, Vector3 } from './libraries.js';
 import { leastScale } from './bodies.js';
 import { colour } from './colours.js';
@@ -8,7 +9,7 @@ import { hull } from './hull.js';
 
 const MOST_GROUPS = 48;
 const MOST_MEMBERS = 200; // of a group
-const CORNERS = 12; // of the circle round one member
+const CORNERS = 12; // of the circle around one member
 const MARGIN = 7; // [pixels] between a body and the outline
 const MOST_PIECES = 4096; // pieces of outlines
 const WIDTHS = { near: 1.2, contact: 2.6 }; // [pixels]
@@ -37,7 +38,7 @@ class Groups {
     this.corner = new Vector3();
   }
 
-  // Neighbours in the scene's numbering differ in lightness.
+  // Neighbours in the scene's numbering have different lightness.
   paint() {
     const [own, sky] = [colour(this.tier), colour('sky')];
     this.shades = [0, 0.14, 0.28].map((share) => own.clone().lerp(sky, share));
@@ -57,7 +58,7 @@ class Groups {
     }
   }
 
-  // Circles round the members, in pixels of the picture; whoever is behind the camera is left out.
+  // Circles around the members, in pixels of the picture; members behind the camera are omitted.
   around(moment, slots) {
     const { width, height } = this.view.rectangle;
     const scale = leastScale(this.view);
@@ -91,7 +92,7 @@ class Groups {
     });
   }
 
-  // A point of the picture, just behind its front.
+  // A point of the picture, placed just behind the near plane.
   put(o, [x, y], shade) {
     const { width, height } = this.view.rectangle;
     this.corner.set((2 * x) / width, (2 * y) / height, 0).unproject(this.view.orbit.camera).sub(this.lines.position).toArray(this.at, o);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where others predict a hand: a translucent twin of the ball, at the place that its last update gives.
+// The position of a hand as predicted by others: a translucent copy of the ball, at the place given
+// by the last update.
 import { Mesh, MeshBasicMaterial, SphereGeometry } from './libraries.js';
 import { Pool } from './arrow.js';
 import { colour } from './colours.js';
@@ -32,7 +33,7 @@ class HandGhosts {
       const ball = this.balls.next();
       ball.visible = true;
       ball.position.fromArray(moment.predicted, 3 * i);
-      ball.scale.setScalar(0.995 * moment.handRadius(hand.index)); // shows where it stands out
+      ball.scale.setScalar(0.995 * moment.handRadius(hand.index)); // slightly smaller, so that only the part outside the ball shows
     }
     this.balls.end();
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hands: a ball of its radius where the device is, a dot where its contact point is held on the surface, its name and state.
+// Hands: a ball of the hand's radius at the device, a dot at the contact point on the surface, its
+// name and state.
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3 } from './libraries.js';
 import { Pool } from './arrow.js';
 import { colour, handColour } from './colours.js';
@@ -14,7 +15,7 @@ export const drawnHands = {
   make(group, view, labels) { return new Hands(group, view, labels); },
 };
 
-// State of a hand in words; empty where all is as it should be.
+// State of a hand in words; empty if the state is normal.
 export function handWords(flags) { return STATES.filter(([flag]) => flags & flag).map(([, word]) => word).join(', '); }
 
 class Hands {
@@ -36,7 +37,7 @@ class Hands {
     this.balls.end();
   }
 
-  // Beside the ball, on the side where no other hand of a pair is.
+  // Puts the name next to the ball, on the side away from the other hand of a pair.
   name(moment, hand, radius) {
     const [x, y, z] = hand.position;
     const side = hand.index % 2 ? 1 : -1;
@@ -49,7 +50,7 @@ class Hands {
     if (words) this.labels.put(this.view, x, y, z, words, `state ${kind}`, lift - 16, aside);
   }
 
-  // How high the name stands [pixels]: under the newtons of the force's arrow where these would stand on it.
+  // Height of the name [pixels]: below the newtons of the force arrow if these would overlap it.
   lift({ position, surface, force }, side, radius) {
     const { camera } = this.view.orbit;
     const { width, height } = this.view.rectangle;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn, in order. One more thing: its file, and its row here.
-//   { name, view: 'world' or 'touch', large: true where an inset is too small for it, says: words of the key, mark: shape and colour of the key,
+// The list of drawn things, in order. A new thing needs its file, and a row here:
+//   { name, view: 'world' or 'touch', large: true if an inset is too small for it,
+//     says: words of the key, mark: shape and colour of the key,
 //     make(group, view, labels) -> { paint(), update(moment) } }
 import { drawnCells } from './drawn_cells.js';
 import { drawnBeacons } from './drawn_beacons.js';

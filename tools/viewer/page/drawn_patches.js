@@ -58,7 +58,7 @@ class Patches {
   }
 }
 
-// Its triangles alone; of a solid that cannot be drawn none.
+// The triangles of only this patch; none for a solid that cannot be drawn.
 function shapeOfPatch(solid, patch) {
   const out = new BufferGeometry();
   const corners = solidShape({ ...solid, patches: undefined })?.index;

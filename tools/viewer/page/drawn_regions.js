@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Parts of space in which a hand feels a force and touches nothing: seen through, each with its name.
+// Regions in which a hand feels a force without touching anything: transparent, each with its name.
 import { Mesh, MeshBasicMaterial } from './libraries.js';
 import { colour } from './colours.js';
 import { solidReach, solidShape } from './solid_shapes.js';

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What does not yield or only a little: meshes, spheres, boxes and walls of the scene, and its bodies where they are.
+// Rigid and stiff objects: meshes, spheres, boxes and walls of the scene, and its bodies at their
+// positions.
 import { DoubleSide, Mesh, MeshLambertMaterial } from './libraries.js';
 import { colour } from './colours.js';
 import { solidReach, solidShape } from './solid_shapes.js';

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be felt and is no hand of this program: hands and bodies of others, as balls of their radius.
+// Entities that can be felt and are no hand of this program: hands and bodies of others, as balls
+// of their radius.
 import { Mesh, MeshLambertMaterial, SphereGeometry } from './libraries.js';
 import { Pool } from './arrow.js';
 import { colour, SIDE_COLOURS } from './colours.js';

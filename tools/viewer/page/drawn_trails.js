@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where each entity has been in the last 10 s. Pieces are written once, round and round; the shader fades them by age.
+// The path of each entity in the last 10 s. Pieces are written once, in a ring; the shader fades
+// them by age.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, ShaderMaterial } from './libraries.js';
 import { colour, SIDE_COLOURS } from './colours.js';
 import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
 const FINE = 20; // pieces of a trail
-const COARSE = 3; // of one among many
-const MOST_LINES = 40000; // about so many in all
-const MOST_LINES_BY_SOFTWARE = 3000; // they are what it is slow at: 6 us each
+const COARSE = 3; // of one entity among many
+const MOST_LINES = 40000; // limit in all, approximately
+const MOST_LINES_BY_SOFTWARE = 3000; // software rendering takes 6 us for each
 const MANY_TRAILS = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
@@ -43,12 +44,12 @@ class Trails {
 
   paint() { this.material.uniforms.teams.value = SIDE_COLOURS.map((name) => colour(name).convertLinearToSRGB()); }
 
-  // One piece more than is full: the last one follows the entity.
+  // One piece more than the trail needs: the last one follows the entity.
   room(count) {
     this.pieces = Math.min(FINE, Math.max(COARSE, Math.round((this.view.software ? MOST_LINES_BY_SOFTWARE : MOST_LINES) / Math.max(1, count))));
     const corners = 2 * count * (this.pieces + 1);
     this.places = new Float64Array(3 * corners);
-    this.at = new Float32Array(3 * corners); // the same from the anchor
+    this.at = new Float32Array(3 * corners); // the same, relative to the anchor
     this.anchored = -1;
     this.born = new Float32Array(corners).fill(-1e9);
     this.team = new Float32Array(corners);
@@ -66,7 +67,7 @@ class Trails {
     const { picture, time, shown } = moment;
     const count = Math.min(moment.count, MOST_TRAILS);
     const key = `${picture.epoch} ${count}`;
-    // Somebody went back in time, or slots mean others: the trails begin anew.
+    // Restarts the trails after a step back in time, or if slots belong to other entities.
     if (key !== this.key || time < this.last - 0.2 || time > this.last + 2) {
       this.key = key;
       this.room(count);
@@ -74,18 +75,18 @@ class Trails {
       this.old.set(shown.subarray(0, 3 * count));
       this.since = 0;
     }
-    const now = time - this.base; // small numbers: floats of the shader are short
+    const now = time - this.base; // small numbers, because floats of the shader have low precision
     if (now >= this.next) {
       this.piece = (this.piece + 1) % (this.pieces + 1);
       if (Number.isFinite(this.next)) this.old.set(shown.subarray(0, 3 * count));
       this.since = now;
       this.next = now + TRAIL_SECONDS / this.pieces;
     }
-    this.lines.visible = count <= MANY_TRAILS || this.view.rectangle.width > 400; // among many a small picture is full without
+    this.lines.visible = count <= MANY_TRAILS || this.view.rectangle.width > 400; // with many entities a small picture is too full for trails
     this.write(moment, count, now);
     this.last = time;
     this.material.uniforms.now.value = now;
-    this.material.uniforms.strength.value = moment.followed === NONE ? 0.5 : 0.2; // what is lit is to be seen
+    this.material.uniforms.strength.value = moment.followed === NONE ? 0.5 : 0.2; // keeps highlighted cells visible
   }
 
   write({ picture, shown }, count, now) {
@@ -113,7 +114,7 @@ class Trails {
     }
   }
 
-  // Corners from the anchor; all of them where it has moved.
+  // Writes corners relative to the anchor; all of them if the anchor has moved.
   stand(begin, number) {
     const { anchor } = this.view.orbit;
     this.lines.position.copy(anchor);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities with rate, cause of the last update, jump, cell and group. Rows change places every 2 s, and not under the pointer.
+// Entities with rate, cause of the last update, jump, cell and group. Rows are sorted every 2 s,
+// but not under the pointer.
 import { CAUSES, NONE } from './picture.js';
 import { digits, element, foreign } from './words.js';
 

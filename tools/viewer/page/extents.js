@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sphere that a camera should hold: of the world, and of what is touched.
+// The sphere that a camera should show: of the world, and of the touched objects.
 
-const FARTHEST = 1e9; // [m] that anybody stands from the origin
+const FARTHEST = 1e9; // [m] from the origin; more distant entities are ignored
 
-// All but the outermost fiftieth, so that one straggler does not make all others specks; at least a cell.
+// All entities except the outermost fiftieth, so that one distant entity does not reduce all others
+// to dots; at least a cell.
 export function worldExtent(moment) {
   if (!moment.count) return null;
   const columns = [0, 1, 2].map((k) => {
@@ -23,7 +24,7 @@ export function worldExtent(moment) {
   return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
 }
 
-// Solids that have an end, and hands; 10 times as large as a hand at least.
+// Solids of finite size, and hands; at least 10 times the size of a hand.
 export function touchExtent(moment) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

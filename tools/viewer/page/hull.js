@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The convex hull of points of a picture, round against the clock; of less than three points, these.
+// The convex hull of points of a picture, counter-clockwise; with less than three points, the
+// points themselves.
 export function hull(points) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   if (sorted.length < 3) return sorted;

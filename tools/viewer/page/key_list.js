@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keys, each with what it does: the list that `?` shows and the one that is obeyed.
+// Keys and their functions: `?` shows this list, and the page executes it.
 import { element } from './words.js';
 
-// `page` has the parts that main.js put together.
+// `page` has the parts that main.js assembles.
 export const KEYS = [
   ['Space', 'pause, play', (page) => page.timeLine.playOrPause(), ' '],
   ['← →', 'one update back, on', (page, event) => page.timeLine.step(event.key === 'ArrowLeft' ? -2 : 2), 'ArrowLeft', 'ArrowRight'],
@@ -29,7 +29,7 @@ export const KEYS = [
   ['?', 'this list', (page) => page.showKeys(), '?'],
 ];
 
-// What a slider or a list takes itself.
+// Keys that a slider or a list handles itself.
 const TAKEN = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp', 'PageDown'];
 
 export function listenForKeys(page) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Words that stand at a place of a picture, as elements over the canvas.
+// Text at a place of a picture, as elements over the canvas.
 import { Vector3 } from './libraries.js';
 import { element } from './words.js';
 
@@ -14,7 +14,7 @@ export class Labels {
 
   begin() { this.used = 0; }
 
-  // `lift` and `aside` [pixels]: how far above the place and beside it.
+  // `lift` and `aside` [pixels]: distance above the place and beside it.
   put(view, x, y, z, text, className, lift = 0, aside = 0) {
     const { camera } = view.orbit;
     const { rectangle } = view;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What was done, in one line; a press shows the last twenty.
+// The last action, in one line; a press shows the last twenty.
 import { element, foreign } from './words.js';
 
 const LINES = 20;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Puts the page together: a source of pictures, the stage, plots, table, time line, and what a reader can press.
+// Assembles the page: a source of pictures, the stage, plots, table, time line, and controls.
 import { EntityTable } from './entity_table.js';
 import { listenForKeys } from './key_list.js';
 import { LogLine } from './log_line.js';
@@ -20,7 +20,7 @@ import { TimeLine } from './time_line.js';
 import { bitRate, byId, digits, foreign } from './words.js';
 
 const VERSION = 2;
-const SLOW = 250; // [ms] between two looks at table and numbers
+const SLOW = 250; // [ms] between two updates of table and numbers
 const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine
 
 class Page {
@@ -47,7 +47,7 @@ class Page {
     this.open();
   }
 
-  // Whatever of an earlier connection would be wrong now.
+  // Discards the state of an earlier connection.
   forget() {
     this.older = null;
     this.newer = null;
@@ -136,7 +136,7 @@ class Page {
     if (this.moment.followed !== NONE) this.source.tell('follow', this.moment.followed);
   }
 
-  // A demo of hands opens with touch large; whoever has chosen keeps the choice.
+  // A demo of hands opens with the touch view large, unless the user has already chosen a view.
   choose() {
     if (this.chosen) return;
     this.chosen = true;
@@ -158,7 +158,8 @@ class Page {
     this.fresh = true;
   }
 
-  // The moment lies one picture behind, so that there is always one ahead to move to.
+  // The shown moment is one picture behind, so that there is always a next picture to interpolate
+  // to.
   tick(now) {
     requestAnimationFrame((next) => this.tick(next));
     const begin = performance.now();
@@ -325,7 +326,7 @@ class Page {
 
   savePicture() {
     this.stage.restless = true;
-    if (this.newer) this.stage.draw(this.moment, 0, true); // what is read in the same task is what was drawn
+    if (this.newer) this.stage.draw(this.moment, 0, true); // the canvas must be read in the task in which it was drawn
     this.stage.canvas.toBlob((blob) => {
       download('reckon.png', blob);
       this.log.say('Saved the picture as reckon.png.');
@@ -354,13 +355,13 @@ class Page {
     byId('inset').addEventListener('click', () => this.swap());
   }
 
-  // Of a hand in the large picture [pixels].
+  // Position of a hand in the large picture [pixels].
   placeOf(index) {
     const hand = this.moment.hands.find((one) => one.index === index);
     return hand ? this.stage.placeOf('touch', hand.position) : null;
   }
 
-  // What tests read.
+  // Values for tests.
   publish() {
     const { seen, moment } = this;
     window.reckon = {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world at the instant that is drawn: between the last two pictures, with the names and shapes that came as text.
+// The world at the drawn instant: interpolated between the last two pictures, with the names and
+// shapes from text messages.
 import { NONE } from './picture.js';
 
 export class Moment {
@@ -28,7 +29,7 @@ export class Moment {
     this.hello = {};
   }
 
-  // A share s of the way from picture a to picture b.
+  // Interpolates with share s from picture a to picture b.
   set(a, b, s) {
     const count = b.entities;
     if (this.shown.length < 3 * count) {
@@ -80,7 +81,7 @@ export class Moment {
     return row?.marking || row?.id || `slot ${slot}`;
   }
 
-  // Cells that a slot hears, as a set of their numbers.
+  // Numbers of the cells that a slot receives, as a set.
   heardBy(slot) {
     return new Set(this.cells.cells.filter((cell) => cell.heard_by.includes(slot)).map((cell) => cell.cell));
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Delay, jitter, loss and an outage of the demo's own impairment.
+// Controls for delay, jitter, loss and an outage of the demo's own impairment.
 
 const FIELDS = { delay: 'ms', jitter: 'ms', loss: '%' };
 
@@ -16,7 +16,7 @@ export class NetworkPanel {
     this.outage.addEventListener('click', () => this.toggleOutage());
   }
 
-  // What the program says that the network does.
+  // Shows the impairment that the program reports.
   show({ delay_ms: delay = 0, jitter_ms: jitter = 0, loss = 0, outage = false } = {}) {
     for (const [name, value] of Object.entries({ delay, jitter, loss: 100 * loss })) this.inputs[name].value = Number(value);
     this.out = outage === true;

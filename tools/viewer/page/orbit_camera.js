@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A camera that goes round a point, z up, and fits itself to a box. Its anchor is the place that corners are written from: a graphics
-// card has single precision, while places of meshes and cameras are multiplied in double precision before they go there.
+// A camera that rotates around a point, z up, and fits itself to a sphere. Corners are stored
+// relative to its anchor, because a graphics card has single precision. Places of meshes and
+// cameras are multiplied in double precision before they are sent to it.
 import { PerspectiveCamera, Vector3 } from './libraries.js';
 
 const FIELD = 36; // degrees, of the shorter side
-const REACH = 10; // of the anchor, in distances of the camera: what a corner is wrong by is a hundredth of a pixel
+const REACH = 10; // of the anchor, in distances of the camera: the error of a corner is then a hundredth of a pixel
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class OrbitCamera {
@@ -15,11 +16,11 @@ export class OrbitCamera {
     this.goal = { yaw, tilt, distance: 10, target: new Vector3() };
     this.now = { yaw, tilt, distance: 10, target: new Vector3() };
     this.anchor = new Vector3();
-    this.anchored = 0; // how often it has moved
+    this.anchored = 0; // number of its movements
     this.touched = false;
   }
 
-  // Holds a box from its least to its greatest corner.
+  // Fits the camera to a sphere.
   fit(centre, radius) {
     this.goal.target.fromArray(centre);
     this.goal.distance = (1.12 * radius) / Math.sin((FIELD / 2) * (Math.PI / 180));
@@ -52,7 +53,7 @@ export class OrbitCamera {
     this.touched = true;
   }
 
-  // Moves towards its goal; true while it is on its way.
+  // Moves towards its goal; true while it moves.
   advance(seconds, width, height) {
     const { now, goal, camera } = this;
     const share = calm.matches ? 1 : 1 - Math.exp(-seconds / 0.09);
@@ -69,7 +70,7 @@ export class OrbitCamera {
     camera.position.set(flat * Math.cos(now.yaw), flat * Math.sin(now.yaw), Math.sin(now.tilt) * now.distance).add(now.target);
     camera.lookAt(now.target);
     camera.aspect = width / height;
-    // The field is that of the shorter side.
+    // FIELD is the angle of the shorter side.
     const half = Math.tan((FIELD / 2) * (Math.PI / 180)) * Math.max(1, height / width);
     camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
     camera.near = now.distance / 100;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as the server sends them: little endian, fixed sizes, read where they lie without a copy.
+// Pictures from the server: little endian, fixed sizes, read in place without a copy.
 
 const MAGIC = 0x32564b52; // "RKV2"
 const HEAD = 32;
@@ -17,7 +17,7 @@ export const HAND_FLAGS = {
 export const CAUSES = ['', 'first', 'threshold', 'heartbeat', 'event'];
 export const NONE = 0xffff;
 
-// Throws where the length does not follow from the counts.
+// Throws if the length does not match the counts.
 export function decodePicture(buffer) {
   if (buffer.byteLength < HEAD) throw new Error('a picture of less than 32 octets');
   const view = new DataView(buffer);
@@ -40,7 +40,7 @@ class Picture {
     this.time = view.getFloat64(8, true);
     this.flags = view.getUint16(22, true);
     this.epoch = view.getUint32(24, true);
-    // Views of the buffer: each field of an entity lies on its own boundary.
+    // Views of the buffer: each field of an entity is aligned to its size.
     this.octets = new Uint8Array(buffer);
     this.words = new Uint16Array(buffer);
     this.shorts = new Int16Array(buffer);
@@ -56,7 +56,7 @@ class Picture {
     this.bodies = Array.from({ length: bodies }, (_, i) => this.body(view, firstBody + BODY * i));
   }
 
-  // Of the scene, in the order of their numbers; its turn is w x y z.
+  // Bodies of the scene, in the order of their numbers; the order of `turn` is w x y z.
   body(view, at) {
     return {
       position: [0, 4, 8].map((k) => number(view.getFloat32(at + k, true))),
@@ -64,7 +64,7 @@ class Picture {
     };
   }
 
-  // The tool of a hand whose device turns.
+  // The tool of a hand whose device has rotation.
   putTool(view, at) {
     const hand = this.hands.find(({ index }) => index === view.getUint16(at, true));
     if (!hand) return;

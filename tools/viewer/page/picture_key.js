@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The key of the picture: what each mark means; a press hides it or shows it.
+// The key of the picture: the meaning of each mark; a press hides or shows the thing.
 import { DRAWN } from './drawn_list.js';
 import { element } from './words.js';
 

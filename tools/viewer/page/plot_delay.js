@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// As the program's own peers receive each other, where it has some; else as the page's listener hears all.
+// Delay and loss between the program's own peers, if it has any; else at the page's listener.
 export const plotDelay = {
   name: 'delay', title: 'One-way delay and loss', unit: 'ms', good: 'Good: low and flat. Touch stays calm where it is not.',
   lines: [

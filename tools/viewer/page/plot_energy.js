@@ -11,6 +11,7 @@ export const plotEnergy = {
   ],
 };
 
-// What one twin puts in another gets out: of all of them it is never below zero where the coupling is passive.
+// Energy that one twin adds to another comes out there. The sum over all twins is never below zero
+// if the coupling is passive.
 function together(twins) { return twins?.reduce((sum, { energy }) => sum + energy, 0); }
 function millijoules(x) { return Number.isFinite(x) ? 1000 * x : null; }

@@ -14,12 +14,12 @@ export const plotError = {
   ],
 };
 
-// Mean and thresholds of all say nothing beside one entity.
+// While one entity is followed, mean and thresholds of all are not shown.
 function ofAll(name) { return ({ numbers }) => (numbers.error?.followed_m ? null : millimetres(numbers.error?.[name])); }
 function threshold(i) { return ({ numbers }) => (numbers.error?.followed_m ? null : millimetres(numbers.error?.thresholds_m?.[i])); }
 function millimetres(x) { return Number.isFinite(x) ? 1000 * x : null; }
 
-// How far its last update moved it; not known beyond 65 m.
+// Distance by which its last update moved it; unknown beyond 65 m.
 function jumpOf(picture, slot) {
   const i = picture.indexOf(slot);
   const jump = i < 0 ? null : picture.jump(i);

@@ -4,7 +4,7 @@ import { shownTwin } from './twins.js';
 
 export const plotForce = {
   name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt lies on true, and rests when the hand does.',
-  // Drawn in this order: what is felt lies over the twin's.
+  // Drawn in this order: the felt force is above the force of the twin.
   lines: [
     { says: 'without the gate', colour: 'twin', at: twinForce },
     { says: 'felt', colour: 'hand-0', at: ({ hands }) => hands[0]?.newtons },

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is plotted, in order. One more plot: its file, and its row here.
-//   { name, title, unit, good: one short line of what good looks like, log: true for a logarithmic scale,
-//     lines: [{ says, colour, dash: true, right: unit of a scale of its own, brief: true where it takes turns with others,
-//       at(moment): number or null }] }
+// The list of plots, in order. A new plot needs its file, and a row here:
+//   { name, title, unit, good: one short line that describes a good curve,
+//     log: true for a logarithmic scale,
+//     lines: [{ says, colour, dash: true, right: unit of a scale of its own,
+//       brief: true if it alternates with others, at(moment): number or null }] }
 import { plotForce } from './plot_force.js';
 import { plotEnergy } from './plot_energy.js';
 import { plotError } from './plot_error.js';

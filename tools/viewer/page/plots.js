@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The rows of plot_list.js beside the picture: a minute each, with the instant that is shown as a line.
+// The rows of plot_list.js next to the picture: a minute each, with a line at the shown instant.
 import { uPlot } from './libraries.js';
 import { cssColour } from './colours.js';
 import { PLOTS } from './plot_list.js';
@@ -36,7 +36,8 @@ export class Plots {
   clear() { this.samples.clear(); }
   paint() { for (const pane of this.panes) pane.make(); }
 
-  // One pane a call, so that no picture waits for all of them. `gap` [s]: rows further apart are not joined.
+  // Draws one pane in each call, so that pictures are not delayed. `gap` [s]: rows with a larger
+  // distance are not joined.
   draw(time, gap) {
     this.time = time;
     const last = this.samples.rows.at(-1)?.time ?? time;
@@ -54,12 +55,12 @@ class Pane {
     this.keys = element('span', 'lines');
     this.section = element('section', 'pane', '', element('h2', '', `${row.title} `, element('small', '', `[${row.unit}]`)),
       this.host, element('p', 'good', row.good, this.keys));
-    this.section.hidden = true; // until there is something to show
+    this.section.hidden = true; // hidden until there are values
     host.append(this.section);
     this.make();
   }
 
-  // Anew with the colours of the theme.
+  // Makes the plot again with the colours of the theme.
   make() {
     this.plot?.destroy();
     const axis = {
@@ -100,7 +101,7 @@ class Pane {
     this.tell();
   }
 
-  // The instant that is shown, where it is not the newest.
+  // Marks the shown instant, if it is not the newest.
   mark(plot) {
     if (!this.end || this.end - this.plots.time < 0.3) return;
     const x = plot.valToPos(this.plots.time, 'x', true);
@@ -115,7 +116,8 @@ class Pane {
     ctx.restore();
   }
 
-  // Values under the cursor, else those of the instant that is shown; lines without any are not spoken of, brief ones not where they have none.
+  // Shows the values under the cursor, else at the shown instant. Omits lines without any values,
+  // and brief lines without a value there.
   tell() {
     if (!this.data) return;
     const { idx } = this.plot.cursor;
@@ -144,7 +146,7 @@ function decadeSplits(plot, axis, low, high) {
   return Array.from({ length: Math.floor(count / step) + 1 }, (_, i) => 10 ** (from + i * step));
 }
 
-// Zero is always in the picture.
+// Zero is always within the range.
 function range(plot, low, high) {
   const top = Math.max(high ?? 0, 0);
   const bottom = Math.min(low ?? 0, 0);

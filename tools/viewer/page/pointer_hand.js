@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The mouse is a hand: it moves in the plane through the hand that faces the camera; wheel, shift, a second finger and keys move it in depth.
+// The mouse moves a hand in the plane that contains the hand and faces the camera. Wheel, shift, a
+// second finger and keys move it in depth.
 import { Vector3 } from './libraries.js';
 import { HAND_FLAGS } from './picture.js';
 import { byId } from './words.js';
@@ -50,14 +51,14 @@ export class PointerHand {
   hand(moment) { return moment.hands.find((hand) => hand.index === this.index); }
   get camera() { return this.stage.view('touch').orbit; }
 
-  // Metres that a pixel is, at the hand.
+  // Metres per pixel at the hand.
   get metresPerPixel() {
     const { camera } = this.camera;
     const depth = this.wanted.clone().sub(camera.position).length();
     return (2 * depth * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, this.stage.canvas.clientHeight);
   }
 
-  // How far a place is before the hand, towards the camera [pixels].
+  // Distance of a place in front of the hand, towards the camera [pixels].
   depthTo(place) {
     const forward = this.camera.camera.getWorldDirection(new Vector3());
     return -new Vector3().fromArray(place).sub(this.wanted).dot(forward) / this.metresPerPixel;
@@ -72,7 +73,7 @@ export class PointerHand {
     return true;
   }
 
-  // The pointer at a place of the large picture [pixels].
+  // Moves the hand to the pointer at a place of the large picture [pixels].
   move(moment, x, y) {
     if (this.index === null || this.stage.large !== 'touch' || !this.grip(moment)) return;
     const { camera } = this.camera;
@@ -83,7 +84,7 @@ export class PointerHand {
     this.wanted.copy(camera.position).addScaledVector(ray, along);
   }
 
-  // Towards the camera by some pixels.
+  // Moves the hand towards the camera by some pixels.
   deepen(moment, pixels) {
     if (this.index === null || !this.grip(moment)) return;
     const step = this.metresPerPixel * pixels;
@@ -104,12 +105,13 @@ export class PointerHand {
     this.tell('pointer', this.index, this.wanted.toArray(), false, false);
   }
 
-  // 60 times a second, however slowly pictures are drawn: a hand without samples lets go.
+  // Called 60 times a second, independent of the drawing rate, because a hand without samples is
+  // released.
   send() {
     if (this.index !== null && this.held) this.tell('pointer', this.index, this.wanted.toArray(), true, this.grabs);
   }
 
-  // Once a picture.
+  // Called once in each picture.
   advance(moment, seconds) {
     if (this.index === null) return;
     if (this.keys.size && this.grip(moment)) this.moveByKeys(seconds);

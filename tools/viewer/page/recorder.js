@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the last minute that this page has seen, for a saved file. Large pictures are thinned to a budget.
+// Keeps the last minute of messages to this page, for a saved file. If pictures are large, some are
+// omitted to keep a budget.
 
 const KEPT_SECONDS = 60;
-const BUDGET = 14e6; // octets of pictures; this and what text is kept as in saved_run
+const BUDGET = 14e6; // octets of pictures; this value and the kept types of text are the same as in saved_run
 const STATE = ['hello', 'roster', 'touch', 'cells', 'groups'];
 
 export class Recorder {
@@ -40,7 +41,7 @@ export class Recorder {
     }
   }
 
-  // The items of a saved file; text comes before the picture it belongs to.
+  // The items of a saved file; text comes before its picture.
   saved() {
     const first = this.items.find((item) => item[1] === 'picture')?.[0] ?? 0;
     const head = STATE.filter((type) => this.before.has(type)).map((type) => [0, 'text', this.before.get(type)]);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world as a saved file holds it: a list of [ms, "text" or "picture", payload], played without a server.
+// The world from a saved file: a list of [ms, "text" or "picture", payload], played without a
+// server.
 import { decodePicture } from './picture.js';
 
 export class Replay {
@@ -39,7 +40,7 @@ export class Replay {
     return low;
   }
 
-  // Says what is known at an instant: the last text of each type, and the picture.
+  // Delivers the state at an instant: the last text of each type, and the picture.
   go(seconds) {
     this.at = Math.min(Math.max(seconds, 0), this.length);
     const until = this.countUntil(this.at);
@@ -96,7 +97,7 @@ export class Replay {
     act?.();
   }
 
-  // One second, or with 2 one picture, back or on.
+  // Moves by one second, or with 2 by one picture, back or forward.
   step(value) {
     if (Math.abs(value) === 1) return this.go(this.at + value);
     const shown = this.pictures.filter((i) => i < this.countUntil(this.at)).length - 1;

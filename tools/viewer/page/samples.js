@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the plots are drawn from: rows by time, also where somebody goes back and forth in it. A gap stays a gap.
+// Data of the plots: rows by time, also if the user moves back and forth in time. A gap is kept as
+// a gap.
 
 const MOST_ROWS = 6000;
 
@@ -18,7 +19,7 @@ export class Samples {
     return low;
   }
 
-  // `after gap`: nothing is known of the time between this row and the one before.
+  // `afterGap`: there is no data between this row and the previous one.
   take(time, values, afterGap) {
     const { rows } = this;
     const at = this.indexOf(time);
@@ -30,8 +31,8 @@ export class Samples {
 
   clear() { this.rows = []; }
 
-  // Columns from one time to another: first the times, then `count` values; a row of nulls stands where rows lie
-  // further apart than `longest` seconds.
+  // Columns from one time to another: first the times, then `count` values. A row of nulls
+  // separates rows whose distance is larger than `longest` seconds.
   columns(from, to, count, longest) {
     const columns = Array.from({ length: count + 1 }, () => []);
     let last = null;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One file that holds the page and what it plays: the program gives the frame, this fills it.
-const PLACE = 'id="saved">'; // behind it belongs what is played, see page_frame.hpp
+// One file with the page and its recorded data: the program provides the frame, and this code fills
+// it.
+const PLACE = 'id="saved">'; // the recorded data follows it, see page_frame.hpp
 
 export function filledFrame(frame, items) {
   const data = JSON.stringify(items).replaceAll('<', '\\u003c');

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world as a server streams it. A lost connection is tried again by itself, at most every 4 s, and not while the tab is hidden:
-// there it draws nothing, and a server ends tabs that draw nothing.
+// The world as streamed by a server. After a lost connection it connects again by itself, at most
+// every 4 s, and not while the tab is hidden. A hidden tab draws nothing, and a server disconnects
+// such tabs.
 import { COMMANDS } from './commands.js';
 import { decodePicture } from './picture.js';
 
 const LONGEST_WAIT = 4000;
 
 export class Server {
-  // `hear` takes text(object), picture(picture), state(word, sentence) and bad(sentence).
+  // `hear` has functions text(object), picture(picture), state(word, sentence) and bad(sentence).
   constructor(word, hear) {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     this.url = `${scheme}://${location.host}/stream${word ? `?word=${encodeURIComponent(word)}` : ''}`;
@@ -16,7 +17,7 @@ export class Server {
     this.octets = 0;
     this.bad = 0;
     this.wait = 500;
-    this.bye = ''; // why the server ended the connection
+    this.bye = ''; // the reason for which the server ended the connection
     this.open();
   }
 
@@ -63,5 +64,5 @@ export class Server {
   advance() {}
 }
 
-// A picture that is refused is answered all the same, or no other would come.
+// A refused picture is acknowledged too, because otherwise the server would send no more.
 function numberOf(buffer) { return buffer.byteLength < 8 ? 0 : new DataView(buffer).getUint32(4, true); }

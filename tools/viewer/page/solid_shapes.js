@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of the scene's solids; what a message says is checked, for it comes from a stranger.
+// Shapes of the scene's solids. Messages are checked, because the sender is not trusted.
 import { BoxGeometry, BufferGeometry, Float32BufferAttribute, PlaneGeometry, SphereGeometry } from './libraries.js';
 
 const MOST_TRIANGLES = 200000;
@@ -16,7 +16,7 @@ export function solidShape(solid) {
   }
 }
 
-// Corners are shared where no patches tell triangles apart, so that light goes round smoothly.
+// Corners are shared if triangles have no different patches, for smooth shading.
 function meshShape(vertices, triangles, patches) {
   if (!Array.isArray(vertices) || !Array.isArray(triangles)) return null;
   const corners = vertices.length / 3;
@@ -34,7 +34,7 @@ function meshShape(vertices, triangles, patches) {
   return apart;
 }
 
-// How far a solid goes from its position.
+// Radius of a solid around its position.
 export function solidReach(solid, shape) {
   if (solid.shape === 'plane') return 0;
   shape.computeBoundingSphere();

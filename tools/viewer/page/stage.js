@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The large picture and the inset: two scenes on one canvas, each with the things of drawn_list.js that belong to it.
+// The large picture and the inset: two scenes on one canvas, each with its things of drawn_list.js.
 import { Color, DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from './libraries.js';
 import { cssColour } from './colours.js';
 import { DRAWN } from './drawn_list.js';
@@ -21,19 +21,19 @@ function drawnBySoftware() {
 class View {
   constructor(name, yaw, tilt, extent, software) {
     this.name = name;
-    this.software = software; // no graphics card draws
+    this.software = software; // rendering without a graphics card
     this.scene = new Scene();
     this.orbit = new OrbitCamera(yaw, tilt);
     this.extentOf = extent;
     this.extent = null;
     this.rectangle = { x: 0, y: 0, width: 1, height: 1 };
-    this.peak = 1; // [N], of late
+    this.peak = 1; // [N], recent maximum
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-3, -5, 8);
     this.scene.add(sun, new HemisphereLight(0xffffff, 0xc4cad1, 2.3));
   }
 
-  // What the camera should hold; where it holds many, they are gone through 4 times a second.
+  // The sphere that the camera should show; with many entities it is computed 4 times a second.
   measure(moment) {
     const { count, time } = moment;
     if (this.measured && count > MANY_MEASURED && count === this.measured.count && Math.abs(time - this.measured.time) < 0.25) return this.extent;
@@ -41,17 +41,17 @@ class View {
     return this.extentOf(moment);
   }
 
-  // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
+  // Length of an arrow for one newton [m]: the strongest recent force takes a third of the scene.
   get metresPerNewton() { return (0.3 * (this.extent?.radius ?? 1)) / this.scale; }
 
-  // Is what should be seen no longer what the camera was fitted to?
+  // Whether the sphere to show differs too much from the sphere to which the camera was fitted.
   outgrown() {
     const { radius, centre } = this.fitted;
     const drift = Math.hypot(...centre.map((x, k) => x - this.extent.centre[k]));
     return this.extent.radius > 1.5 * radius || this.extent.radius < radius / 2.5 || drift > 0.5 * radius;
   }
 
-  // How large a length is at a place.
+  // Size of a length at a place [pixels].
   pixels(length, place) {
     const { camera } = this.orbit;
     const depth = Math.hypot(...place.map((x, k) => x - camera.position.getComponent(k)));
@@ -72,7 +72,8 @@ export class Stage {
     this.inset = host.querySelector('#inset');
     const software = drawnBySoftware() && !fine;
     this.ratio = software ? 1 : Math.min(2, devicePixelRatio);
-    // Opaque: software GL lays a canvas that could be seen through over the page at the cost of 1,500 triangles.
+    // Opaque: with software GL, a transparent canvas over the page costs as much time as 1,500
+    // triangles.
     const context = this.canvas.getContext('webgl2', { alpha: false, stencil: false, antialias: !software });
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     this.renderer.autoClear = false;
@@ -123,7 +124,7 @@ export class Stage {
     this.restless = true;
   }
 
-  // Draws what has changed; false where nothing has.
+  // Draws if something has changed; false if nothing has.
   draw(moment, seconds, changed) {
     if (changed) this.take(moment, seconds);
     const { clientWidth: width, clientHeight: height } = this.canvas;
@@ -193,7 +194,7 @@ export class Stage {
     return [rectangle.x + ((x + 1) / 2) * rectangle.width, this.canvas.clientHeight - rectangle.y - ((y + 1) / 2) * rectangle.height];
   }
 
-  // The slot that is drawn nearest to a point of the large picture, within 14 pixels.
+  // The drawn slot nearest to a point of the large picture, within 14 pixels.
   pick(moment, x, y) {
     const { camera } = this.views.world.orbit;
     const { width, height } = this.views.world.rectangle;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Mouse and fingers on the large picture: turn, move, zoom, follow; or move the own hand.
+// Mouse and fingers on the large picture: turn, move, zoom, follow; or move the user's hand.
 
 const CLICK = 5; // [pixels]
 
@@ -18,7 +18,7 @@ export class Steering {
     canvas.addEventListener('pointercancel', (event) => this.up(event));
     canvas.addEventListener('pointerleave', (event) => {
       this.mouse = null;
-      if (this.handed && event.pointerType !== 'touch') page.hand.letGo(); // a finger that is lifted leaves, too
+      if (this.handed && event.pointerType !== 'touch') page.hand.letGo(); // this includes a lifted finger
     });
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
@@ -57,13 +57,14 @@ export class Steering {
     return undefined;
   }
 
-  // Fingers on a hand: the first moves it in the plane, the next, down or up, nearer or away. The camera stands meanwhile.
+  // Fingers on a hand: the first moves it in the plane; the next moves it away or nearer, by moving
+  // up or down. Meanwhile the camera does not move.
   lead(event, old) {
     if (event.pointerId === this.holder) this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
     else if (this.holder !== null) this.page.hand.deepen(this.page.moment, event.clientY - old[1]);
   }
 
-  // Two fingers on the picture: apart is nearer.
+  // Two fingers on the picture: spreading them zooms in.
   pinch(event, old) {
     const other = [...this.fingers].find(([id]) => id !== event.pointerId)[1];
     const before = Math.hypot(old[0] - other[0], old[1] - other[1]);

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Pause, back, on, speed, and the slider over the last minute or the whole capture. The source keeps the time; this asks for it.
+// Pause, back, forward, speed, and the slider over the last minute or the whole capture. The source
+// keeps the time; this code sends requests to it.
 import { byId, clock, element } from './words.js';
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 
 export class TimeLine {
-  // `tell(name, value)` asks the source; `say(text)` logs.
+  // `tell(name, value)` sends a request to the source; `say(text)` logs.
   constructor(tell, say) {
     this.tell = tell;
     this.say = say;
@@ -94,7 +95,8 @@ export class TimeLine {
     return back < 0.15 ? 'now' : `${back.toFixed(1)} s ago`;
   }
 
-  // Once a picture: one question for the slider's last place, however fast it is moved.
+  // Called once in each picture: sends one request for the slider's last place, regardless of its
+  // speed.
   advance(time) {
     if (this.wanted !== undefined) {
       this.tell('seek', this.wanted);

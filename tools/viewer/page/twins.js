@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hidden twin that plots show: that of your own hand, else the first.
+// The hidden twin that plots show: the twin of the user's hand, else the first.
 import { HAND_FLAGS } from './picture.js';
 
 export function shownTwin({ hands, numbers }) {

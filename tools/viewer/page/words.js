@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers and names as a reader wants them.
+// Formats numbers and names for the user.
 
 const WHOLE = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
 
@@ -31,13 +31,13 @@ export function clock(seconds) {
   return `${minutes}:${(seconds - 60 * minutes).toFixed(1).padStart(4, '0')}`;
 }
 
-// What a stranger sent, at a length that cannot push the page apart.
+// Text from another host, shortened so that it cannot break the layout of the page.
 export function foreign(text, most = 80) {
   const all = String(text ?? '');
   return all.length > most ? `${all.slice(0, most - 1)}…` : all;
 }
 
-// The next of 1, 2, 5, 10, .. that is not below x.
+// The next of 1, 2, 5, 10, .. that is at least x.
 export function roundUp(x) {
   const power = 10 ** Math.floor(Math.log10(Math.max(x, 1e-9)));
   return power * [1, 2, 5, 10].find((step) => step * power >= x * 0.999999);

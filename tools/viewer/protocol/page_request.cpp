@@ -9,7 +9,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Reads little endian; the caller has compared the length.
+/// Reads little endian; the caller has checked the length.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> octets) : octets_(octets) {}
@@ -101,7 +101,7 @@ std::optional<PageRequest> take_hand(Reader) noexcept { return TakeHandRequest{}
 std::optional<PageRequest> give_hand(Reader) noexcept { return GiveHandRequest{}; }
 std::optional<PageRequest> follow(Reader in) noexcept { return FollowRequest{in.u16()}; }
 
-/// THE list of requests: the octet that a message begins with, and its length.
+/// THE list of requests: the first octet of the message, and its length.
 struct Kind {
   std::uint8_t number;
   std::size_t length;

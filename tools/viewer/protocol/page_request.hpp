@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a page asks of the server, one short binary message each. Any octets will do.
+// Requests from a page to the server, one short binary message each. Accepts any octets.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@
 
 namespace reckon::tools {
 
-/// Picture `number` is drawn: there is room for another.
+/// Picture `number` is drawn: another one may be sent.
 struct DrawnRequest {
   std::uint32_t number = 0;
 };
-/// To another instant, and hold there.
+/// Shows another instant and pauses there.
 struct SeekRequest {
   double time = 0;  ///< [s], finite
 };
@@ -29,15 +29,15 @@ struct StepRequest {
   int seconds = 0;  ///< -1 or 1; 0: one update
   int updates = 0;  ///< -1 or 1
 };
-/// Where a hand is to go.
+/// Target position of a hand.
 struct PointerRequest {
   static constexpr float kFarthest = 1e4F;  ///< [m] from the origin, each way
   std::uint16_t hand = 0;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]
   bool held = false;
-  bool grabs = false;  ///< it holds what it touches
+  bool grabs = false;  ///< grabs the touched body
 };
-/// What the network does from now on.
+/// Network impairment from now on.
 struct NetworkRequest {
   static constexpr float kMostDelay = 300, kMostJitter = 300;  ///< [ms]
   float delay_ms = 0, jitter_ms = 0;
@@ -46,21 +46,21 @@ struct NetworkRequest {
 };
 struct TakeHandRequest {};
 struct GiveHandRequest {};
-/// Whose cells are lit.
+/// Selects the entity whose cells are lit.
 struct FollowRequest {
-  std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: nobody's
+  std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: none
 };
 
 using PageRequest =
     std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
                  NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest>;
 
-/// The request that a message holds; nothing where it is none, has another length, or a number in
-/// it is not finite or out of its range.
+/// The request in a message; none if it is no request, has another length, or a number in it is not
+/// finite or out of its range.
 [[nodiscard]] std::optional<PageRequest> read_page_request(
     std::span<const std::byte> message) noexcept;
 
-/// Whether it changes the exercise: then only who knows the word may say it.
+/// Whether it changes the exercise: such a request needs the access word.
 [[nodiscard]] bool changes_exercise(const PageRequest& request) noexcept;
 
 }  // namespace reckon::tools

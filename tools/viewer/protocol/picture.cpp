@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kNumberAt = 4;
 
-/// Writes little endian, whatever the host, into room that was made before.
+/// Writes little endian into preallocated memory.
 class Writer {
  public:
   explicit Writer(char* at) : at_(at) {}
@@ -35,7 +35,7 @@ class Writer {
   char* at_;
 };
 
-/// Rounded, and cut to 0 .. 65535; NaN counts as 0.
+/// Rounded, limited to 0 .. 65535; NaN becomes 0.
 std::uint16_t rounded_u16(double value) {
   if (!(value > 0)) return 0;
   return static_cast<std::uint16_t>(std::min(std::round(value), 65535.0));
@@ -46,7 +46,7 @@ std::uint16_t quaternion_part(double value) {
   return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(32767 * cut)));
 }
 
-// What the page distinguishes: a force that changed is an event, a repetition is due.
+// The page has fewer causes: a changed force counts as an event, a repetition as a heartbeat.
 std::uint8_t cause_number(UpdateCause cause) {
   switch (cause) {
     case UpdateCause::none:

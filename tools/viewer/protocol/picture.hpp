@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the world at one instant as the page gets it: plain rows, and their octets.
-// docs/viewer_protocol.md has the layout byte by byte.
+// A picture of the world at one instant for the page: plain rows, and their encoding.
+// docs/viewer_protocol.md defines the layout byte by byte.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,15 +20,15 @@ inline constexpr std::uint32_t kPictureMagic = 0x32564B52;  ///< "RKV2": the ver
 inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 56, kHandOctets = 72,
                              kContactOctets = 40, kToolOctets = 28 + 12 * 8, kBodyOctets = 20;
 inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
-/// Rows of a kind that a picture has at most; more are left out.
+/// Limit of rows of one kind in a picture; further ones are left out.
 inline constexpr std::size_t kMostPictureRows = 0xFFFE;
 
 /// Bits of PictureRows::flags.
 enum PictureFlag : std::uint16_t {
   kPictureLive = 1,
   kPicturePaused = 2,
-  kPictureEnd = 4,  ///< the end of a capture is reached
-  kPictureGap = 8   ///< the time before it was not shown
+  kPictureEnd = 4,  ///< the capture has ended
+  kPictureGap = 8   ///< there is a gap before this picture
 };
 
 /// Bits of HandMark::flags.
@@ -36,16 +36,16 @@ enum HandFlag : std::uint16_t {
   kHandInContact = 1,
   kHandSoftened = 2,     ///< springs, dampers or the sum are shown softer than asked
   kHandRateLimited = 4,  ///< the force grows slower than asked
-  kHandLetGo = 8,        ///< safety cut the force, or the device let go of it
+  kHandLetGo = 8,        ///< safety cut the force, or the device dropped it
   kHandPointer = 16,     ///< moved by a page
   kHandPointerFree = 32,
-  kHandYours = 64,       ///< by this page
+  kHandYours = 64,       ///< moved by this page
   kHandTrueForce = 128,  ///< true_force is known
   kHandTwin = 256,       ///< twin_force is known
   kHandStopped = 512     ///< the software stop holds its force at zero
 };
 
-/// An entity; east, north, up of the origin [m].
+/// An entity; positions are east, north, up of the origin [m].
 struct EntityMark {
   std::uint16_t slot = kNoNumber;  ///< in the roster
   std::uint8_t side = 0;           ///< DIS force ID
@@ -59,16 +59,16 @@ struct EntityMark {
   double jump = 0;                                                  ///< of the last update [m]
 };
 
-/// A hand of this program's own.
+/// A hand of this program.
 struct HandMark {
   std::uint16_t index = 0;
   std::uint16_t flags = 0;
-  std::uint16_t slot = kNoNumber;  ///< of its entity
+  std::uint16_t slot = kNoNumber;  ///< of the hand's entity
   std::uint16_t patch = 0;  ///< below its contact point, see DrawnSolid::first_patch; 0: none
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of the handle
   Eigen::Vector3f contact_point = Eigen::Vector3f::Zero();
   Eigen::Vector3f force = Eigen::Vector3f::Zero();   ///< [N], on the hand
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit; zero where the scene is not touched
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit; zero if the scene is not touched
   float true_force = 0;                              ///< [N]
   float energy = 0;                                  ///< [J], at the port
   float loan = 0;                                    ///< [J]
@@ -79,14 +79,14 @@ struct HandMark {
 struct ToolMark {
   static constexpr std::size_t kMost = 8;
 
-  std::uint16_t hand = 0;   ///< index of it
+  std::uint16_t hand = 0;   ///< index of the hand
   std::uint16_t count = 0;  ///< probes, <= kMost
   Eigen::Vector3f handle = Eigen::Vector3f::Zero();
   Eigen::Vector3f torque = Eigen::Vector3f::Zero();  ///< [N m], about the handle, on the hand
-  std::array<Eigen::Vector3f, kMost> probes{};       ///< where they are; the rest is zero
+  std::array<Eigen::Vector3f, kMost> probes{};       ///< positions; the rest is zero
 };
 
-/// A body of the scene; they are in the order of their numbers.
+/// A body of the scene; bodies are in the order of their numbers.
 struct BodyMark {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -94,15 +94,16 @@ struct BodyMark {
 
 /// A contact between two entities, as a listener computes it.
 struct ContactMark {
-  std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots: whose model, and who is pushed
+  std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots of the owner of the model, and of
+                                                        ///< the pushed entity
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3f force = Eigen::Vector3f::Zero();  ///< [N], on who feels
+  Eigen::Vector3f force = Eigen::Vector3f::Zero();  ///< [N], on `feeling`
 };
 
 struct PictureRows {
   double time = 0;  ///< [s] since the start of the source
   std::uint16_t flags = 0;
-  std::uint32_t epoch = 0;  ///< of the roster that the slots are of
+  std::uint32_t epoch = 0;  ///< of the roster that defines the slots
   std::vector<EntityMark> entities;
   std::vector<HandMark> hands;
   std::vector<ContactMark> contacts;
@@ -110,11 +111,11 @@ struct PictureRows {
   std::vector<BodyMark> bodies;
 };
 
-/// The octets, in the place of what `out` held.
+/// Writes the octets to `out`, replacing its content.
 void encode_picture(const PictureRows& rows, std::string& out);
-/// Sets the number in the head of such octets.
+/// Sets the number in the head of an encoded picture.
 void number_picture(std::string& octets, std::uint32_t number);
-/// Sets kHandYours for the hand of this index, in such octets of `rows`.
+/// Sets kHandYours for the hand of this index, in an encoded picture of `rows`.
 void mark_own_hand(const PictureRows& rows, std::uint16_t index, std::string& octets);
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Near and contact groups of a scene, and its beacons, as a page draws them.
+// Near and contact groups of a scene, and its beacons, as drawn by a page.
 #pragma once
 
 #include <chrono>
@@ -20,15 +20,15 @@ namespace reckon::tools {
 /// One thread; immutable.
 class DrawnGroups {
  public:
-  /// @throws std::invalid_argument where the scene's cells cannot be made
+  /// @throws std::invalid_argument if the scene's cells are invalid
   explicit DrawnGroups(const peer::SceneFile& scene);
 
-  /// Whether a scene has any of it: else there is nothing to tell.
+  /// Whether a scene has any of these; without them there is no message.
   [[nodiscard]] static bool has_any(const peer::SceneFile& scene) noexcept;
 
-  /// The message, as of `time`. A beacon is in the cell of an entity of its owner, for where
-  /// groups are handed out a cell goes by a number that others far away have as well.
-  /// @param marks entities then  @param start of the source
+  /// The message, as of `time`. A beacon is drawn in the cell of one of its owner's entities: where
+  /// groups are assigned by number, distant cells may share the number.
+  /// @param marks entities at that time  @param start of the source
   [[nodiscard]] std::string message(const ReceivedGroups& received, const Roster& roster,
                                     std::span<const EntityMark> marks,
                                     std::chrono::nanoseconds time,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thresholds of position at which a scene's entities send an update. They are not on the wire:
-// a scene says them.
+// The position thresholds at which a scene's entities send an update. They are in the scene, not on
+// the wire.
 #pragma once
 
 #include <map>
@@ -21,9 +21,10 @@ class ShownThresholds {
 
   explicit ShownThresholds(const peer::SceneFile& scene);
 
-  /// Those that differ [m], ascending; of more than kMost the least, the middle and the greatest.
+  /// The different thresholds [m], ascending; of more than kMost the least, the middle and the
+  /// greatest.
   [[nodiscard]] const std::vector<double>& told() const noexcept { return told_; }
-  /// Of an entity by its marking [m]; none where the scene does not say which it is.
+  /// Threshold of an entity by its marking [m]; none if the scene does not identify it.
   [[nodiscard]] std::optional<double> of(std::string_view marking, bool is_haptic) const;
 
  private:

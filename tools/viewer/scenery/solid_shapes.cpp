@@ -73,7 +73,7 @@ void draw_box(const Eigen::Vector3d& size, DrawnSolid& out) {
   out.size = size;
 }
 
-/// Corners that triangles share are one.
+/// Vertices that triangles share are stored once.
 void draw_mesh(const haptics::SurfaceMesh& mesh, DrawnSolid& out) {
   struct Less {
     bool operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -104,8 +104,8 @@ void draw_patches(const haptics::SceneObject& object, const haptics::SurfaceMesh
 /// Draws the shape of one solid.
 struct Drawing {
   DrawnSolid& out;
-  std::size_t most;                              // triangles
-  const haptics::SceneObject* object = nullptr;  // of a mesh, that has its patches
+  std::size_t most;                              // limit of triangles
+  const haptics::SceneObject* object = nullptr;  // set for a mesh, whose patches are drawn
 
   void operator()(const haptics::PlaneShape& plane) const {
     out.shape = "plane";
@@ -134,14 +134,14 @@ struct Drawing {
                 Eigen::Vector3d::Constant(shape.scale_to));
   }
   void operator()(const haptics::HeightsShape& shape) const {
-    // Two triangles a pixel and three for each along the border: not five, however long it is.
+    // Two triangles per pixel, and three more per border pixel: at most five per pixel.
     draw_loaded([&] { return haptics::SurfaceMesh::load_heights(shape, most / 5); },
                 {shape.width, shape.length, shape.height});
   }
   void operator()(const haptics::CsgShape&) const {}
 
  private:
-  /// Its triangles; a box if there are too many, or if it cannot be read.
+  /// Draws its triangles; a box if there are too many, or if it cannot be read.
   template <class Load>
   void draw_loaded(Load load, const Eigen::Vector3d& unread) const {
     try {
@@ -153,7 +153,7 @@ struct Drawing {
       draw_box(mesh.bounds().sizes(), out);
       out.pose.position += out.pose.orientation * (mesh.origin() + mesh.bounds().center());
     } catch (const std::exception&) {
-      // Who runs the scene has said so already.
+      // The program that runs the scene has reported the error already.
       draw_box(unread, out);
     }
   }

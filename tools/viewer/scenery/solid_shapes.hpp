@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The solids of a scene as a page draws them: planes, balls and boxes by their measures, everything
-// else as triangles.
+// The solids of a scene for a page: planes, spheres and boxes by their dimensions, all others as
+// triangles.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,35 +17,36 @@
 
 namespace reckon::tools {
 
-/// One solid; the page knows the names of the shapes: "plane", "sphere", "box", "mesh".
+/// One solid. Shape names that the page knows: "plane", "sphere", "box", "mesh".
 struct DrawnSolid {
   std::string name;
   std::string_view shape;
-  haptics::ObjectPose pose;                        ///< a plane's free side is its +z
+  haptics::ObjectPose pose;                        ///< +z of a plane is its free side
   double radius = 0;                               ///< [m] of a sphere
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m] of a box
   std::vector<Eigen::Vector3d> vertices;           ///< [m] of a mesh, object axes
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint16_t> patches;    ///< of each triangle, 0: in none; empty: it has none
+  std::vector<std::uint16_t> patches;    ///< of each triangle, 0: none; empty: no patches
   std::vector<std::string> patch_names;  ///< from patch 1 on
-  /// Number of its patch 0 among those of all solids, >= 1; 0 where it has none.
+  /// Number of its patch 0 in the numbering over all solids, >= 1; 0 if it has none.
   std::uint16_t first_patch = 0;
-  std::optional<std::uint16_t> body;  ///< of one that moves: its number among those that do
+  std::optional<std::uint16_t> body;  ///< of a moving solid: its number among the bodies
   double stiffness = 0;               ///< [N/m]
   double friction = 0;                ///< static coefficient; 0: smooth
 };
 
-/// All of a scene, in its order. Of a solid made of parts those that are added; one whose mesh
-/// cannot be read, or has more than `most` triangles, is its bounding box. Reads mesh files.
+/// All solids of a scene, in its order. Of a CSG solid the added parts are drawn; a solid whose
+/// mesh cannot be read, or has more than `most` triangles, is drawn as its bounding box. Reads mesh
+/// files.
 [[nodiscard]] std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene,
                                                    std::size_t most = 200'000);
 
-/// The regions of a scene that have a shape, in its order, without what is felt there.
+/// The regions of a scene that have a shape, in its order, without their effects.
 [[nodiscard]] std::vector<DrawnSolid> drawn_regions(const haptics::Scene& scene);
 
-/// The number, among those of all solids, of patch `patch` of a mesh that is touched at `point`
-/// [m, S]; 0 where there is none. Where several meshes have a patch of this number, of that which
-/// is nearest: some ns for each corner of them.
+/// The number, over all solids, of patch `patch` of a mesh that is touched at `point` [m, S]; 0
+/// if there is none. If several meshes have a patch of this number, the nearest mesh counts; the
+/// search costs some ns for each of their corners.
 [[nodiscard]] std::uint16_t touched_patch(std::span<const DrawnSolid> solids, std::uint32_t patch,
                                           const Eigen::Vector3d& point);
 

@@ -48,7 +48,7 @@ void SubscribedCells::place(std::span<EntityMark> marks) {
 std::vector<std::uint16_t> SubscribedCells::cells_subscribed(const EntityMark& mark) {
   std::vector<std::uint16_t> subscribed;
   cells_.visit([&](const auto& scheme) {
-    // Of a scene with cells far smaller than the radius the count would say nothing.
+    // With cells far smaller than the radius, the count would have no meaning.
     if (scheme.cells_bound(radius_) > kMostSent) return;
     scheme.for_each_cell_within(place_of(mark), radius_, [&](aoim::CellId cell, double) {
       subscribed.push_back(number_of(cell));
@@ -65,7 +65,7 @@ bool SubscribedCells::is_subscribed(const EntityMark& mark, std::uint16_t cell) 
 }
 
 std::string SubscribedCells::message(std::span<const EntityMark> marks, std::uint16_t follow) {
-  std::map<std::uint16_t, std::vector<std::uint16_t>> subscribers;  // of each cell, by slot
+  std::map<std::uint16_t, std::vector<std::uint16_t>> subscribers;  // slots by cell
   const auto has_room = [&](std::uint16_t cell) {
     return cell != kNoNumber && (subscribers.size() < kMostSent || subscribers.contains(cell));
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a scene, numbered as they come, and who subscribes to which: those within the
-// scene's radius, whose groups every peer joins.
+// Numbers the cells of a scene in the order of their use, and finds their subscribers: a peer
+// subscribes to the cells within the scene's radius.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 
 namespace reckon::tools {
 
-/// One thread. Numbers at most kMostCells cells; others have none.
+/// One thread. Numbers at most kMostCells cells; further ones have no number.
 class SubscribedCells {
  public:
   static constexpr std::size_t kMostCells = 4096;
-  /// Cells that one message has at most.
+  /// Limit of cells in one message.
   static constexpr std::size_t kMostSent = 512;
 
-  /// @throws std::invalid_argument where the scene's cells cannot be made
+  /// @throws std::invalid_argument if the scene's cells are invalid
   explicit SubscribedCells(const peer::AoimConfig& config);
 
   /// Sets the cell of each mark. Some 50 ns each.
   void place(std::span<EntityMark> marks);
-  /// The message: the cells that somebody is in, those that `follow` subscribes to, and who
-  /// subscribes to the one that it is in.
+  /// The message: the occupied cells, the cells that `follow` subscribes to, and the subscribers of
+  /// its own cell.
   [[nodiscard]] std::string message(std::span<const EntityMark> marks, std::uint16_t follow);
 
  private:

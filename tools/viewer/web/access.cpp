@@ -11,7 +11,7 @@
 namespace reckon::tools {
 namespace {
 
-// Which browsers leave out.
+// Default ports, which browsers omit.
 constexpr std::uint16_t kHttpPort = 80, kHttpsPort = 443;
 
 }  // namespace

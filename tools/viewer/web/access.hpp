@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who may look at the viewer's pictures, and who may push: by the addresses that are the server's
-// own, and by a word that only this start of it knows.
+// Access control of the viewer: by the server's own addresses to view, and by a random word of this
+// start to change the exercise.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace reckon::tools {
 
-/// Judges what a request says of itself. Hosts are compared as whole strings: a page of another
-/// site whose name resolves to this host says its own name, and gets nothing.
+/// Checks the fields of a request. Hosts are compared as whole strings: a page of another site
+/// whose name resolves to this host sends its own name, and is refused.
 class Access {
  public:
-  /// @param addresses by which the server is reached, as a browser writes them: "127.0.0.1",
-  /// "localhost", "[::1]"  @param is_secure served by https
+  /// @param addresses of the server, as a browser writes them: "127.0.0.1", "localhost", "[::1]"
+  /// @param is_secure served by https
   Access(const std::vector<std::string>& addresses, std::uint16_t port, std::string word,
          bool is_secure = false);
 
-  /// Whether a request that says this Host is meant for us.
+  /// Whether this Host field names this server.
   [[nodiscard]] bool is_own_host(std::string_view host) const noexcept;
-  /// Whether a page of this Origin is one of ours, reached as `host`, which is one of ours.
+  /// Whether a page of this Origin is served by us at `host`, which is one of our addresses.
   [[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host) const noexcept;
-  /// Whether this is the word; takes as long for a wrong one.
+  /// Whether this is the word; takes constant time.
   [[nodiscard]] bool is_word(std::string_view word) const noexcept;
 
   [[nodiscard]] const std::string& word() const noexcept { return word_; }
@@ -37,7 +37,7 @@ class Access {
   std::string word_;
 };
 
-/// A new word: 32 hexadecimal digits, drawn at random.
+/// A new word: 32 random hexadecimal digits.
 [[nodiscard]] std::string draw_word();
 
 }  // namespace reckon::tools

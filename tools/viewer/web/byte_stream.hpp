@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The connection of a browser, plain or in TLS, as the viewer's server reads and writes it.
+// The connection to a browser, plain or TLS.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace reckon::tools {
 
-/// One read and one write may be under way at a time. Whoever waits for one keeps the stream alive.
+/// At most one read and one write may be pending. The callbacks must keep the stream alive.
 class ByteStream {
  public:
   using Done = std::function<void(std::error_code, std::size_t)>;
@@ -25,19 +25,19 @@ class ByteStream {
   /// @param tls outlives it; null: plain
   ByteStream(asio::ip::tcp::socket socket, asio::ssl::context* tls);
 
-  /// The handshake of TLS; a plain stream is open at once.
+  /// TLS handshake; a plain stream is open at once.
   void open(std::function<void(std::error_code)> done);
   void read(asio::mutable_buffer room, Done done);
-  /// All of it. The octets stay where they are until then.
+  /// Writes all octets. They must remain valid until then.
   void write(const Parts& parts, Done done);
-  /// What goes out without waiting.
+  /// Writes as much as possible without waiting.
   void write_now(const Parts& parts);
-  /// Says that no more comes, then calls.
+  /// Shuts down the sending side, then calls `done`.
   void end(std::function<void()> done);
   void close();
 
   [[nodiscard]] bool is_open() const { return socket().is_open(); }
-  /// Address of the other side; empty where it has gone.
+  /// Address of the client; empty if it has closed.
   [[nodiscard]] const std::string& from() const noexcept { return from_; }
 
  private:
@@ -46,7 +46,7 @@ class ByteStream {
   [[nodiscard]] asio::ip::tcp::socket& socket();
 
   asio::ip::tcp::socket plain_;
-  std::unique_ptr<Secure> secure_;  // in its place
+  std::unique_ptr<Secure> secure_;  // with TLS, instead of plain_
   std::string from_;
 };
 

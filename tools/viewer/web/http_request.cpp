@@ -31,7 +31,7 @@ bool is_graphic(std::string_view text) noexcept {
                      [](char letter) { return letter > ' ' && letter < '\x7F'; });
 }
 
-/// Takes what stands before `end` off the front, and `end` too.
+/// Removes the text before `end` from the front, and `end` too. @return that text
 std::string_view cut_front(std::string_view& text, std::string_view end) noexcept {
   const std::size_t at = std::min(text.find(end), text.size());
   const std::string_view front = text.substr(0, at);
@@ -58,7 +58,7 @@ constexpr std::array<NamedField, 6> kFields{{{"host", &HttpRequest::host},
                                              {"sec-websocket-key", &HttpRequest::key},
                                              {"sec-websocket-version", &HttpRequest::version}}};
 
-/// False for a line that is no field, and for one of ours that came before.
+/// @return false for a line that is no field, and for a repeated field that we use
 bool read_field(std::string_view line, HttpRequest& out, std::array<bool, 6>& seen) noexcept {
   const std::size_t colon = line.find(':');
   if (colon == 0 || colon == std::string_view::npos || !is_graphic(line.substr(0, colon)))

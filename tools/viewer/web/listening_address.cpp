@@ -16,7 +16,7 @@ using asio::ip::tcp;
 
 constexpr int kPortsTried = 32;
 
-// As a browser writes it.
+// In the notation of browsers.
 std::string address_text(const asio::ip::address& address) {
   return address.is_v6() ? fmt::format("[{}]", address.to_string()) : address.to_string();
 }

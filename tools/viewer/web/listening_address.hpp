@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a server of pages or metrics listens, and by which addresses a browser reaches it.
+// Listening address of a server of pages or metrics, and the host names for browsers.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -14,16 +14,16 @@
 
 namespace reckon::tools {
 
-/// Host names and addresses that lead to a server.
+/// Host names and addresses of a server.
 struct ServerNames {
   std::vector<std::string> all;
-  std::string own;  ///< from this host
+  std::string own;  ///< for this host
 };
-/// @param bound where it listens  @param certified names of its certificate, which come first
+/// @param bound listening address  @param certified names of its certificate, which come first
 [[nodiscard]] ServerNames server_names(const asio::ip::address& bound,
                                        const std::vector<std::string>& certified);
 
-/// What a server hands out, and by which flags it goes elsewhere.
+/// What a server serves, and the flags that change its address; for error messages.
 struct ServerPurpose {
   std::string_view what, flags;
 };

@@ -24,14 +24,14 @@
 namespace reckon::tools {
 namespace {
 
-/// Of TLS 1.2: forward secret, authenticated.
+/// TLS 1.2 ciphers: forward secret and authenticated.
 constexpr const char* kCiphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
 [[noreturn]] void fail(const std::string& file, std::string_view sentence) {
   throw std::runtime_error(fmt::format("--tls: {}: {}", file, sentence));
 }
 
-/// The last fault in OpenSSL's words.
+/// The last error as OpenSSL describes it.
 std::string fault() {
   const char* const reason = ERR_reason_error_string(ERR_peek_last_error());
   ERR_clear_error();
@@ -65,7 +65,7 @@ void use_key(SSL_CTX* tls, const TlsFiles& files) {
   } catch (const peer::KeyFileError& error) {
     throw std::runtime_error(fmt::format("--tls: {}", error.what()));
   }
-  // Nobody is there to type a pass phrase.
+  // No pass phrase can be typed.
   const auto no_phrase = [](char*, int, int, void*) { return -1; };
   const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(
       PEM_read_bio_PrivateKey(file.get(), nullptr, no_phrase, nullptr), EVP_PKEY_free);

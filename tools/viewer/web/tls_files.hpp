@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The files by which a page is served over TLS.
+// Certificate and key of a page served over TLS.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace reckon::tools {
 
 /// Both in PEM, or both empty: no TLS.
 struct TlsFiles {
-  std::string certificate;  ///< with those that vouch for it behind it
-  std::string key;          ///< without a pass phrase, of a file that its owner alone may read
+  std::string certificate;  ///< followed by its intermediate certificates
+  std::string key;          ///< without a pass phrase, in a file that only its owner may read
 };
 
 /// Reads both as a server would. @throws std::runtime_error with the file, the fault and the
-/// remedy: unreadable, no PEM, of different keys, out of date, a key that others may read
+/// remedy: unreadable, no PEM, key does not match, out of date, key readable by others
 void check_tls(const TlsFiles& files);
 
 }  // namespace reckon::tools

@@ -44,7 +44,7 @@ void add_block(Sha1State& state, std::span<const std::uint8_t> block) {
   state = {state[0] + a, state[1] + b, state[2] + c, state[3] + d, state[4] + e};
 }
 
-// The handshake asks for it; nothing is kept secret by it.
+// Required by the handshake; it protects no secret.
 Digest sha1(std::string_view text) {
   std::vector<std::uint8_t> padded(text.begin(), text.end());
   padded.push_back(0x80);
@@ -104,7 +104,7 @@ FrameVerdict read_client_frame(std::span<const std::byte> octets, ClientFrame& o
   const std::byte opcode = octets[0] & std::byte{0x0F};
   const auto size = std::to_integer<std::size_t>(octets[1] & std::byte{0x7F});
   const bool is_masked = (octets[1] & std::byte{0x80}) != std::byte{0};
-  // The reserved bits too: no extension was agreed on.
+  // Reserved bits must be zero: no extension was negotiated.
   const bool is_whole = (octets[0] & std::byte{0xF0}) == kWhole;
   if (!is_masked || !is_whole || size > kLongestClientFrame) return FrameVerdict::bad;
   if (opcode == std::byte{static_cast<std::uint8_t>(WebSocketOpcode::close)})
