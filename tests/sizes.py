@@ -31,7 +31,7 @@ TOTAL = {
     "src": 44000,
     "tools": 40000,
     "python": 2500,
-    "bench": 38500,
+    "bench": 36500,
     "tests": 133000,
 }
 # Class -> lines of function bodies, data members.
@@ -40,8 +40,7 @@ LARGE = {
     "aoim/AreaOfInterestManager": (317, 24),
     "aoim/LeaderRole": (367, 26),
     "aoim/Presence": (360, 18),
-    "bench/ScaleWords": (0, 29),
-    "bench/World": (309, 24),
+    "bench/ScaleWords": (0, 27),
     "haptics/BodyEngine": (354, 25),
     "haptics/BodySolver": (329, 14),
     "haptics/BoundingVolumeTree": (319, 6),

@@ -29,7 +29,9 @@ class ScaleStudy final : public Study {
     std::string movements;
     for (const Gait& gait : kGaits) movements += fmt::format("{}, ", gait.name);
     return {
-        {"--peers", &words_.peers, "scale: numbers of peers, as in 16,64,256 (8,16,32,64)"},
+        {"--peers", &words_.peers,
+         "scale: numbers of peers, as in 16,64,256 (8,16,32,64); more than 256 are fitted to three "
+         "smaller exercises or more"},
         {"--entities", &words_.entities,
          "scale: numbers of entities, all together (100 for each peer)"},
         {"--movement", &words_.movement,
@@ -47,14 +49,9 @@ class ScaleStudy final : public Study {
         {"--radius", &words_.radius, "scale: how far an entity senses (200 m)"},
         {"--rate", &words_.rate, "scale: ticks a second (30)"},
         {"--threshold", &words_.threshold, "scale: error at which an owner sends (1 m)"},
-        {"--measure", &words_.measure,
-         "scale: one whole peer among the others too, its CPU, and costs fitted to it"},
         {"--whole", &words_.whole,
-         "scale: all peers whole too, beside the model: simulated, or as processes on lo, on a lan "
-         "of network namespaces (root), or on several hosts"},
-        {"--drawn", &words_.drawn,
-         "scale: so many exercises drawn by --seed instead: whole simulated peers beside the "
-         "model, and status 1 where they differ by more than their bars"},
+         "scale: peers as processes too, beside the simulated ones: on lo, on a lan of network "
+         "namespaces (root), or on several hosts"},
         {"--hosts", &words_.hosts,
          "scale: where --whole hosts starts them over ssh, as in a,b=eth1: HOST or HOST=INTERFACE"},
         {"--ssh", &words_.ssh,
@@ -97,10 +94,10 @@ class ScaleStudy final : public Study {
 /// THE list of studies, in the order in which help lists their flags.
 constexpr std::array kStudies{
     StudyKind{"scale",
-              "what many peers and entities cost and see, mechanism by mechanism, over a modelled "
+              "what many peers and entities cost and see, mechanism by mechanism, over a simulated "
               "network",
               "--report --delay",
-              "reckon bench scale --peers 16,64,256 --entities 25600 --movement vehicles\n"
+              "reckon bench scale --peers 16,32,64 --entities 6400 --movement vehicles\n"
               "reckon bench scale town.csv --peers 64 --entities 2000 --delay 20ms --loss 1%",
               []() -> std::unique_ptr<Study> { return std::make_unique<ScaleStudy>(); }},
     StudyKind{

@@ -26,40 +26,31 @@ struct Use {
 };
 
 double a_peer(const ScaleRow& row, double sum) {
-  return sum / (row.counts.seconds * static_cast<double>(row.counts.peers));
+  return sum / (row.run.counts.seconds * static_cast<double>(row.peers()));
 }
 
 // THE list.
 constexpr std::array kUses{
     Use{"the link of a host",
         [](const ScaleRow& row) {
-          const auto octets = static_cast<double>(row.counts.octets + row.counts.heard_octets);
-          return 8 * a_peer(row, octets);
+          const WholeCounts& counts = row.run.counts;
+          return 8 * a_peer(row, static_cast<double>(counts.octets + counts.heard_octets));
         },
         [](const HostLimits& limits) { return limits.link_share * limits.link; }},
-    Use{"the time in which a host reads datagrams",
-        [](const ScaleRow& row) { return a_peer(row, row.counts.receive_cpu); },
-        [](const HostLimits& limits) { return limits.core_share; }},
-    Use{"the time in which a host decides what to send",
-        [](const ScaleRow& row) {
-          return a_peer(row, row.counts.send_cpu + row.counts.interest_cpu);
-        },
+    Use{"the CPU of a host",
+        [](const ScaleRow& row) { return a_peer(row, row.run.counts.cpu + row.run.kernel_cpu); },
         [](const HostLimits& limits) { return limits.core_share; }},
 };
 
 /// The number of peers at which `use` reaches `most`.
 double reached_at(const Use& use, const ScaleRow& small, const ScaleRow& large, double most) {
   const double before = use.of(small), now = use.of(large);
-  const auto peers = static_cast<double>(large.counts.peers);
+  const auto peers = static_cast<double>(large.peers());
   if (!(now > 0)) return kUnbounded;
-  const double growth = std::log(peers / static_cast<double>(small.counts.peers));
+  const double growth = std::log(peers / static_cast<double>(small.peers()));
   const double power = before > 0 ? std::log(now / before) / growth : 1.0;
   if (power < kLeastPower) return now > most ? 0.0 : kUnbounded;
   return peers * std::pow(most / now, 1 / power);
-}
-
-double entities_a_peer(const ScaleRow& row) {
-  return static_cast<double>(row.counts.entities) / static_cast<double>(row.counts.peers);
 }
 
 Capacity capacity_of(const ScaleRow& small, const ScaleRow& large, const HostLimits& limits) {
@@ -72,13 +63,13 @@ Capacity capacity_of(const ScaleRow& small, const ScaleRow& large, const HostLim
     out.peers = at;
     out.limit = use.words;
   }
-  const double farthest = kFarthest * static_cast<double>(large.counts.peers);
+  const double farthest = kFarthest * static_cast<double>(large.peers());
   if (out.peers > farthest) {
     out.peers = farthest;
     out.limit = {};
   }
-  out.entities = out.peers * entities_a_peer(large);
-  out.within = out.peers <= static_cast<double>(large.counts.peers);
+  out.entities = out.peers * entities_a_peer(large.run.setting);
+  out.within = out.peers <= static_cast<double>(large.peers());
   return out;
 }
 
@@ -102,23 +93,16 @@ std::string carries(const Capacity& one) {
 
 }  // namespace
 
-double receive_cpu(const ScaleCounts& counts, const HostLimits& limits) {
-  return limits.datagram * static_cast<double>(counts.heard_datagrams) +
-         kUpdateCost * static_cast<double>(counts.heard_updates);
+double kernel_cpu(const WholeCounts& counts, const HostLimits& limits) {
+  return limits.datagram * static_cast<double>(counts.heard_datagrams);
 }
 
 std::vector<Capacity> capacities(std::span<const ScaleRow> rows, const HostLimits& limits) {
   std::vector<Capacity> out;
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
-    std::vector<const ScaleRow*> sizes;
-    for (const ScaleRow& row : rows)
-      if (row.mechanism == mechanism) sizes.push_back(&row);
-    std::ranges::stable_sort(sizes, {}, [](const ScaleRow* row) { return row->counts.peers; });
-    if (sizes.size() < 2) return {};
-    const ScaleRow &large = *sizes.back(), &small = *sizes[sizes.size() - 2];
-    const double alike = entities_a_peer(small) / entities_a_peer(large);
-    if (small.counts.peers == large.counts.peers || std::abs(alike - 1) > 0.05) return {};
-    out.push_back(capacity_of(small, large, limits));
+    const auto ladder = ladder_of(rows, mechanism);
+    if (ladder.size() < 2) return {};
+    out.push_back(capacity_of(**(ladder.end() - 2), *ladder.back(), limits));
   }
   return out;
 }

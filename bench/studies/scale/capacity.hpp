@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/bench/studies/scale/text.hpp"
+#include "reckon/bench/studies/scale/fit.hpp"
 
 namespace reckon::bench {
 
@@ -19,21 +19,11 @@ struct HostLimits {
   double link = 1e9;        ///< of the LAN, at each host [bit/s], > 0
   double link_share = 0.5;  ///< of it, that the exercise may take
   double core_share = 0.5;  ///< of one core, that a peer may take
-  /// CPU that a whole peer takes for each datagram heard [s], see peer_read_cost().
-  double datagram = 0.0;
+  double datagram = 0.0;    ///< CPU that the kernel takes of a peer for one heard [s]
 };
 
-/// What a whole peer takes for a datagram: twice what the kernel takes of a thread that only waits
-/// for it (1.5 to 1.8 times at 5,000 to 50,000 a second, wake_bench). @param bare [s]
-[[nodiscard]] constexpr double peer_read_cost(double bare) { return 2.0 * bare; }
-/// CPU that decoding and showing an update takes [s] (transport_bench, `taken`).
-inline constexpr double kUpdateCost = 0.3e-6;
-
-/// CPU of receiving, of all peers of a row together [s].
-[[nodiscard]] double receive_cpu(const ScaleCounts& counts, const HostLimits& limits);
-
-/// Beyond so many times the largest exercise nothing is extrapolated.
-inline constexpr double kFarthest = 30;
+/// CPU of the kernel in reading what all peers of a run hear [s].
+[[nodiscard]] double kernel_cpu(const WholeCounts& counts, const HostLimits& limits);
 
 /// How far a mechanism goes.
 struct Capacity {
@@ -44,9 +34,8 @@ struct Capacity {
   bool within = false;     ///< the limit is within the sweep, else beyond its last exercise
 };
 
-/// One for each mechanism, from the two largest exercises of the sweep: between and beyond them
-/// each quantity grows by a power of the number of peers. Empty for fewer than two sizes, or where
-/// the entities of a peer differ.
+/// One for each mechanism, from the two largest exercises with as many entities a peer: between and
+/// beyond them each quantity grows by a power of the number of peers. Empty for fewer than two.
 [[nodiscard]] std::vector<Capacity> capacities(std::span<const ScaleRow> rows,
                                                const HostLimits& limits);
 

@@ -51,12 +51,12 @@ double notable(std::string_view measure) { return is_cpu(measure) ? kNotableCpu 
 
 /// What the kernel of this host takes is measured anew at each start, and is no change of ours.
 bool is_of_host(std::string_view measure) {
-  return measure == "receive_cpu_share" || measure == "cpu_share";
+  return measure == "kernel_cpu_share" || measure == "cpu_share";
 }
 
 bool is_of(const BaseRow& base, const ScaleRow& row) {
-  return base.mechanism == kMechanisms[row.mechanism].name && base.peers == row.counts.peers &&
-         base.entities == row.counts.entities;
+  return base.mechanism == kMechanisms[row.mechanism].name && base.peers == row.peers() &&
+         base.entities == row.entities();
 }
 
 bool has_base(const ScaleRow& row, std::span<const BaseRow> base) {
@@ -119,12 +119,8 @@ std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows, std::span<co
       const double now = measure.of(row);
       const auto before = nearest_of_base(row, measure.name, now, base);
       if (!before) continue;
-      const ScaleChange change{kMechanisms[row.mechanism].name,
-                               measure.name,
-                               row.counts.peers,
-                               row.counts.entities,
-                               *before,
-                               now};
+      const ScaleChange change{
+          kMechanisms[row.mechanism].name, measure.name, row.peers(), row.entities(), *before, now};
       if (std::abs(change.ratio() - 1) > notable(measure.name)) changes.push_back(change);
     }
   }

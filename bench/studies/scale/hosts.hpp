@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "reckon/bench/studies/scale/whole_runs.hpp"
-#include "reckon/bench/studies/scale/world.hpp"
 
 namespace reckon::bench {
 

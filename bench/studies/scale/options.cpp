@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
-#include "reckon/bench/studies/scale/drawn.hpp"
 #include "reckon/bench/studies/scale/many_hands.hpp"
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
@@ -124,52 +123,6 @@ void check_used(bool given, std::string_view flag, bool used, std::string_view b
     throw tools::UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
 }
 
-/// --drawn: what may stand beside it is the seed, and how all is told.
-ScalePlan read_drawn_plan(const ScaleWords& words) {
-  if (*words.drawn < 1 || *words.drawn > kMostDrawn)
-    throw tools::UsageError(fmt::format("--drawn: give 1 to {} exercises", kMostDrawn));
-  const ScaleWords plain;
-  const auto refuse = [](bool given, std::string_view flag) {
-    if (given)
-      throw tools::UsageError(
-          fmt::format("{}: --drawn draws exercises of its own; leave one of the two out", flag));
-  };
-  refuse(!words.file.empty(), "FILE");
-  refuse(words.peers != plain.peers, "--peers");
-  refuse(words.radius != plain.radius, "--radius");
-  refuse(words.threshold != plain.threshold, "--threshold");
-  refuse(words.rate != plain.rate, "--rate");
-  for (const auto& [word, flag] : std::array<std::pair<const std::string*, std::string_view>, 14>{
-           {{&words.entities, "--entities"},
-            {&words.movement, "--movement"},
-            {&words.scheme, "--scheme"},
-            {&words.cell, "--cell"},
-            {&words.pool, "--pool"},
-            {&words.density, "--density"},
-            {&words.jitter, "--jitter"},
-            {&words.loss, "--loss"},
-            {&words.compare, "--compare"},
-            {&words.report, "--report"},
-            {&words.whole, "--whole"},
-            {&words.hosts, "--hosts"},
-            {&words.ssh, "--ssh"},
-            {&words.share, "--share"}}})
-    refuse(!word->empty(), flag);
-  refuse(words.delay.has_value(), "--delay");
-  refuse(words.port.has_value(), "--port");
-  refuse(words.measure, "--measure");
-  refuse(words.hands, "--hands");
-  refuse(words.many_hands, "--many-hands");
-  refuse(words.wide, "--wide");
-  ScalePlan plan;
-  plan.drawn = true;
-  for (std::size_t number = 0; number < *words.drawn; ++number) {
-    plan.settings.push_back(drawn_exercise(words.seed.value_or(1), number));
-    if (words.length) plan.settings.back().seconds = length_of(words);
-  }
-  return plan;
-}
-
 /// What is said of several hosts.
 void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
   const bool on_hosts = plan.meeting == Meeting::hosts, is_share = !words.share.empty();
@@ -180,19 +133,37 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
   if (!words.ssh.empty()) plan.hosts.ssh = words.ssh;
   if (!is_share) return;
   plan.share = read_host_share(words.share);
-  const bool runs_more = words.json || words.measure || words.hands || words.many_hands ||
-                         !words.whole.empty() || !words.compare.empty() || !words.report.empty() ||
-                         words.delay || !words.loss.empty() || !words.file.empty();
+  const bool runs_more = words.json || words.hands || words.many_hands || !words.whole.empty() ||
+                         !words.compare.empty() || !words.report.empty() || words.delay ||
+                         !words.loss.empty() || !words.file.empty();
   if (runs_more)
     throw tools::UsageError(
         "--share: --whole hosts starts this by itself on each host, with the words that it needs; "
         "run that");
 }
 
+/// Exercises of more than kMostWhole peers are fitted, but where processes run beside them.
+void set_fitted_apart(ScalePlan& plan) {
+  if (plan.meeting != Meeting::simulated || plan.share) return;
+  const auto is_run = [](const ScaleSetting& setting) { return setting.peers <= kMostWhole; };
+  const auto larger = std::ranges::stable_partition(plan.settings, is_run);
+  plan.fitted.assign(larger.begin(), larger.end());
+  plan.settings.erase(larger.begin(), larger.end());
+  for (const ScaleSetting& setting : plan.fitted) {
+    std::set<std::size_t> sizes;
+    for (const ScaleSetting& run : plan.settings)
+      if (are_alike(run, setting)) sizes.insert(run.peers);
+    if (sizes.size() < kFewestSizes)
+      throw tools::UsageError(fmt::format(
+          "--peers: {} are fitted to {} exercises or more of {} at most with as many entities "
+          "each; give these too, as in --peers 64,128,{},{}",
+          setting.peers, kFewestSizes, kMostWhole, kMostWhole, setting.peers));
+  }
+}
+
 }  // namespace
 
 ScalePlan read_scale_plan(const ScaleWords& words) {
-  if (words.drawn) return read_drawn_plan(words);
   ScaleSetting base;
   base.seconds = length_of(words);
   if (!(words.rate >= 1 && words.rate <= 1000))
@@ -232,11 +203,11 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       plan.settings.back().crowd.entities = entities;
       check_scale_setting(plan.settings.back());
       if (base.grid.scheme == aoim::CellScheme::quad_tree) divide_by_crowd(plan.settings.back());
-      plan.settings.back().fresh = plan.meeting != Meeting::none || plan.share;
       check_meeting(plan.settings.back(), plan.meeting);
       if (plan.meeting == Meeting::hosts) check_hosts(plan.settings.back(), plan.hosts);
       plan.hands = std::max(plan.hands, std::min(peers, kManyHands));
     }
+  set_fitted_apart(plan);
   if (words.many_hands && plan.hands < 2)
     throw tools::UsageError("--many-hands: one peer touches nobody; take --peers 2 or more");
   return plan;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/scale/fit.hpp"
 #include "reckon/bench/studies/scale/host_share.hpp"
 #include "reckon/bench/studies/scale/hosts.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
@@ -35,28 +36,26 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< 5 s
   std::string report;
-  std::string compare;                 ///< JSON Lines of an earlier run
-  std::string whole;                   ///< where whole peers meet, see read_meeting(); empty: none
-  std::string hosts;                   ///< for Meeting::hosts, see read_hosts()
-  std::string ssh;                     ///< words; empty: of HostsPlan
-  std::string share;                   ///< of one host, see read_host_share(); empty: none
-  std::optional<std::uint64_t> port;   ///< of its peers
-  bool measure = false;                ///< one whole peer too
-  bool hands = false;                  ///< hands in contact too
-  bool many_hands = false;             ///< and hands among many
-  std::optional<std::uint64_t> drawn;  ///< so many exercises by the seed instead
+  std::string compare;                ///< JSON Lines of an earlier run
+  std::string whole;                  ///< where processes meet, see read_meeting(); empty: none
+  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                    ///< words; empty: of HostsPlan
+  std::string share;                  ///< of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;  ///< of its peers
+  bool hands = false;                 ///< hands in contact too
+  bool many_hands = false;            ///< and hands among many
   bool json = false;
   bool wide = false;  ///< all columns
 };
 
 /// What is run.
 struct ScalePlan {
-  std::vector<Track> tracks;           ///< what settings' crowds refer to; none: by a seed
-  Meeting meeting = Meeting::none;     ///< of whole peers
-  HostsPlan hosts;                     ///< of Meeting::hosts
-  std::optional<HostShare> share;      ///< this alone is run, of the first setting
-  bool drawn = false;                  ///< the settings are drawn_exercise()s, and run both ways
-  std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
+  std::vector<Track> tracks;             ///< what settings' crowds refer to; none: by a seed
+  Meeting meeting = Meeting::simulated;  ///< and there, unless simulated
+  HostsPlan hosts;                       ///< of Meeting::hosts
+  std::optional<HostShare> share;        ///< this alone is run, of the first setting
+  std::vector<ScaleSetting> settings;    ///< peers times entities, entities fastest
+  std::vector<ScaleSetting> fitted;      ///< likewise, of those with more than kMostWhole peers
   std::size_t hands = 0;  ///< among many: as many as the largest has peers, kManyHands at most
 };
 

@@ -35,7 +35,7 @@ constexpr std::array kPictures{
     Picture{"sent_packets_per_s", "Datagrams that a peer sends", "datagrams/s"},
     Picture{"unwanted_updates_per_s", "Updates heard that nobody wanted", "updates/s"},
     Picture{"pose_error_p99_m", "Error of what is shown, p99", "m"},
-    Picture{"send_cpu_share", "CPU of deciding, encoding and bundling", "share of a core"},
+    Picture{"cpu_share", "CPU of a peer", "share of a core"},
 };
 
 /// Without the sign of what is added.
@@ -49,15 +49,15 @@ std::string short_name(std::size_t mechanism) {
 std::string picture(const ScaleReport& report, const Picture& drawn) {
   std::set<std::size_t> sizes, peers;
   for (const ScaleRow& row : report.rows) {
-    sizes.insert(row.counts.entities);
-    peers.insert(row.counts.peers);
+    sizes.insert(row.entities());
+    peers.insert(row.peers());
   }
   // In the usual sweep both grow together: one line.
   const bool together = std::ranges::all_of(report.rows, [&](const ScaleRow& row) {
-    return std::abs(static_cast<double>(row.counts.entities) *
-                        static_cast<double>(report.rows.front().counts.peers) -
-                    static_cast<double>(report.rows.front().counts.entities) *
-                        static_cast<double>(row.counts.peers)) < 0.5;
+    return std::abs(static_cast<double>(row.entities()) *
+                        static_cast<double>(report.rows.front().peers()) -
+                    static_cast<double>(report.rows.front().entities()) *
+                        static_cast<double>(row.peers())) < 0.5;
   });
   const bool over_entities = sizes.size() > 1 && !together;
   LogPlot plot;
@@ -76,32 +76,17 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
     LogCurve curve{short_name(mechanism), {}, mechanism + 1 == kMechanisms.size()};
     for (const ScaleRow& row : report.rows) {
       if (row.mechanism != mechanism) continue;
-      const auto x = static_cast<double>(over_entities ? row.counts.entities : row.counts.peers);
-      const auto piece = std::distance(peers.begin(), peers.find(row.counts.peers));
+      const auto x = static_cast<double>(over_entities ? row.entities() : row.peers());
+      const auto piece = std::distance(peers.begin(), peers.find(row.peers()));
       curve.points.push_back({x, measure.of(row),
-                              fmt::format("{} peers, {} entities: {:.4g} {}", row.counts.peers,
-                                          row.counts.entities, measure.of(row), drawn.axis),
+                              fmt::format("{} peers, {} entities: {:.4g} {}", row.peers(),
+                                          row.entities(), measure.of(row), drawn.axis),
                               over_entities ? static_cast<std::size_t>(piece) : 0});
     }
     std::ranges::sort(curve.points, {},
                       [](const LogPoint& point) { return std::pair(point.piece, point.x); });
     plot.curves.push_back(std::move(curve));
   }
-  return log_plot_svg(plot);
-}
-
-std::string measured_picture(const MeasuredReport& measured) {
-  LogPlot plot;
-  plot.title = "One whole peer in a world that grows at one density";
-  plot.x = "entities in the world";
-  plot.y = "packets/s; us of CPU a second";
-  LogCurve packets{"packets/s", {}, true}, cpu{"CPU [us/s]", {}, false};
-  for (const MeasuredPeer& run : measured.runs) {
-    const auto x = static_cast<double>(run.entities);
-    packets.points.push_back({x, static_cast<double>(run.datagrams) / run.seconds, ""});
-    cpu.points.push_back({x, 1e6 * run.cpu / run.seconds, ""});
-  }
-  plot.curves = {packets, cpu};
   return log_plot_svg(plot);
 }
 
@@ -139,13 +124,13 @@ std::string scale_page(const ScaleReport& report) {
     list += fmt::format("<li><b>{}</b>: {}</li>\n", mechanism.name, mechanism.meaning);
   body += fmt::format("<ul>{}</ul>\n<div class=\"plots\">\n", list);
   for (const Picture& drawn : kPictures) body += picture(report, drawn);
-  if (!report.measured.runs.empty()) body += measured_picture(report.measured);
   if (!report.hands.empty()) body += hands_picture(report.hands);
   body += "</div>\n";
   body += table("All columns", scale_text(report.rows));
-  if (!report.measured.runs.empty())
-    body += table("One whole peer", measured_text(report.measured));
-  if (!report.whole.empty()) body += table("All peers whole", whole_text(report.whole));
+  const auto growth = growth_rows(report.rows);
+  if (!growth.empty()) body += table("Growth", growth_text(growth));
+  if (!report.fitted.empty()) body += table("Beyond the runs", fitted_text(report.fitted));
+  if (!report.whole.empty()) body += table("As processes", whole_text(report.whole));
   if (!report.hands.empty()) body += table("Hands in contact", hands_text(report.hands));
   if (!report.many_hands.empty())
     body += table("Hands among many", many_hands_text(report.many_hands));

@@ -8,10 +8,8 @@
 
 #include "reckon/bench/studies/scale/capacity.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
-#include "reckon/bench/studies/scale/drawn.hpp"
 #include "reckon/bench/studies/scale/hands.hpp"
 #include "reckon/bench/studies/scale/many_hands.hpp"
-#include "reckon/bench/studies/scale/measured_text.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/scale/whole_text.hpp"
 
@@ -23,9 +21,8 @@ struct ScaleReport {
   std::string circumstances;  ///< date, version and host
   HostLimits limits;          ///< of the capacities
   std::vector<ScaleRow> rows;
-  MeasuredReport measured;      ///< without runs where none was asked for
-  std::vector<WholeRow> whole;  ///< likewise
-  std::vector<WholeRow> drawn;  ///< of --drawn, without all others
+  std::vector<FittedRow> fitted;
+  std::vector<WholeRow> whole;  ///< of processes; empty where none were asked for
   std::vector<HandsRow> hands;  ///< likewise
   std::vector<ManyHandsRow> many_hands;
   std::vector<BaseRow> base;  ///< of --compare

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "reckon/bench/studies/scale/whole_runs.hpp"
-#include "reckon/bench/studies/scale/world.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::bench {

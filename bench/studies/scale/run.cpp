@@ -8,18 +8,17 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <iterator>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "reckon/bench/studies/frame/text_lines.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
-#include "reckon/bench/studies/scale/measured_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
 #include "reckon/bench/studies/scale/read_cost.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
-#include "reckon/bench/studies/scale/world.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/version.hpp"
@@ -34,7 +33,7 @@ class Sweep {
   Sweep(std::size_t runs, const tools::Console& console)
       : runs_(runs), console_(console), bar_(console) {}
 
-  /// @param run given what it tells its progress; false where the study is to end
+  /// @param run takes a callback for its progress  @return false where the study is to end
   bool next(const std::function<void(const ScaleProgress&)>& run) {
     run([&](double share) {
       bar_.show((static_cast<double>(done_) + share) / static_cast<double>(runs_),
@@ -51,36 +50,42 @@ class Sweep {
   ProgressBar bar_;
 };
 
+/// What is sent at every tick is the same in each second, and much.
+constexpr double kTickSeconds = 1;
+
+ScaleSetting setting_of(const ScaleSetting& exercise, std::size_t mechanism) {
+  ScaleSetting setting = exercise;
+  setting.design = design_of(mechanism);
+  if (!setting.design.dead_reckoning) setting.seconds = std::min(setting.seconds, kTickSeconds);
+  return setting;
+}
+
 /// False where it was stopped: the report has the runs that had ended by then.
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const tools::Console& console) {
-  const bool measure = words.measure;
-  const bool whole = plan.meeting != Meeting::none;
-  const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0) + (whole ? 1 : 0);
-  Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0) + (words.many_hands ? 1 : 0),
+  const bool live = plan.meeting != Meeting::simulated;
+  Sweep sweep(plan.settings.size() * (kMechanisms.size() + (live ? 1 : 0)) + (words.hands ? 1 : 0) +
+                  (words.many_hands ? 1 : 0),
               console);
   for (const ScaleSetting& setting : plan.settings) {
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
       if (!sweep.next([&](const ScaleProgress& progress) {
-            ScaleRow row{setting, mechanism, run_world(setting, design_of(mechanism), progress)};
-            row.counts.receive_cpu = receive_cpu(row.counts, report.limits);
+            ScaleRow row{mechanism, run_whole_peers(setting_of(setting, mechanism),
+                                                    Meeting::simulated, progress)};
+            row.run.kernel_cpu = kernel_cpu(row.run.counts, report.limits);
             if (!console.stopped()) report.rows.push_back(std::move(row));
           }))
         return false;
-    if (measure && !sweep.next([&](const ScaleProgress& progress) {
-          MeasuredPeer run =
-              run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress);
-          if (!console.stopped()) report.measured.runs.push_back(std::move(run));
-        }))
-      return false;
-    if (whole && !sweep.next([&](const ScaleProgress& progress) {
+    if (live && !sweep.next([&](const ScaleProgress& progress) {
           WholeRun run = plan.meeting == Meeting::hosts
                              ? run_on_hosts(setting, plan.hosts, progress)
                              : run_whole_peers(setting, plan.meeting, progress);
-          if (!console.stopped()) report.whole.push_back({std::move(run), report.rows.back()});
+          if (!console.stopped()) report.whole.push_back({std::move(run), report.rows.back().run});
         }))
       return false;
   }
+  for (const ScaleSetting& setting : plan.fitted)
+    std::ranges::move(fitted_rows(report.rows, setting), std::back_inserter(report.fitted));
   const ScaleSetting& any = plan.settings.front();
   if (words.hands && !sweep.next([&](const ScaleProgress& progress) {
         report.hands = run_hands(any.network, any.seed, progress);
@@ -89,18 +94,6 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
   return !words.many_hands || sweep.next([&](const ScaleProgress& progress) {
     report.many_hands = run_many_hands(plan.hands, any.network, any.seed, progress);
   });
-}
-
-/// False where it was stopped.
-bool run_drawn_plan(const ScalePlan& plan, ScaleReport& report, const tools::Console& console) {
-  Sweep sweep(plan.settings.size(), console);
-  for (const ScaleSetting& setting : plan.settings)
-    if (!sweep.next([&](const ScaleProgress& progress) {
-          WholeRow row = run_drawn(setting, progress);
-          if (!console.stopped()) report.drawn.push_back(std::move(row));
-        }))
-      return false;
-  return true;
 }
 
 /// "2026-11-26 12:00 UTC, reckon 0.1.0, 2 cores of Intel ..".
@@ -127,15 +120,15 @@ std::string scale_findings(const ScaleReport& report, bool json, bool wide) {
   add(
       report.rows, [&] { return scale_json(report.rows); },
       [&] { return wide ? scale_text(report.rows) : scale_summary(report.rows); });
+  const auto growth = growth_rows(report.rows);
   add(
-      report.measured.runs, [&] { return measured_json(report.measured); },
-      [&] { return measured_text(report.measured); });
+      growth, [&] { return growth_json(growth); }, [&] { return growth_text(growth); });
+  add(
+      report.fitted, [&] { return fitted_json(report.fitted); },
+      [&] { return fitted_text(report.fitted); });
   add(
       report.whole, [&] { return whole_json(report.whole); },
       [&] { return whole_text(report.whole); });
-  add(
-      report.drawn, [&] { return drawn_json(report.drawn); },
-      [&] { return drawn_text(report.drawn); });
   add(
       report.hands, [&] { return hands_json(report.hands); },
       [&] { return hands_text(report.hands); });
@@ -159,13 +152,12 @@ int bench_scale(const ScaleWords& words, const std::string& command,
   ScaleReport report;
   report.command = command;
   report.circumstances = circumstances();
-  if (!plan.drawn) report.limits.datagram = peer_read_cost(measure_read_cost());
+  report.limits.datagram = measure_read_cost();
   if (!words.compare.empty()) {
     report.base = read_scale_rows(words.compare);
     check_same_exercises(plan.settings, report.base, words.compare);
   }
-  const bool whole =
-      plan.drawn ? run_drawn_plan(plan, report, console) : run_all(plan, words, report, console);
+  const bool whole = run_all(plan, words, report, console);
   if (!whole) report.base.clear();  // what is missing is no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)
@@ -174,8 +166,7 @@ int bench_scale(const ScaleWords& words, const std::string& command,
                            : ": only runs that had ended are reported");
   fmt::print(console.out, "{}", out);
   if (!out.empty()) tools::write_output(words.report, scale_page(report), console);
-  const bool differs =
-      !changes_of(report.rows, report.base).empty() || std::ranges::any_of(report.drawn, is_beyond);
+  const bool differs = !changes_of(report.rows, report.base).empty();
   return tools::exit_status(differs ? tools::ExitCode::findings : tools::ExitCode::good);
 }
 

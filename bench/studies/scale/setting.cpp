@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "reckon/peer/scene/density_file.hpp"
@@ -63,6 +65,27 @@ void divide_by_crowd(ScaleSetting& setting) {
 }
 
 bool shares_one_group(const ScaleSetting& setting) noexcept { return setting.grid.pool == 1; }
+
+bool groups_suffice(const ScaleSetting& setting) {
+  const aoim::CellPartition partition = peer::cells_of(scale_cells(setting));
+  const Crowd crowd(setting.crowd);
+  std::set<aoim::CellId> cells;
+  std::set<aoim::GroupIndex> groups;
+  for (std::size_t e = 0; e < crowd.size(); ++e) {
+    cells.insert(partition.cell(crowd.position(e)));
+    groups.insert(partition.group(crowd.position(e)));
+  }
+  return groups.size() == cells.size();
+}
+
+double entities_a_peer(const ScaleSetting& setting) noexcept {
+  return static_cast<double>(setting.crowd.entities) / static_cast<double>(setting.peers);
+}
+
+bool are_alike(const ScaleSetting& a, const ScaleSetting& b) noexcept {
+  constexpr double kAlike = 0.05;
+  return std::abs(entities_a_peer(a) / entities_a_peer(b) - 1) <= kAlike;
+}
 
 ScaleChannels scale_channels(const ScaleSetting& setting) {
   const auto usual = aoim::default_channels();

@@ -25,83 +25,81 @@ double ratio(std::uint64_t part, std::uint64_t all) {
 
 /// A sum over all peers as what one has of it in a second.
 double each(const ScaleRow& row, double sum) {
-  return ratio(sum, row.counts.seconds * static_cast<double>(row.counts.peers));
+  return ratio(sum, row.run.counts.seconds * static_cast<double>(row.peers()));
 }
 double each(const ScaleRow& row, std::uint64_t sum) { return each(row, static_cast<double>(sum)); }
 
-/// Of the witnesses.
-double each_witness(const ScaleRow& row, std::uint64_t sum) {
-  return ratio(static_cast<double>(sum),
-               row.counts.seconds * static_cast<double>(row.counts.witnesses));
-}
-
-double wanted(const ScaleRow& row) {
-  return each_witness(row, row.counts.wanted - row.counts.missed - row.counts.lost);
-}
+double p50(const peer::Percentiles& time) { return pdu::to_seconds(time.p50); }
+double p99(const peer::Percentiles& time) { return pdu::to_seconds(time.p99); }
 
 constexpr std::array kMeasures{
     ScaleMeasure{"sent_packets_per_s", "SENT/s", "SENT/s",
-                 [](const ScaleRow& row) { return each(row, row.counts.datagrams); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.datagrams); }},
     ScaleMeasure{"sent_bytes_per_s", "SENT B/s", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.octets); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.octets); }},
     ScaleMeasure{"sent_updates_per_s", "UPDATES/s", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.updates); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.updates); }},
     ScaleMeasure{"heard_packets_per_s", "HEARD/s", "HEARD/s",
-                 [](const ScaleRow& row) { return each(row, row.counts.heard_datagrams); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.heard_datagrams); }},
     ScaleMeasure{"heard_bytes_per_s", "HEARD B/s", "HEARD B/s",
-                 [](const ScaleRow& row) { return each(row, row.counts.heard_octets); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.heard_octets); }},
     ScaleMeasure{"heard_updates_per_s", "HEARD UPD/s", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.heard_updates); }},
-    ScaleMeasure{"wanted_updates_per_s", "WANTED/s", "", wanted},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.heard_updates); }},
+    ScaleMeasure{"wanted_updates_per_s", "WANTED/s", "",
+                 [](const ScaleRow& row) { return each(row, row.run.counts.wanted); }},
     ScaleMeasure{"unwanted_updates_per_s", "UNWANTED/s", "",
                  [](const ScaleRow& row) {
-                   const double heard = each(row, row.counts.heard_updates) *
-                                        (1 - ratio(row.counts.lost, row.counts.wanted));
-                   return std::max(0.0, heard - wanted(row));
+                   return each(row, row.run.counts.heard_updates - row.run.counts.wanted);
                  }},
     ScaleMeasure{"pose_error_p50_m", "POSE p50", "",
-                 [](const ScaleRow& row) { return row.counts.pose.p50; }},
+                 [](const ScaleRow& row) { return row.run.pose.p50; }},
     ScaleMeasure{"pose_error_p99_m", "POSE p99", "POSE",
-                 [](const ScaleRow& row) { return row.counts.pose.p99; }},
-    ScaleMeasure{"unseen_share", "UNSEEN", "",
-                 [](const ScaleRow& row) { return ratio(row.counts.unseen, row.counts.looks); }},
-    ScaleMeasure{"missed_share", "MISSED", "",
-                 [](const ScaleRow& row) { return ratio(row.counts.missed, row.counts.wanted); }},
+                 [](const ScaleRow& row) { return row.run.pose.p99; }},
+    ScaleMeasure{
+        "unseen_share", "UNSEEN", "",
+        [](const ScaleRow& row) { return ratio(row.run.counts.unseen, row.run.counts.looks); }},
     ScaleMeasure{"lost_share", "LOST", "",
                  [](const ScaleRow& row) {
-                   return ratio(row.counts.lost, row.counts.wanted - row.counts.missed);
+                   const WholeCounts& counts = row.run.counts;
+                   return ratio(counts.lost, counts.lost + counts.heard_datagrams);
                  }},
     ScaleMeasure{"joins_per_s", "JOINS/s", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.joins); }},
+                 [](const ScaleRow& row) { return each(row, row.run.counts.joins); }},
+    ScaleMeasure{"groups", "GROUPS", "",
+                 [](const ScaleRow& row) { return ratio(row.run.counts.groups, row.peers()); }},
     ScaleMeasure{"shown_after_p50_s", "SHOWN p50", "",
-                 [](const ScaleRow& row) { return pdu::to_seconds(row.counts.discovery.p50); }},
+                 [](const ScaleRow& row) { return p50(row.run.discovery); }},
     ScaleMeasure{"shown_after_p99_s", "SHOWN p99", "SHOWN",
-                 [](const ScaleRow& row) { return pdu::to_seconds(row.counts.discovery.p99); }},
+                 [](const ScaleRow& row) { return p99(row.run.discovery); }},
     ScaleMeasure{"wanted_share", "WANTED", "WANTED",
                  [](const ScaleRow& row) {
-                   return std::min(1.0, ratio(wanted(row), each(row, row.counts.heard_updates)));
+                   return ratio(row.run.counts.wanted, row.run.counts.heard_updates);
                  }},
-    ScaleMeasure{"send_cpu_share", "CPU OUT", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.send_cpu); }},
-    ScaleMeasure{"interest_cpu_share", "CPU AOI", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.interest_cpu); }},
-    ScaleMeasure{"receive_cpu_share", "CPU IN", "",
-                 [](const ScaleRow& row) { return each(row, row.counts.receive_cpu); }},
-    ScaleMeasure{"cpu_share", "CPU", "CPU",
-                 [](const ScaleRow& row) {
-                   return each(
-                       row, row.counts.send_cpu + row.counts.interest_cpu + row.counts.receive_cpu);
-                 }},
+    ScaleMeasure{"loops_cpu_share", "CPU LOOPS", "",
+                 [](const ScaleRow& row) { return each(row, row.run.counts.cpu); }},
+    ScaleMeasure{"kernel_cpu_share", "CPU KERNEL", "",
+                 [](const ScaleRow& row) { return each(row, row.run.kernel_cpu); }},
+    ScaleMeasure{
+        "cpu_share", "CPU", "CPU",
+        [](const ScaleRow& row) { return each(row, row.run.counts.cpu + row.run.kernel_cpu); }},
 };
 
 bool is_same_exercise(const ScaleRow& a, const ScaleRow& b) {
-  return a.setting.peers == b.setting.peers && a.counts.entities == b.counts.entities;
+  return a.peers() == b.peers() && a.entities() == b.entities();
 }
 
+/// "64 peers with 6400 entities"
 std::string exercise_name(const ScaleRow& row) {
-  return fmt::format(
-      "{} with {}", tools::counted(row.counts.peers, "peer"),
-      row.counts.entities == 1 ? "1 entity" : fmt::format("{} entities", row.counts.entities));
+  return fmt::format("{} with {}", tools::counted(row.peers(), "peer"),
+                     row.entities() == 1 ? "1 entity" : fmt::format("{} entities", row.entities()));
+}
+
+/// "5 s", or with what was counted for a shorter time "5 s (every tick: 1 s)".
+std::string length_of(std::span<const ScaleRow> rows) {
+  const double longest = rows.back().run.counts.seconds, first = rows.front().run.counts.seconds;
+  if (first >= longest) return fmt::format("{:g} s", longest);
+  return fmt::format("{:g} s ({}: {:g} s)", longest, kMechanisms[rows.front().mechanism].name,
+                     first);
 }
 
 }  // namespace
@@ -124,7 +122,7 @@ namespace {
 
 /// What --pool 1 is; else nothing.
 std::string one_group_text(std::span<const ScaleRow> rows) {
-  const auto one = [](const ScaleRow& row) { return shares_one_group(row.setting); };
+  const auto one = [](const ScaleRow& row) { return shares_one_group(row.run.setting); };
   if (std::ranges::none_of(rows, one)) return {};
   return "\n--pool 1: all cells are one group, so this is what grows without areas of\n"
          "interest. Contact and near groups, which need a group of each cell, are off.\n";
@@ -148,20 +146,18 @@ std::string scale_text(std::span<const ScaleRow> rows) {
         cells.push_back(measure_text(measure, measure.of(row)));
       table.add(cells);
     }
-    const ScaleRow& first = rows.front();
-    out += fmt::format("{} over {:g} s\n{}\n", exercise_name(first), first.counts.seconds,
-                       table.text());
+    out += fmt::format("{} over {}\n{}\n", exercise_name(rows.front()),
+                       length_of(rows.first(count)), table.text());
     rows = rows.subspan(count);
   }
   out += one_group_text(all);
   out +=
       "SENT, HEARD: datagrams with those of control; B with headers of UDP and IPv4. WANTED: "
-      "updates "
-      "of others' entities\nwithin the radius; UNWANTED: heard beside them. POSE: shown against "
-      "true. UNSEEN: of entities within the radius,\nat each tick, not shown; SHOWN: after coming "
-      "in. MISSED: wanted, and the group not joined yet. LOST: of what\nwas sent to a joined "
-      "group. "
-      "CPU: of this machine's core; IN: by what the kernel takes of it for a datagram.\n";
+      "updates of others' entities\nthat are used: within the radius, or shown; UNWANTED: heard "
+      "beside them. POSE: shown against true. UNSEEN: of\nentities within the radius, at each "
+      "look, not shown; SHOWN: after coming in. LOST: of the datagrams for joined\ngroups. GROUPS: "
+      "joined at the end. CPU: of this machine's core; KERNEL: what it takes to read the datagrams "
+      "heard.\n";
   return out;
 }
 
@@ -217,14 +213,14 @@ std::string knee_text(std::span<const ScaleRow> rows) {
     if (row.mechanism + 1 != kMechanisms.size()) continue;
     const ScaleRow* last = std::exchange(before, &row);
     if (last == nullptr || !(heard.of(*last) > 0)) continue;
-    const double growth = ratio(row.counts.entities, last->counts.entities);
+    const double growth = ratio(row.entities(), last->entities());
     if (!(growth > 1) || std::log(heard.of(row) / heard.of(*last)) < kInStep * std::log(growth))
       continue;
-    const bool shared = row.counts.groups >= row.setting.grid.pool;
-    return fmt::format(
-        "From {} entities on each peer hears {:.2g} times as much{}.\n", row.counts.entities,
-        heard.of(row) / heard.of(*last),
-        shared ? ": cells share the groups\nof the pool; --pool takes up to 1000" : "");
+    return fmt::format("From {} entities on each peer hears {:.2g} times as much{}.\n",
+                       row.entities(), heard.of(row) / heard.of(*last),
+                       groups_suffice(row.run.setting)
+                           ? ""
+                           : ": cells\nshare the groups of the pool; --pool takes up to 1000");
   }
   return {};
 }
@@ -233,26 +229,27 @@ std::string knee_text(std::span<const ScaleRow> rows) {
 
 std::string scale_summary(std::span<const ScaleRow> rows) {
   if (rows.empty()) return {};
-  const ScaleRow& largest = *std::ranges::max_element(rows, {}, [](const ScaleRow& row) {
-    return std::pair(row.counts.entities, row.counts.peers);
-  });
+  const ScaleRow& largest = *std::ranges::max_element(
+      rows, {}, [](const ScaleRow& row) { return std::pair(row.entities(), row.peers()); });
   tools::TextTable table(narrow_columns({{"EACH PEER"}}));
   std::string changes;
   const ScaleRow* before = nullptr;
+  std::vector<ScaleRow> shown;
   for (const ScaleRow& row : rows) {
     if (!is_same_exercise(row, largest)) continue;
+    shown.push_back(row);
     const std::string_view name = kMechanisms[row.mechanism].short_name;
     add_narrow(table, {std::string(name)}, row);
     if (before != nullptr) changes += fmt::format("  {}: {}\n", name, bought(*before, row));
     before = &row;
   }
-  std::string out = fmt::format("{} over {:g} s\n{}\n{}", exercise_name(largest),
-                                largest.counts.seconds, table.text(), changes);
+  std::string out = fmt::format("{} over {}\n{}\n{}", exercise_name(largest), length_of(shown),
+                                table.text(), changes);
   tools::TextTable sizes(narrow_columns({{"PEERS x ENTITIES"}}));
   std::size_t count = 0;
   for (const ScaleRow& row : rows) {
     if (row.mechanism + 1 != kMechanisms.size()) continue;
-    add_narrow(sizes, {fmt::format("{} x {}", row.counts.peers, row.counts.entities)}, row);
+    add_narrow(sizes, {fmt::format("{} x {}", row.peers(), row.entities())}, row);
     ++count;
   }
   if (count > 1)
@@ -269,11 +266,11 @@ std::string scale_json(std::span<const ScaleRow> rows) {
     tools::JsonObject object(out);
     object.text("kind", "row")
         .text("mechanism", kMechanisms[row.mechanism].name)
-        .value("peers", row.counts.peers)
-        .value("entities", row.counts.entities)
-        .value("seconds", row.counts.seconds);
+        .value("peers", row.peers())
+        .value("entities", row.entities())
+        .value("seconds", row.run.counts.seconds);
     for (const ScaleMeasure& measure : kMeasures) object.value(measure.name, measure.of(row));
-    object.value("groups", row.counts.groups).end("\n");
+    object.end("\n");
   }
   return out;
 }

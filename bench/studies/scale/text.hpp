@@ -9,15 +9,17 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/bench/studies/scale/whole_runs.hpp"
 
 namespace reckon::bench {
 
 /// One mechanism more, in one exercise.
 struct ScaleRow {
-  ScaleSetting setting;
   std::size_t mechanism = 0;  ///< of kMechanisms, with those before it
-  ScaleCounts counts;
+  WholeRun run;
+
+  [[nodiscard]] std::size_t peers() const noexcept { return run.setting.peers; }
+  [[nodiscard]] std::size_t entities() const noexcept { return run.setting.crowd.entities; }
 };
 
 /// A number of a row as files and pages name it.

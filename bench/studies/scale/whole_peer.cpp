@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/studies/scale/whole_peer.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,11 @@ using std::chrono::nanoseconds;
 constexpr std::uint16_t kSite = 7;
 constexpr int kMostPasses = 32;  // of one step, while datagrams wait
 constexpr double kOutside = std::numeric_limits<double>::infinity();
+
+/// Whatever the error, it is sent.
+constexpr deadreckon::SendRule kEveryTick{
+    "every tick", "each entity at each tick",
+    [](const deadreckon::PoseError&, const deadreckon::Thresholds&) noexcept { return kOutside; }};
 
 /// Notes which groups are joined, beside the link, and what comes all the same.
 class WatchedLink final : public peer::Link {
@@ -74,7 +80,7 @@ class WatchedLink final : public peer::Link {
 peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) {
   peer::FederateOptions options;
   options.name = "whole";
-  options.scene = scale_scene(setting, setting.whole);
+  options.scene = scale_scene(setting);
   options.site = kSite;
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
@@ -82,13 +88,20 @@ peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) 
 
 }  // namespace
 
-peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& design) {
+peer::SceneFile scale_scene(const ScaleSetting& setting) {
+  const ScaleDesign& design = setting.design;
   peer::SceneFile scene;
   scene.name = "scale";
   scene.origin = {kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
   scene.aoim = scale_cells(setting);
   scene.network.group.port = setting.port;
+  if (!setting.converges) scene.convergence.settings.curve = deadreckon::ConvergenceCurve::snap;
+  if (!design.areas) {
+    scene.aoim.scheme = aoim::CellScheme::square;  // a tree has a group for each cell
+    scene.aoim.pool = 1;
+  }
   scene.network.bundle.hold = pdu::from_seconds(setting.hold);
+  if (!design.bundling) scene.network.bundle.updates = 1;
   if (design.channels) {
     const ScaleChannels channels = scale_channels(setting);
     scene.aoim.tiers = peer::distance_tiers(channels.rows, channels.near_rows > 0);
@@ -150,6 +163,7 @@ struct WholePeer::MeasuredFederate {
       peer::EntityDescription description;
       description.type.kind = pdu::EntityKind::platform;
       description.dead_reckoning.thresholds = setting.thresholds;
+      if (!setting.design.dead_reckoning) description.dead_reckoning.rule = &kEveryTick;
       description.dead_reckoning.heartbeat = pdu::from_seconds(setting.heartbeat);
       description.dead_reckoning.algorithm =
           crowd.moves(e) ? pdu::DeadReckoningAlgorithm::rvw : pdu::DeadReckoningAlgorithm::static_;
@@ -166,19 +180,29 @@ struct WholePeer::MeasuredFederate {
     }
   }
 
-  /// One that may be shown, or has to be.
-  void look_at(std::uint32_t e, double time, Crowd& crowd) {
+  /// The box around what its own entities sense.
+  [[nodiscard]] Eigen::AlignedBox2d reach(const Crowd& crowd) const {
+    Eigen::AlignedBox2d box;
+    for (std::uint32_t own = owned.first; own < owned.end; ++own)
+      box.extend(Eigen::Vector2d(crowd.position(own).x, crowd.position(own).y));
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(setting.radius);
+    return {box.min() - margin, box.max() + margin};
+  }
+
+  /// One that may be shown, or has to be. @param reach at this time
+  void look_at(std::uint32_t e, double time, Crowd& crowd, const Eigen::AlignedBox2d& reach) {
     const Attendance there = attendance ? attendance(owners[e], time) : Attendance::present;
     const aoim::Position& place = crowd.position(e);
     bool inside = false;
-    for (std::uint32_t own = owned.first; own < owned.end && !inside; ++own)
-      inside = distance(place, crowd.position(own)) <= setting.radius;
-    const auto shown = federate.find(id_of(e));
-    if (there == Attendance::absent) counts.ghosts += shown.has_value();
+    if (reach.contains(Eigen::Vector2d(place.x, place.y)))
+      for (std::uint32_t own = owned.first; own < owned.end && !inside; ++own)
+        inside = distance(place, crowd.position(own)) <= setting.radius;
+    if (there == Attendance::absent) counts.ghosts += federate.find(id_of(e)).has_value();
     if (there != Attendance::present || !inside) {
       entered[e] = kOutside;
       return;
     }
+    const auto shown = federate.find(id_of(e));
     const bool is_new = entered[e] == kOutside;
     if (is_new) entered[e] = time;
     ++counts.looks;
@@ -254,8 +278,9 @@ void WholePeer::serve() {
 
 void WholePeer::look(double time, Crowd& crowd) {
   MeasuredFederate& s = *measured_;
+  const Eigen::AlignedBox2d reach = s.reach(crowd);
   for (std::uint32_t e = 0; e < s.owners.size(); ++e)
-    if (e < s.owned.first || e >= s.owned.end) s.look_at(e, time, crowd);
+    if (e < s.owned.first || e >= s.owned.end) s.look_at(e, time, crowd, reach);
 }
 
 void WholePeer::begin_counting(double time) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "reckon/bench/studies/scale/crowd.hpp"
-#include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/link.hpp"
@@ -21,9 +20,7 @@
 namespace reckon::bench {
 
 /// The scene in which the whole peers of an exercise meet.
-[[nodiscard]] peer::SceneFile scale_scene(const ScaleSetting& setting,
-                                          const ScaleDesign& design = design_of(kMechanisms.size() -
-                                                                                1));
+[[nodiscard]] peer::SceneFile scale_scene(const ScaleSetting& setting);
 
 /// Whether a peer takes part at an instant; `settling` a moment before and after its coming and
 /// going, when others need not show it and may.
@@ -39,7 +36,7 @@ struct WholeCounts {
   std::uint64_t peers = 0;
   std::uint64_t updates = 0, datagrams = 0, octets = 0;  ///< sent; with headers of UDP and IPv4
   std::uint64_t heard_updates = 0, heard_datagrams = 0, heard_octets = 0;
-  std::uint64_t wanted = 0;   ///< updates that were used
+  std::uint64_t wanted = 0;   ///< updates that were used: of what is within the radius, or is shown
   std::uint64_t joins = 0;    ///< of groups
   std::uint64_t lost = 0;     ///< datagrams missing in their senders' numbering
   std::uint64_t dropped = 0;  ///< by the kernel

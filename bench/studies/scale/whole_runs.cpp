@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -22,6 +23,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
 constexpr std::size_t kLeastRoom = 512;  // datagrams under way to a peer
+constexpr double kComing = 1;            // [s] in which all of a simulated network come
 
 std::size_t ticks_until(const ScaleSetting& setting, double time) {
   return static_cast<std::size_t>(std::llround(time * setting.rate));
@@ -47,49 +49,103 @@ void summarise(WholeRun& run, const WholeSamples& samples) {
   run.discovery = peer::percentiles(discovery);
 }
 
+/// Peers of one simulated network, whose links have room for so many datagrams each.
+class SimulatedPeers {
+ public:
+  SimulatedPeers(const ScaleSetting& setting, const peer::Clock& clock)
+      : setting_(setting),
+        clock_(clock),
+        room_(room_of(setting)),
+        network_(options_of(setting, room_), clock) {
+    network_.impair(setting.network);
+  }
+
+  /// Takes a step with each. They come one after the other: else all would repeat all they have at
+  /// the same instants.
+  void step(double time, Crowd& crowd) {
+    const double come = time / kComing * static_cast<double>(setting_.peers);
+    for (std::size_t p = peers_.size(); p < setting_.peers && static_cast<double>(p) <= come; ++p)
+      peers_.push_back(std::make_unique<WholePeer>(setting_, p, network_.link(p), clock_, kBegin,
+                                                   static_cast<std::uint32_t>(p + 1)));
+    for_each([&](WholePeer& peer) { peer.step(time, crowd); });
+  }
+  /// Calls use(peer) for each that has come. When much is under way all take it, so that no link
+  /// overflows.
+  template <typename Use>
+  void for_each(Use&& use) {
+    for (std::size_t p = 0; p < peers_.size(); ++p) {
+      const std::uint64_t before = network_.link(p).statistics().sent;
+      use(*peers_[p]);
+      under_way_ += network_.link(p).statistics().sent - before;
+      if (2 * under_way_ > room_) serve();
+    }
+  }
+  /// Sends what is due and takes what has arrived.
+  void serve() {
+    under_way_ = 0;
+    for_each([](WholePeer& peer) { peer.serve(); });
+  }
+  [[nodiscard]] std::uint64_t overflows() {
+    std::uint64_t sum = 0;
+    for (std::size_t p = 0; p < peers_.size(); ++p)
+      sum += network_.link(p).statistics().queue_overflows;
+    return sum;
+  }
+
+ private:
+  static std::size_t room_of(const ScaleSetting& setting) {
+    const std::size_t own = setting.crowd.entities / setting.peers + 1;
+    const double at_once = static_cast<double>(setting.peers) / (kComing * setting.rate);
+    return std::max({kLeastRoom, 4 * setting.peers,
+                     2 * own * (1 + static_cast<std::size_t>(std::ceil(at_once)))});
+  }
+  static peer::SimulatedNetworkOptions options_of(const ScaleSetting& setting, std::size_t room) {
+    peer::SimulatedNetworkOptions options;
+    options.links = setting.peers;
+    options.seed = setting.seed;
+    options.datagrams_in_flight = room;
+    options.join_delay = pdu::from_seconds(setting.join);
+    return options;
+  }
+
+  const ScaleSetting& setting_;
+  const peer::Clock& clock_;
+  std::size_t room_;
+  peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<WholePeer>> peers_;
+  std::uint64_t under_way_ = 0;
+};
+
 WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progress) {
   const double memory = resident_memory();
   peer::ManualClock clock(kBegin, std::chrono::hours(1));
-  peer::SimulatedNetworkOptions options;
-  options.links = setting.peers;
-  options.seed = setting.seed;
-  options.datagrams_in_flight = std::max(kLeastRoom, 4 * setting.peers);
-  peer::SimulatedNetwork network(options, clock);
-  network.impair(setting.network);
+  SimulatedPeers peers(setting, clock);
   Crowd crowd(setting.crowd);
-  std::vector<std::unique_ptr<WholePeer>> peers;
-  for (std::size_t p = 0; p < setting.peers; ++p)
-    peers.push_back(std::make_unique<WholePeer>(setting, p, network.link(p), clock, kBegin,
-                                                static_cast<std::uint32_t>(p + 1)));
-  const std::size_t warm = ticks_until(setting, setting.warm_up);
+  const std::size_t warm = ticks_until(setting, kWarmUp);
   const std::size_t ticks = warm + ticks_until(setting, setting.seconds);
   double time = 0;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     time = static_cast<double>(tick) / setting.rate;
     clock.set(kBegin + pdu::from_seconds(time));
     crowd.advance(time);
-    for (const auto& peer : peers) {
-      if (tick == warm) peer->begin_counting(time);
-      peer->step(time, crowd);
-    }
-    if (is_look(setting, tick))
-      for (const auto& peer : peers) peer->look(time, crowd);
+    if (tick == warm) peers.for_each([&](WholePeer& peer) { peer.begin_counting(time); });
+    peers.step(time, crowd);
     // What waits for company leaves in time, not with the next tick.
     if (setting.hold < 1 / setting.rate) {
       clock.set(kBegin + pdu::from_seconds(time + setting.hold));
-      for (const auto& peer : peers) peer->serve();
+      peers.serve();
     }
+    if (is_look(setting, tick)) peers.for_each([&](WholePeer& peer) { peer.look(time, crowd); });
     if (progress && !progress(static_cast<double>(tick + 1) / static_cast<double>(ticks))) break;
   }
   WholeRun run;
   run.resident = resident_memory() - memory;
   WholeSamples samples;
-  for (const auto& peer : peers) {
-    run.counts.add(peer->counts(time + 1 / setting.rate));
-    samples.add(peer->samples());
-  }
-  for (std::size_t p = 0; p < setting.peers; ++p)
-    run.counts.dropped += network.link(p).statistics().queue_overflows;
+  peers.for_each([&](WholePeer& peer) {
+    run.counts.add(peer.counts(time + 1 / setting.rate));
+    samples.add(peer.samples());
+  });
+  run.counts.dropped += peers.overflows();
   summarise(run, samples);
   return run;
 }
@@ -112,17 +168,17 @@ WholeRun run_processes(const ScaleSetting& setting, Meeting meeting,
 }  // namespace
 
 void check_meeting(const ScaleSetting& setting, Meeting meeting) {
-  if (meeting == Meeting::none || meeting == Meeting::simulated) return;
+  if (meeting == Meeting::simulated) return;
   if (meeting != Meeting::hosts && setting.peers > kMostProcesses)
     throw tools::UsageError(
         fmt::format("--peers: {} processes are more than one machine's network has "
-                    "room for, {}; take fewer, or --whole simulated",
+                    "room for, {}; take fewer, or leave --whole out",
                     setting.peers, kMostProcesses));
   const bool is_perfect = setting.network.delay == nanoseconds(0) && setting.network.loss == 0;
   if (!is_perfect)
     throw tools::UsageError(
-        "--delay, --jitter, --loss: a real network has its own; leave them out, or "
-        "take --whole simulated");
+        "--delay, --jitter, --loss: a real network has its own; leave them out, or leave --whole "
+        "out");
   if (meeting == Meeting::lan && geteuid() != 0)
     throw tools::EnvironmentError(
         "--whole lan makes network namespaces, which needs root; run it with sudo, or "
@@ -130,12 +186,11 @@ void check_meeting(const ScaleSetting& setting, Meeting meeting) {
 }
 
 Meeting read_meeting(const std::string& text) {
-  if (text.empty()) return Meeting::none;
-  if (text == "simulated") return Meeting::simulated;
+  if (text.empty()) return Meeting::simulated;
   if (text == "lo") return Meeting::lo;
   if (text == "lan") return Meeting::lan;
   if (text == "hosts") return Meeting::hosts;
-  throw tools::UsageError(fmt::format("--whole: '{}' is none of simulated, lo, lan, hosts", text));
+  throw tools::UsageError(fmt::format("--whole: '{}' is none of lo, lan, hosts", text));
 }
 
 WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
@@ -154,29 +209,9 @@ WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
   return run;
 }
 
-ScaleCounts WholeRun::as_row() const {
-  ScaleCounts row;
-  row.seconds = counts.seconds;
-  row.peers = row.witnesses = setting.peers;
-  row.entities = setting.crowd.entities;
-  row.updates = counts.updates;
-  row.datagrams = counts.datagrams;
-  row.octets = counts.octets;
-  row.heard_updates = counts.heard_updates;
-  row.heard_datagrams = counts.heard_datagrams;
-  row.heard_octets = counts.heard_octets;
-  row.joins = counts.joins;
-  row.wanted = counts.wanted;
-  row.looks = counts.looks;
-  row.unseen = counts.unseen;
-  row.pose = pose;
-  row.discovery = discovery;
-  row.send_cpu = counts.cpu;
-  return row;
-}
-
 WholeRun run_whole_peers(const ScaleSetting& setting, Meeting meeting,
                          const ScaleProgress& progress) {
+  check_scale_setting(setting);
   check_meeting(setting, meeting);
   const auto begun = std::chrono::steady_clock::now();
   WholeRun run = meeting == Meeting::simulated ? run_simulated(setting, progress)

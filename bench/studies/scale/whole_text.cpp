@@ -9,22 +9,22 @@
 
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
 
-/// What both can tell, of kMeasures.
-constexpr std::array<std::string_view, 12> kCompared{
+/// What is compared, of scale_measures().
+constexpr std::array<std::string_view, 13> kCompared{
     "sent_packets_per_s", "sent_bytes_per_s",    "sent_updates_per_s",   "heard_packets_per_s",
     "heard_bytes_per_s",  "heard_updates_per_s", "wanted_updates_per_s", "pose_error_p50_m",
-    "pose_error_p99_m",   "unseen_share",        "shown_after_p50_s",    "shown_after_p99_s"};
+    "pose_error_p99_m",   "unseen_share",        "shown_after_p50_s",    "shown_after_p99_s",
+    "cpu_share"};
 
 std::string_view name_of(Meeting meeting) {
   switch (meeting) {
-    case Meeting::none:
-      break;
     case Meeting::simulated:
       return "simulated";
     case Meeting::lo:
@@ -37,12 +37,12 @@ std::string_view name_of(Meeting meeting) {
   return "";
 }
 
-ScaleRow as_row(const WholeRow& row) {
-  return {row.run.setting, row.model.mechanism, row.run.as_row()};
+double value_of(const ScaleMeasure& measure, const WholeRun& run) {
+  return measure.of({kMechanisms.size() - 1, run});
 }
 
-std::string difference(double whole, double model) {
-  return model != 0 ? fmt::format("{:+.1f} %", 100 * (whole / model - 1)) : "-";
+std::string difference(double found, double simulated) {
+  return simulated != 0 ? fmt::format("{:+.1f} %", 100 * (found / simulated - 1)) : "-";
 }
 
 double share_of_core(const WholeRun& run) {
@@ -85,25 +85,17 @@ std::string whole_text(std::span<const WholeRow> rows) {
   std::string out;
   for (const WholeRow& row : rows) {
     const WholeRun& run = row.run;
-    const ScaleRow whole = as_row(row);
     tools::TextTable table(
-        {{"EACH PEER"}, {"MODEL", kRight}, {"WHOLE PEERS", kRight}, {"DIFFERENCE", kRight}});
+        {{"EACH PEER"}, {"SIMULATED", kRight}, {"PROCESSES", kRight}, {"DIFFERENCE", kRight}});
     for (const std::string_view name : kCompared) {
       const ScaleMeasure& measure = scale_measure(name);
-      const double model = measure.of(row.model), found = measure.of(whole);
-      table.add({std::string(measure.title), measure_text(measure, model),
-                 measure_text(measure, found), difference(found, model)});
-    }
-    // In a simulated network peers take no time of a kernel.
-    if (run.meeting != Meeting::simulated) {
-      const ScaleMeasure& cpu = scale_measure("cpu_share");
-      const double model = cpu.of(row.model), found = share_of_core(run);
-      table.add({std::string(cpu.title), measure_text(cpu, model), measure_text(cpu, found),
-                 difference(found, model)});
+      const double simulated = value_of(measure, row.simulated), found = value_of(measure, run);
+      table.add({std::string(measure.title), measure_text(measure, simulated),
+                 measure_text(measure, found), difference(found, simulated)});
     }
     const WholeCounts& counts = run.counts;
     out += fmt::format(
-        "{} whole peers with {} entities, {}, {:g} s\n{}"
+        "{} peers with {} entities, {}, {:g} s\n{}"
         "of {} looks at entities within the radius {} found one that is overdue (not shown {:g} s "
         "after it came in)\nlost {} datagrams, {} for want of room; {} came of groups that were "
         "not joined\neach {:.3f} % of a core ({} us for each update heard), {} KiB of memory, "
@@ -131,13 +123,12 @@ std::string whole_json(std::span<const WholeRow> rows) {
         .value("entities", row.run.setting.crowd.entities)
         .value("seconds", counts.seconds);
     for (const std::string_view name : kCompared)
-      object.value(name, scale_measure(name).of(as_row(row)));
+      object.value(name, value_of(scale_measure(name), row.run));
     object.value("looks", counts.looks)
         .value("overdue", counts.overdue)
         .value("lost", counts.lost)
         .value("dropped", counts.dropped)
         .value("foreign", counts.foreign)
-        .value("cpu_share", share_of_core(row.run))
         .value("update_cpu_s", update_cpu(row.run))
         .value("memory_octets", octets_each(row.run))
         .value("wall_s", row.run.wall)

@@ -67,7 +67,7 @@ class NoFlagIgnored : public testing::Test {
     std::string text = result.out;
     for (const std::string& file : written_) text += content(file);
     static const std::regex times(
-        R"x((query_ns|servo_step_ns|send_cpu_share|interest_cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
+        R"x((query_ns|servo_step_ns|loops_cpu_share|kernel_cpu_share|cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
     return {result, std::regex_replace(text, times, "")};
   }
 
@@ -220,22 +220,36 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
                                            "1s", "--rate", "5"})
                              .out;
   const std::map<std::string, Words> values{
-      {"FILE", {tracks_}},         {"--json", {}},
-      {"--seed", {"7"}},           {"--for", {"2s"}},
-      {"--report", {page_}},       {"--delay", {"90ms"}},
-      {"--jitter", {"40%"}},       {"--loss", {"20%"}},
-      {"--peers", {"3"}},          {"--entities", {"60"}},
-      {"--movement", {"walkers"}}, {"--density", {"900"}},
-      {"--cell", {"60m"}},         {"--pool", {"4"}},
-      {"--radius", {"50m"}},       {"--rate", {"10"}},
-      {"--threshold", {"0.2m"}},   {"--measure", {}},
-      {"--whole", {"simulated"}},  {"--hosts", {"a,b"}},
-      {"--ssh", {"ssh -4"}},       {"--share", {"1-1"}},
-      {"--port", {"3001"}},        {"--hands", {}},
-      {"--many-hands", {}},        {"--drawn", {"1"}},
-      {"--compare", {base}},       {"--csv", {csv_}},
-      {"--sweep", {"delay=5ms"}},  {"--touch", {}},
-      {"--iface", {"lo"}},         {"--scheme", {"quadtree"}},
+      {"FILE", {tracks_}},
+      {"--json", {}},
+      {"--seed", {"7"}},
+      {"--for", {"2s"}},
+      {"--report", {page_}},
+      {"--delay", {"90ms"}},
+      {"--jitter", {"40%"}},
+      {"--loss", {"20%"}},
+      {"--peers", {"3"}},
+      {"--entities", {"60"}},
+      {"--movement", {"walkers"}},
+      {"--density", {"900"}},
+      {"--cell", {"60m"}},
+      {"--pool", {"4"}},
+      {"--radius", {"50m"}},
+      {"--rate", {"10"}},
+      {"--threshold", {"0.2m"}},
+      {"--whole", {"lo"}},
+      {"--hosts", {"a,b"}},
+      {"--ssh", {"ssh -4"}},
+      {"--share", {"1-1"}},
+      {"--port", {"3001"}},
+      {"--hands", {}},
+      {"--many-hands", {}},
+      {"--compare", {base}},
+      {"--csv", {csv_}},
+      {"--sweep", {"delay=5ms"}},
+      {"--touch", {}},
+      {"--iface", {"lo"}},
+      {"--scheme", {"quadtree"}},
   };
   // Of about a tick: jitter decides in which one an update arrives.
   check(scale + Words{"--peers", "2", "--entities", "40", "--for", "1s", "--rate", "5", "--delay",

@@ -59,6 +59,19 @@ TEST(ScalePlan, RefusesByNameWhatCannotBe) {
   EXPECT_THAT(refusal(words), HasSubstr("--loss"));
 }
 
+TEST(ScalePlan, FitsWhatIsTooLargeToRun) {
+  ScaleWords words;
+  words.peers = "64,1000";
+  EXPECT_THAT(refusal(words), HasSubstr("--peers: 1000 are fitted to 3 exercises"));
+  words.peers = "64,1000,128,256";
+  const ScalePlan plan = read_scale_plan(words);
+  ASSERT_EQ(plan.settings.size(), 3U);
+  ASSERT_EQ(plan.fitted.size(), 1U);
+  EXPECT_EQ(plan.fitted[0].crowd.entities, 100'000U);
+  words.entities = "6400";
+  EXPECT_THAT(refusal(words), HasSubstr("with as many entities each"));
+}
+
 // Two that last the study and one that comes and goes; copies lie beside them.
 TEST(ScalePlan, TakesTracksThatLast) {
   const test::ScratchFolder folder;
