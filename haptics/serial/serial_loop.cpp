@@ -12,8 +12,8 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kFarewell = milliseconds(10);
-constexpr microseconds kGlance{500};
+constexpr nanoseconds kShutdownDrain = milliseconds(10);
+constexpr microseconds kPollInterval{500};
 constexpr std::uint16_t kQuestions = 4'096;  // by which the question numbers of two sessions differ
 
 }  // namespace
@@ -31,9 +31,9 @@ SerialLoop::SerialLoop(UsbExchange& exchange, const DeviceLimits& limits, Serial
 SerialLoop::~SerialLoop() {
   if (!port_ || !session_) return;
   session_->end_run();
-  const nanoseconds end = now() + kFarewell;
+  const nanoseconds end = now() + kShutdownDrain;
   const auto drain = [&] {
-    while (!port_->is_gone() && port_->is_sending() && now() < end) wait_without_line(kGlance);
+    while (!port_->is_gone() && port_->is_sending() && now() < end) wait_without_line(kPollInterval);
   };
   drain();
   port_->send(session_->farewell().span());

@@ -14,8 +14,8 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kFarewell = milliseconds(10);
-constexpr microseconds kGlance{500};
+constexpr nanoseconds kShutdownDrain = milliseconds(10);
+constexpr microseconds kPollInterval{500};
 
 }  // namespace
 
@@ -38,16 +38,16 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
 UsbLoop::~UsbLoop() {
   if (!line_) return;
   if (session_) session_->end_run();
-  const nanoseconds end = now() + kFarewell;
+  const nanoseconds end = now() + kShutdownDrain;
   const auto drain = [&] {
-    while (line_->is_sending() && now() < end) line_->pump(kGlance);
+    while (line_->is_sending() && now() < end) line_->pump(kPollInterval);
   };
   drain();
   line_->send(driver_->command(UsbStage::silent, nullptr));
   drain();
   // Some devices act on a command only after their report has been fetched.
   const nanoseconds heard = std::min(end, now() + 2 * kUsbExchange);
-  while (line_->fault() == UsbFault::none && now() < heard) line_->pump(kGlance);
+  while (line_->fault() == UsbFault::none && now() < heard) line_->pump(kPollInterval);
 }
 
 std::optional<UsbStage> UsbLoop::stage() const noexcept {
