@@ -251,8 +251,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
   for (const PresenceEvent& event : presence_.take_events()) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
-        introduce_ =
-            introduce_ || !leading_;  // with leaders, the newcomer asks the leaders of its cells
+        introduce_ = introduce_ || !leading_;  // leaders answer the newcomer
         break;
       case PresenceEventKind::renamed:
         introduce_ = true;
@@ -275,8 +274,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         introduce_ = true;
         break;
       case PresenceEventKind::settled:
-        // Until now a peer may have taken us for a rival of a former epoch, and dropped our
-        // entities.
+        // A peer may have taken us for a rival of a former epoch and dropped our entities.
         if (!presence_.peers().empty()) introductions_.begin(kBaseGroup, {}, now);
         continue;  // not reported to the peer
       case PresenceEventKind::heard_late:

@@ -28,7 +28,7 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 38500,
-    "src": 44000,
+    "src": 44500,
     "tools": 40000,
     "python": 2500,
     "bench": 36500,

@@ -19,9 +19,9 @@ struct ReachLimitConfig {
 /// A controller. It measures the receive rate over intervals of 2 s. After two consecutive
 /// intervals above the budget it cuts the most distant cells, by the area of the excess for evenly
 /// spread entities, and measures again 3 s later. One interval suffices while it is cutting, or if
-/// its own step outwards exceeded the budget by far. Below 80 % of the budget it extends the radius,
-/// by up to a quarter. A step outwards that exceeds the budget is undone, and the next one waits
-/// twice as long, 20 s to 160 s. One thread; allocates nothing.
+/// its own step outwards exceeded the budget by far. Below 80 % of the budget it extends the
+/// radius, by up to a quarter. A step outwards that exceeds the budget is undone, and the next one
+/// waits twice as long, 20 s to 160 s. One thread; allocates nothing.
 class ReachLimit {
  public:
   explicit ReachLimit(const ReachLimitConfig& config) : config_(config) {}

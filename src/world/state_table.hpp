@@ -83,8 +83,7 @@ struct RemoteEntity {
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
-  /// Pose to which the shown one converges: predicted(), or near it according to `order` if
-  /// adaptive.
+  /// Pose to which the shown one converges: predicted(), or one near it by `order` if adaptive.
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
