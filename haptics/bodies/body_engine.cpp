@@ -19,13 +19,12 @@ constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestSubstep = 5e-4;  // [s], of a prediction
 constexpr double kLongestGap = 0.1;       // [s]
 constexpr double kJitter = 5e-5;          // [s], lateness of a punctual servo
-constexpr double kMostTime =
-    3e-4;  // [s], part of a period for prediction and steps of touched islands
-constexpr double kBodyTime = 3.5e-6;    // [s], cost of a step for each body
-constexpr double kMetAhead = 2.0;       // periods in which a moving body may reach a sleeping one
-constexpr std::size_t kMostLeft = 256;  // bodies between two updates of a copy of the states
-constexpr double kRight = 0.15;         // greatest dt sqrt(K / m)
-constexpr double kLeverage = 0.4;       // least effective mass of a rotating body, over its mass
+constexpr double kMostTime = 3e-4;        // [s] of a period to predict and step touched islands
+constexpr double kBodyTime = 3.5e-6;      // [s], cost of a step for each body
+constexpr double kMetAhead = 2.0;         // periods in which a moving body may reach a sleeping one
+constexpr std::size_t kMostLeft = 256;    // bodies between two updates of a copy of the states
+constexpr double kRight = 0.15;           // greatest dt sqrt(K / m)
+constexpr double kLeverage = 0.4;         // least effective mass of a rotating body, over its mass
 
 }  // namespace
 
@@ -351,8 +350,7 @@ void BodyEngine::follow(BodyPush& push, double dt) noexcept {
   push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
 }
 
-// Moves all acting bodies by `whole` [s], in steps of dt [s] or less. @return length of the steps
-// [s]
+// Moves all acting bodies by `whole` [s], in steps of dt [s] or less. @return their length [s]
 double BodyEngine::push_for(double whole, double dt) noexcept {
   const double steps = std::ceil(whole / dt - 1e-9);
   const double length = whole / steps;

@@ -42,8 +42,7 @@ deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::Adaptive
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
   const StateAge age = age_of(*this, now);
-  // A program without trailers compares with the standard's prediction, so its entities use that
-  // one.
+  // A program without trailers compares with the standard's prediction, so this uses that one.
   deadreckon::Pose pose = epoch != 0 ? deadreckon::extrapolate_trusted(state, age.tau)
                                      : deadreckon::extrapolate(state, age.tau);
   age.hold(pose);

@@ -25,13 +25,11 @@ constexpr std::size_t kContactSets = 128;
 constexpr std::size_t kBodySteps = 65'536;  // of all bodies
 constexpr std::size_t kLoopSteps = 16'384;  // of one peer: 20 ms of passes 5 us after one another
 constexpr nanoseconds kCollect = milliseconds(20);
-constexpr nanoseconds kTick = milliseconds(1);  // simulated time: period at which all peers read
-                                                // the network
+constexpr nanoseconds kTick = milliseconds(1);  // simulated time: all peers read the network
 constexpr std::uint16_t kSite = 1;
 
 // Limit of the steps taken from one hand at once during a run, several times the number that
-// kCollect produces. A host that cannot keep up always finds more steps; the limit lets the run
-// end.
+// kCollect produces. A host that cannot keep up always finds more; the limit lets the run end.
 std::size_t most_steps(nanoseconds period) {
   return static_cast<std::size_t>(6 * kCollect / period) + 8;
 }
