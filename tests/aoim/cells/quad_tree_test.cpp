@@ -62,7 +62,7 @@ TEST(QuadTree, GivesEachCellItsOwnGroup) {
   }
 }
 
-TEST(QuadTree, DividesMostWhereMostIsWasted) {
+TEST(QuadTree, DividesCrowdedAreasMost) {
   const QuadTree tree = QuadTree::divided_by(square(), crowd(2));
   const int in_crowd = tree.cell({450.0, 300.0, 0.0}).r, far = tree.cell({-300.0, -450.0, 0.0}).r;
   EXPECT_GT(in_crowd, far + 1);

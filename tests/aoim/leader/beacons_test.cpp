@@ -134,7 +134,7 @@ struct Peers {
   std::vector<std::unique_ptr<AreaOfInterestManager>> managers;
 };
 
-TEST(Beacons, SubscribeFollowersToTheirCellWhereverItIs) {
+TEST(Beacons, LetFollowersSubscribeToTheEntitysCell) {
   Peers three(Follows{{}, {}, {kGate}});
   three.run(seconds(4));
   EXPECT_FALSE(three.followed(2).found);

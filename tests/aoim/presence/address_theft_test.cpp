@@ -175,7 +175,7 @@ class Relays : public testing::TestWithParam<Attack> {
   }
 };
 
-TEST_P(Relays, QuietPeerStaysWhereItIs) {
+TEST_P(Relays, DoNotMoveAQuietPeer) {
   Street street(GetParam());
   street.begin_with_the_victim_alone();
   expect_no_theft(street, 600);
@@ -227,7 +227,7 @@ TEST_P(Relays, SuspendedListenerIsNotDeceived) {
   }
 }
 
-TEST_P(Relays, HandInContactStaysWhereItIs) {
+TEST_P(Relays, DoNotMoveAHandInContact) {
   Attack attack = GetParam();
   attack.rate = 30;
   Street street(attack);

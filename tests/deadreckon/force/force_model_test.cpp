@@ -126,7 +126,7 @@ TEST(ForceModel, GivesNoForceForUnsupportedKinds) {
   }
 }
 
-TEST(ForceModel, NeverPullsHoweverFastTheProbeLeaves) {
+TEST(ForceModel, NeverPullsAProbeThatLeavesFast) {
   Random random(3);
   for (const Kind kind : kTouchable) {
     ForceModel m = model_of(kind);

@@ -59,7 +59,7 @@ TEST(BodyWorld, PushGivesImpulseAndReportsItsWork) {
   EXPECT_EQ(world.work(0), 0.0) << "a push lasts one period";
 }
 
-TEST(BodyWorld, HeavierBodyGoesOnAndLighterReturns) {
+TEST(BodyWorld, LighterBodyReboundsFromAHeavierBody) {
   Table table;
   table.without_gravity();
   table.ball(0.02, {-0.1, 0, 0}, {1.0, 0.0, 1.0});

@@ -54,7 +54,7 @@ class PidWheelTold : public ::testing::Test {
 };
 
 TEST_F(PidWheelTold, SpringPressesByDepthUpToItsMaximum) {
-  press(-0.0125 - 0.011);  // 11 mm, of which a hand of 300 N/m presses 3
+  press(-0.0125 - 0.011);  // 11 mm deep; a hand of 300 N/m presses 3 mm
   EXPECT_NEAR(wheel_.place(0), -0.0125 - 0.003, 1e-6);
   EXPECT_NEAR(wheel_.force(0), 800 * 0.003, 1e-3);
   press(-0.1);

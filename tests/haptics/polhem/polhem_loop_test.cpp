@@ -338,7 +338,7 @@ TEST(PolhemLoop, ReportsOfAnotherLengthAreRefused) {
   EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("12 octets where 14 are known")));
 }
 
-TEST(PolhemLoop, AnotherDeviceUnderItsNumberIsLeftAlone) {
+TEST(PolhemLoop, LeavesAnotherDeviceWithTheSameIdAlone) {
   PolhemModelOptions options;
   options.is_hid = false;
   Plugged polhem(options);

@@ -268,7 +268,7 @@ INSTANTIATE_TEST_SUITE_P(OverBadLines, DelayedPair,
 
 // The hand takes the maximum energy of each force that arrives at the handle, while others request
 // all that there is: the port covers an earlier force until it has left the handle.
-TEST(ForcesUnderWay, AreCoveredWhateverIsGivenAway) {
+TEST(ForcesUnderWay, AreCoveredWhileOthersRequestAllEnergy) {
   constexpr double kDamping = 1, kPeriod = 1e-3;
   for (const int delay : {0, 1, 2, 3, 4, 16}) {
     EnergyPort port(kDamping, delay);

@@ -164,7 +164,7 @@ TEST(Transmitter, HasVariableParametersInVersion7Only) {
   EXPECT_EQ(pdu.variable_transmitter_parameters.count, 2);
   EXPECT_FALSE(pdu.variable_transmitter_parameters.bytes.empty());
 
-  // In version 6 these two octets are padding, whatever they hold.
+  // In version 6 these two octets are padding with any value.
   octets.resize(104 + 16 + 40);
   octets[0] = std::byte{6};
   store_big_endian(octets.data() + 8, static_cast<std::uint16_t>(octets.size()));

@@ -199,7 +199,7 @@ TEST(CompactState, DeclinesUnsupportedStates) {
   EXPECT_EQ(encode_compact(random_state(random), {}, front(body, 100)), 0u);
 }
 
-TEST(CompactState, HalfATurnIsTheSameEitherWay) {
+TEST(CompactState, EncodesHalfATurnAsTheLeastNumber) {
   EntityState state;
   state.orientation.psi = static_cast<float>(std::numbers::pi);
   const auto numbers = numbers_of(state, {});
