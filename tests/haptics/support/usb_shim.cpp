@@ -260,8 +260,8 @@ int real_poll(pollfd* files, nfds_t count, int wait_ms) {
       ::syscall(SYS_ppoll, files, count, wait_ms < 0 ? nullptr : &wait, nullptr, 0));
 }
 
-// The time to wait is the model's, and passes at once; or, with a clock, the clock's. Other events
-// come in real time: a poll once a millisecond suffices.
+// Without a clock, the wait advances the model's time at once. With a clock, it lasts until the
+// clock has advanced. The other files are polled once a millisecond of the wait, which suffices.
 int shimmed_poll(UsbShim& shim, pollfd* files, nfds_t count, int wait_ms) {
   pollfd* const end = files + count;
   pollfd* const ours =
