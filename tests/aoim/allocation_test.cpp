@@ -15,7 +15,7 @@ using namespace test;
 
 constexpr std::size_t kStates = 50;
 
-/// A peer with moving entities and a second one that hears it, one step per millisecond.
+/// A peer with moving entities and a second one that receives it, one step per millisecond.
 class Pair {
  public:
   Pair() : a_({}, presence_of(1, 11)), b_({}, presence_of(2, 22)), record_(haptic_record(100.0F)) {

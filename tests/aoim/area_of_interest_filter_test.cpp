@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the manager does not use of what arrives, and what it does not learn from it.
+// Datagrams that the manager refuses, and state that it must not change for them.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-TEST(AreaOfInterestManager, DropsWhatItMustNotUseAndCountsIt) {
+TEST(AreaOfInterestManager, DropsAndCountsUnusableDatagrams) {
   World world;
   AreaOfInterestManager& me = world.add(presence_of(1, 11), {0, 0, 0});
   world.run(milliseconds(10));
@@ -35,14 +35,14 @@ TEST(AreaOfInterestManager, DropsWhatItMustNotUseAndCountsIt) {
             IncomingVerdict::not_joined);
   EXPECT_EQ(me.receive(near, encoded(entity_state(4)), world.now).verdict, IncomingVerdict::plain);
 
-  // Its announcement says another scene.
+  // Its announcement names another scene.
   pdu::Presence mismatch = presence_of(2, 22);
   mismatch.scene_hash = 5;
   me.receive(kBaseGroup, encoded(mismatch), world.now);
   EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::other_scene);
   ASSERT_EQ(me.take_events().size(), 1u);
 
-  // It restarts with ours: the former life is refused.
+  // It restarts with our scene: datagrams of its former epoch are refused.
   me.receive(kBaseGroup, encoded(presence_of(2, 23)), world.now);
   world.run(seconds(1));
   EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::former_life);
@@ -79,10 +79,10 @@ TEST(AreaOfInterestManager, SurvivesAnyOctets) {
   EXPECT_LE(manager.presence().peers().size(), 256u);
 }
 
-TEST(AreaOfInterestManager, IgnoresPeersOfAnotherExerciseAltogether) {
+TEST(AreaOfInterestManager, IgnoresPeersOfAnotherExercise) {
   World world;
   AreaOfInterestManager& me = world.add(presence_of(1, 11, 100), {0, 0, 0});
-  // One would be a newcomer; one would win our address, for it is older; both send entities here.
+  // One would be a newcomer. The other is older and would win our address. Both send entities here.
   pdu::Presence beside = presence_of(2, 22, 100), older = presence_of(1, 33, 50);
   beside.header.exercise_id = older.header.exercise_id = 9;
   AreaOfInterestManager& other = world.add(beside, {0, 0, 0});
@@ -98,12 +98,12 @@ TEST(AreaOfInterestManager, IgnoresPeersOfAnotherExerciseAltogether) {
   EXPECT_TRUE(world.members[0].used.empty());
   EXPECT_GT(me.incoming(IncomingVerdict::other_exercise), 300u);
   EXPECT_EQ(me.sequences().counts().lost, 0u);
-  // The two of exercise 9 have found each other.
+  // The two peers of exercise 9 have found each other.
   EXPECT_EQ(other.presence().peers().size(), 1u);
   EXPECT_EQ(disputing.presence().peers().size(), 1u);
 }
 
-TEST(AreaOfInterestManager, IgnoresTheWholeDatagramOfAForeignPresenceWithoutATrailer) {
+TEST(AreaOfInterestManager, IgnoresForeignPresenceDatagramWithoutTrailer) {
   AreaOfInterestManager me(config(), presence_of(1, 11));
   me.start(nanoseconds(0));
   pdu::Presence foreign = presence_of(2, 22);
@@ -115,7 +115,7 @@ TEST(AreaOfInterestManager, IgnoresTheWholeDatagramOfAForeignPresenceWithoutATra
   EXPECT_EQ(me.presence().peers().size(), 1u);
 }
 
-TEST(AreaOfInterestManager, BelievesNoNumbersOfWhoHasNotAnnouncedItself) {
+TEST(AreaOfInterestManager, IgnoresSequenceNumbersBeforeAnAnnouncement) {
   AreaOfInterestManager me(config(), presence_of(1, 11));
   me.start(nanoseconds(0));
   const auto with_trailer = [](std::uint32_t sequence) {
@@ -133,7 +133,7 @@ TEST(AreaOfInterestManager, BelievesNoNumbersOfWhoHasNotAnnouncedItself) {
   EXPECT_EQ(me.sequences().counts().lost, 0u);
 }
 
-TEST(AreaOfInterestManager, RefusesWhatNamesAMemberButComesFromElsewhere) {
+TEST(AreaOfInterestManager, RefusesDatagramsOfAMemberFromAnotherAddress) {
   World world;
   AreaOfInterestManager& me = world.add(presence_of(1, 11), {0, 0, 0});
   world.run(milliseconds(10));

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-TEST(AreaOfInterestManager, RoutesEveryPduToTheGroupOfItsCell) {
+TEST(AreaOfInterestManager, RoutesEveryPduToItsCellsGroup) {
   AreaOfInterestManager manager(config(), presence_of(1, 11));
   std::mt19937_64 random(1);
   std::normal_distribution<double> move(0.0, 20.0);
@@ -42,7 +42,7 @@ TEST(AreaOfInterestManager, RoutesEveryPduToTheGroupOfItsCell) {
   EXPECT_EQ(seen, kMoves) << "orphans";
 }
 
-TEST(AreaOfInterestManager, HearsNeighboursAndNotThoseFarAway) {
+TEST(AreaOfInterestManager, ReceivesNeighboursButNotDistantPeers) {
   World world;
   world.add(presence_of(1, 11), {0, 0, 0});
   world.add(presence_of(2, 22), {150, 0, 0});
@@ -57,7 +57,7 @@ TEST(AreaOfInterestManager, HearsNeighboursAndNotThoseFarAway) {
   EXPECT_EQ(world.members[0].manager->sequences().counts().lost, 0u);
 }
 
-TEST(AreaOfInterestManager, DemandsAnIntroductionWhenANewcomerIsHeard) {
+TEST(AreaOfInterestManager, DemandsAnIntroductionForANewcomer) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
   world.run(milliseconds(3500));  // between two announcements
@@ -82,7 +82,7 @@ TEST(AreaOfInterestManager, DemandsAnIntroductionWhenANewcomerIsHeard) {
   EXPECT_EQ(events[0].kind, PresenceEventKind::newcomer);
 }
 
-TEST(AreaOfInterestManager, DemandsAnIntroductionToAPeerThatWalksIntoTheCell) {
+TEST(AreaOfInterestManager, DemandsIntroductionWhenAPeerEntersTheCell) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
   world.add(presence_of(2, 22), {1000, 0, 0});
@@ -97,7 +97,7 @@ TEST(AreaOfInterestManager, DemandsAnIntroductionToAPeerThatWalksIntoTheCell) {
   EXPECT_TRUE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
 }
 
-TEST(AreaOfInterestManager, DemandsNoSecondIntroductionWhereItIsAskedForAgain) {
+TEST(AreaOfInterestManager, DemandsNoSecondIntroductionForARepeatedRequest) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
   world.add(presence_of(2, 22), {1000, 0, 0});
@@ -115,7 +115,7 @@ TEST(AreaOfInterestManager, DemandsNoSecondIntroductionWhereItIsAskedForAgain) {
   }
 }
 
-TEST(AreaOfInterestManager, DemandsAnotherIntroductionToWhoHeardNothingInTheCell) {
+TEST(AreaOfInterestManager, DemandsAnotherIntroductionAfterALostOne) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
   world.add(presence_of(2, 22), {1000, 0, 0});
@@ -123,19 +123,19 @@ TEST(AreaOfInterestManager, DemandsAnotherIntroductionToWhoHeardNothingInTheCell
   const GroupIndex group = first.route({0, 0, 0});
   world.members[1].place = {150, 0, 0};
   world.run(milliseconds(110));
-  const nanoseconds last_sent = world.now;  // and lost
+  const nanoseconds last_sent = world.now;  // this update is lost
   ASSERT_FALSE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
   world.run(milliseconds(750));
   EXPECT_TRUE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
 }
 
-TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorder) {
+TEST(AreaOfInterestManager, DemandsUpdatesInNewCellsWithoutBorderFlood) {
   AreaOfInterestManager manager(config(), presence_of(1, 11));
   GroupIndex last_group = manager.route({0, 0, 0});
   nanoseconds last_sent{0};
   int sent = 0;
   for (int ms = 0; ms < 1000; ++ms) {
-    // Trembles over the border at x = 108.25 every millisecond.
+    // Crosses the border at x = 108.25 every millisecond.
     const Position position{108.25 + (ms % 2 == 0 ? 0.1 : -0.1), 0, 0};
     if (!manager.must_send(kCellTier, {7, 1, 1}, position, {last_sent, last_group},
                            milliseconds(ms)))
@@ -148,7 +148,7 @@ TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorde
   EXPECT_LE(sent, 10);
 }
 
-TEST(AreaOfInterestManager, ChangesItsAddressInWhatItSendsAfterADispute) {
+TEST(AreaOfInterestManager, SendsWithItsNewAddressAfterADispute) {
   World world;
   world.add(presence_of(1, 11, 100), {0, 0, 0});
   world.run(milliseconds(2300));  // between two announcements
@@ -165,7 +165,7 @@ TEST(AreaOfInterestManager, ChangesItsAddressInWhatItSendsAfterADispute) {
   EXPECT_TRUE(told);
 }
 
-TEST(AreaOfInterestManager, SpeaksPlainDisInInteropMode) {
+TEST(AreaOfInterestManager, SendsPlainDisInInteropMode) {
   AreaOfInterestConfig plain = config();
   plain.interop = true;
   AreaOfInterestManager manager(plain, presence_of(1, 11));
@@ -184,7 +184,7 @@ TEST(AreaOfInterestManager, SpeaksPlainDisInInteropMode) {
   }
 }
 
-TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
+TEST(AreaOfInterestManager, SendsPendingUpdatesAndDepartsOnStop) {
   World world;
   AreaOfInterestManager& leaving = world.add(presence_of(1, 11), {0, 0, 0});
   AreaOfInterestManager& staying = world.add(presence_of(2, 22), {0, 0, 0});
@@ -204,7 +204,7 @@ TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
   EXPECT_EQ(events[0].kind, PresenceEventKind::departed);
 }
 
-TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
+TEST(AreaOfInterestManager, SpreadsIntroductionsOfManyEntities) {
   AreaOfInterestManager me(config(), presence_of(1, 11));
   me.start(nanoseconds(0));
   me.introductions().set_owned(100'000);
@@ -229,8 +229,8 @@ TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
   EXPECT_FALSE(me.introductions().is_pending());
 }
 
-// Whoever knows the life of a peer before it has announced itself could make its numbers useless.
-TEST(AreaOfInterestManager, TellsWhomItHears) {
+// The epoch of a peer that has not announced itself must not spoil its later sequence numbers.
+TEST(AreaOfInterestManager, ListsThePeersThatItReceives) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
   world.add(presence_of(2, 22), {0, 0, 0});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is felt goes by a second group of its cell, which those alone hear who can touch.
+// Touchable entities use a second group of their cell. Only peers that can touch them join it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ GroupIndex contact_group_at(const AreaOfInterestManager& manager, const Position
   return {static_cast<std::uint16_t>(cell.value + config().grid.pool)};
 }
 
-// Peers 7:1 .. 7:N, each with something that is felt where it stands.
+// Peers 7:1 .. 7:N, each with a touchable entity at its position.
 struct Hands : World {
   AreaOfInterestManager& place(const Position& at, const AreaOfInterestConfig& how) {
     const auto number = static_cast<std::uint16_t>(members.size() + 1);
@@ -50,7 +50,7 @@ struct Hands : World {
   }
 };
 
-TEST(ContactGroups, AreHeardByThoseWithinReachAloneAndCellsByAll) {
+TEST(ContactGroups, ReachOnlyPeersWithinReach) {
   Hands world;
   world.place({0, 0, 0}, with_contacts());
   world.place({0.3, 0, 0}, with_contacts());
@@ -66,7 +66,7 @@ TEST(ContactGroups, AreHeardByThoseWithinReachAloneAndCellsByAll) {
   EXPECT_EQ(world.members[2].manager->sequences().counts().lost, 0u) << "each group counts alone";
 }
 
-TEST(ContactGroups, AreNoneUnlessAskedFor) {
+TEST(ContactGroups, AreAbsentByDefault) {
   Hands world;
   AreaOfInterestManager& plain = world.place({0, 0, 0}, config());
   EXPECT_TRUE(plain.tiers().urgent().empty());
@@ -77,8 +77,8 @@ TEST(ContactGroups, AreNoneUnlessAskedFor) {
   EXPECT_FALSE(plain.must_send(kTouchTier, {7, 1, 1}, {0, 0, 0}, {}, world.now));
 }
 
-// A cell's corner radius is 125 m: the next one begins 108.25 m east.
-TEST(ContactGroups, AreJoinedBeforeAHandIsThereAndLeftLate) {
+// The corner radius of a cell is 125 m: the next cell begins 108.25 m east.
+TEST(ContactGroups, AreJoinedBeforeArrivalAndLeftLate) {
   Hands world;
   AreaOfInterestManager& manager = world.place({0, 0, 0}, with_contacts());
   const GroupIndex next = contact_group_at(manager, {110, 0, 0});
@@ -100,7 +100,7 @@ TEST(ContactGroups, AreJoinedBeforeAHandIsThereAndLeftLate) {
   EXPECT_FALSE(manager.subscriptions().hears(next));
 }
 
-TEST(ContactGroups, AreJoinedWhateverTheCapOfOthers) {
+TEST(ContactGroups, AreJoinedBeyondTheCapOfOtherGroups) {
   AreaOfInterestConfig how = with_contacts();
   how.subscription.maximum_groups = 1;
   Hands world;
@@ -111,7 +111,7 @@ TEST(ContactGroups, AreJoinedWhateverTheCapOfOthers) {
   EXPECT_EQ(manager.subscriptions().cells().joined().size(), 1u);
 }
 
-TEST(ContactGroups, CountNoLossOfWhatPassedWhileTheyWereLeft) {
+TEST(ContactGroups, CountNoLossWhileTheyAreNotJoined) {
   Hands world;
   world.place({0, 0, 0}, with_contacts());
   world.place({0.3, 0, 0}, with_contacts());
@@ -127,8 +127,8 @@ TEST(ContactGroups, CountNoLossOfWhatPassedWhileTheyWereLeft) {
   EXPECT_EQ(world.members[1].manager->sequences().counts().lost, 0u);
 }
 
-// Whatever a cell's group refuses, its contact group refuses.
-TEST(ContactGroups, RefuseWhatAnyGroupRefuses) {
+// A contact group refuses the same datagrams as the group of its cell.
+TEST(ContactGroups, RefuseTheSameDatagramsAsCellGroups) {
   Hands world;
   AreaOfInterestManager& manager = world.place({0, 0, 0}, with_contacts());
   world.run(milliseconds(10));
@@ -155,7 +155,7 @@ TEST(ContactGroups, RefuseWhatAnyGroupRefuses) {
   EXPECT_EQ(verdict(group, of_others), IncomingVerdict::other_exercise);
 }
 
-TEST(ContactGroups, AreRefusedWhereThereCanBeNone) {
+TEST(ContactGroups, AreRefusedInImpossibleConfigurations) {
   const auto refused = [](auto change) {
     AreaOfInterestConfig how = with_contacts();
     change(how);

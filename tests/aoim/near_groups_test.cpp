@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What those alone need who are near goes by a group of its own of each cell, a row of the channels
-// each, which those alone hear who are so near.
+// Updates that only near peers need use their own group of each cell, one per near row of the
+// channels. Only peers within that row's distance join it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ using namespace test;
 
 constexpr double kSenses = 200.0;  // [m], as World's members
 constexpr double kEnd = 20.0, kMiddle = 60.0;
-const double kBorder = 125.0 * std::sqrt(3.0) / 2.0;  // [m] east of the origin the next cell begins
+const double kBorder = 125.0 * std::sqrt(3.0) / 2.0;  // [m] next cell, east of the origin
 
-// Rows to 20 m and to 60 m, and all beyond.
+// Rows up to 20 m, up to 60 m, and beyond.
 std::vector<Channel> rows(bool kept = false) {
   constexpr double kForever = std::numeric_limits<double>::infinity();
   std::vector<Channel> table{{kEnd, Body::full, 30.0, 1.0, 144.0, false, 1.0},
@@ -46,7 +46,7 @@ GroupIndex near_group_at(const AreaOfInterestManager& manager, std::size_t row,
   return {static_cast<std::uint16_t>(number)};
 }
 
-// Peers 7:1 .. 7:N, who listen from where they stand.
+// Peers 7:1 .. 7:N, which listen at their positions.
 struct Near : World {
   AreaOfInterestManager& place(const Position& at, const AreaOfInterestConfig& how = with_rows()) {
     const auto number = static_cast<std::uint16_t>(members.size() + 1);
@@ -72,7 +72,7 @@ struct Near : World {
     focus(members[member]);
     listen(member);
   }
-  // By the first one, in its cell.
+  // Sends from the first peer, in its cell.
   void say(std::uint16_t entity, std::optional<std::size_t> row) {
     const pdu::EntityState state = entity_state(entity);
     AreaOfInterestManager& first = *members[0].manager;
@@ -85,7 +85,7 @@ struct Near : World {
   std::vector<GroupIndex> join_, leave_;
 };
 
-TEST(NearGroups, AreHeardByThoseWhoAreSoNearAndTheCellsByAll) {
+TEST(NearGroups, ReachOnlyPeersWithinTheirRow) {
   Near world;
   world.place({0, 0, 0});
   world.place({kBorder + 15, 0, 0});
@@ -106,7 +106,7 @@ TEST(NearGroups, AreHeardByThoseWhoAreSoNearAndTheCellsByAll) {
   }
 }
 
-TEST(NearGroups, AreNoneUnlessAskedFor) {
+TEST(NearGroups, AreAbsentByDefault) {
   Near world;
   AreaOfInterestConfig how = with_rows();
   how.tiers.clear();
@@ -116,7 +116,7 @@ TEST(NearGroups, AreNoneUnlessAskedFor) {
   EXPECT_FALSE(plain.subscriptions().hears(near_group_at(plain, 0, {0, 0, 0})));
 }
 
-TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
+TEST(NearGroups, MapGroupNumbersToTheirCellAndTier) {
   AreaOfInterestConfig how = with_rows();
   how.tiers.push_back(&kTouchKind);
   how.grid.pool = 100;
@@ -133,8 +133,9 @@ TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
   EXPECT_EQ(all_groups(how), 4 * how.grid.pool);
 }
 
-// At 100 m/s 30 m are 0.3 s: a join takes 30 ms, and what is there is told within 100 ms after it.
-TEST(NearGroups, AreJoinedBeforeAFastFocusIsThereAndLeftLate) {
+// At 100 m/s, 30 m take 0.3 s: a join takes 30 ms, and the states there arrive within 100 ms after
+// it.
+TEST(NearGroups, AreJoinedBeforeFastFociArrive) {
   Near world;
   AreaOfInterestManager& manager = world.place({0, 0, 0});
   const GroupIndex next = near_group_at(manager, 0, {kBorder + 1, 0, 0});
@@ -154,7 +155,7 @@ TEST(NearGroups, AreJoinedBeforeAFastFocusIsThereAndLeftLate) {
   EXPECT_FALSE(manager.subscriptions().hears(next));
 }
 
-TEST(NearGroups, AreThoseOfAllCellsWhereAFocusLeaps) {
+TEST(NearGroups, FollowAFocusThatJumps) {
   Near world;
   AreaOfInterestManager& manager = world.place({0, 0, 0});
   world.now += seconds(3);
@@ -164,8 +165,8 @@ TEST(NearGroups, AreThoseOfAllCellsWhereAFocusLeaps) {
   EXPECT_TRUE(manager.subscriptions().hears(manager.route({5150, 5000, 0})));
 }
 
-// Over its budget a receiver leaves the near groups of what is farthest; kept rows stay.
-TEST(NearGroups, AreLeftByWhoCannotTakeWhatTheySay) {
+// A receiver over its budget leaves the near groups of the farthest entities; kept rows stay.
+TEST(NearGroups, AreLeftByReceiversOverBudget) {
   Near world;
   AreaOfInterestConfig how = with_rows();
   how.channels = rows(true);
@@ -182,8 +183,9 @@ TEST(NearGroups, AreLeftByWhoCannotTakeWhatTheySay) {
   EXPECT_TRUE(manager.subscriptions().hears(next)) << "within the row that is kept";
 }
 
-// Who begins to listen asks; who speaks there tells, in that group alone.
-TEST(NearGroups, TellWhoBeginsToListen) {
+// A peer that joins a near group requests its states; the senders introduce them in that group
+// only.
+TEST(NearGroups, IntroduceStatesToNewListeners) {
   Near world;
   AreaOfInterestManager& speaker = world.place({0, 0, 0});
   world.place({kBorder + 90, 0, 0});
@@ -208,8 +210,8 @@ TEST(NearGroups, TellWhoBeginsToListen) {
   EXPECT_TRUE(asked(0, long_ago));
 }
 
-// Whatever a cell's group refuses, its near groups refuse.
-TEST(NearGroups, RefuseWhatAnyGroupRefuses) {
+// A near group refuses the same datagrams as the group of its cell.
+TEST(NearGroups, RefuseTheSameDatagramsAsCellGroups) {
   Near world;
   AreaOfInterestManager& manager = world.place({0, 0, 0});
   world.run(milliseconds(10));
@@ -237,7 +239,7 @@ TEST(NearGroups, RefuseWhatAnyGroupRefuses) {
   EXPECT_EQ(verdict(group, of_others), IncomingVerdict::other_exercise);
 }
 
-TEST(NearGroups, HearNoMembershipOfRowsThatAreNone) {
+TEST(NearGroups, IgnoreMembershipsOfUnknownRows) {
   Near world;
   AreaOfInterestManager& manager = world.place({0, 0, 0});
   world.run(milliseconds(1500));
@@ -257,7 +259,7 @@ TEST(NearGroups, HearNoMembershipOfRowsThatAreNone) {
   EXPECT_TRUE(manager.introductions().is_pending());
 }
 
-TEST(NearGroups, AreRefusedWhereThereCanBeNone) {
+TEST(NearGroups, AreRefusedInImpossibleConfigurations) {
   const auto refused = [](auto change) {
     AreaOfInterestConfig how = with_rows();
     change(how);
@@ -277,13 +279,13 @@ TEST(NearGroups, AreRefusedWhereThereCanBeNone) {
   EXPECT_NO_THROW(AreaOfInterestManager(most, presence_of(1, 11)));
 }
 
-TEST(NearGroups, OfAFocusReachNoFartherThanTheirRowNorTheFocus) {
+TEST(NearGroups, ReachNoFartherThanTheirRowOrFocus) {
   const ChannelTable table(rows());
   const auto reach = [&](double radius) {
     return near_focus(table, 1, {{}, 0.0, radius}, kSenses, 1.0).radius;
   };
   EXPECT_EQ(reach(kSenses), kMiddle);
-  EXPECT_EQ(reach(kSenses + 5.0), kMiddle + 5.0);  // stands for several, 5 m apart
+  EXPECT_EQ(reach(kSenses + 5.0), kMiddle + 5.0);  // represents several entities, 5 m apart
   EXPECT_EQ(reach(10.0), 10.0);
   EXPECT_EQ(reach(100.0), kMiddle);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Managers of interest areas on cells that are not equal: against distances, at borders between
-// cells of different size, and with what else goes by cells.
+// Area-of-interest managers on cells of unequal size: against distances, at borders between cells
+// of different size, and with other mechanisms that depend on cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ QuadTreeConfig square(std::size_t pool) {
   return result;
 }
 
-// Four fifths in a village of 300 m, the others all over the square.
+// Four fifths in a village of 300 m, the rest all over the square.
 std::vector<Position> lopsided(std::uint64_t seed, std::size_t count) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> all(-0.5 * kSide, 0.5 * kSide), village(900.0, 1200.0);
@@ -81,8 +81,8 @@ TEST(UnevenCells, ReachAllWithinTheRadiusInRandomWorlds) {
   }
 }
 
-// From the large cell that holds the countryside into the small ones of the village and back.
-TEST(UnevenCells, AreJoinedBeforeABorderIsReachedAndNotToAndFro) {
+// From the large cell of the countryside into the small ones of the village and back.
+TEST(UnevenCells, AreJoinedBeforeABorderWithoutFlapping) {
   AreaOfInterestManager manager(with_tree(1), presence_of(1, 11));
   const Position near{880.0, 1000.0, 0.0};
   CellId last = manager.cells().cell({700.0, 1000.0, 0.0});
@@ -90,7 +90,7 @@ TEST(UnevenCells, AreJoinedBeforeABorderIsReachedAndNotToAndFro) {
   std::size_t crossings = 0, unheard = 0, joins = 0;
   for (int turn = 0; turn < 20; ++turn) {
     for (int i = 0; i < 100; ++i, now += milliseconds(20)) {
-      // 1 m to and fro about the village's edge, 4 times a second, and a walk of 500 m.
+      // Oscillates by 1 m at the village's edge, 4 times a second, and walks 500 m.
       const double x = 700.0 + 5.0 * i + std::sin(0.5 * i);
       const Focus focus{{turn % 2 == 0 ? x : 1900.0 - x, 1000.0, 0.0}, 25.0, 200.0};
       joins += manager.listen(kCellTier, {&focus, 1}, now).join.size();
@@ -107,7 +107,7 @@ TEST(UnevenCells, AreJoinedBeforeABorderIsReachedAndNotToAndFro) {
   RecordProperty("joins", static_cast<int>(joins));
 }
 
-TEST(UnevenCells, KeepWhoTremblesOnABorderFromJoiningAgainAndAgain) {
+TEST(UnevenCells, DoNotFlapAtABorder) {
   AreaOfInterestManager manager(with_tree(1), presence_of(1, 11));
   const Position middle = manager.cells().visit([](const auto& cells) { return cells.centre({}); });
   std::size_t changes = 0;
@@ -119,7 +119,7 @@ TEST(UnevenCells, KeepWhoTremblesOnABorderFromJoiningAgainAndAgain) {
   EXPECT_EQ(changes, 0U);
 }
 
-TEST(UnevenCells, LetPeersHearEachOtherAndAnnounceTheirScheme) {
+TEST(UnevenCells, ConnectPeersOfTheSameTreeOnly) {
   const AreaOfInterestConfig how = with_tree(2);
   World world;
   world.add(presence_of(1, 11), {1000, 1000, 0}, how);
@@ -160,7 +160,7 @@ TEST(UnevenCells, AreRefusedWhereGroupsAreTooFew) {
   EXPECT_NO_THROW(AreaOfInterestManager(how, presence_of(1, 11))) << "they are handed out";
 }
 
-TEST(UnevenCells, LetNobodyHearThroughAWall) {
+TEST(UnevenCells, BlockReceptionThroughAWall) {
   World world;
   world.add(presence_of(1, 11), {90, 90, 0}, with_rooms());
   world.add(presence_of(2, 22), {110, 90, 0}, with_rooms());
@@ -174,7 +174,7 @@ TEST(UnevenCells, LetNobodyHearThroughAWall) {
   EXPECT_EQ(world.members[0].manager->presence().own().cell_scheme, CellScheme::locales);
 }
 
-TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
+TEST(UnevenCells, HidePeersBehindAWallUntilTheDoor) {
   AreaOfInterestManager manager(with_rooms(), presence_of(1, 11));
   const Focus focus{{90, 90, 0}, 0.0, 50.0};
   manager.listen(kCellTier, {&focus, 1}, seconds(1));
@@ -187,7 +187,7 @@ TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
   EXPECT_EQ(manager.sight().judge({200, 90, 0}, 0.0, 1, false), InterestVerdict::outside);
 }
 
-TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
+TEST(UnevenCells, PeerInHundredsOfLocalesReceivesEach) {
   constexpr std::uint16_t kRooms = 400;
   std::vector<Locale> rooms;
   for (std::uint16_t i = 0; i < kRooms; ++i) rooms.push_back({{10.0 * i, 0, 0}, 0.0, 5, 5, {}});

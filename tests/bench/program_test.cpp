@@ -42,7 +42,7 @@ TEST(BenchProgram, ListsItsVerbsAndExplainsEach) {
   }
 }
 
-TEST(BenchProgram, RefusesWhatIsNoVerbOrFlag) {
+TEST(BenchProgram, RefusesUnknownVerbsAndFlags) {
   EXPECT_THAT(run_bench({"bensh"}).err, HasSubstr("did you mean 'bench'?"));
   EXPECT_EQ(run_bench({}).status, 2);
   for (const tools::Verb& verb : verbs()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The two readings of the acceleration of RVB, where states come from and go to the wire.
+// The two readings of the acceleration of RVB, where states are converted from and to the wire.
 #include <gtest/gtest.h>
 
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -20,8 +20,8 @@ const LocalFrame& monterey() {
   return frame;
 }
 
-TEST(AccelerationReading, TakesBothReadingsOfTheAccelerationOfRvb) {
-  // What an inertial sender means by its PDU is what extrapolate() gives for its reading.
+TEST(AccelerationReading, AppliesBothReadingsToRvb) {
+  // extrapolate() with a given reading is the reference for an inertial sender's PDU.
   Random random(12);
   for (int i = 0; i < 200; ++i) {
     KinematicState sent = random.state(Algorithm::rvb, 1);
@@ -38,7 +38,7 @@ TEST(AccelerationReading, TakesBothReadingsOfTheAccelerationOfRvb) {
   }
 }
 
-TEST(AccelerationReading, GoesToTheWireAndBackInEitherReadingForEveryModel) {
+TEST(AccelerationReading, RoundTripsInEitherReadingForEveryModel) {
   Random random(13);
   for (int code = 0; code <= 9; ++code) {
     const auto algorithm = static_cast<Algorithm>(code);
@@ -59,11 +59,11 @@ TEST(AccelerationReading, GoesToTheWireAndBackInEitherReadingForEveryModel) {
   }
 }
 
-TEST(AccelerationReading, RefusesAnAccelerationThatTheOtherReadingMakesImpossible) {
+TEST(AccelerationReading, RefusesAnAccelerationImpossibleInTheOtherReading) {
   KinematicState turn;
   turn.algorithm = Algorithm::rvb;
   turn.velocity = {9e5, 0, 0};
-  turn.angular_velocity = {0, 0, 9e4};  // each within its limit; w x V is 8e10 m/s^2
+  turn.angular_velocity = {0, 0, 9e4};  // each within its limit, but w x V is 8e10 m/s^2
   pdu::EntityState pdu;
   EXPECT_EQ(to_wire(turn, monterey(), pdu, AccelerationReading::inertial), Error::speed_range);
   ASSERT_EQ(to_wire(turn, monterey(), pdu), Error::none);

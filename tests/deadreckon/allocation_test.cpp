@@ -13,7 +13,7 @@
 namespace reckon::deadreckon {
 namespace {
 
-TEST(Allocation, NothingOnTheWayFromWireToForceAllocates) {
+TEST(Allocation, ConversionToForceAllocatesNothing) {
   test::Random random(1);
   const LocalFrame frame(0.8, 0.2, 100);
   const KinematicState truth = random.state(pdu::DeadReckoningAlgorithm::rvb, 1);

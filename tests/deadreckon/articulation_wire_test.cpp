@@ -18,7 +18,7 @@
 namespace reckon::deadreckon::test {
 namespace {
 
-// A record octet by octet, as the standard lays it out.
+// A record octet by octet, as defined in the standard.
 std::vector<std::byte> record(std::uint32_t part, unsigned metric, float value,
                               std::uint16_t attached_to = 0, std::uint8_t change = 0) {
   const std::uint32_t type = part * 32 + metric;
@@ -42,7 +42,7 @@ std::vector<std::byte> together(const std::vector<std::vector<std::byte>>& recor
   return all;
 }
 
-TEST(Articulation, GoesToTheWireAndBackForEveryMetric) {
+TEST(Articulation, RoundTripsEveryMetricOnTheWire) {
   Random random(1);
   for (int round = 0; round < 1000; ++round) {
     const PartState state = random_state(random);
@@ -77,7 +77,7 @@ TEST(Articulation, WritesTheOctetsOfTheStandard) {
   EXPECT_TRUE(std::equal(octets.begin(), octets.end(), expected.begin(), expected.end()));
 }
 
-// Octets 144 on, read by a script of its own that shares nothing with the codec.
+// From octet 144 on, read by a separate script that shares nothing with the codec.
 struct Recorded {
   const char* file;
   std::size_t records, parts, index;
@@ -94,7 +94,7 @@ TEST(Articulation, ReadsTheRecordedEntityStatesOfThreeProducts) {
        -0.785398006439209, -0.26232632994651794, 0},
       {"dis6/EntityStatePdu-vrf-articulated-parameters.raw", 8, 4, 3, 139, PartMetric::elevation, 0,
        0, 2},
-      // This one writes the rate before the value.
+      // This product writes the rate before the value.
       {"dis6/EntityStatePdu-vbs-articulated-parameters.raw", 16, 8, 0, 128, PartMetric::azimuth,
        -1.5411100387573242, 0, 0},
       {"dis6/EntityStatePdu-vbs-articulated-parameters.raw", 16, 8, 3, 138, PartMetric::elevation,
@@ -122,23 +122,23 @@ TEST(Articulation, ReadsTheRecordedEntityStatesOfThreeProducts) {
   }
 }
 
-TEST(Articulation, LeavesBadRecordsOutAndCountsThem) {
+TEST(Articulation, SkipsAndCountsBadRecords) {
   const auto nan = std::numeric_limits<float>::quiet_NaN();
   const auto infinity = std::numeric_limits<float>::infinity();
   const auto octets = together({
       record(kTurret, 12, 0.5F),        // a rate before its value
       record(kTurret, 11, 1.0F),        //
-      record(kTurret, 11, 2.0F, 3, 9),  // the last one wins
+      record(kTurret, 11, 2.0F, 3, 9),  // the last one applies
       record(kGun, 13, nan),            //
-      record(kGun, 14, 1.0F),           // its rate stands alone then
+      record(kGun, 14, 1.0F),           // its rate has no value then
       record(96, 1, 0.5F),              //
-      record(96, 2, infinity),          // the value stays, and stands still
-      record(97, 0, 1.0F),              // metrics that are not in the list
+      record(96, 2, infinity),          // the value stays, with rate 0
+      record(97, 0, 1.0F),              // metrics outside the list
       record(97, 17, 1.0F),             //
       record(97, 31, 1.0F),             //
   });
   PartState state;
-  ASSERT_TRUE(state.set(parameter(99, PartMetric::x, 1)));  // of an earlier update
+  ASSERT_TRUE(state.set(parameter(99, PartMetric::x, 1)));  // from an earlier update
   const PartReading reading = from_wire(octets, state);
   EXPECT_EQ(reading.taken, 4u);
   EXPECT_EQ(reading.not_finite, 2u);
@@ -154,7 +154,7 @@ TEST(Articulation, LeavesBadRecordsOutAndCountsThem) {
   EXPECT_EQ(state.find(96, PartMetric::position)->rate, 0);
 }
 
-TEST(Articulation, PassesOverOtherRecordsAndWhatIsCutShort) {
+TEST(Articulation, SkipsOtherAndTruncatedRecords) {
   auto octets = together({record(kTurret, 11, 1.0F), record(kGun, 13, 1.0F)});
   octets[0] = std::byte{1};  // an attached part
   octets.resize(octets.size() + 15, std::byte{0});
@@ -166,7 +166,7 @@ TEST(Articulation, PassesOverOtherRecordsAndWhatIsCutShort) {
   EXPECT_TRUE(state.parameters().empty());
 }
 
-TEST(Articulation, TakesAsManyAsItHasRoomForAndCountsTheRest) {
+TEST(Articulation, FillsItsCapacityAndCountsTheRest) {
   std::vector<std::byte> octets;
   for (std::uint32_t i = 0; i < 255; ++i) {
     const auto r = record(i, 11, static_cast<float>(i) * 0.01F);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An owner, a link that delays, loses, doubles and puts out of order, and a viewer who takes the
-// newest update and lets the error converge: updates from 0.2 Hz to 1 kHz. All repeatable.
+// An owner, a link with delay, loss, duplicates and reordering, and a viewer that takes the newest
+// update and lets the error converge: updates from 0.2 Hz to 1 kHz. All repeatable.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,16 +24,16 @@ using test::Random;
 
 constexpr double kTick = 1e-3;  // [s]
 constexpr double kRun = 60;     // [s]
-constexpr double kStops = 45;   // the entity stands from here on
+constexpr double kStops = 45;   // the entity stops here
 
-// A weave of 5 m at 0.8 rad/s along x at 20 m/s, that sways by 0.5 rad.
+// A weave of 5 m at 0.8 rad/s along x at 20 m/s, with a sway of 0.5 rad.
 constexpr double kJerk = 5 * 0.8 * 0.8 * 0.8;          // at most [m/s^3]
 constexpr double kTurnAcceleration = 0.5 * 0.6 * 0.6;  // at most [rad/s^2]
-constexpr double kRounding = 1e-4;                     // float32 velocity over an age [m]
+constexpr double kRounding = 1e-4;                     // [m] float32 velocity times age
 
 Vector3d as_floats(const Vector3d& v) { return v.cast<float>().cast<double>(); }
 
-// What the owner would send at `t`; velocity and acceleration as the wire rounds them.
+// The owner's state at `t`; velocity and acceleration with the rounding of the wire.
 KinematicState weave(double t) {
   KinematicState s;
   s.algorithm = pdu::DeadReckoningAlgorithm::rvw;
@@ -61,7 +61,7 @@ struct Packet {
 };
 
 struct LinkLaw {
-  double delay = 0.08, jitter = 0.06;  // [s]: 20 to 140 ms, so that packets overtake each other
+  double delay = 0.08, jitter = 0.06;  // [s]: 20 to 140 ms, so packets overtake each other
   double loss = 0, doubles = 0;
 };
 
@@ -80,7 +80,7 @@ class Link {
       under_way_.push_back({now + delay, now, state});
     }
   }
-  // What arrives by `now`, in the order of arrival.
+  // Packets that arrive by `now`, in the order of arrival.
   std::vector<Packet> receive(double now) {
     const auto split = std::partition(under_way_.begin(), under_way_.end(),
                                       [&](const Packet& p) { return p.arrival > now; });
@@ -100,7 +100,7 @@ class Link {
   int lost_in_a_row_ = 0, longest_loss_ = 0;
 };
 
-// Takes the newest update only, and holds what its curve promises against what it shows.
+// Takes the newest update only, and compares the displayed pose with the bounds of its curve.
 class Viewer {
  public:
   explicit Viewer(const ConvergenceCurveRow& row) : row_(row), convergence_(settings(row)) {}
@@ -132,7 +132,7 @@ class Viewer {
   [[nodiscard]] Pose predicted(double now) const { return extrapolate(state_, now - sent_); }
   [[nodiscard]] Pose shown(double now) const { return convergence_.shown(predicted(now), now); }
   [[nodiscard]] int passed_over() const { return passed_over_; }
-  // The farthest that the curve may be from the prediction, and how fast it may approach it.
+  // Largest permitted distance of the curve from the prediction, and largest speed of its approach.
   [[nodiscard]] double farthest() const {
     return row_.error_bound * error_ + row_.rate_bound * rate_ * convergence_.duration() +
            0.0174 * carried_ * convergence_.duration() * convergence_.duration();
@@ -143,7 +143,7 @@ class Viewer {
   }
 
  private:
-  // Of the error that is going away; the quintic takes it over. [m/s^2]
+  // Of the decaying error, which the quintic continues. [m/s^2]
   [[nodiscard]] double acceleration_under_way(double now) const {
     if (row_.continuity < 2 || !convergence_.converging(now)) return 0;
     constexpr double h = 1e-6;
@@ -155,7 +155,7 @@ class Viewer {
   static ConvergenceSettings settings(const ConvergenceCurveRow& row) {
     ConvergenceSettings made;
     made.curve = row.curve;
-    made.teleport_distance = 1e6;  // nothing here is moved on purpose
+    made.teleport_distance = 1e6;  // nothing here is teleported
     return made;
   }
 
@@ -175,7 +175,7 @@ struct Seen {
   int passed_over = 0;
 };
 
-// No jump: no faster than the prediction's own way and the approach that the curve allows.
+// No jump: the step is at most the prediction's own plus the approach permitted by the curve.
 void check_way(const Viewer& viewer, const Pose& before, double now) {
   const double speed = std::max(viewer.predicted(now).velocity.norm(),
                                 viewer.predicted(now - kTick).velocity.norm());
@@ -183,7 +183,7 @@ void check_way(const Viewer& viewer, const Pose& before, double now) {
   ASSERT_LE(way, (speed + viewer.fastest()) * kTick + 1e-9) << now;
 }
 
-// What has to hold at every instant, whatever the link does.
+// Invariants at every instant, whatever the link does.
 void check(const Viewer& viewer, double now, Seen& seen) {
   const KinematicState truth = owner_at(now);
   const Pose predicted = viewer.predicted(now), shown = viewer.shown(now);
@@ -255,7 +255,7 @@ class Owner {
   int updates_ = 0;
 };
 
-TEST(BadLink, UpdatesFromAFifthToAThousandHertzAreShownFiniteWithoutAJumpAndWithinTheBounds) {
+TEST(BadLink, UpdatesAtAnyRateStayWithinBounds) {
   for (const double rate : {0.2, 1.0, 5.0, 20.0, 100.0, 1000.0}) {
     for (const double loss : {0.0, 0.3}) {
       for (const ConvergenceCurveRow& row : kConvergenceCurves) {
@@ -278,7 +278,7 @@ TEST(BadLink, UpdatesFromAFifthToAThousandHertzAreShownFiniteWithoutAJumpAndWith
   }
 }
 
-TEST(BadLink, WithoutLossTheThresholdHoldsButForTheDelay) {
+TEST(BadLink, WithoutLossOnlyDelayExceedsTheThreshold) {
   constexpr double threshold = 0.1, heartbeat = 2;
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     SCOPED_TRACE(row.name);
@@ -286,8 +286,8 @@ TEST(BadLink, WithoutLossTheThresholdHoldsButForTheDelay) {
     Owner owner(threshold, heartbeat);
     const Seen seen = run(row, link, owner);
     if (HasFatalFailure()) return;
-    // The owner sees the threshold passed within a tick; until the update is there, the error goes
-    // on growing, at no more than what the jerk has made of the speed since the old update.
+    // The owner detects the crossing within a tick. Until the update arrives the error grows by at
+    // most the speed that the jerk has built up since the old update.
     const double growth = 0.5 * kJerk * seen.oldest * seen.oldest;
     EXPECT_LE(seen.worst_predicted, threshold + growth * (link.longest_delay() + 2 * kTick));
     EXPECT_LE(seen.at_rest, 1e-3);
@@ -297,7 +297,7 @@ TEST(BadLink, WithoutLossTheThresholdHoldsButForTheDelay) {
   }
 }
 
-TEST(BadLink, WithThirtyPercentLossNothingIsOlderThanTheHeartbeatsThatWereLost) {
+TEST(BadLink, WithLossAgeIsBoundedByLostHeartbeats) {
   constexpr double threshold = 0.1, heartbeat = 2;
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     SCOPED_TRACE(row.name);
@@ -310,7 +310,7 @@ TEST(BadLink, WithThirtyPercentLossNothingIsOlderThanTheHeartbeatsThatWereLost) 
     if (HasFatalFailure()) return;
     const double silence = (link.longest_loss() + 1) * (heartbeat + 2 * kTick);
     EXPECT_LE(seen.oldest, silence + link.longest_delay());
-    // It stops at kStops; whoever missed that is told by a heartbeat.
+    // It stops at kStops; a heartbeat repairs a missed update.
     ASSERT_LE(kStops + silence + link.longest_delay() + 0.5, kRun - 1);
     EXPECT_LE(seen.at_rest, 1e-3);
     std::printf("%s: %d updates, up to %d lost in a row, predicted within %.3f m, shown %.3f m\n",
@@ -319,7 +319,7 @@ TEST(BadLink, WithThirtyPercentLossNothingIsOlderThanTheHeartbeatsThatWereLost) 
   }
 }
 
-TEST(BadLink, DoublesAndOvertakenUpdatesChangeNoBit) {
+TEST(BadLink, DuplicateAndStaleUpdatesChangeNoBit) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     Viewer clean(row), disturbed(row);
     for (int i = 0; i < 500; ++i) {
@@ -340,8 +340,8 @@ TEST(BadLink, DoublesAndOvertakenUpdatesChangeNoBit) {
   }
 }
 
-// Each update restarts the curve; a thousand a second must not keep the error alive.
-TEST(BadLink, AnErrorGoesAwayAtAThousandUpdatesASecondToo) {
+// Each update restarts the curve; a thousand a second must not keep the error from decaying.
+TEST(BadLink, ErrorDecaysAtAThousandUpdatesASecond) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     Viewer viewer(row);
     KinematicState wrong = weave(0);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hard cases of dead reckoning, by name. Those that have a test elsewhere:
-//   rates from none to 10 rad/s    DrmQuadrature.*, Drm.MovesBodyModelsAtZeroRateAlongTheirAxes
+// The hard cases of dead reckoning, by name. Some have a test elsewhere:
+//   rates from none to 10 rad/s    DrmQuadrature.*, Drm.ZeroRateBodyModelsMoveAlongTheirAxes
 //   turning by about pi            Rotation.LogarithmUndoesExponentialFromZeroToPi
 //   gimbal, Euler angles           Euler.KeepsItsDigitsAtAndNearGimbalLock,
-//                                  Drm.TurnsThroughGimbalLockWithoutNotice
-//   equal timestamps               MultiStep.FallsBackToTheSentVelocityWhenTwoUpdatesAreTooClose,
-//                                  MotionHistory.RefusesTheOldAndTheNotFiniteAndReplaces...
-//   the hour of a timestamp        Timestamp.* (pdu), SenderClock.Carries... (integration)
-//   NaN and infinity on the wire   EntityConversion.RefusesEveryNumberThatIsNotFinite...
-//   rates of update, loss, doubles BadLink.* (bad_link_test.cpp)
+//                                  Drm.TurnsThroughGimbalLockWithoutError
+//   equal timestamps               MultiStep.UsesTheSentVelocityForCloseUpdates,
+//                                  MotionHistory.RefusesOldAndNonFiniteSamples
+//   the hour of a timestamp        Timestamp.* (pdu), SenderClock.* (integration)
+//   NaN and infinity on the wire   EntityConversion.RefusesNonFiniteNumbers...
+//   update rates, loss, duplicates BadLink.* (bad_link_test.cpp)
 //   the same in a peer             HardCases.* of tests/integration
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ ConvergenceSettings settings(const ConvergenceCurveRow& row) {
 
 // --- Rates of zero and of a nanoradian a second.
 
-TEST(HardCases, ANanoradianASecondAddsItsFirstOrderTermToNoRateAtAll) {
+TEST(HardCases, NanoradianRateAddsItsFirstOrderTerm) {
   Random random(1);
   constexpr double t = 10;
   for (const Algorithm algorithm : {Algorithm::rpb, Algorithm::rvb}) {
@@ -87,11 +87,11 @@ TEST(HardCases, ANanoradianASecondAddsItsFirstOrderTermToNoRateAtAll) {
 
 // --- Angles across pi.
 
-TEST(HardCases, TheAngleThresholdCountsAcrossPiAsAnywhere) {
+TEST(HardCases, AngleThresholdAppliesAcrossPi) {
   UpdatePolicy policy(Thresholds{}, 55);
   policy.sent(headed(kPi - 0.01), 0);
   for (const double sign : {1.0, -1.0}) {
-    Pose truth = pose_headed(-kPi + 0.04);  // 0.05 rad on, below 3 degrees
+    Pose truth = pose_headed(-kPi + 0.04);  // 0.05 rad ahead, below 3 degrees
     truth.orientation.coeffs() *= sign;
     EXPECT_EQ(policy.decide(truth, 1), SendReason::none);
     truth = pose_headed(-kPi + 0.05);
@@ -112,7 +112,7 @@ TEST(HardCases, ConvergenceCrossesPiTheShortWay) {
   }
 }
 
-TEST(HardCases, TwoHeadingsAcrossPiTellTheShortTurn) {
+TEST(HardCases, TwoHeadingsAcrossPiGiveTheShortTurn) {
   MotionHistory history;
   ASSERT_TRUE(history.add(motion_sample(headed(kPi - 0.1), 0)));
   ASSERT_TRUE(history.add(motion_sample(headed(-kPi + 0.1), 1)));
@@ -121,7 +121,7 @@ TEST(HardCases, TwoHeadingsAcrossPiTellTheShortTurn) {
   EXPECT_NEAR(pose.angular_velocity.z(), 0.2, 1e-14);
 }
 
-TEST(HardCases, PsiThatPassesPiOnTheWireMovesNothing) {
+TEST(HardCases, PsiAcrossPiOnTheWireIsContinuous) {
   const LocalFrame frame(0.8, 0.2, 100);
   KinematicState state = headed(0);
   state.angular_velocity = {0, 0, 1};
@@ -143,9 +143,9 @@ TEST(HardCases, PsiThatPassesPiOnTheWireMovesNothing) {
 
 // --- Gimbal lock.
 
-TEST(HardCases, LookingStraightUpAndDownGoesThroughTheWireAndOn) {
+TEST(HardCases, VerticalAttitudesRoundTripOnTheWire) {
   const LocalFrame frame(0, 0, 0);
-  const float up = static_cast<float>(kPi / 2);  // 4e-8 past it
+  const float up = static_cast<float>(kPi / 2);  // 4e-8 beyond pi/2
   for (const float theta : {up, std::nextafter(up, 0.0F), -up, std::nextafter(-up, 0.0F)}) {
     for (float turn = -3; turn < 3.1F; turn += 0.25F) {
       pdu::EntityState wire;
@@ -156,7 +156,7 @@ TEST(HardCases, LookingStraightUpAndDownGoesThroughTheWireAndOn) {
       KinematicState state, back;
       ASSERT_EQ(from_wire(wire, frame, state), ConversionError::none);
       const Quaterniond later = extrapolate(state, 1.0).orientation;
-      // One second on and one second back, by way of the wire while at the lock.
+      // One second forward and one second back, through the wire while at the lock.
       pdu::EntityState again;
       ASSERT_EQ(to_wire(state, frame, again), ConversionError::none);
       ASSERT_LE(std::abs(again.orientation.theta), up);
@@ -168,7 +168,7 @@ TEST(HardCases, LookingStraightUpAndDownGoesThroughTheWireAndOn) {
 
 // --- Equal and reversed timestamps.
 
-TEST(HardCases, ReversedTimestampsChangeNoAnswerAndEqualOnesCorrectTheNewest) {
+TEST(HardCases, ReversedTimestampsAreIgnoredAndEqualOnesReplace) {
   Random random(3);
   for (const Extrapolator& row : kExtrapolators) {
     MotionHistory history;
@@ -184,7 +184,7 @@ TEST(HardCases, ReversedTimestampsChangeNoAnswerAndEqualOnesCorrectTheNewest) {
   }
 }
 
-TEST(HardCases, AdaptiveOrderIsNotMovedByLateOrRepeatedUpdates) {
+TEST(HardCases, AdaptiveOrderIgnoresLateOrRepeatedUpdates) {
   Random random(4);
   AdaptiveOrder clean, disturbed;
   for (int i = 0; i < 200; ++i) {
@@ -211,7 +211,7 @@ TEST(HardCases, MillimetreThresholdsHoldTenThousandKilometresOut) {
   state.velocity = {123.25, -45.5, 7.75};
   policy.sent(state, 0);
   for (int i = 1; i <= 60'000; ++i) {
-    // Exact in double: thousandths of a second are not, these are.
+    // Exact in double: multiples of 1/1024 s are, thousandths of a second are not.
     const double t = i / 1024.0;
     Pose truth = extrapolate(state, 0);
     truth.position = state.position + t * state.velocity;
@@ -223,7 +223,7 @@ TEST(HardCases, MillimetreThresholdsHoldTenThousandKilometresOut) {
   }
 }
 
-TEST(HardCases, ConvergenceStartsAndEndsWithoutAStepTenThousandKilometresOut) {
+TEST(HardCases, ConvergenceIsContinuousTenThousandKilometresOut) {
   Random random(5);
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     if (!converges(row)) continue;
@@ -243,7 +243,7 @@ TEST(HardCases, ConvergenceStartsAndEndsWithoutAStepTenThousandKilometresOut) {
 
 // --- An hour of silence.
 
-TEST(HardCases, AnHourOfSilenceIsFiniteForEveryModelAndHeldByEveryDifference) {
+TEST(HardCases, HourOfSilenceStaysFiniteInEveryModel) {
   Random random(6);
   for (int model = 0; model <= 10; ++model)
     EXPECT_TRUE(is_finite(extrapolate(random.state(static_cast<Algorithm>(model), 10), 3600)));
@@ -253,7 +253,7 @@ TEST(HardCases, AnHourOfSilenceIsFiniteForEveryModelAndHeldByEveryDifference) {
   for (const Extrapolator& row : kExtrapolators) {
     const Pose hour = row.predict(history, 3600, {});
     EXPECT_TRUE(is_finite(hour)) << row.name;
-    // A rate that was only differenced is not believed for longer than ten gaps.
+    // A differenced rate is not used for longer than ten intervals.
     if (row.updates > 1 && row.needs == SentRates::position) {
       EXPECT_EQ(hour.position, row.predict(history, 2.1, {}).position) << row.name;
       EXPECT_TRUE(hour.velocity.isZero()) << row.name;
@@ -263,7 +263,7 @@ TEST(HardCases, AnHourOfSilenceIsFiniteForEveryModelAndHeldByEveryDifference) {
 
 // --- NaN and infinity.
 
-TEST(HardCases, TimesThatAreNotNumbersGiveFiniteAnswersEverywhere) {
+TEST(HardCases, NonFiniteTimesGiveFiniteAnswers) {
   Random random(7);
   const KinematicState state = random.state(Algorithm::rvb, 2);
   UpdatePolicy policy(Thresholds{}, 5);
@@ -293,7 +293,7 @@ TEST(HardCases, TimesThatAreNotNumbersGiveFiniteAnswersEverywhere) {
   }
 }
 
-TEST(HardCases, AnErrorThatIsNotANumberIsDroppedByEveryCurve) {
+TEST(HardCases, NonFiniteErrorsAreDroppedByEveryCurve) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     for (const double bad : kBad) {
       for (int which = 0; which < 4; ++which) {
@@ -309,13 +309,13 @@ TEST(HardCases, AnErrorThatIsNotANumberIsDroppedByEveryCurve) {
         EXPECT_TRUE(is_finite(after)) << row.name << ' ' << bad << ' ' << which;
       }
       PoseConvergence convergence(settings(row));
-      convergence.restart(Pose{}, pose_headed(1), bad);  // an instant that is none
+      convergence.restart(Pose{}, pose_headed(1), bad);  // a non-finite instant
       EXPECT_TRUE(is_finite(convergence.shown(pose_headed(1), 0.01))) << row.name << ' ' << bad;
     }
   }
 }
 
-TEST(HardCases, WhatIsNotANumberIsRefusedAtEveryDoor) {
+TEST(HardCases, NonFiniteNumbersAreRefusedByEveryInterface) {
   const LocalFrame frame(0.8, 0.2, 100);
   for (const double bad : kBad) {
     for (const auto member : {&KinematicState::position, &KinematicState::velocity,
@@ -339,7 +339,7 @@ TEST(HardCases, WhatIsNotANumberIsRefusedAtEveryDoor) {
   }
 }
 
-TEST(HardCases, AThresholdOrErrorThatIsNotANumberSendsRatherThanKeepsSilent) {
+TEST(HardCases, NonFiniteThresholdOrErrorSends) {
   for (double Thresholds::*const member :
        {&Thresholds::position, &Thresholds::angle, &Thresholds::force}) {
     Thresholds thresholds;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far from the truth an entity is shown, where its owner sends by thresholds that the viewer
-// knows: within what the prediction is off by, and the curve's near_bound of the same besides. Held
-// against rough motions and against a search for worse ones. All repeatable.
+// Distance of the displayed entity from the truth, with an owner that sends by thresholds known to
+// the viewer: at most the error of the prediction plus the curve's near_bound of it. Tested on
+// rough motions and by a search for worse ones. All repeatable.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,24 +25,24 @@ using Algorithm = pdu::DeadReckoningAlgorithm;
 using Eigen::Vector3d;
 using test::Random;
 
-constexpr double kTick = 1e-3;  // [s], an owner looks so often
+constexpr double kTick = 1e-3;  // [s], interval of the owner's checks
 constexpr std::array kModels{Algorithm::static_, Algorithm::fpw, Algorithm::rpw,
                              Algorithm::rvw,     Algorithm::fvw, Algorithm::fpb,
                              Algorithm::rpb,     Algorithm::rvb, Algorithm::fvb};
 
-// What pushes an entity, in turn and for equally long.
+// Accelerations of an entity, applied in turn for equal times.
 struct Push {
   Vector3d acceleration = Vector3d::Zero();  // [m/s^2]
   Vector3d spin = Vector3d::Zero();          // [rad/s^2]
 };
 struct Motion {
   std::vector<Push> pushes;
-  int ticks = 1;            // of each
-  double fastest = 1;       // [m/s]; what pushes beyond is left out
+  int ticks = 1;            // duration of each push
+  double fastest = 1;       // [m/s]; pushes beyond are omitted
   double fastest_turn = 1;  // [rad/s]
 };
 
-// The way of an entity under a motion.
+// The path of an entity under a motion.
 class Body {
  public:
   void step(const Push& push, const Motion& motion) {
@@ -78,12 +78,12 @@ struct Setting {
   Algorithm algorithm = Algorithm::fpw;
   ConvergenceCurve curve = ConvergenceCurve::cubic;
   double threshold = 1e-3, angle = 0.05;
-  bool known = true;  // to the viewer
+  bool known = true;  // whether the viewer knows the thresholds
   int delay = 0;      // [ticks]
   double loss = 0;
 };
 
-// The largest of a run, position [m] and angle [rad].
+// The largest values of a run, position [m] and angle [rad].
 struct Worst {
   double predicted = 0, shown = 0, step = 0;
   double predicted_angle = 0, shown_angle = 0;
@@ -111,7 +111,7 @@ class Viewer {
   static ConvergenceSettings settings(const Setting& setting) {
     ConvergenceSettings made;
     made.curve = setting.curve;
-    made.teleport_distance = 1e9;  // nothing is moved on purpose
+    made.teleport_distance = 1e9;  // nothing is teleported
     if (!setting.known) return made;
     made.threshold = setting.threshold;
     made.threshold_angle = setting.angle;
@@ -171,8 +171,8 @@ Worst run(const Motion& motion, const Setting& setting) {
   return worst;
 }
 
-// Pushes this way and that, sometimes none. So gentle that the error of a prediction grows by less
-// than half a threshold from one look of the owner to the next: beyond that it does not keep it.
+// Random pushes, sometimes none. Gentle enough that the error of a prediction grows by less than
+// half a threshold between two checks of the owner: beyond that it cannot keep the threshold.
 Motion rough(Random& random, double hardest, double threshold, int ticks, double seconds,
              bool turns = false) {
   Motion motion;
@@ -193,7 +193,7 @@ double near_bound(ConvergenceCurve curve) {
   return kConvergenceCurves[static_cast<std::size_t>(curve)].near_bound;
 }
 
-// What is promised: the prediction's error and near_bound of it besides, 1e-9 of it for rounding.
+// The guarantee: the prediction's error plus near_bound of it, and 1e-9 of it for rounding.
 void expect_within(const Worst& worst, const Setting& setting) {
   ASSERT_LE(worst.predicted, 2 * setting.threshold) << "the owner does not keep it";
   ASSERT_LE(worst.predicted_angle, 2 * setting.angle);
@@ -202,7 +202,7 @@ void expect_within(const Worst& worst, const Setting& setting) {
   EXPECT_LE(worst.shown_angle, most * std::max(worst.predicted_angle, setting.angle));
 }
 
-TEST(ShownWithin, RoughMotionsOfEveryModelCurveAndThreshold) {
+TEST(ShownWithin, HoldsForRoughMotions) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     double most = 0;
     for (const Algorithm algorithm : kModels) {
@@ -228,7 +228,7 @@ TEST(ShownWithin, RoughMotionsOfEveryModelCurveAndThreshold) {
   }
 }
 
-// Changes one push after the other and keeps what makes it worse.
+// Changes one push after the other and keeps changes that make the result worse.
 Worst search(Motion motion, const Setting& setting, Random& random, int tries) {
   const auto badness = [&](const Worst& worst) {
     return worst.shown / std::max(worst.predicted, setting.threshold);
@@ -256,7 +256,7 @@ Worst search(Motion motion, const Setting& setting, Random& random, int tries) {
   return worst;
 }
 
-TEST(ShownWithin, WhatASearchForWorseMotionsFinds) {
+TEST(ShownWithin, HoldsForASearchOfWorseMotions) {
   double unknown = 0;
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     double most = 0;
@@ -284,9 +284,9 @@ TEST(ShownWithin, WhatASearchForWorseMotionsFinds) {
   EXPECT_GT(unknown, 3) << "the search finds nothing any more";
 }
 
-// The error of the prediction goes on growing until an update is there; the rest is as above, but
-// that an update moves the prediction by what it was off and by what it is off.
-TEST(ShownWithin, UnderADelay) {
+// The error of the prediction grows until an update arrives. The rest is as above, but an update
+// moves the prediction by its old error plus its new error.
+TEST(ShownWithin, HoldsUnderADelay) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     for (const int delay : {5, 20, 80}) {
       for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -303,8 +303,8 @@ TEST(ShownWithin, UnderADelay) {
   }
 }
 
-// Where updates are lost an error has its time: what is shown goes on without a step.
-TEST(ShownWithin, LossIsMadeGoodWithoutAStep) {
+// With lost updates an error may last; the displayed pose still continues without a step.
+TEST(ShownWithin, RecoversFromLossWithoutAStep) {
   for (const ConvergenceCurveRow& row : kConvergenceCurves) {
     if (row.continuity < 0) continue;
     for (unsigned seed = 1; seed <= 20; ++seed) {

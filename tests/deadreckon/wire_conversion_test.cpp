@@ -34,7 +34,7 @@ const LocalFrame& monterey() {
   return frame;
 }
 
-TEST(EntityConversion, GoesToTheWireAndBackForEveryModel) {
+TEST(EntityConversion, RoundTripsEveryModelOnTheWire) {
   Random random(1);
   for (int code = 0; code <= 9; ++code) {
     const auto algorithm = static_cast<Algorithm>(code);
@@ -57,7 +57,7 @@ TEST(EntityConversion, GoesToTheWireAndBackForEveryModel) {
   }
 }
 
-TEST(EntityConversion, GivesTheSameFutureInTheWorldAndInTheScene) {
+TEST(EntityConversion, ExtrapolatesAlikeInWorldAndScene) {
   // Extrapolating W states and converting is the same as converting and extrapolating.
   Random random(2);
   for (const Algorithm algorithm :
@@ -79,7 +79,7 @@ TEST(EntityConversion, GivesTheSameFutureInTheWorldAndInTheScene) {
   }
 }
 
-TEST(EntityConversion, SurvivesLookingStraightUp) {
+TEST(EntityConversion, RoundTripsAVerticalAttitude) {
   // A body whose x axis is the world's -z axis: theta = 90 degrees on the wire.
   KinematicState sent;
   sent.orientation =
@@ -103,7 +103,7 @@ TEST(EntityConversion, HoldsFrozenAndDeactivatedEntities) {
   }
 }
 
-TEST(EntityConversion, RefusesEveryNumberThatIsNotFiniteAndLeavesTheOutputAlone) {
+TEST(EntityConversion, RefusesNonFiniteNumbersAndKeepsTheOutput) {
   Random random(4);
   pdu::EntityState good;
   ASSERT_EQ(to_wire(random.state(Algorithm::rvb, 1), monterey(), good), Error::none);
@@ -181,7 +181,7 @@ pdu::HapticRecord good_record() {
   return record;
 }
 
-TEST(ForceConversion, GoesToTheWireAndBack) {
+TEST(ForceConversion, RoundTripsOnTheWire) {
   const pdu::HapticRecord record = good_record();
   EXPECT_EQ(record.validity_ms, 12000);
   ForceModel got;
@@ -269,7 +269,7 @@ TEST(ForceConversion, NeedsANormalForFlatShapesOnly) {
   }
 }
 
-TEST(ForceConversion, RoundsValidityUpAndHoldsItInSixteenBits) {
+TEST(ForceConversion, RoundsValidityUpWithinSixteenBits) {
   ForceModel m = ball();
   pdu::HapticRecord record;
   m.validity = 0.0101;
@@ -292,7 +292,7 @@ TEST(ForceConversion, HasASentenceForEveryError) {
   EXPECT_EQ(sentence(static_cast<Error>(250)), "unknown error");
 }
 
-TEST(ForceConversion, GivesAFiniteForceForWhateverRandomOctetsItAccepts) {
+TEST(ForceConversion, AcceptedRandomOctetsGiveAFiniteForce) {
   Random random(5);
   int accepted = 0;
   for (int i = 0; i < 100000; ++i) {

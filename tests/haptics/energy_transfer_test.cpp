@@ -32,13 +32,13 @@ struct Line {
   double delay = 0;         // [s], +-30 % each
   double loss = 0;          // probability
   double rate_hz = 50;      // fixed rate; 0 = by threshold
-  double threshold = 1e-4;  // [m], of the position error that the peer sees
+  double threshold = 1e-4;  // [m], of the position error at the peer
   bool transfer = true;
   double stiffness = 500;
 };
 
 struct Outcome {
-  double least_sum = 0, least_port = 0;  // [J], with what is owed
+  double least_sum = 0, least_port = 0;  // [J], including loans
   double peak = 0;
   std::array<double, 2> steady{};
   double end_speed = 0;
@@ -109,7 +109,7 @@ class Duet {
     measure(t, k, steps);
   }
 
-  // Only what arrives in order is passed on; account totals are good in any order.
+  // Only updates in order are passed on; account totals are valid in any order.
   void deliver(std::size_t side, double t) {
     auto& queue = queues_[side];
     for (auto it = queue.begin(); it != queue.end();) {
@@ -222,14 +222,14 @@ void print(const Line& line, Outcome& o) {
       o.steady[1], o.quantile(0.5), o.quantile(0.99));
 }
 
-TEST(EnergyTransfer, BothHandsFeelTheSpringUpToATwentiethOfASecondOfDelay) {
+TEST(EnergyTransfer, BothHandsFeelTheSpringDespiteDelay) {
   for (const double delay : {0.0, 0.02, 0.05, 0.1}) {
     Line line;
     line.delay = delay;
     line.loss = delay < 0.1 ? 0.3 : 0.0;
     Outcome o = average(line, 4, 5);
     print(line, o);
-    // At 100 ms hands are still settling in the second in which this looks.
+    // At 100 ms hands are still settling in the second that is evaluated.
     const double near = delay < 0.1 ? 0.05 * 1.25 : 0.1 * 1.25;
     EXPECT_NEAR(o.steady[0], 1.25, near) << delay;
     EXPECT_NEAR(o.steady[1], 1.25, near) << delay;
@@ -254,14 +254,14 @@ TEST(EnergyTransfer, MakesNoEnergyAtAnyDelayOrLoss) {
   }
 }
 
-TEST(EnergyTransfer, WithoutItTheSecondHandFeelsNothing) {
+TEST(EnergyTransfer, WithoutTransferTheSecondHandFeelsNothing) {
   for (const double delay : {0.0, 0.05, 0.2}) {
     Line line;
     line.delay = delay;
     line.transfer = false;
     Outcome o = average(line, 4, 1);
     EXPECT_LE(o.steady[1], 0.02) << delay;
-    // B shows nothing and says so as softly as it can; A presses 15 mm into that spring and its
+    // B renders nothing and reports its softest stiffness; A presses 15 mm into that spring and its
     // grip.
     const double softest = 500 * Softening::kLeast;
     EXPECT_NEAR(o.steady[0], 0.015 / (1 / 300.0 + 1 / softest), 0.02) << delay;
@@ -269,7 +269,7 @@ TEST(EnergyTransfer, WithoutItTheSecondHandFeelsNothing) {
   }
 }
 
-TEST(EnergyTransfer, FollowsTheOwnersModelCloselyOnAQuietLan) {
+TEST(EnergyTransfer, FollowsTheOwnersModelOnAQuietLan) {
   Line line;
   line.delay = 0.0005;
   line.rate_hz = 0;
@@ -280,8 +280,8 @@ TEST(EnergyTransfer, FollowsTheOwnersModelCloselyOnAQuietLan) {
   EXPECT_GE(o.least_sum, kPassive);
 }
 
-// One gate pair with an owner who repeats, reorders, duplicates and lies about its totals.
-TEST(EnergyTransfer, TotalsThatComeTwiceLateOrWrongCreditNothingTwice) {
+// One gate pair with an owner that repeats, reorders, duplicates and falsifies its totals.
+TEST(EnergyTransfer, RepeatedStaleOrFalseTotalsCreditNothingTwice) {
   SimulatedDevice device(SimulatedDeviceConfig{});
   ServoLoop servo(device, EffectPlan(), ServoConfig{});
   RemoteHand hand;
@@ -304,7 +304,7 @@ TEST(EnergyTransfer, TotalsThatComeTwiceLateOrWrongCreditNothingTwice) {
     servo.snapshots().update();
     return servo.snapshots().read().contacts[0].received;
   };
-  EXPECT_EQ(tell(5.0), 0.0);  // given before we met: lost, not credited
+  EXPECT_EQ(tell(5.0), 0.0);  // given before the contact began: lost, not credited
   EXPECT_NEAR(tell(5.001), 0.001, 1e-12);
   EXPECT_NEAR(tell(5.001), 0.001, 1e-12);
   EXPECT_NEAR(tell(4.0), 0.001, 1e-12);
@@ -313,11 +313,11 @@ TEST(EnergyTransfer, TotalsThatComeTwiceLateOrWrongCreditNothingTwice) {
     EXPECT_NEAR(tell(bad), 0.001, 1e-12);
   }
   EXPECT_NEAR(tell(5.003), 0.003, 1e-12);
-  EXPECT_NEAR(tell(0.5, 1), 0.003, 1e-12);  // new life of the owner
+  EXPECT_NEAR(tell(0.5, 1), 0.003, 1e-12);  // new epoch of the owner
   EXPECT_NEAR(tell(0.502, 1), 0.005, 1e-12);
-  EXPECT_LE(tell(100.0, 1), 0.04 + 1e-12);          // never more than the ledger holds
-  for (int i = 0; i < 15'000; ++i) tell(100.0, 1);  // until nothing of it waits any more
-  // Leaving and coming back credits nothing again.
+  EXPECT_LE(tell(100.0, 1), 0.04 + 1e-12);          // never more than the capacity of the ledger
+  for (int i = 0; i < 15'000; ++i) tell(100.0, 1);  // until nothing of it is pending
+  // Leaving and returning credits nothing again.
   const double received = tell(100.0, 1);
   EXPECT_LE(received, 0.005 + 0.04 + 1e-12);
   servo.contacts().write(ContactSet{});
@@ -325,7 +325,7 @@ TEST(EnergyTransfer, TotalsThatComeTwiceLateOrWrongCreditNothingTwice) {
   EXPECT_EQ(tell(100.0, 1), received);
 }
 
-TEST(EnergyTransfer, AHandThatIsSwitchedOffAsksForNothing) {
+TEST(EnergyTransfer, SwitchedOffHandRequestsNoEnergy) {
   SimulatedDevice device(SimulatedDeviceConfig{});
   ServoLoop servo(device, EffectPlan(), ServoConfig{});
   ContactSet set;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hands that press one another slowly feel what springs in a row would: against the closed form.
+// Hands that press one another slowly feel the forces of springs in a row: against the closed form.
 // RECKON_SOAK=1 runs all cells with three seeds, a gate one seed of every third or fifth cell.
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 
@@ -30,12 +30,12 @@ std::ostream& operator<<(std::ostream& out, const Cell& cell) {
              << " % lost, " << (cell.rate > 0 ? "50 Hz" : "by threshold");
 }
 
-// Shares of the right force, by hand, and how far the worst is off.
+// Relative force errors by time, and the largest deviation.
 struct Felt {
   double after_1s = 0, after_3s = 0;
   double most = 0;    // largest share
-  double apart = 0;   // largest less smallest share
-  bool told = false;  // somebody says that he shows less stiffness
+  double apart = 0;   // largest minus smallest share
+  bool told = false;  // a hand reports that it renders less stiffness
 };
 
 Felt press(const Cell& cell, unsigned seed) {
@@ -50,7 +50,7 @@ Felt press(const Cell& cell, unsigned seed) {
   line.delay = cell.delay;
   line.loss = cell.loss;
   line.rate_hz = cell.rate;
-  // A hand is shown with what its device can show.
+  // A hand is rendered with the stiffness of its device.
   const auto truth = row_truth(cell.hands, hands.grip, std::min(cell.stiffness, 950.0), cell.press);
   HandsInARow row(hands, line, seed);
   std::vector<double> early(cell.hands), late(cell.hands);
@@ -122,8 +122,8 @@ TEST(SlowPress, TwoHandsFeelTheSpringsInSeries) {
   EXPECT_EQ(off, 0);
 }
 
-// Where the energy of two stiff hands is short both ends show the contact softer, and say so.
-TEST(SlowPress, StiffHandsAreRightOrSoftenedAlikeAndTold) {
+// If the energy of two stiff hands is short, both ends render the contact softer, and report it.
+TEST(SlowPress, StiffHandsAreCorrectOrSoftenedAlike) {
   Grid grid;
   grid.stiffness = {900};
   int cells = 0, not_alike = 0;
@@ -142,7 +142,7 @@ TEST(SlowPress, StiffHandsAreRightOrSoftenedAlikeAndTold) {
   EXPECT_LE(not_alike, cells / 60);
 }
 
-TEST(SlowPress, StiffHandsFeelThemWithoutLoss) {
+TEST(SlowPress, StiffHandsFeelTheSpringsWithoutLoss) {
   Grid grid;
   grid.stiffness = {900};
   grid.presses = {0.01, 0.02};
@@ -153,7 +153,7 @@ TEST(SlowPress, StiffHandsFeelThemWithoutLoss) {
   });
 }
 
-TEST(SlowPress, ThreeAndFourHandsInARowFeelThem) {
+TEST(SlowPress, ThreeAndFourHandsFeelTheSprings) {
   Grid grid;
   grid.hands = {3, 4};
   grid.stiffness = {300, 500};
@@ -173,9 +173,9 @@ TEST(SlowPress, ThreeAndFourHandsInARowFeelThem) {
   EXPECT_LE(off, cells / 400);
 }
 
-// Next to what energy allows, K = b/T, a row of hands is shown softer where it is short, which is
-// told; never are hands pushed harder than is right.
-TEST(SlowPress, StiffHandsInARowAreToldWhereTheyAreNotRight) {
+// Near the energy limit, K = b/T, a row of hands is rendered softer where energy is short, and
+// reports it; no hand is ever pushed harder than correct.
+TEST(SlowPress, StiffRowsReportWhereTheyAreSoftened) {
   Grid grid;
   grid.hands = {3, 4};
   grid.stiffness = {900};
@@ -193,15 +193,15 @@ TEST(SlowPress, StiffHandsInARowAreToldWhereTheyAreNotRight) {
   EXPECT_LE(off, cells / 4);
 }
 
-// A blow that carries one hand through the other's centre turns the right direction of the force
-// round; neither what was known before the blow nor a guess of where it leads may pull the wrong
-// way for longer than it takes to hear of it.
-TEST(QuickTap, IsFeltTheRightWayRoundSoonAfterTheLastCrossing) {
+// A blow that carries one hand through the other's centre reverses the correct direction of the
+// force. Neither the state before the blow nor a prediction from it may pull in the wrong direction
+// for longer than an update takes.
+TEST(QuickTap, ForceHasTheRightDirectionSoonAfterCrossing) {
   int cells = 0, crossed = 0, touched = 0, late = 0, late_before = 0;
   for (const double delay : {0.02, 0.03, 0.05, 0.1})
     for (const double radius : {0.01, 0.02})
       for (const double speed : {0.59, 0.88, 1.2})
-        for (const double back : {0.0, 1.0})  // stays beyond, or comes back to touch
+        for (const double back : {0.0, 1.0})  // stays beyond, or returns to touch
           for (unsigned seed = 1; seed <= test::tries(2U, 10U); ++seed) {
             RowHands hands;
             hands.radius = radius;
@@ -246,12 +246,12 @@ TEST(QuickTap, IsFeltTheRightWayRoundSoonAfterTheLastCrossing) {
   EXPECT_EQ(crossed, cells);
   EXPECT_GE(touched, cells / 2);
   EXPECT_EQ(late, 0);
-  // About to cross again, the force of a hand that is heard of late turns some ms too early.
+  // Just before a crossing back, the force of a hand with late updates turns some ms too early.
   EXPECT_LE(late_before, cells / 12);
 }
 
-// Gain and phase of what each feels against stiffness times true overlap at that instant.
-TEST(Strokes, AreFeltAsTheyAreOnALan) {
+// Gain and phase of each hand's force against stiffness times true overlap at that instant.
+TEST(Strokes, AreFeltCorrectlyOnALan) {
   for (const double stiffness : {500.0, 800.0}) {
     RowHands hands;
     hands.stiffness = stiffness;
@@ -291,7 +291,7 @@ TEST(Strokes, AreFeltAsTheyAreOnALan) {
   }
 }
 
-TEST(SlowPress, HandsThatHoldStillComeToRest) {
+TEST(SlowPress, RestingHandsComeToRest) {
   for (const double delay : {0.0003, 0.05}) {
     RowHands hands;
     hands.start = -0.02;
@@ -304,7 +304,7 @@ TEST(SlowPress, HandsThatHoldStillComeToRest) {
     while (row.time() < 60) row.step();
     const auto truth = row_truth(2, hands.grip, hands.stiffness, 0.02);
     for (std::size_t i = 0; i < 2; ++i) {
-      // What goes unsent, 15 mN or 0.03 mm, still moves them a little.
+      // Unsent changes, 15 mN or 0.03 mm, still move them a little.
       EXPECT_LT(row.device(i).velocity().norm(), 3e-3) << delay;
       EXPECT_NEAR(row.felt(i), truth[i], 0.03 * truth[i]) << delay;
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows of five and six hands, and a hand pushed against a wall: both ends of each contact feel what
-// springs as stiff as the devices show them would give, on a perfect network as on a slow one.
+// Rows of five and six hands, and a hand pushed against a wall: both ends of each contact feel the
+// forces of springs with the rendered stiffness, on a perfect network and on a slow one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,16 +28,16 @@ using test::within;
 // RECKON_SOAK=1 draws two hundred.
 int tried() { return test::tries(8, 200); }
 
-// What somebody pushes, and what came of it.
+// A push, and its result.
 struct Pushed {
-  double off = 0;  // of what springs would give, the worst hand
-  double beyond =
-      0;             // the same in bars: kRight of the force, or twice the least error that is sent
-  double least = 0;  // [J]
+  double off = 0;     // relative error of the worst hand against springs
+  double beyond = 0;  // the same relative to the limit: kRight of the force, or twice the least
+                      // error that is sent
+  double least = 0;   // [J]
   std::string scene;
-  bool weak = false;  // shown less than the device can
+  bool weak = false;  // rendered with less than the device's stiffness
 
-  // A hand is between two others, each of which may be off by the threshold of the line.
+  // A hand is between two others, each of which may have an error of the line's threshold.
   void note(double felt, double right, const RowLine& line) {
     const double error = std::abs(felt - right);
     off = std::max(off, error / right);
@@ -66,9 +66,9 @@ Pushed push_a_row(const Choice<5>& c, unsigned seed) {
   return pushed;
 }
 
-// A row is right three seconds after the press, on a perfect network too: no wave runs along it
-// that uses up its energy.
-TEST(RowsAndWalls, RowsAreRightThreeSecondsAfterAPress) {
+// A row is correct three seconds after the press, also on a perfect network: no wave runs along it
+// and uses up its energy.
+TEST(RowsAndWalls, RowsAreCorrectThreeSecondsAfterAPress) {
   double worst = 0;
   test::Thinned thinned(5);
   for (const std::size_t count : {3u, 4u, 5u, 6u, 7u, 8u}) {
@@ -89,7 +89,7 @@ TEST(RowsAndWalls, RowsAreRightThreeSecondsAfterAPress) {
           while (row.time() < 0.5 + rise + 3) row.step();
           const auto right = row_truth(count, hands.grip, stiffness, press);
           for (std::size_t i = 0; i < count; ++i) {
-            // Less than the threshold of an update is not known.
+            // An error below the threshold of an update stays unknown.
             const double bar = std::max(0.03 * right[i], line.threshold_n / 3);
             const double error = std::abs(row.felt(i) - right[i]);
             worst = std::max(worst, error / bar);
@@ -104,7 +104,7 @@ TEST(RowsAndWalls, RowsAreRightThreeSecondsAfterAPress) {
   std::printf("rows after 3 s: off by %.2f of the bar at most\n", worst);
 }
 
-// Grip, spring between the hands, wall and the second grip side by side.
+// Grip, spring between the hands, wall and the second grip in parallel.
 Pushed push_at_a_wall(const Choice<5>& c, unsigned seed) {
   RowHands hands;
   hands.stiffness = within(c[0], 300, 900);
@@ -113,7 +113,7 @@ Pushed push_at_a_wall(const Choice<5>& c, unsigned seed) {
   SceneObject object;
   object.name = "wall";
   object.shape = PlaneShape{-Eigen::Vector3d::UnitX()};
-  object.pose.position.x() = 2 * hands.radius + 1e-6;  // where the second hand is
+  object.pose.position.x() = 2 * hands.radius + 1e-6;  // position of the second hand
   object.effects.of<SpringDamper>().stiffness = wall;
   hands.scene.objects.push_back(object);
   RowLine line;
@@ -158,10 +158,10 @@ void climb_to_the_worst(Push push) {
               worst.scene.c_str());
 }
 
-TEST(RowsAndWalls, ManyHandsInARowFeelSpringsInARow) { try_seeds(push_a_row); }
-TEST(RowsAndWalls, AHandPushedAgainstAWallFeelsWhatThePusherFeels) { try_seeds(push_at_a_wall); }
-TEST(RowsAndWalls, NoClimbFindsARowThatIsWrong) { climb_to_the_worst(push_a_row); }
-TEST(RowsAndWalls, NoClimbFindsAWallThatIsWrong) { climb_to_the_worst(push_at_a_wall); }
+TEST(RowsAndWalls, ManyHandsFeelSpringsInARow) { try_seeds(push_a_row); }
+TEST(RowsAndWalls, HandAtAWallFeelsThePushersForce) { try_seeds(push_at_a_wall); }
+TEST(RowsAndWalls, NoClimbFindsAnIncorrectRow) { climb_to_the_worst(push_a_row); }
+TEST(RowsAndWalls, NoClimbFindsAnIncorrectWall) { climb_to_the_worst(push_at_a_wall); }
 
 }  // namespace
 }  // namespace reckon::haptics::rows_and_walls_test

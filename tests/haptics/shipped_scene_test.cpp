@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The mesh and the hand traces in scenes/: what make_scene.py writes, and that the hands touch.
+// The mesh and the hand traces in scenes/: the output of make_scene.py, and contact of the hands.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -59,15 +59,16 @@ EffectPlan stone() {
   return EffectPlan(scene);
 }
 
-TEST(ShippedScene, IsWhatTheScriptWrites) {
+TEST(ShippedScene, EqualsTheScriptsOutput) {
   if (std::system("python3 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs python3";
   const fs::path out = fs::temp_directory_path() / "reckon_make_scene";
   fs::create_directories(out);
   const std::string command =
       "python3 '" + (scenes() / "make_scene.py").string() + "' '" + out.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  for (const char* name : {"touchstone.obj", "land.pgm", "meeting_1.csv", "meeting_2.csv", "hand_trace.csv",
-                           "hand_trace_2.csv", "wall_trace.csv", "tip_track.csv", "truck_track.csv"}) {
+  for (const char* name :
+       {"touchstone.obj", "land.pgm", "meeting_1.csv", "meeting_2.csv", "hand_trace.csv",
+        "hand_trace_2.csv", "wall_trace.csv", "tip_track.csv", "truck_track.csv"}) {
     EXPECT_EQ(bytes_of(out / name), bytes_of(scenes() / name)) << name;
   }
   fs::remove_all(out);

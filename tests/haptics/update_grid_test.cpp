@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One hand against a server that sees it late and answers with a tangent, over a line that delays,
-// jitters and loses: whatever the environment does there, the port makes no energy.
-// RECKON_SOAK=1 runs 504 cells for each environment with five seeds; without it a few of them.
+// One hand against a server that sees it late and answers with a tangent, over a line with delay,
+// jitter and loss: for any environment at the server, the port makes no energy. RECKON_SOAK=1 runs
+// 504 cells for each environment with five seeds; without it a few of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using std::chrono::milliseconds;
 
 constexpr double kDamping = 1.0;          // [N s/m]
 constexpr double kLimit = 2000.0;         // [N/m], 2 b / T
-constexpr double kCap = 0.95 * kLimit;    // of it what the servo uses
+constexpr double kCap = 0.95 * kLimit;    // the servo's share of it
 constexpr double kPassive = -1e-9;        // [J]
 constexpr int kSteps = 12'000;            // [ms]
 constexpr double kStart = -0.002;         // [m]
@@ -58,7 +58,7 @@ struct Tangent {
   double stiffness, surface;  // [N/m], [m]
 };
 
-// What the server says of a hand at x [m], at t [s].
+// The server's answer for a hand at x [m], at t [s].
 Tangent tangent(const Cell& cell, double x, double t) {
   const double k = cell.share * kLimit;
   const double k1 = k / 4;
@@ -78,7 +78,7 @@ Tangent tangent(const Cell& cell, double x, double t) {
   return {};
 }
 
-// Stays outside until the first update has come: late discovery is another matter.
+// Stays outside until the first update has come: late discovery is tested elsewhere.
 HandTarget script(Operator hand, double t) {
   HandTarget target;
   target.position.x() = kStart;
@@ -106,7 +106,7 @@ SimulatedDeviceConfig device_of(Operator hand) {
 
 struct Outcome {
   double least = 0;     // [J], work + damping
-  double meter = 0;     // [J], of the servo above it
+  double meter = 0;     // [J], excess of the servo's meter
   double peak = 0;      // [N], up to 0.9 of the limit
   double farthest = 0;  // [m]
   double error = 0;     // [N], of a linear wall
@@ -123,7 +123,7 @@ class Line {
     const peer::Fate fate = network_.decide(0, sent_++, pdu::from_seconds(now));
     if (fate.copies > 0) queue_.push_back({now + pdu::to_seconds(fate.delay[0]), what});
   }
-  // In the order of arrival, which need not be that of sending.
+  // In the order of arrival, which may differ from the order of sending.
   template <typename Take>
   void deliver(double now, Take&& take) {
     for (auto it = queue_.begin(); it != queue_.end();) {
@@ -197,9 +197,9 @@ Outcome run(const Cell& cell, unsigned seed) {
   return out;
 }
 
-// Held 40 mm inside a soft wall while its tangent becomes a stiff one, or the other way round, and
-// back: the force is never outside what the two give.
-TEST(UpdateGrid, BlendsForcesWhereStiffnessAndSurfaceChangeTogether) {
+// Held 40 mm inside a soft wall while its tangent becomes a stiff one, or vice versa, and back: the
+// force is always between the two.
+TEST(UpdateGrid, BlendsForcesOnCombinedChanges) {
   constexpr double kInside = 0.04;
   const Tangent soft{140, 0.0}, stiff{1400, 0.0355};
   const auto force = [](const Tangent& t) { return t.stiffness * (kInside - t.surface); };
@@ -238,13 +238,13 @@ TEST(UpdateGrid, BlendsForcesWhereStiffnessAndSurfaceChangeTogether) {
       least = std::min(least, asked);
       most = std::max(most, asked);
     }
-    // The hand gives way by some 0.06 mm, which is 0.09 N of the stiff one.
+    // The hand yields by some 0.06 mm, which is 0.09 N of the stiff one.
     EXPECT_GE(least, std::min(force(soft), force(stiff)) - 0.12) << soft_first;
     EXPECT_LE(most, std::max(force(soft), force(stiff)) + 0.12) << soft_first;
   }
 }
 
-TEST(UpdateGrid, MakesNoEnergyWhateverTheServerAnswers) {
+TEST(UpdateGrid, MakesNoEnergyForAnyServerAnswers) {
   const std::vector<double> shares =
       test::tries(std::vector{0.25, 0.9, 2.0}, std::vector{0.1, 0.25, 0.5, 0.75, 0.9, 1.05, 2.0});
   const std::vector<double> delays =

@@ -47,7 +47,7 @@ TEST(BundleRank, PutsEntityStatesFirstAndTheTrailerLast) {
   EXPECT_EQ(bundle_rank(PduType{255}), 3);
 }
 
-TEST(BundleWriter, AcceptsExactlyTheSequencesWhoseRankNeverFalls) {
+TEST(BundleWriter, AcceptsOnlySequencesOfNonDecreasingRank) {
   std::mt19937 random(11);
   for (int round = 0; round < 5000; ++round) {
     std::array<std::byte, 400> buffer;
@@ -104,7 +104,7 @@ TEST(BundleWriter, RefusesOctetsThatAreNotExactlyOnePdu) {
   EXPECT_TRUE(writer.empty());
 }
 
-TEST(BundleWriter, StartsAnewAfterClear) {
+TEST(BundleWriter, StartsAgainAfterClear) {
   std::array<std::byte, 256> buffer;
   BundleWriter writer(buffer);
   ASSERT_TRUE(writer.append(DatagramTrailer{}));
@@ -113,7 +113,7 @@ TEST(BundleWriter, StartsAnewAfterClear) {
   EXPECT_EQ(writer.size(), 144U);
 }
 
-TEST(BundleReader, AcceptsZeroOctetsUpToTheNextMultipleOfEight) {
+TEST(BundleReader, AcceptsZeroPaddingToAMultipleOfEight) {
   const auto first = header_only(PduType::fire, 29);
   const auto second = header_only(PduType::collision, 60);
   const auto datagram = first + Octets(3) + second + Octets(4);
@@ -133,7 +133,7 @@ TEST(BundleReader, TakesPdusOfAnyLengthWithoutPadding) {
   for (const BundledPdu& pdu : pdus) EXPECT_EQ(pdu.error, DecodeError::none);
 }
 
-TEST(BundleReader, KeepsUnknownTypesAndGoesOnBehindThem) {
+TEST(BundleReader, KeepsUnknownTypesAndContinues) {
   const auto datagram =
       header_only(PduType::fire) + header_only(PduType{222}, 40) + header_only(PduType::data, 40);
   const auto pdus = read(datagram);
@@ -144,7 +144,7 @@ TEST(BundleReader, KeepsUnknownTypesAndGoesOnBehindThem) {
   EXPECT_EQ(pdus[2].header.pdu_type, PduType::data);
 }
 
-TEST(BundleReader, StepsOverAForeignVersionByItsLength) {
+TEST(BundleReader, SkipsAForeignVersionByItsLength) {
   auto foreign = header_only(PduType::entity_state, 144);
   foreign[0] = std::byte{99};
   const auto pdus = read(foreign + header_only(PduType::fire));
@@ -153,7 +153,7 @@ TEST(BundleReader, StepsOverAForeignVersionByItsLength) {
   EXPECT_EQ(pdus[1].error, DecodeError::none);
 }
 
-TEST(BundleReader, StepsOverForeignPdusInARowAndTheirPadding) {
+TEST(BundleReader, SkipsConsecutiveForeignPdusWithPadding) {
   auto foreign = header_only(PduType::entity_state, 45);
   foreign[0] = std::byte{8};
   const auto pdus = read(foreign + Octets(3) + foreign + Octets(3) + header_only(PduType::fire));
@@ -164,8 +164,8 @@ TEST(BundleReader, StepsOverForeignPdusInARowAndTheirPadding) {
   EXPECT_EQ(pdus[2].error, DecodeError::none);
 }
 
-// Otherwise the walk would go on by lengths that are the payload of something else.
-TEST(BundleReader, TakesOctetsWhoseLengthLeadsToNoPduAsStrayUpToTheEnd) {
+// Otherwise the reader would follow lengths that are payload of something else.
+TEST(BundleReader, TakesOctetsWithoutAFollowingPduAsStray) {
   Octets noise(60, std::byte{0xEE});
   store_big_endian(noise.data() + 8, std::uint16_t{20});
   noise[20] = std::byte{0xDD};
@@ -176,7 +176,7 @@ TEST(BundleReader, TakesOctetsWhoseLengthLeadsToNoPduAsStrayUpToTheEnd) {
   EXPECT_EQ(pdus[1].bytes.size(), 60U);
 }
 
-TEST(BundleReader, KeepsEveryOtherPduWhereOneSaysAShortLengthOfItsOwn) {
+TEST(BundleReader, KeepsOtherPdusBesideOneWithShortLength) {
   // The length of the second PDU is too small for its type, but it leads to the third.
   auto second = header_only(PduType::entity_state, 20);
   const auto datagram = test::sample_octets("collision") + second + test::sample_octets("fire");
@@ -188,7 +188,7 @@ TEST(BundleReader, KeepsEveryOtherPduWhereOneSaysAShortLengthOfItsOwn) {
   EXPECT_EQ(decode(pdus[2].bytes, fire), DecodeError::none);
 }
 
-TEST(BundleReader, GivesAPduWithABrokenBodyAndTheGoodOneBehindIt) {
+TEST(BundleReader, ReturnsPdusWithBrokenBodyAndTheNext) {
   auto broken = test::sample_octets("entity_state");
   broken[19] = std::byte{255};
   const auto datagram = broken + test::sample_octets("collision");
@@ -200,7 +200,7 @@ TEST(BundleReader, GivesAPduWithABrokenBodyAndTheGoodOneBehindIt) {
   EXPECT_EQ(decode(pdus[1].bytes, collision), DecodeError::none);
 }
 
-TEST(BundleReader, ReportsACutPduWithItsOffsetAndStops) {
+TEST(BundleReader, ReportsATruncatedPduAndStops) {
   const auto datagram = header_only(PduType::fire, 24) + header_only(PduType::collision, 60);
   const auto pdus = read(std::span(datagram).first(70));
   ASSERT_EQ(pdus.size(), 2U);
@@ -210,7 +210,7 @@ TEST(BundleReader, ReportsACutPduWithItsOffsetAndStops) {
   EXPECT_EQ(pdus[1].bytes.size(), 46U);
 }
 
-TEST(BundleReader, ReportsALengthOfZeroOnceInsteadOfForEver) {
+TEST(BundleReader, ReportsALengthOfZeroOnce) {
   const auto datagram = header_only(PduType::fire, 24) + header_only(PduType::collision, 60);
   auto trap = datagram;
   store_big_endian(trap.data() + 24 + 8, std::uint16_t{0});
@@ -219,7 +219,7 @@ TEST(BundleReader, ReportsALengthOfZeroOnceInsteadOfForEver) {
   EXPECT_EQ(pdus[1].error, DecodeError::length);
 }
 
-TEST(BundleReader, CallsOctetsThatBeginNoPduStray) {
+TEST(BundleReader, ReportsOctetsThatBeginNoPduAsStray) {
   for (const std::size_t size : {1U, 7U, 11U, 12U, 30U}) {
     const auto pdus = read(header_only(PduType::fire, 24) + Octets(size, std::byte{0xEE}));
     ASSERT_EQ(pdus.size(), 2U);
@@ -228,20 +228,20 @@ TEST(BundleReader, CallsOctetsThatBeginNoPduStray) {
   }
 }
 
-TEST(BundleReader, CallsZeroOctetsBeyondThePaddingStray) {
+TEST(BundleReader, ReportsZeroOctetsBeyondThePaddingAsStray) {
   const auto pdus = read(header_only(PduType::fire, 20) + Octets(4 + 8));
   ASSERT_EQ(pdus.size(), 2U);
   EXPECT_EQ(pdus[1].error, DecodeError::stray);
   EXPECT_EQ(pdus[1].offset, 24U);
 }
 
-TEST(BundleReader, SaysThatAnEmptyDatagramIsTruncated) {
+TEST(BundleReader, ReportsAnEmptyDatagramAsTruncated) {
   const auto pdus = read({});
   ASSERT_EQ(pdus.size(), 1U);
   EXPECT_EQ(pdus[0].error, DecodeError::truncated);
 }
 
-TEST(BundleReader, CoversEveryOctetOfAnyDatagramOnceAndReadsNoOther) {
+TEST(BundleReader, CoversEveryOctetOfAnyDatagramOnce) {
   std::mt19937 random(5);
   test::GuardedBuffer buffer;
   const Octets pieces[] = {test::sample_octets("entity_state"), test::sample_octets("attribute"),

@@ -64,7 +64,7 @@ Tally read_captures(const std::filesystem::path& folder) {
   return tally;
 }
 
-TEST(RecordedSessions, GiveEveryPduAndEncodeItBackOctetForOctet) {
+TEST(RecordedSessions, DecodeAndEncodeOctetForOctet) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   const Tally tally = read_captures(test::reference_data() / "dis-captures/real-sessions");
   const std::map<PduType, std::size_t> exact{
@@ -72,13 +72,13 @@ TEST(RecordedSessions, GiveEveryPduAndEncodeItBackOctetForOctet) {
       {PduType::transmitter, 237},   {PduType::receiver, 7}, {PduType::environmental_process, 944}};
   EXPECT_EQ(tally.exact, exact);
   EXPECT_TRUE(tally.kept.empty());
-  // The two Data PDUs that the recorder cut at 8192 octets, and nothing else.
+  // Only the two Data PDUs that the recorder cut at 8192 octets.
   const std::map<DecodeError, std::size_t> bad{{DecodeError::truncated, 2}};
   EXPECT_EQ(tally.bad, bad);
   EXPECT_EQ(tally.allocations, 0U);
 }
 
-TEST(RecordedSessions, CoupleEveryEntityStateWithTheAttributePduBehindIt) {
+TEST(RecordedSessions, CoupleEntityStatesWithTheNextAttributePdu) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   const auto folder = test::reference_data() / "dis-captures/real-sessions";
   std::size_t coupled = 0;
@@ -102,8 +102,8 @@ TEST(RecordedSessions, CoupleEveryEntityStateWithTheAttributePduBehindIt) {
   EXPECT_EQ(coupled, 2132U);
 }
 
-// Visitor of the records of an Environmental Process: how far from the centre of the earth the
-// places in them are, by record type.
+// Visitor of the records of an Environmental Process. Counts their locations at a plausible
+// distance from the centre of the earth, by record type.
 class Places {
  public:
   explicit Places(std::map<std::uint32_t, std::size_t>& on_earth) : on_earth_(on_earth) {}
@@ -127,7 +127,7 @@ class Places {
   std::uint32_t type_ = 0;
 };
 
-TEST(RecordedSessions, HaveEveryPlaceOfTheirEnvironmentRecordsOnTheEarth) {
+TEST(RecordedSessions, HaveAllEnvironmentLocationsOnTheEarth) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   std::map<std::uint32_t, std::size_t> places;
   Places look(places);
@@ -147,14 +147,14 @@ TEST(RecordedSessions, HaveEveryPlaceOfTheirEnvironmentRecordsOnTheEarth) {
   EXPECT_EQ(places, counted);
 }
 
-// Files hold one PDU each; one is a whole Ethernet frame, one has octets behind its PDU.
+// Each file holds one PDU; one file is a whole Ethernet frame, one has octets after its PDU.
 std::vector<std::byte> bare_pdu(const std::filesystem::path& path) {
   auto octets = test::file_octets(path);
   if (path.filename() == "StartResumePdu.raw") octets.erase(octets.begin(), octets.begin() + 42);
   return octets;
 }
 
-TEST(RecordedPdus, OfOtherProductsAreReadOrKept) {
+TEST(RecordedPdus, OfOtherProductsAreDecodedOrKept) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   Tally tally;
   std::size_t files = 0;

@@ -17,7 +17,7 @@
 namespace reckon::pdu {
 namespace {
 
-/// What `pattern` finds in its first parentheses: in the list of names, or in all else of pdu/.
+/// All captures of the first group of `pattern`: in the list of names, or in the rest of pdu/.
 std::set<std::string> found(const std::string& pattern, bool in_list) {
   std::set<std::string> names;
   const std::regex expression(pattern);
@@ -40,7 +40,7 @@ TEST(FieldNames, HaveOnlyRowsOfFieldsThatExist) {
   for (const std::string& row : rows) EXPECT_TRUE(fields.contains(row)) << row;
 }
 
-/// Visitor: an enumeration that has a type of its own must not be listed under another table.
+/// Visitor: an enumeration with its own type must not be listed under another table.
 class NamedTwice {
  public:
   template <typename Record>
@@ -157,14 +157,14 @@ TEST(NamesInATree, DependOnOtherFieldsOfTheirRecord) {
   EXPECT_HOLDS(tree(unit), "aggregate_type kind 1 (Military Hierarchy)");
 }
 
-TEST(NamesInATree, TellThePartAndTheMetricOfAnArticulation) {
+TEST(NamesInATree, NamePartAndMetricOfAnArticulation) {
   ArticulatedPart part;
   part.parameter_type = 4096 + 11;
   EXPECT_HOLDS(tree(part), "parameter_type 4107\n  part 128 (Primary Turret Number 1)\n");
   EXPECT_HOLDS(tree(part), "  metric 11 (Azimuth)\n");
 }
 
-TEST(NamesInJson, StandBehindNumbersThatStay) {
+TEST(NamesInJson, FollowNumbersThatStay) {
   const std::string text = json(tank());
   EXPECT_HOLDS(text, R"("force_id":2,"force_id_name":"Opposing",)");
   EXPECT_HOLDS(text, R"("country":225,"country_name":"United States",)");
@@ -181,7 +181,7 @@ TEST(NamesInJson, AreLeftOutOfPlainNumbers) {
   EXPECT_EQ(text.find("_bits"), std::string::npos) << text;
 }
 
-TEST(TypeInWords, LeavesOutWhatIsZeroAndTellsNumbersWithoutNames) {
+TEST(TypeInWords, OmitsZerosAndGivesUnnamedNumbers) {
   const auto words = [](const EntityType& type) {
     std::string text;
     TextSink sink(text);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What people read in fields, in the tree and in JSON with names.
+// Readable values of fields, in the tree and in JSON with names.
 #include "reckon/pdu/field_readings.hpp"
 
 #include <gmock/gmock.h>
@@ -42,7 +42,7 @@ json plain(const Pdu& pdu) {
   return json::parse(text);
 }
 
-TEST(Readings, OfATimestampAreMinutesAndSecondsPastTheHour) {
+TEST(Readings, OfATimestampAreMinutesAndSeconds) {
   EntityState pdu;
   pdu.header.timestamp = 305419897;
   EXPECT_THAT(tree(pdu), HasSubstr(" (past_the_hour 04:15.999999, clock absolute)"));
@@ -75,7 +75,7 @@ TEST(Readings, OfAnglesWithoutAPlaceAreDegrees) {
   EXPECT_FALSE(named(pdu).contains("entity_location_read"));
 }
 
-TEST(Readings, OfAClockTimeAreADateOrHours) {
+TEST(Readings, OfAClockTimeAreDateOrHours) {
   StartResume pdu;
   pdu.real_world_time.hour = 24 * 20783 + 14;  // 2026-11-26
   pdu.simulation_time.hour = 2;
@@ -84,7 +84,7 @@ TEST(Readings, OfAClockTimeAreADateOrHours) {
   EXPECT_EQ(fields["simulation_time_read"]["time"], "2:00:00.000000");
 }
 
-TEST(Readings, OfAClockTimeThatIsNoClocksAreItsHours) {
+TEST(Readings, OfAnInvalidClockTimeAreItsHours) {
   StartResume pdu;
   pdu.real_world_time.hour = std::numeric_limits<std::int32_t>::max();
   pdu.simulation_time.hour = std::numeric_limits<std::int32_t>::min();
@@ -110,7 +110,7 @@ Iff transponder() {
   return pdu;
 }
 
-TEST(Readings, OfIffModesAreTheirCodesAndTheAltitude) {
+TEST(Readings, OfIffModesAreCodesAndTheAltitude) {
   const std::string text = tree(transponder());
   for (const char* line : {"parameter_1 8221 (mode_1 53, state on)\n", "(mode_2 1237, state off)\n",
                            "(mode_3a 4721, state on)\n", "(mode_4 291, state damaged)\n",
@@ -122,7 +122,7 @@ TEST(Readings, OfIffModesAreTheirCodesAndTheAltitude) {
   EXPECT_EQ(fields["parameter_3"], plain(transponder())["parameter_3"]);
 }
 
-TEST(Readings, OfIffModesHeedCapabilityAndSystem) {
+TEST(Readings, OfIffModesDependOnCapabilityAndSystem) {
   Iff pdu = transponder();
   pdu.system_status |= 1U << 3;
   pdu.parameter_5 = 0x2000 | 0x7FF << 1;
@@ -147,7 +147,7 @@ TEST(Readings, OfDatumsAreTheirText) {
   EXPECT_FALSE(datums[1].contains("variable_datum_text"));
 }
 
-TEST(DescriptorKinds, AreShownAsTheStatusSays) {
+TEST(DescriptorKinds, AreShownByTheStatus) {
   Fire fire;
   fire.descriptor.warhead = 602;
   EXPECT_EQ(plain(fire)["descriptor"]["warhead"], 602);
@@ -168,7 +168,7 @@ TEST(DescriptorKinds, AreShownAsTheStatusSays) {
   EXPECT_TRUE(descriptor.contains("exploding_object_type"));
 }
 
-TEST(DescriptorKinds, DoNotChangeWhatIsOnTheWire) {
+TEST(DescriptorKinds, DoNotChangeTheOctets) {
   Detonation detonation;
   detonation.header.pdu_status = 0x20;
   detonation.descriptor = {{}, 1, 2, 3, 4};
@@ -179,7 +179,7 @@ TEST(DescriptorKinds, DoNotChangeWhatIsOnTheWire) {
   EXPECT_EQ(back.descriptor.rate, 4);
 }
 
-TEST(JsonNumbers, BeyondWhatADoubleHoldsAreText) {
+TEST(JsonNumbers, BeyondThePrecisionOfADoubleAreText) {
   Presence pdu;
   pdu.scene_hash = 10428333160412253831U;
   EXPECT_EQ(plain(pdu)["scene_hash"], "10428333160412253831");

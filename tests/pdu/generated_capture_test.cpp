@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Captures made by an independent generator, with the values of every field beside them.
+// Captures from an independent generator, with a sidecar of all field values.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -33,7 +33,7 @@ std::vector<std::vector<std::byte>> datagrams(const std::string& name) {
   return test::udp_payloads(test::reference_data() / "dis-captures/generated-a" / (name + ".pcap"));
 }
 
-// The values in wire order, whatever their names. Counts and padding are not in the sidecars.
+// The values in wire order, without their names. The sidecars contain no counts and no padding.
 void flatten(const Json& value, std::vector<Json>& out) {
   if (!value.is_structured()) {
     out.push_back(value);
@@ -47,7 +47,7 @@ void flatten(const Json& value, std::vector<Json>& out) {
   }
 }
 
-// Ours prints a 32-bit float in its shortest form, theirs in full.
+// Reckon prints a 32-bit float in its shortest form, the sidecar prints all digits.
 bool same(const Json& ours, const Json& theirs) {
   if (!ours.is_number() || !theirs.is_number()) return ours == theirs;
   const double a = ours.get<double>();
@@ -75,7 +75,7 @@ void expect_header(const PduHeader& ours, const Json& theirs) {
   EXPECT_EQ(ours.pdu_status, theirs["pduStatus"]);
 }
 
-// Ours, with the octets that the sidecars hold in place of the records that they are shown as.
+// The JSON of Reckon, with records replaced by their octets where the sidecars contain octets.
 template <typename T>
 Json shown(const T& pdu) {
   std::string text;
@@ -129,7 +129,7 @@ struct Capture {
 
 class GeneratedCapture : public testing::TestWithParam<Capture> {};
 
-TEST_P(GeneratedCapture, HoldsTheValuesThatItsMakerPutIn) {
+TEST_P(GeneratedCapture, HoldsTheValuesOfItsGenerator) {
   RECKON_NEED_DATA("dis-captures/generated-a");
   const std::string name = GetParam().name;
   const Json expected = sidecar(name)["datagrams"];
@@ -174,7 +174,7 @@ Verdict judge(std::span<const std::byte> datagram) {
   return verdict;
 }
 
-TEST(MalformedDatagrams, AreRefusedOrFlaggedAsTheirMakerSays) {
+TEST(MalformedDatagrams, AreRefusedOrFlaggedAsTheSidecarStates) {
   RECKON_NEED_DATA("dis-captures/generated-a");
   const Json expected = sidecar("a-malformed")["datagrams"];
   const auto payloads = datagrams("a-malformed");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Latitude, longitude and height against the closed form of the other direction; heading, pitch and
-// roll against poses that are plain to see.
+// Latitude, longitude and height against the closed form of the inverse; heading, pitch and roll
+// against simple attitudes.
 #include "reckon/pdu/geodetic.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ WorldCoordinates geocentric(double latitude_deg, double longitude_deg, double he
           (normal * (1.0 - kE2) + height) * sine};
 }
 
-TEST(Geodetic, GivesBackWhatTheClosedFormWasMadeFrom) {
+TEST(Geodetic, InvertsTheClosedForm) {
   double worst_deg = 0.0;
   double worst_m = 0.0;
   for (double latitude = -90.0; latitude <= 90.0; latitude += 2.5) {
@@ -50,18 +50,18 @@ TEST(Geodetic, GivesBackWhatTheClosedFormWasMadeFrom) {
   EXPECT_LT(worst_m, 1e-6);
 }
 
-TEST(Geodetic, HasNoPlaceForWhatIsNoneOnEarth) {
+TEST(Geodetic, RefusesLocationsThatAreNotOnEarth) {
   EXPECT_FALSE(geodetic_from({}).has_value());
   EXPECT_FALSE(geodetic_from({1000, 2000, 30}).has_value());
   EXPECT_FALSE(geodetic_from({std::numeric_limits<double>::quiet_NaN(), 7e6, 0}).has_value());
   EXPECT_FALSE(geodetic_from({std::numeric_limits<double>::infinity(), 0, 0}).has_value());
 }
 
-/// Body axes in W of a level body that heads north at latitude 0 and longitude 0: x is W's z, y is
+/// A level body that heads north at latitude 0 and longitude 0, body axes in W: x is W's z, y is
 /// W's y (east), z (down) is W's -x.
 TEST(Attitude, OfALevelBodyIsItsHeading) {
   const Geodetic equator{0, 0, 0};
-  // theta = -90 degrees turns x upwards in W, which is north there.
+  // theta = -90 degrees turns x along W's z, which is north there.
   const auto north = attitude_from({0.0F, static_cast<float>(-90 * kDegree), 0.0F}, equator);
   ASSERT_TRUE(north.has_value());
   EXPECT_NEAR(std::remainder(north->heading_deg, 360.0), 0.0, 1e-4);
@@ -75,14 +75,14 @@ TEST(Attitude, OfALevelBodyIsItsHeading) {
   EXPECT_NEAR(east->pitch_deg, 0.0, 1e-4);
   EXPECT_NEAR(east->roll_deg, 0.0, 1e-4);
 
-  // A further 10 degrees of phi lower the right side.
+  // 10 more degrees of phi lower the right side.
   const auto rolled = attitude_from(
       {static_cast<float>(90 * kDegree), 0.0F, static_cast<float>(-80 * kDegree)}, equator);
   ASSERT_TRUE(rolled.has_value());
   EXPECT_NEAR(rolled->roll_deg, 10.0, 1e-4);
 }
 
-TEST(Attitude, PitchIsPositiveWhereTheNoseIsUp) {
+TEST(Attitude, PitchIsPositiveWithTheNoseUp) {
   const auto up = attitude_from({}, Geodetic{0, 0, 0});  // x along W's x
   ASSERT_TRUE(up.has_value());
   EXPECT_NEAR(up->pitch_deg, 90.0, 1e-4);
@@ -91,7 +91,7 @@ TEST(Attitude, PitchIsPositiveWhereTheNoseIsUp) {
   EXPECT_NEAR(down->pitch_deg, -90.0, 1e-4);
 }
 
-TEST(Attitude, HasNoneForAnglesThatAreNoNumbers) {
+TEST(Attitude, IsEmptyForAnglesThatAreNotFinite) {
   EXPECT_FALSE(attitude_from({std::numeric_limits<float>::quiet_NaN(), 0, 0}, {}).has_value());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies whose fields mean something else in DIS 5 and 6 than in DIS 7: the same octets with
-// another version, and PDUs of other products with the values that tshark 4.0 shows for them.
+// Bodies whose fields differ between DIS 5 or 6 and DIS 7: the same octets with another version,
+// and PDUs of other products with the values that tshark 4.0 shows for them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using Octets = std::vector<std::byte>;
 
-// The JSON of a PDU that decodes and encodes to the same octets, as a PDU of `version`.
+// The JSON of a PDU of `version` that decodes and encodes to the same octets.
 template <typename T>
 nlohmann::json shown(Octets octets, unsigned version) {
   octets[0] = static_cast<std::byte>(version);
@@ -40,10 +40,10 @@ nlohmann::json recorded(const char* name) {
   return shown<T>(octets, std::to_integer<unsigned>(octets[0]));
 }
 
-TEST(OlderVersions, HaveANomenclatureInTheTypeOfARadio) {
+TEST(OlderVersions, HaveANomenclatureInTheRadioType) {
   Octets octets = test::sample_octets("transmitter");
   EXPECT_TRUE(shown<Transmitter>(octets, 7).contains("radio_type"));
-  octets.resize(104 + 16 + 40);  // without the records that only DIS 7 has
+  octets.resize(104 + 16 + 40);  // without the records of DIS 7
   store_big_endian(octets.data() + 8, static_cast<std::uint16_t>(octets.size()));
   for (const unsigned version : {5U, 6U}) {
     const auto json = shown<Transmitter>(octets, version);
@@ -68,7 +68,7 @@ TEST(OlderVersions, HaveOneJammingModeSequenceInABeam) {
   EXPECT_EQ(before["track_jam_targets"], now["track_jam_targets"]);
 }
 
-TEST(OlderVersions, HavePaddingBehindTheSystemOfAnIff) {
+TEST(OlderVersions, HavePaddingAfterTheSystemOfAnIff) {
   const Octets octets = test::sample_octets("iff");
   EXPECT_TRUE(shown<Iff>(octets, 7).contains("system_designator"));
   const auto json = shown<Iff>(octets, 6);
@@ -76,7 +76,7 @@ TEST(OlderVersions, HavePaddingBehindTheSystemOfAnIff) {
   EXPECT_EQ(json["padding"], 11052);  // as open-dis 1.3.6 reads it
 }
 
-TEST(OlderVersions, HaveLinearSegmentsOf56OctetsWithSizesInWholeMetres) {
+TEST(OlderVersions, HaveLinearSegmentsOf56OctetsInWholeMetres) {
   Octets octets = test::sample_octets("linear_object_state");
   octets.resize(40);
   for (int segment = 1; segment <= 2; ++segment) {
@@ -98,7 +98,7 @@ TEST(OlderVersions, HaveLinearSegmentsOf56OctetsWithSizesInWholeMetres) {
   EXPECT_EQ(decode(octets, pdu), DecodeError::count) << "DIS 7 has 64 octets a segment";
 }
 
-TEST(RecordedRadios, HaveTheModulationParametersThatTsharkShows) {
+TEST(RecordedRadios, HaveTheModulationParametersShownByTshark) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   const auto sincgars = recorded<Transmitter>("dis6/TransmitterPdu_CCTTSINCGARS.raw");
   const nlohmann::json wanted{{"frequency_hopping_network_id", 1},
@@ -127,12 +127,12 @@ TEST(RecordedRadios, HaveTheModulationParametersThatTsharkShows) {
   EXPECT_EQ(have_quick["modulation_parameters"]["time_of_day"], 1);
 }
 
-TEST(RecordedRadios, HaveTheirBeamWithItsAnglesAndItsField) {
+TEST(RecordedRadios, HaveABeamWithAnglesAndField) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   for (const char* name : {"dis6/TransmitterPdu_AntennaPattern_Beam.raw",
                            "dis7/TransmitterPdu_VariableTransmitterParameters.raw"}) {
     const auto beam = recorded<Transmitter>(name)["antenna_pattern"];
-    // Someone put in numbers that are easy to tell apart.
+    // The recording has distinct numbers.
     EXPECT_EQ(beam["beam_direction"]["phi"], 3.0) << name;
     EXPECT_EQ(beam["azimuth_beamwidth"], 55.5) << name;
     EXPECT_EQ(beam["reference_system"], 2) << name;
@@ -154,14 +154,14 @@ TEST(RecordedIff, HasTheSecondLayerOfItsSender) {
   EXPECT_EQ(layers[0]["fundamental_parameters"][1]["burst_length"], 6);
 }
 
-TEST(RecordedAggregates, HaveTheirSilentSystemsAndDatums) {
+TEST(RecordedAggregates, HaveSilentSystemsAndDatums) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   const auto whole = recorded<AggregateState>("dis6/AggregateStatePduVrForces.raw");
   EXPECT_EQ(whole["number_of_variable_datum_records"], 5);
   EXPECT_EQ(whole["variable_datum_records"][4]["variable_datum_value"], "4c696e6500");
 }
 
-TEST(RecordedAggregates, KeepTheOctetsOfDatumsWithAWrongLength) {
+TEST(RecordedAggregates, KeepDatumsOfAWrongLengthAsOctets) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   const auto json = recorded<AggregateState>("dis6/AggregateStatePduJCATS.raw");
   EXPECT_FALSE(json.contains("variable_datum_records"));

@@ -25,7 +25,7 @@ TEST(PduTypes, HoldAllOfTheStandard) {
 }
 
 // A template has a row for each of its types.
-TEST(PduTypes, HoldEveryStructWithATypeNumberOfAnyHeader) {
+TEST(PduTypes, HaveARowForEveryTypedStruct) {
   std::size_t structs = 0;
   for (const std::string& header : test::headers_in("pdu")) {
     const std::string text = test::source_text(header);
@@ -50,9 +50,9 @@ void expect_own_headers(TypeList<T...>) {
   (expect_own_header(T{}), ...);
 }
 
-TEST(PduTypes, HaveTheirTypeAndFamilyInANewHeader) { expect_own_headers(PduTypes{}); }
+TEST(PduTypes, TakeTypeAndFamilyIntoANewHeader) { expect_own_headers(PduTypes{}); }
 
-TEST(PduTypes, SayUnknownForATypeWithoutAFieldTable) {
+TEST(PduTypes, ReportTypesWithoutFieldTableAsUnknown) {
   std::array<std::byte, 12> octets{std::byte{7}, std::byte{1}, std::byte{200}};
   store_big_endian(octets.data() + 8, std::uint16_t{12});
   PduHeader header;
@@ -60,7 +60,7 @@ TEST(PduTypes, SayUnknownForATypeWithoutAFieldTable) {
   EXPECT_EQ(visit(octets, header, [](const auto&) { FAIL(); }), DecodeError::unknown_type);
 }
 
-TEST(Encode, RefusesABlockThatIsNotAWholeNumberOfRecords) {
+TEST(Encode, RefusesABlockWithAPartialRecord) {
   const std::array<std::byte, 4096> octets{};
   std::array<std::byte, 8192> out;
   EntityState pdu;
@@ -68,7 +68,7 @@ TEST(Encode, RefusesABlockThatIsNotAWholeNumberOfRecords) {
   EXPECT_EQ(encode(pdu, out), 0U);
 }
 
-TEST(Encode, RefusesMoreRecordsThanTheCountFieldCanSay) {
+TEST(Encode, RefusesMoreRecordsThanItsCountFieldHolds) {
   const std::array<std::byte, 4096> octets{};
   std::array<std::byte, 8192> out;
   EntityState pdu;
@@ -78,7 +78,7 @@ TEST(Encode, RefusesMoreRecordsThanTheCountFieldCanSay) {
   EXPECT_EQ(encode(pdu, out), 0U);
 }
 
-TEST(Encode, RefusesAPduLongerThanTheLengthFieldCanSay) {
+TEST(Encode, RefusesMoreOctetsThanTheLengthFieldHolds) {
   const std::vector<std::byte> octets(65536);
   std::vector<std::byte> out(70000);
   Data pdu;

@@ -31,7 +31,7 @@ std::string json(std::span<const std::byte> octets) {
   return text;
 }
 
-TEST(PrintTree, GivesALineAFieldWithTheNameOfTheEnumeration) {
+TEST(PrintTree, GivesALinePerFieldWithEnumerationNames) {
   const std::string text = tree(test::sample_octets("entity_state"));
   EXPECT_NE(text.find("entity_id site 100 application 7 entity 3\n"), std::string::npos) << text;
   EXPECT_NE(text.find("force_id 1 (Friendly)\n"), std::string::npos) << text;
@@ -40,7 +40,7 @@ TEST(PrintTree, GivesALineAFieldWithTheNameOfTheEnumeration) {
   EXPECT_NE(text.find("parameter_value 0.75"), std::string::npos) << text;
 }
 
-TEST(PrintTree, ShowsHapticEnergyAndForeignRecordsOfAnAttributePdu) {
+TEST(PrintTree, ShowsHapticEnergyAndForeignRecords) {
   const std::string text = tree(test::sample_octets("attribute"));
   EXPECT_NE(text.find("kind 2 (Sphere)"), std::string::npos) << text;
   EXPECT_NE(text.find("given 0.001953125"), std::string::npos) << text;
@@ -63,7 +63,7 @@ TEST(PrintJson, GivesTheOctetsOfAnUnknownType) {
   EXPECT_EQ(value["body"], "00ab");
 }
 
-TEST(PrintJson, ShowsTheFieldsOfADamagedPduUpToTheFault) {
+TEST(PrintJson, ShowsADamagedPduUpToTheFault) {
   std::vector<std::byte> octets = test::sample_octets("entity_state");
   const auto whole = nlohmann::json::parse(json(octets));
   const auto cut = nlohmann::json::parse(json(std::span(octets).first(50)));  // within the location
@@ -73,7 +73,7 @@ TEST(PrintJson, ShowsTheFieldsOfADamagedPduUpToTheFault) {
   EXPECT_FALSE(cut.contains("entity_location"));
   EXPECT_EQ(cut["rest"].get<std::string>().size(), 2 * (50U - 48U));
 
-  octets[19] = std::byte{200};  // records that are not there
+  octets[19] = std::byte{200};  // more records than the PDU has
   const auto lying = nlohmann::json::parse(json(octets));
   EXPECT_EQ(lying["number_of_variable_parameter_records"], 200);
   EXPECT_EQ(lying["entity_location"], whole["entity_location"]);
@@ -93,7 +93,7 @@ TEST(PrintJson, IsValidForEveryCutOfASample) {
     EXPECT_TRUE(nlohmann::json::accept(json(std::span(octets).first(size)))) << size;
 }
 
-TEST(PrintJson, WritesNullForNaNAndEscapesStrangeCharacters) {
+TEST(PrintJson, WritesNullForNaNAndEscapesCharacters) {
   EntityState pdu;
   pdu.location.x = std::numeric_limits<double>::quiet_NaN();
   pdu.marking.set("a\"\\\n\xFF");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// docs/security.md says of each PDU and record who may say it, what a liar gains and what bounds
-// it: what is new has to have its row.
+// docs/security.md lists each PDU and record with its permitted sender, the gain of a forger and
+// its bounds: each new one needs its row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::vector<std::string> split(const std::string& text, const std::string& by) {
   return parts;
 }
 
-/// What the first cells of whole rows of its table name.
+/// Names in the first cells of the whole rows of its table.
 std::set<std::string> documented() {
   std::set<std::string> names;
   std::istringstream text(source_text("docs/security.md"));
@@ -51,7 +51,7 @@ std::set<std::string> documented() {
   return names;
 }
 
-/// `text` outlives them.
+/// `text` must outlive the matches.
 std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
   return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
 }
@@ -101,7 +101,7 @@ TEST(SecurityDocument, HasARowForEachRecordOfOurs) {
   EXPECT_GE(found, 2U);
 }
 
-TEST(SecurityDocument, HasARowForEachFormAndVariableParameter) {
+TEST(SecurityDocument, HasARowForEachFormAndParameter) {
   const auto rows = documented();
   std::set<std::string> wanted = enumerators("CompressedForm", "form");
   wanted.erase("form 0 none");

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-TEST(Timestamp, DiffersTheShortWayRoundTheHourAsTheOraclesSay) {
+TEST(Timestamp, DiffersTheShortWayRoundTheHour) {
   RECKON_NEED_DATA("oracles/timestamps.json");
   const auto oracle =
       nlohmann::json::parse(std::ifstream(test::reference_data() / "oracles/timestamps.json"));
@@ -54,7 +54,7 @@ TEST(Timestamp, KeepsTheInstantToHalfAUnit) {
   }
 }
 
-TEST(Timestamp, GivesTheSameFieldBackForTheTimeItStandsFor) {
+TEST(Timestamp, RestoresTheFieldFromItsTime) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 100000; ++i) {
     const auto timestamp = static_cast<std::uint32_t>(random() % kTimestampUnitsPerHour) << 1;
@@ -62,14 +62,14 @@ TEST(Timestamp, GivesTheSameFieldBackForTheTimeItStandsFor) {
   }
 }
 
-TEST(Timestamp, TakesTheLastHalfUnitOfTheHourToZero) {
+TEST(Timestamp, RoundsTheLastHalfUnitToZero) {
   EXPECT_EQ(to_dis_timestamp(3600s - 1ns, false), 0U);
   EXPECT_EQ(to_dis_timestamp(3600s, false), 0U);
   EXPECT_EQ(to_dis_timestamp(-1ns, false), 0U);
   EXPECT_EQ(past_the_hour(0xFFFFFFFEU), 0ns);
 }
 
-TEST(Timestamp, FindsTheInstantOnTheOtherSideOfTheHour) {
+TEST(Timestamp, FindsAnInstantAcrossTheHour) {
   const nanoseconds before_the_hour = 7 * 3600s - 5ms;
   const nanoseconds after_the_hour = 7 * 3600s + 5ms;
   const std::uint32_t timestamp = to_dis_timestamp(before_the_hour, true);
@@ -78,7 +78,7 @@ TEST(Timestamp, FindsTheInstantOnTheOtherSideOfTheHour) {
   EXPECT_LE(std::chrono::abs(nearest_instant(later, before_the_hour) - after_the_hour), 839ns);
 }
 
-TEST(Timestamp, IsRightBeforeTheOriginOfTheClock) {
+TEST(Timestamp, IsCorrectBeforeTheOriginOfTheClock) {
   EXPECT_LE(std::chrono::abs(nearest_instant(to_dis_timestamp(-90min, false), -90min) + 90min),
             839ns);
 }

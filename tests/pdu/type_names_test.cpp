@@ -22,7 +22,7 @@ TEST(PduTypeNames, CoverTheStandardAndOurOwnTypes) {
   EXPECT_EQ(name(PduType::presence), "Presence");
 }
 
-TEST(PduTypeNames, SayTheNumberOfAnUnknownType) {
+TEST(PduTypeNames, GiveTheNumberOfAnUnknownType) {
   EXPECT_EQ(name(PduType{200}), "unknown type 200");
   EXPECT_EQ(name(PduType{73}), "unknown type 73");
   EXPECT_EQ(snake_name(PduType{255}), "unknown_255");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// docs/wire_format.md shows the byte tables of our own formats: they must be those of the field
+// docs/wire_format.md shows the byte tables of Reckon's own formats; they must equal the field
 // tables.
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ struct Row {
   }
 };
 
-/// Visitor: the first four columns of a byte table, one row a field; a record of equal numbers,
+/// Visitor: the first four columns of a byte table, one row per field; a record of equal numbers,
 /// such as a vector, is one row.
 class TableRows {
  public:
@@ -99,7 +99,7 @@ class TableRows {
 template <typename T>
 class WireFormatDocument : public testing::Test {};
 
-/// The types of `More` and those of the list that are experimental: all that are ours.
+/// The types of `More` and the experimental types of the list: all types of this project.
 template <typename More, typename List>
 struct WithOwn {
   using Types = More;
@@ -115,7 +115,7 @@ using Documented =
             PduTypes>::Types;
 TYPED_TEST_SUITE(WireFormatDocument, Documented);
 
-TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTableInOrder) {
+TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTable) {
   std::ifstream file(std::filesystem::path(reckon::test::source_dir()) / "docs/wire_format.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   TableRows table;
@@ -124,7 +124,7 @@ TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTableInOrder) {
 
   std::string wanted;
   for (const Row& row : table.rows()) wanted += row.text() + "\n";
-  // The rows follow one another line by line; a last column is for people.
+  // The rows must be on consecutive lines; a last column is for readers.
   const std::string first = table.rows().front().text();
   for (std::size_t at = text.find(first); at != std::string::npos; at = text.find(first, at + 1)) {
     std::size_t line = at;

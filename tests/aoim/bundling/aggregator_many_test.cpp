@@ -21,7 +21,7 @@ using namespace test;
 
 constexpr GroupIndex kGroup{3};
 
-/// What has left: entity and appearance, in order.
+/// Emitted states: entity and appearance, in order.
 struct States {
   std::vector<std::pair<std::uint16_t, std::uint32_t>> seen;
   void operator()(GroupIndex, std::span<const std::byte> datagram) {
@@ -33,7 +33,7 @@ struct States {
   }
 };
 
-TEST(AggregatorOfMany, TakesTenThousandEntitiesInOneStepAndRefusesNone) {
+TEST(AggregatorOfMany, TakesTenThousandEntitiesInOneStep) {
   Aggregator aggregator{AggregatorConfig{}};
   constexpr std::uint16_t kMany = 10000;
   for (std::uint16_t i = 0; i < kMany; ++i) {
@@ -45,7 +45,7 @@ TEST(AggregatorOfMany, TakesTenThousandEntitiesInOneStepAndRefusesNone) {
   EXPECT_EQ(aggregator.counts().refused, 0u);
   EXPECT_EQ(aggregator.next_deadline(), nanoseconds::min()) << "full bundles need not wait";
   States states;
-  aggregator.flush_due(seconds(0), states);  // before the deadline: what is full leaves
+  aggregator.flush_due(seconds(0), states);  // before the deadline: full bundles are sent
   aggregator.flush_due(seconds(1), states);
   ASSERT_EQ(states.seen.size(), kMany);
   for (std::uint16_t i = 0; i < kMany; ++i) {
@@ -54,7 +54,7 @@ TEST(AggregatorOfMany, TakesTenThousandEntitiesInOneStepAndRefusesNone) {
   EXPECT_EQ(aggregator.counts().datagrams, kMany / 8u);
 }
 
-/// The waiting updates of three groups, by hand.
+/// Reference model of the pending updates of three groups.
 struct Model {
   std::map<GroupIndex, std::map<std::uint16_t, std::uint32_t>> waiting;
   std::size_t wrong = 0;
@@ -72,7 +72,7 @@ struct Model {
   }
 };
 
-TEST(AggregatorOfMany, ReplacesWhatWaitsAndNothingElseThroughAnyOrderOfAddsAndFlushes) {
+TEST(AggregatorOfMany, ReplacesOnlyPendingUpdatesOfTheSameEntity) {
   std::mt19937_64 random(17);
   Aggregator aggregator{AggregatorConfig{}};
   Model model;
@@ -97,7 +97,7 @@ TEST(AggregatorOfMany, ReplacesWhatWaitsAndNothingElseThroughAnyOrderOfAddsAndFl
   for (const auto& [group, waiting] : model.waiting) EXPECT_TRUE(waiting.empty());
 }
 
-/// Takes what leaves out of the entities whose records wait.
+/// Removes the entities of an emitted datagram from the set of entities with pending records.
 void take_sets(std::span<const std::byte> datagram, std::set<pdu::EntityId>& waiting) {
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
     pdu::Attribute attribute;
@@ -109,8 +109,8 @@ void take_sets(std::span<const std::byte> datagram, std::set<pdu::EntityId>& wai
   }
 }
 
-TEST(AggregatorOfMany, FindsWhatWaitsOnWhenTheFullBundlesBeforeItHaveLeft) {
-  // Records alone are short: more of them wait in a bundle that is not full than are looked
+TEST(AggregatorOfMany, FindsPendingRecordsAfterFullBundlesWereSent) {
+  // Records alone are short: a bundle that is not full holds more of them than the search looks
   // through.
   std::mt19937_64 random(5);
   Aggregator aggregator{AggregatorConfig{}};
@@ -130,10 +130,10 @@ TEST(AggregatorOfMany, FindsWhatWaitsOnWhenTheFullBundlesBeforeItHaveLeft) {
   EXPECT_GT(most_kept, 10u);
 }
 
-TEST(AggregatorOfMany, AllocatesNoMoreOnceItHasSeenItsEntities) {
+TEST(AggregatorOfMany, AllocatesNothingMoreForKnownEntities) {
   Aggregator aggregator{AggregatorConfig{}};
   const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
-  // They wander through all groups, so that what has left is forgotten over and over.
+  // The entities move through all groups, so the records of emitted updates are dropped repeatedly.
   const auto step = [&](int number) {
     for (std::uint16_t i = 0; i < 3000; ++i) {
       const GroupIndex group{static_cast<std::uint16_t>(1 + (i / 100 + number) % 256)};
@@ -148,7 +148,7 @@ TEST(AggregatorOfMany, AllocatesNoMoreOnceItHasSeenItsEntities) {
   EXPECT_EQ(aggregator.counts().refused, 0u);
 }
 
-TEST(AggregatorOfMany, KeepsTheMemoryOfAnUpdateThatGrowsAndShrinksWhileItWaits) {
+TEST(AggregatorOfMany, KeepsMemoryBoundedForUpdatesOfVaryingLength) {
   Aggregator aggregator{AggregatorConfig{}};
   const Octets parts(16 * 50);
   pdu::EntityState small = entity_state(1), large = entity_state(1);
@@ -160,13 +160,13 @@ TEST(AggregatorOfMany, KeepsTheMemoryOfAnUpdateThatGrowsAndShrinksWhileItWaits) 
   EXPECT_LT(guard.peak_octets(), 64u * 1024u);
 }
 
-TEST(AggregatorOfMany, TakesMemoryForGroupsInWhichSomethingWaitsAlone) {
+TEST(AggregatorOfMany, TakesMemoryForGroupsWithPendingUpdatesOnly) {
   AggregatorConfig config;
   config.pool = kMaximumPool;
   const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
   const reckon::test::AllocationGuard made;
   Aggregator aggregator(config);
-  EXPECT_LT(made.peak_octets(), 320u * 1024u);  // most of it 96 octets a group
+  EXPECT_LT(made.peak_octets(), 320u * 1024u);  // most of it: 96 octets a group
   const pdu::EntityState state = entity_state(1);
   {
     const reckon::test::AllocationGuard in_turn;
@@ -176,7 +176,7 @@ TEST(AggregatorOfMany, TakesMemoryForGroupsInWhichSomethingWaitsAlone) {
     }
     EXPECT_EQ(in_turn.count(), 0u);
   }
-  // All at once take what they take, and no more the second time.
+  // Updates in all groups at once allocate memory the first time only.
   const auto at_once = [&] {
     for (std::uint16_t group = 0; group <= kMaximumPool; ++group)
       aggregator.add(GroupIndex{group}, state, {}, nanoseconds(0));
@@ -189,7 +189,7 @@ TEST(AggregatorOfMany, TakesMemoryForGroupsInWhichSomethingWaitsAlone) {
   EXPECT_EQ(aggregator.counts().datagrams, 3u * (kMaximumPool + 1));
 }
 
-TEST(AggregatorOfMany, CountsWhatItRefusesForWantOfRoom) {
+TEST(AggregatorOfMany, CountsUpdatesRefusedForWantOfRoom) {
   AggregatorConfig config;
   config.waiting_limit = 144 * 100;
   Aggregator aggregator(config);

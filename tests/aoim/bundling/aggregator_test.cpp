@@ -26,7 +26,7 @@ AggregatorConfig config() {
   return result;
 }
 
-/// The PDUs of a datagram; fails the test where it is not a clean bundle.
+/// The PDUs of a datagram. Fails the test if the datagram is not a valid bundle.
 std::vector<pdu::BundledPdu> pdus_of(const Datagram& datagram) {
   std::vector<pdu::BundledPdu> result;
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
@@ -53,7 +53,7 @@ std::map<pdu::EntityId, std::vector<pdu::AttributeRecord>> records_of(const Data
   return result;
 }
 
-TEST(Aggregator, HoldsAPoseUntilItsDeadlineAndNoLonger) {
+TEST(Aggregator, HoldsAPoseUntilItsDeadline) {
   Aggregator aggregator(config());
   Collector sent;
   EXPECT_FALSE(aggregator.next_deadline());
@@ -69,7 +69,7 @@ TEST(Aggregator, HoldsAPoseUntilItsDeadlineAndNoLonger) {
   EXPECT_EQ(aggregator.counts().by_deadline, 1u);
 }
 
-TEST(Aggregator, LetsWaitingPosesTravelWithAHapticUpdateThatIsDueNow) {
+TEST(Aggregator, SendsPendingPosesWithAnUrgentHapticUpdate) {
   Aggregator aggregator(config());
   Collector sent;
   aggregator.add(kGroup, entity_state(1), {}, milliseconds(10));
@@ -80,7 +80,7 @@ TEST(Aggregator, LetsWaitingPosesTravelWithAHapticUpdateThatIsDueNow) {
   EXPECT_EQ(pdus_of(sent.datagrams[0]).size(), 4u);  // two states, Attribute, trailer
 }
 
-TEST(Aggregator, SendsAFullBundleAtOnceAndKeepsTheRest) {
+TEST(Aggregator, SendsAFullBundleAtOnce) {
   Aggregator aggregator(config());
   Collector sent;
   for (std::uint16_t i = 0; i < 11; ++i) aggregator.add(kGroup, entity_state(i), {}, seconds(1));
@@ -94,7 +94,7 @@ TEST(Aggregator, SendsAFullBundleAtOnceAndKeepsTheRest) {
   EXPECT_EQ(sent.datagrams[1].octets.size(), 3u * 144u + 24u);
 }
 
-TEST(Aggregator, LetsTheNewestStateOfAnEntityWinAndKeepsTheEarlierDeadline) {
+TEST(Aggregator, KeepsTheNewestStateAndTheEarlierDeadline) {
   Aggregator aggregator(config());
   Collector sent;
   EXPECT_EQ(aggregator.add(kGroup, entity_state(1, 10), {}, milliseconds(5)), AddResult::queued);
@@ -133,7 +133,7 @@ TEST(Aggregator, MergesRecordsByTypeAndCounterpart) {
   Collector sent;
   aggregator.add(kGroup, entity_state(1),
                  haptic_record(1.0F) + energy_record(2, 0.1) + energy_record(3, 0.2), seconds(1));
-  aggregator.add(kGroup, entity_state(1, 5), {}, seconds(1));  // pose alone: the model stays
+  aggregator.add(kGroup, entity_state(1, 5), {}, seconds(1));  // pose only: the model stays
   aggregator.add_records(kGroup, {7, 1, 1}, energy_record(3, 0.7), seconds(1));
   aggregator.add_records(kGroup, {7, 1, 1}, haptic_record(2.0F), nanoseconds(0));
   aggregator.flush_due(nanoseconds(0), sent);
@@ -154,7 +154,7 @@ TEST(Aggregator, MergesRecordsByTypeAndCounterpart) {
   EXPECT_DOUBLE_EQ(given, 0.1 + 0.7);
 }
 
-TEST(Aggregator, CouplesStateAndAttributeByStatusBitAndTimestamp) {
+TEST(Aggregator, CouplesStateAndAttributeByStatusAndTimestamp) {
   Aggregator aggregator(config());
   Collector sent;
   aggregator.add(kGroup, entity_state(1), {}, seconds(1));
@@ -187,7 +187,7 @@ TEST(Aggregator, SendsAPduThatIsTooLongAlone) {
   EXPECT_EQ(aggregator.counts().oversized, 1u);
 }
 
-TEST(Aggregator, SendsAPduThatHasGrownTooLongWhileItWaited) {
+TEST(Aggregator, SendsPduThatGrewTooLongWhilePending) {
   Aggregator aggregator(config());
   Collector sent;
   const Octets parameters(255 * 16);
@@ -200,7 +200,7 @@ TEST(Aggregator, SendsAPduThatHasGrownTooLongWhileItWaited) {
   EXPECT_EQ(sent.datagrams[0].octets.size(), 144u + 4080u + 24u);
 }
 
-TEST(Aggregator, CountsTheTrailersOfEachGroupFromOneWithoutAGap) {
+TEST(Aggregator, NumbersTrailersPerGroupWithoutGaps) {
   Aggregator aggregator(config());
   aggregator.set_utc_offset(seconds(1000), true);
   Collector sent;
@@ -222,7 +222,7 @@ TEST(Aggregator, CountsTheTrailersOfEachGroupFromOneWithoutAGap) {
   EXPECT_EQ(last.send_time, pdu::trailer_time(seconds(1000) + milliseconds(299)));
 }
 
-TEST(Aggregator, PutsNothingOfOursIntoAnInteropGroup) {
+TEST(Aggregator, AddsNoExtensionsToAnInteropGroup) {
   Aggregator aggregator(config());
   aggregator.set_interop(kInteropGroup, true);
   Collector sent;
@@ -235,7 +235,7 @@ TEST(Aggregator, PutsNothingOfOursIntoAnInteropGroup) {
   EXPECT_EQ(pdus.back().header.pdu_type, pdu::PduType::attribute);
 }
 
-TEST(Aggregator, RefusesWhatCannotBeSentAndSaysWhy) {
+TEST(Aggregator, ReportsWhyAnUpdateIsRefused) {
   AggregatorConfig small = config();
   small.waiting_limit = 1000;
   Aggregator aggregator(small);
@@ -330,7 +330,7 @@ void check_bundle(const Datagram& datagram) {
   }
 }
 
-TEST(Aggregator, KeepsTheOrderOfABundleForAnyMixOfUpdates) {
+TEST(Aggregator, KeepsBundleOrderForRandomUpdates) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     std::mt19937_64 random(seed);
     Aggregator aggregator(config());
@@ -344,7 +344,7 @@ TEST(Aggregator, KeepsTheOrderOfABundleForAnyMixOfUpdates) {
     }
     aggregator.flush_all(now, sent);
 
-    // Every update that was queued and not replaced has left once.
+    // Every queued update that was not replaced is sent once.
     std::uint64_t left = 0;
     for (const Datagram& datagram : sent.datagrams) {
       check_bundle(datagram);

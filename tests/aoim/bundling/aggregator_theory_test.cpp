@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t kLargest = 65507;  // [octets] a datagram that no bundle of these tests fills
+constexpr std::size_t kLargest = 65507;  // [octets] larger than any bundle of these tests
 constexpr std::size_t kEntities = 65536;
 
 struct Setting {
@@ -35,7 +35,7 @@ struct Means {
   double worst = 0.0;   ///< [s]
 };
 
-// With neither a quorum nor a large payload 8 bare Entity States fill a bundle.
+// Without a quorum or a large payload, 8 bare Entity States fill a bundle.
 Means hybrid(const Setting& setting) {
   const std::size_t n = setting.quorum == 0 ? 8 : setting.quorum;
   const double a = setting.rate * setting.timeout;
@@ -70,7 +70,7 @@ nanoseconds in_nanoseconds(double seconds) {
   return std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(seconds));
 }
 
-/// What leaves of one group, and how long it waited.
+/// Emitted updates of one group, and their delays.
 struct Tally {
   std::vector<nanoseconds> arrived = std::vector<nanoseconds>(kEntities);
   nanoseconds worst{0};
@@ -93,8 +93,8 @@ struct Tally {
   }
 };
 
-/// Runs Poisson arrivals, group i by policy i, through one aggregator that is called exactly when
-/// it asks to be. `updates` arrive in each group on average.
+/// Runs Poisson arrivals through one aggregator; group i uses policy i. The aggregator is called
+/// exactly at the times that it requests. `updates` arrive in each group on average.
 std::vector<Means> measured(std::span<const Setting> policies, int updates) {
   AggregatorConfig config;
   config.payload_limit = policies.front().payload;
@@ -146,7 +146,7 @@ void expect_meets(const Setting& setting, const Means& actual) {
 
 class AggregatorTheory : public ::testing::TestWithParam<Setting> {};
 
-TEST_P(AggregatorTheory, MeetsTheClosedFormsWithinTwoPercentAndNeverExceedsTheTimeOut) {
+TEST_P(AggregatorTheory, MeetsClosedFormsWithinTheTimeOut) {
   expect_meets(GetParam(), measured({&GetParam(), 1}, 100000).front());
 }
 
@@ -174,7 +174,7 @@ TEST(AggregatorPolicies, HoldForEachGroupByItself) {
   for (std::size_t i = 0; i < policies.size(); ++i) expect_meets(policies[i], means[i]);
 }
 
-TEST(AggregatorPolicies, OfTheClassesInABundleTheLeastQuorumHolds) {
+TEST(AggregatorPolicies, LeastQuorumOfABundleApplies) {
   Aggregator aggregator{AggregatorConfig{}};
   Collector sent;
   const nanoseconds never = nanoseconds::max();
@@ -202,7 +202,7 @@ TEST(AggregatorPolicies, AnUrgentUpdateTakesAPureQuorumAlong) {
   EXPECT_EQ(sent.datagrams[0].octets.size(), 2u * 144u + 24u);
 }
 
-/// When each entity's update has to leave, of one group.
+/// Deadline of each entity's update, of one group.
 struct Promise {
   std::vector<nanoseconds> due = std::vector<nanoseconds>(512, nanoseconds::max());
   std::size_t late = 0;
@@ -216,7 +216,7 @@ struct Promise {
   }
 };
 
-TEST(AggregatorPolicies, NothingLeavesLaterThanItsDeadlineWhateverTheMixOfPolicies) {
+TEST(AggregatorPolicies, NoMixOfPoliciesDelaysAnUpdate) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 random(seed);
     Aggregator aggregator{AggregatorConfig{}};

@@ -24,7 +24,7 @@ GridConfig grid_config(CellScheme scheme, double size = 100.0, std::size_t pool 
   return config;
 }
 
-// Corners of a cell, from its centre and the definition of its side alone.
+// Corners of a cell, computed only from its centre and the definition of its side.
 std::vector<Position> corners(const CellGrid& grid, CellId cell) {
   const Position middle = grid.centre(cell);
   const bool square = grid.config().scheme == CellScheme::square;
@@ -59,7 +59,7 @@ double distance_to_polygon(const Position& p, const std::vector<Position>& polyg
 
 class CellGridOfScheme : public ::testing::TestWithParam<CellScheme> {};
 
-TEST_P(CellGridOfScheme, PutsEachPointIntoTheCellThatContainsIt) {
+TEST_P(CellGridOfScheme, PutsEachPointIntoItsContainingCell) {
   const CellGrid grid(grid_config(GetParam()));
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> where(-5000.0, 5000.0);
@@ -70,7 +70,7 @@ TEST_P(CellGridOfScheme, PutsEachPointIntoTheCellThatContainsIt) {
   }
 }
 
-TEST_P(CellGridOfScheme, GivesTheDistanceToTheNearestPointOfACell) {
+TEST_P(CellGridOfScheme, GivesDistanceToNearestPointOfACell) {
   const CellGrid grid(grid_config(GetParam()));
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> where(-400.0, 400.0);
@@ -81,7 +81,7 @@ TEST_P(CellGridOfScheme, GivesTheDistanceToTheNearestPointOfACell) {
   }
 }
 
-TEST_P(CellGridOfScheme, FindsTheSameCellsWithinARadiusAsBruteForce) {
+TEST_P(CellGridOfScheme, FindsTheCellsWithinARadius) {
   const CellGrid grid(grid_config(GetParam()));
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> where(-300.0, 300.0), radii(0.0, 350.0);
@@ -141,7 +141,7 @@ TEST_P(CellGridOfScheme, NeighboursNeverShareAGroupForAnyPool) {
   }
 }
 
-TEST_P(CellGridOfScheme, StaysInRangeFarOutAndForNumbersThatAreNotFinite) {
+TEST_P(CellGridOfScheme, StaysInRangeForAnyCoordinates) {
   const CellGrid grid(grid_config(GetParam(), 1e-3));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, CellGridOfScheme,
                            return param_info.param == CellScheme::square ? "square" : "hexagonal";
                          });
 
-TEST_P(CellGridOfScheme, BoundsTheGroupsOfADiscWhereverItLies) {
+TEST_P(CellGridOfScheme, BoundsTheGroupsOfADiscAnywhere) {
   std::mt19937_64 random(23);
   for (const std::size_t pool : {1u, 4u, 16u, 256u, 997u, 1000u}) {
     const CellGrid grid(grid_config(GetParam(), 2.0, pool));

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kQuarterTurn = 1.57079632679489661923;
 
-// Three rooms in a row along x, each turned differently; a wall between the first and the fourth,
-// which lies above it.
+// Three rooms in a row along x, each with another orientation. A wall separates the first from the
+// fourth, which is north of it.
 std::vector<Locale> rooms() {
   return {{{5, 5, 0}, 0.0, 5, 5, {1}},
           {{15, 5, 1}, kQuarterTurn, 5, 5, {0, 2}},
@@ -32,7 +32,7 @@ std::set<int> within(const LocaleMap& map, const Position& p, double radius) {
   return found;
 }
 
-TEST(LocaleMap, HasEachPlaceInOneLocale) {
+TEST(LocaleMap, MapsEachPlaceToOneLocale) {
   const LocaleMap map(rooms());
   EXPECT_EQ(map.cell({1, 1, 0}), (CellId{0, 0}));
   EXPECT_EQ(map.cell({19.9, 9, 0}), (CellId{1, 0}));
@@ -43,7 +43,7 @@ TEST(LocaleMap, HasEachPlaceInOneLocale) {
   EXPECT_EQ(map.group(CellId{-1, 0}), GroupIndex{1});
 }
 
-TEST(LocaleMap, TurnsAndMovesIntoALocalesFrameAndBack) {
+TEST(LocaleMap, TransformsIntoALocalesFrameAndBack) {
   const LocaleMap map(rooms());
   const Position local = map.to_locale({1, 0}, {15, 8, 3});
   EXPECT_NEAR(local.x, 3.0, 1e-12);  // north is its x axis
@@ -71,7 +71,7 @@ TEST(LocaleMap, MovesNothingWhenABorderIsCrossed) {
   EXPECT_EQ(crossings, 2U);
 }
 
-TEST(LocaleMap, HearsNeighboursWithinTheRadiusAndNothingBehindAWall) {
+TEST(LocaleMap, ReachesNeighboursButNothingBehindAWall) {
   const LocaleMap map(rooms());
   EXPECT_EQ(within(map, {9, 9, 0}, 0.5), (std::set{0}));
   EXPECT_EQ(within(map, {9, 9, 0}, 2.0), (std::set{0, 1})) << "the room above is behind a wall";
@@ -87,7 +87,7 @@ TEST(LocaleMap, BoundsTheGroupsThatADiscReaches) {
   EXPECT_EQ(map.finest(), 10.0);
 }
 
-TEST(LocaleMap, TellsFloorsApartWhereTheyHaveAHeight) {
+TEST(LocaleMap, DistinguishesFloorsByHeight) {
   std::vector<Locale> floors = {{{0, 0, 0}, 0.0, 5, 5, {1}, 2.0}, {{0, 0, 4}, 0.0, 5, 5, {0}, 2.0}};
   const LocaleMap map(floors);
   EXPECT_EQ(map.cell({1, 1, 1.9}), (CellId{0, 0}));
@@ -97,9 +97,9 @@ TEST(LocaleMap, TellsFloorsApartWhereTheyHaveAHeight) {
   EXPECT_EQ(map.groups_bound(0.1), 2U);
 }
 
-// Random houses: what is reached by ways of neighbours within the radius is what a search over all
-// pairs finds, and nobody in a locale that is reached is missed.
-TEST(LocaleMap, ReachesWhatASearchOverAllWaysFinds) {
+// Random houses: the locales reached through neighbours within the radius equal those of an
+// independent search, and groups_bound() covers their number.
+TEST(LocaleMap, ReachesTheSameLocalesAsAnExhaustiveSearch) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> place(-50.0, 50.0), half(1.0, 12.0), turn(-4.0, 4.0),
       size(0.0, 60.0);
@@ -141,7 +141,7 @@ TEST(LocaleMap, IsSubscribedToLikeAGrid) {
   EXPECT_EQ(change.join[1], GroupIndex{2});
 }
 
-TEST(LocaleMap, RefusesWhatIsNoMap) {
+TEST(LocaleMap, RefusesInvalidMaps) {
   const auto refuses = [](auto spoil) {
     std::vector<Locale> locales = rooms();
     spoil(locales);
@@ -152,7 +152,7 @@ TEST(LocaleMap, RefusesWhatIsNoMap) {
   refuses([](auto& l) { l[0].yaw = std::numeric_limits<double>::infinity(); });
   refuses([](auto& l) { l[0].neighbours = {9}; });
   refuses([](auto& l) { l[0].neighbours = {0}; });
-  refuses([](auto& l) { l[3].neighbours = {0}; });  // not named in return
+  refuses([](auto& l) { l[3].neighbours = {0}; });  // no reference back
 }
 
 }  // namespace

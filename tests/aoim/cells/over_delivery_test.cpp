@@ -11,12 +11,12 @@
 namespace reckon::aoim {
 namespace {
 
-TEST(OverDelivery, CountsWhatIsHeardOverWhatIsWanted) {
+TEST(OverDelivery, DividesReceivedByWantedDeliveries) {
   const CellGrid squares({CellScheme::square, 100.0, 256});
-  // Two that want each other; a third in the cell of the second, out of reach of both.
+  // Two that want each other. A third is in the cell of the second, but out of reach of both.
   const std::vector<Demand> three = {
       {{95, 50, 0}, 20.0, 0}, {{110, 50, 0}, 20.0, 0}, {{190, 50, 0}, 20.0, 0}};
-  // The first hears two, the second two, the third the second.
+  // The first receives two, the second two, the third only the second.
   EXPECT_DOUBLE_EQ(over_delivery(squares, three), 5.0 / 2.0);
   EXPECT_EQ(over_delivery(squares, {}), 0.0);
   std::vector<Demand> apart = three;
@@ -27,7 +27,7 @@ TEST(OverDelivery, CountsWhatIsHeardOverWhatIsWanted) {
   EXPECT_DOUBLE_EQ(over_delivery(squares, apart), 5.0 / 2.0);
 }
 
-TEST(OverDelivery, IsAllOverAllWhereThereIsOneCell) {
+TEST(OverDelivery, IsMaximalForASingleCell) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> along(-100.0, 100.0);
   std::vector<Demand> demands;

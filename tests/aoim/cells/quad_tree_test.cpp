@@ -26,7 +26,7 @@ QuadTreeConfig square(std::size_t pool = 64) {
   return config;
 }
 
-// A crowd in one corner, some all over the square.
+// Three quarters crowded in one corner, a quarter all over the square.
 std::vector<Demand> crowd(std::uint64_t seed, std::size_t count = 600) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> all(-512.0, 512.0), corner(300.0, 400.0);
@@ -46,7 +46,7 @@ TEST(QuadTree, IsOneCellUntilItIsDivided) {
   EXPECT_EQ(tree.group(Position{1e300, -1e300, 0}), GroupIndex{1});
 }
 
-TEST(QuadTree, GivesEachCellAGroupOfItsOwnAndNoMoreThanThePoolHas) {
+TEST(QuadTree, GivesEachCellItsOwnGroup) {
   for (const std::size_t pool : {1U, 4U, 5U, 64U, 256U}) {
     const QuadTree tree = QuadTree::divided_by(square(pool), crowd(1));
     std::set<std::uint16_t> groups;
@@ -62,13 +62,13 @@ TEST(QuadTree, GivesEachCellAGroupOfItsOwnAndNoMoreThanThePoolHas) {
   }
 }
 
-TEST(QuadTree, DividesMostWhereMostIsWasted) {
+TEST(QuadTree, DividesCrowdedAreasMost) {
   const QuadTree tree = QuadTree::divided_by(square(), crowd(2));
   const int in_crowd = tree.cell({450.0, 300.0, 0.0}).r, far = tree.cell({-300.0, -450.0, 0.0}).r;
   EXPECT_GT(in_crowd, far + 1);
 }
 
-TEST(QuadTree, StopsAtItsDepthAndWhereNothingIsGained) {
+TEST(QuadTree, StopsAtItsDepthOrWithoutGain) {
   QuadTreeConfig config = square();
   config.depth = 2;
   const QuadTree shallow = QuadTree::divided_by(config, crowd(3));
@@ -76,7 +76,7 @@ TEST(QuadTree, StopsAtItsDepthAndWhereNothingIsGained) {
   EXPECT_EQ(QuadTree::divided_by(square(), {}).cells(), 1U);
 }
 
-TEST(QuadTree, FindsAllCellsThatADiscMeetsAsBruteForceDoes) {
+TEST(QuadTree, FindsAllCellsThatADiscMeets) {
   const QuadTree tree = QuadTree::divided_by(square(), crowd(4));
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> place(-700.0, 900.0), size(0.0, 200.0);
@@ -93,8 +93,8 @@ TEST(QuadTree, FindsAllCellsThatADiscMeetsAsBruteForceDoes) {
   }
 }
 
-// Whoever is outside of the square still hears whom it stands beside.
-TEST(QuadTree, ReachesEverySenderWithinTheRadiusInsideAndOutsideOfTheSquare) {
+// Peers outside the square still receive nearby senders.
+TEST(QuadTree, ReachesAllSendersWithinTheRadius) {
   const QuadTree tree = QuadTree::divided_by(square(), crowd(6));
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> place(-900.0, 1100.0), turn(0.0, 6.28), share(0.0, 1.0);
@@ -127,8 +127,8 @@ std::vector<CellId> cells_of(const QuadTree& tree) {
   return {tree.leaves().begin(), tree.leaves().end()};
 }
 
-// Peers that read the same demands, and those that are told the cells, have the same groups.
-TEST(QuadTree, IsTheSameWhateverTheOrderInWhichItIsSaid) {
+// Peers that read the same demands, and peers that receive the list of cells, have the same groups.
+TEST(QuadTree, IsIndependentOfTheOrderOfItsInput) {
   std::vector<Demand> demands = crowd(10);
   for (std::size_t i = 0; i < demands.size(); ++i)
     demands[i].instant = static_cast<std::uint32_t>(i % 3);
@@ -148,7 +148,7 @@ TEST(QuadTree, IsTheSameWhateverTheOrderInWhichItIsSaid) {
 TEST(QuadTree, IsCompletedAroundTheCellsThatAreNamed) {
   const CellId deep = QuadTree::cell_at("133").value();
   const QuadTree tree = QuadTree::of_cells(square(), {&deep, 1});
-  EXPECT_EQ(tree.cells(), 10U);  // three quarterings
+  EXPECT_EQ(tree.cells(), 10U);  // three subdivisions
   EXPECT_EQ(tree.cell({100.0 + 511, -50.0 - 1, 0}), deep) << "south-east, then north-east twice";
   EXPECT_EQ(tree.finest(), 128.0);
   std::set<std::string> paths;
@@ -168,7 +168,7 @@ TEST(QuadTree, RefusesCellsThatAreNoTree) {
   refuses({{-1, 1}});
   refuses({{0, 5}});
   refuses({{0, -1}});
-  refuses({{0, 1}, {1, 2}});  // the second lies in the first
+  refuses({{0, 1}, {1, 2}});  // the second is inside the first
   refuses({{0, 3}}, 9);
   EXPECT_FALSE(QuadTree::cell_at("014"));
   EXPECT_FALSE(QuadTree::cell_at("0123012301230123"));
@@ -196,7 +196,7 @@ TEST(QuadTree, BoundsTheGroupsThatADiscReaches) {
   }
 }
 
-TEST(QuadTree, RefusesWhatIsOutOfRange) {
+TEST(QuadTree, RefusesParametersOutOfRange) {
   QuadTreeConfig config = square();
   config.side = 0.0;
   EXPECT_THROW(QuadTree{config}, std::invalid_argument);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the cell schemes deliver to the vehicles of a town: each is a host with one entity that it
-// tells once a second, R = 200 m.
+// Deliveries of the cell schemes to the vehicles of a town. Each vehicle is a host with one entity
+// and sends once a second; R = 200 m.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace reckon::aoim {
 namespace {
 
 constexpr double kRadius = 200.0;
-constexpr double kNearer = 1.05;    // a group is left here: so many early leaves are few enough
-constexpr std::size_t kJudged = 6;  // every so many seconds what is received is compared
+constexpr double kNearer = 1.05;    // groups are left at this multiple of R
+constexpr std::size_t kJudged = 6;  // [s] interval between two comparisons of the received entities
 constexpr const char* kTraffic = "trajectories/vehicles_town_sumo.csv";
 
 struct Vehicle {
@@ -35,16 +35,16 @@ struct Vehicle {
 };
 using Second = std::vector<Vehicle>;
 
-/// One of a second who wants to hear another, as places in it.
+/// A demand of one second: receiver and sender, as indices into it.
 struct Wanted {
   std::size_t who, whom;
 };
 
-/// Recorded traffic: what the tree is divided by, then what it is judged by.
+/// Recorded traffic: the part that divides the tree, then the part that is judged.
 struct Town {
   std::vector<Second> begin, rest;
   std::size_t hosts = 0;
-  std::vector<std::vector<Wanted>> wanted;  ///< by second of `rest`, of each that is judged
+  std::vector<std::vector<Wanted>> wanted;  ///< by second of `rest`, only for judged seconds
 };
 
 std::vector<Second> read_traffic(std::size_t& hosts) {
@@ -78,7 +78,7 @@ std::vector<Wanted> wanted_in(const Second& second) {
   return all;
 }
 
-// Read once for all tests; who wants whom is the same for all cells.
+// Read once for all tests; the wanted pairs are the same for all cell schemes.
 const Town& town() {
   static const Town town = [] {
     Town made;
@@ -96,11 +96,11 @@ const Town& town() {
 
 struct Delivery {
   double received_per_wanted = 0.0, groups_per_host = 0.0, joins_per_host_second = 0.0;
-  double early_leaves = 0.0;  ///< share of the memberships that ended within 3 s
-  std::size_t missed = 0;     ///< wanted, in a group that is not joined
+  double early_leaves = 0.0;  ///< share of memberships shorter than 3 s
+  std::size_t missed = 0;     ///< wanted entities whose group is not joined
 };
 
-// A host that is the subscription alone.
+// A host with a subscription only.
 class Listener {
  public:
   Listener(const CellPartition& cells, double leave_factor)
@@ -122,7 +122,7 @@ class Listener {
   Subscription subscription_;
 };
 
-// A host with all that a peer has.
+// A host with the complete manager of a peer.
 class ManagedHost {
  public:
   ManagedHost(const CellPartition& cells, double leave_factor)
@@ -155,7 +155,7 @@ class ManagedHost {
   AreaOfInterestManager manager_;
 };
 
-/// What one kind of cells delivers, second by second.
+/// Deliveries with one cell scheme, second by second.
 template <typename Host>
 class Deliveries {
  public:
@@ -201,7 +201,7 @@ class Deliveries {
       const Host& host = *hosts_[second[who].host];
       joined_ += static_cast<double>(host.joined().size());
       host_seconds_ += 1.0;
-      received_ -= host.hears(groups[who]) ? 1.0 : 0.0;  // its own
+      received_ -= host.hears(groups[who]) ? 1.0 : 0.0;  // its own update
       for (const GroupIndex group : host.joined()) received_ += said[group.value];
     }
     for (const Wanted& pair : town().wanted[t]) {
@@ -247,8 +247,8 @@ void print(const char* name, const Delivery& d) {
               100.0 * d.early_leaves);
 }
 
-// Divided by the first ten seconds, judged by all that follow.
-TEST(TownCells, DeliverNearlyWhatIsWantedFromAQuadTreeOfFewGroups) {
+// The tree is divided by the first ten seconds and judged by all that follow.
+TEST(TownCells, QuadTreeDeliversFewUnwantedUpdates) {
   RECKON_NEED_DATA(kTraffic);
   ASSERT_GT(town().rest.size(), 50U);
   const QuadTree few = divided(64), more = divided(256);
@@ -268,7 +268,7 @@ TEST(TownCells, DeliverNearlyWhatIsWantedFromAQuadTreeOfFewGroups) {
   }
 }
 
-TEST(TownCells, DeliverAsLittleThroughThePeersManager) {
+TEST(TownCells, ManagerDeliversAsLittleAsTheSubscription) {
   RECKON_NEED_DATA(kTraffic);
   const QuadTree few = divided(64), more = divided(256);
   const Delivery with_64 = deliver<ManagedHost>(few, kNearer),
@@ -284,7 +284,7 @@ TEST(TownCells, DeliverAsLittleThroughThePeersManager) {
   }
 }
 
-TEST(TownCells, OfOneSizeDeliverMoreFromAsManyGroups) {
+TEST(TownCells, UniformCellsMissNothing) {
   RECKON_NEED_DATA(kTraffic);
   for (const CellScheme scheme : {CellScheme::square, CellScheme::hexagonal}) {
     for (const std::size_t pool : {64U, 256U}) {

@@ -25,7 +25,7 @@ struct Arrival {
   std::uint32_t sequence;
 };
 
-/// Loses, doubles and displaces a stream; says what a perfect observer would count.
+/// Loses, duplicates and reorders a stream; returns the counts of a perfect observer in `planted`.
 std::vector<Arrival> mistreat(std::uint32_t first, std::uint32_t count, double spread,
                               std::uint64_t seed, Planted& planted) {
   std::mt19937_64 random(seed);
@@ -57,7 +57,7 @@ std::vector<Arrival> mistreat(std::uint32_t first, std::uint32_t count, double s
   return arrivals;
 }
 
-TEST(SequenceTracker, CountsPlantedLossDuplicationAndReorderingExactly) {
+TEST(SequenceTracker, CountsInjectedLossDuplicationAndReorderingExactly) {
   for (const std::uint32_t first : {1u, 0xFFFFFF00u}) {  // the second wraps
     for (const double spread : {5.0, 60.0, 200.0}) {
       Planted planted;
@@ -94,7 +94,7 @@ TEST(SequenceTracker, KeepsSendersAndGroupsApart) {
   EXPECT_EQ(tracker.counts().lost, 1u);
 }
 
-TEST(SequenceTracker, CountsWhatArrivesBeforeTheFirstItSaw) {
+TEST(SequenceTracker, CountsNumbersBelowTheFirstOne) {
   SequenceTracker tracker;
   for (const std::uint32_t sequence : {5u, 2u, 6u}) tracker.note(1, kGroup, sequence);
   EXPECT_EQ(tracker.counts().lost, 2u);  // 3 and 4
@@ -104,7 +104,7 @@ TEST(SequenceTracker, CountsWhatArrivesBeforeTheFirstItSaw) {
   EXPECT_EQ(tracker.counts().lost, 1u);
 }
 
-TEST(SequenceTracker, RefusesWhatIsBehindTheWindow) {
+TEST(SequenceTracker, RefusesNumbersBehindTheWindow) {
   SequenceTracker tracker;
   tracker.note(1, kGroup, 1);
   tracker.note(1, kGroup, 999);
@@ -115,7 +115,7 @@ TEST(SequenceTracker, RefusesWhatIsBehindTheWindow) {
   EXPECT_EQ(tracker.counts().lost, 996u);
 }
 
-TEST(SequenceTracker, OneFarNumberDoesNotMakeTheGenuineOnesTooOld) {
+TEST(SequenceTracker, OneFarNumberDoesNotInvalidateGenuineOnes) {
   SequenceTracker tracker;
   for (const std::uint32_t leap : {600u, 1000u, 1u << 16, 1u << 30, (1u << 31) - 1, 1u << 31}) {
     SCOPED_TRACE(leap);
@@ -138,12 +138,12 @@ TEST(SequenceTracker, FollowsALeapThatASecondNumberConfirms) {
   EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::leap);
   EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::duplicate);
   EXPECT_EQ(tracker.note(1, kGroup, (1u << 30) + 2), SequenceVerdict::in_order);
-  EXPECT_EQ(tracker.counts().lost, 1u);  // the one between, not 2^30
+  EXPECT_EQ(tracker.counts().lost, 1u);  // the number between, not 2^30
   EXPECT_EQ(tracker.note(1, kGroup, (1u << 30) + 1), SequenceVerdict::late);
   EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::duplicate);
   EXPECT_EQ(tracker.counts().lost, 0u);
 
-  // And back, as after a forged leap that was believed.
+  // Then back again, as after a forged jump that was accepted.
   EXPECT_EQ(tracker.note(1, kGroup, 7), SequenceVerdict::too_old);
   EXPECT_EQ(tracker.note(1, kGroup, 8), SequenceVerdict::in_order);
   EXPECT_EQ(tracker.note(1, kGroup, 9), SequenceVerdict::in_order);
@@ -151,7 +151,7 @@ TEST(SequenceTracker, FollowsALeapThatASecondNumberConfirms) {
   EXPECT_EQ(tracker.counts().leaps, 2u);
 }
 
-// A silence of the network is loss to the datagram, in whatever order the end of it comes.
+// An outage counts as loss to the datagram, in whatever order the datagrams after it arrive.
 TEST(SequenceTracker, CountsALongGapExactly) {
   for (const std::uint32_t begin : {1u, 0xFFFFFF00u}) {
     for (const std::vector<std::uint32_t>& end : std::vector<std::vector<std::uint32_t>>{
@@ -168,7 +168,7 @@ TEST(SequenceTracker, CountsALongGapExactly) {
   }
 }
 
-TEST(SequenceTracker, WhatLayTooFarAheadIsKnownWhenTheOthersReachIt) {
+TEST(SequenceTracker, AcceptsNumbersThatWereTooFarAhead) {
   SequenceTracker tracker;
   for (const std::uint32_t sequence : {0u, 300u, 100u, 200u, 299u, 301u}) {
     EXPECT_TRUE(is_usable(tracker.note(1, kGroup, sequence))) << sequence;
@@ -177,7 +177,7 @@ TEST(SequenceTracker, WhatLayTooFarAheadIsKnownWhenTheOthersReachIt) {
   EXPECT_EQ(tracker.counts().lost, 301u + 1 - 6);
 }
 
-TEST(SequenceTracker, TakesNoGapForLossThatLiesBetweenLeavingAndJoiningAGroup) {
+TEST(SequenceTracker, CountsNoLossBetweenLeavingAndJoining) {
   SequenceTracker tracker;
   tracker.note(1, kGroup, 1);
   tracker.note(1, GroupIndex{4}, 1);
@@ -191,8 +191,8 @@ TEST(SequenceTracker, TakesNoGapForLossThatLiesBetweenLeavingAndJoiningAGroup) {
   EXPECT_EQ(tracker.size(), 0u);
 }
 
-// Against a list that is searched from end to end.
-TEST(SequenceTracker, GivesUpTheLongestSilentWhereThereIsNoRoom) {
+// Against a list with linear search.
+TEST(SequenceTracker, EvictsTheLongestSilentSenderWhenFull) {
   SequenceTracker tracker(32);
   struct Heard {
     std::uint32_t epoch;
@@ -233,8 +233,8 @@ TEST(SequenceTracker, GivesUpTheLongestSilentWhereThereIsNoRoom) {
   EXPECT_GT(given_up, 1000u);
 }
 
-// 100 peers in 30 groups each, one datagram in fifty lost: all is counted.
-TEST(SequenceTracker, HasRoomForAHundredPeersInThirtyGroups) {
+// 100 peers in 30 groups each, one datagram in fifty lost: every loss is counted.
+TEST(SequenceTracker, HoldsAHundredPeersInThirtyGroups) {
   SequenceTracker tracker;
   std::uint64_t lost = 0;
   for (std::uint32_t round = 0; round < 100; ++round) {

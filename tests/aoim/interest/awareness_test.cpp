@@ -35,8 +35,8 @@ Subject at(const Position& position, double nimbus = 0.0) {
   return subject;
 }
 
-TEST(AwarenessFocus, DistanceToAConeAgreesWithAllItsPoints) {
-  // The cone lies along z, so its points have two coordinates: brute force over both.
+TEST(AwarenessFocus, DistanceToAConeMatchesBruteForce) {
+  // The cone is along z, so its points have two coordinates: brute force over both.
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> along(-2.0, 2.0), wide(0.05, kPi);
   constexpr int kSteps = 400;
@@ -57,13 +57,13 @@ TEST(AwarenessFocus, DistanceToAConeAgreesWithAllItsPoints) {
       }
     }
     const double exact = distance_to(focus, {across * std::cos(turn), across * std::sin(turn), up});
-    // Half the diagonal of a step of the samples, at most.
+    // The tolerance is half the diagonal of a sample step.
     EXPECT_LE(exact, std::sqrt(least) + 1e-12);
     EXPECT_NEAR(exact, std::sqrt(least), 0.5 * std::hypot(1.0, focus.half_angle) / kSteps + 1e-12);
   }
 }
 
-TEST(AwarenessFocus, ConeOfAllAnglesIsABallAndOneOfNoneALine) {
+TEST(AwarenessFocus, ConeDegeneratesToABallOrALine) {
   AwarenessFocus focus;
   focus.shape = Shape::cone;
   focus.radius = 2.0;
@@ -76,7 +76,7 @@ TEST(AwarenessFocus, ConeOfAllAnglesIsABallAndOneOfNoneALine) {
   EXPECT_DOUBLE_EQ(distance_to(focus, {-3, 0, 4}), 5.0);
 }
 
-TEST(AwarenessFocus, DistanceToABoxIsThatToItsNearestPoint) {
+TEST(AwarenessFocus, MeasuresDistanceToNearestPointOfABox) {
   AwarenessFocus focus;
   focus.shape = Shape::box;
   focus.position = {10, 0, 0};
@@ -86,7 +86,7 @@ TEST(AwarenessFocus, DistanceToABoxIsThatToItsNearestPoint) {
   EXPECT_DOUBLE_EQ(distance_to(focus, {8, -4, 5}), 3.0);
 }
 
-TEST(Awareness, ANimbusReachesAFocusThatTheEntityIsOutsideOf) {
+TEST(Awareness, NimbusExtendsIntoTheFocus) {
   AwarenessEvaluator evaluator;
   const Observer observer = ball({0, 0, 0}, 10.0);
   EXPECT_EQ(evaluator.evaluate(observer, at({12, 0, 0})), Awareness::out_of_focus);
@@ -105,7 +105,7 @@ TEST(Awareness, IsNotMutual) {
   EXPECT_EQ(evaluator.evaluate(looks_away, at(looks_here.focus.position)), Awareness::out_of_focus);
 }
 
-TEST(Awareness, AsksInTheOrderOfWhatAnswersCostAndCountsEach) {
+TEST(Awareness, EvaluatesCheapTestsFirstAndCountsEach) {
   const Occluders wall(Boxes{{{4, -1, -1}, {5, 1, 1}}});
   AwarenessEvaluator evaluator(&wall);
   Observer observer = ball({0, 0, 0}, 20.0);
@@ -139,7 +139,7 @@ TEST(Awareness, AsksInTheOrderOfWhatAnswersCostAndCountsEach) {
   }
 }
 
-TEST(Occluders, HideWhatASampledLineGoesThrough) {
+TEST(Occluders, HidePointsBehindASampledBox) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> where(-3.0, 3.0), side(0.2, 1.5);
   int hidden = 0;
@@ -166,7 +166,7 @@ TEST(Occluders, HideWhatASampledLineGoesThrough) {
     if (!one_inside && deepest > 0) {
       EXPECT_TRUE(hides);
     }
-    // A line of 11 m at most sampled 2,000 times misses no more than a corner of 6 mm.
+    // A line of at most 11 m with 2,000 samples misses at most a corner of 6 mm.
     if (deepest < -0.006) {
       EXPECT_FALSE(hides);
     }
@@ -174,7 +174,7 @@ TEST(Occluders, HideWhatASampledLineGoesThrough) {
   EXPECT_GT(hidden, 50);
 }
 
-TEST(Occluders, WhoTouchesABoxOrStandsInItIsSeen) {
+TEST(Occluders, DoNotHideInsideOrOnTheSurface) {
   const Occluders house(Boxes{{{0, 0, 0}, {10, 10, 10}}});
   EXPECT_TRUE(house.hides({-1, 5, 5}, {11, 5, 5}));
   EXPECT_FALSE(house.hides({-1, 5, 5}, {5, 5, 5}));

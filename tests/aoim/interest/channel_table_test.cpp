@@ -21,7 +21,7 @@ double sum(const ChannelTable& table, const std::vector<ChannelClient>& clients,
   return octets;
 }
 
-TEST(ChannelTable, GivesContactAKilohertzAndTheFarOneHertz) {
+TEST(ChannelTable, GivesContactAKilohertzAndDistanceOneHertz) {
   ChannelTable table;
   EXPECT_EQ(table.channel(table.row(0.5)).active_hz, 1000.0);
   EXPECT_EQ(table.channel(table.row(0.5)).body, Body::full);
@@ -47,7 +47,7 @@ TEST(ChannelTable, FitsABudgetByTheLeastStretch) {
       EXPECT_DOUBLE_EQ(fitted.octets_per_second, sum(table, clients, 1e12));
       continue;
     }
-    // No smaller one does: tried at each distance at which a client changes its row.
+    // No smaller stretch fits: tried at each distance where a client changes its row.
     for (const ChannelClient& client : clients) {
       for (std::size_t row = 0; row < table.size(); ++row) {
         const double stretch = table.channel(row).farthest / client.distance * (1.0 + 1e-12);
@@ -58,7 +58,7 @@ TEST(ChannelTable, FitsABudgetByTheLeastStretch) {
   }
 }
 
-TEST(ChannelTable, LeavesAsItIsWhatTheBudgetCarries) {
+TEST(ChannelTable, LeavesChannelsWithinTheBudgetUnchanged) {
   ChannelTable table;
   const std::vector<ChannelClient> clients(10, ChannelClient{30.0, true});
   const double all = sum(table, clients, 1.0);

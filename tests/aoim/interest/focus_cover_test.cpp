@@ -22,7 +22,7 @@ constexpr double kCell = 125.0;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// In long double, so that the check's own rounding hides nothing.
+/// In long double, so that rounding of this check hides no error.
 bool holds(const Focus& focus, const Focus& entity) {
   const long double x = static_cast<long double>(focus.position.x) - entity.position.x;
   const long double y = static_cast<long double>(focus.position.y) - entity.position.y;
@@ -52,7 +52,7 @@ std::vector<Focus> scattered(std::size_t count, double extent, std::uint64_t see
   return entities;
 }
 
-TEST(FocusCover, LeavesOneEntityAsItIsBitForBit) {
+TEST(FocusCover, KeepsASingleEntityBitForBit) {
   FocusCover cover(kCell);
   for (const Focus& one :
        {Focus{{0.1, -0.3, 1e-310}, 0.7, 2.0}, Focus{{-1e300, 1e6, 0.0}, 0.0, 0.0},
@@ -63,7 +63,7 @@ TEST(FocusCover, LeavesOneEntityAsItIsBitForBit) {
   }
 }
 
-TEST(FocusCover, HoldsEachEntitysBallInAtMostSixtyFourFociWhateverTheirNumberAndSpread) {
+TEST(FocusCover, CoversAnyEntitiesWithSixtyFourFoci) {
   FocusCover cover(kCell);
   for (const std::size_t count : {2u, 63u, 64u, 65u, 1000u, 20000u}) {
     for (const double extent : {1e-9, 1.0, 100.0, 1e4, 1e6, 1e30}) {
@@ -74,18 +74,18 @@ TEST(FocusCover, HoldsEachEntitysBallInAtMostSixtyFourFociWhateverTheirNumberAnd
   }
 }
 
-TEST(FocusCover, KeepsTwoCrowdsFarApartAsTwo) {
+TEST(FocusCover, KeepsTwoDistantCrowdsSeparate) {
   std::vector<Focus> entities = scattered(500, 20.0, 3);
   for (std::size_t i = 0; i < entities.size(); i += 2) entities[i].position.x += 1e5;
   FocusCover cover(kCell);
   const auto foci = cover.cover(entities);
   expect_covered(entities, foci);
-  EXPECT_LE(foci.size(), 8u);  // each crowd lies across at most four squares
+  EXPECT_LE(foci.size(), 8u);  // each crowd covers at most four squares
   for (const Focus& focus : foci) EXPECT_LT(focus.radius, 200.0 + 60.0);
 }
 
-TEST(FocusCover, EnlargesAFocusByNoMoreThanHalfTheDiagonalOfItsSquare) {
-  // 64 by 64 entities, one a cell: squares of eight cells are the first that are few enough.
+TEST(FocusCover, EnlargesFocusByAtMostHalfADiagonal) {
+  // 64 by 64 entities, one a cell: squares of eight cells are the smallest with at most 64 foci.
   std::vector<Focus> entities;
   for (int i = 0; i < 64 * 64; ++i) {
     entities.push_back({{kCell * (i % 64 + 0.5), kCell * (i / 64 + 0.5), 0.0}, 1.0, 200.0});
@@ -98,7 +98,7 @@ TEST(FocusCover, EnlargesAFocusByNoMoreThanHalfTheDiagonalOfItsSquare) {
   for (const Focus& focus : foci) EXPECT_NEAR(focus.radius, 200.0 + away, 1e-9);
 }
 
-TEST(FocusCover, GivesTheSameFociEveryTimeAndAllocatesNothing) {
+TEST(FocusCover, IsDeterministicAndAllocatesNothing) {
   const auto entities = scattered(5000, 1e5, 8);
   FocusCover a(kCell), b(kCell);
   const auto first = a.cover(entities);
@@ -110,7 +110,7 @@ TEST(FocusCover, GivesTheSameFociEveryTimeAndAllocatesNothing) {
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size_bytes()), 0);
 }
 
-TEST(FocusCover, SkipsWhatIsNotFiniteAndTakesABadSpeedAsRest) {
+TEST(FocusCover, SkipsNonFiniteFociAndIgnoresBadSpeed) {
   const std::vector<Focus> entities{{{kNan, 0, 0}, 0.0, 10.0}, {{0, kInfinity, 0}, 0.0, 10.0},
                                     {{0, 0, 0}, 0.0, kNan},    {{0, 0, 0}, 0.0, -1.0},
                                     {{1, 2, 3}, kNan, 5.0},    {{2, 2, 3}, -7.0, 5.0}};
@@ -124,7 +124,7 @@ TEST(FocusCover, SkipsWhatIsNotFiniteAndTakesABadSpeedAsRest) {
   EXPECT_NEAR(foci[0].radius, 5.5, 1e-12);
 }
 
-// A corridor of rooms, each with a wall to the next but for the first two.
+// A corridor of rooms with walls between them; only the first two are connected.
 LocaleMap corridor(std::uint16_t rooms) {
   std::vector<Locale> locales;
   for (std::uint16_t i = 0; i < rooms; ++i) locales.push_back({{10.0 * i, 0, 0}, 0.0, 5, 5});
@@ -141,11 +141,11 @@ std::set<std::uint16_t> reached_by(const LocaleMap& map, std::span<const Focus> 
   return groups;
 }
 
-TEST(FocusCover, KeepsThoseInDifferentLocalesApart) {
+TEST(FocusCover, SeparatesEntitiesInDifferentLocales) {
   const LocaleMap map = corridor(4);
   FocusCover cover{CellPartition(map)};
-  // All in one square: two in the second room, one in the third, from which a ball of that size
-  // would reach the fourth.
+  // All in one square: two in the second room, one in the third. A ball of that size around the
+  // latter would reach the fourth.
   const std::vector<Focus> entities = {
       {{13.0, 1.0, 0}, 1.0, 9.0}, {{17.0, 1.0, 0}, 0.0, 9.0}, {{12.0, 2.0, 0}, 2.0, 9.0}};
   const auto foci = cover.cover(entities);
@@ -156,7 +156,7 @@ TEST(FocusCover, KeepsThoseInDifferentLocalesApart) {
   EXPECT_EQ(reached_by(map, foci), each);
 }
 
-TEST(FocusCover, ReachesAllThatEachReachesHoweverManyLocalesTheyAreIn) {
+TEST(FocusCover, ReachesAllThatEachEntityReaches) {
   std::mt19937_64 random(21);
   for (const std::uint16_t rooms : std::initializer_list<std::uint16_t>{3, 40, 200}) {
     const LocaleMap map = corridor(rooms);
@@ -175,12 +175,12 @@ TEST(FocusCover, ReachesAllThatEachReachesHoweverManyLocalesTheyAreIn) {
   }
 }
 
-TEST(FocusCover, ReachesThroughNoWallHoweverManyLocalesTheyAreIn) {
+TEST(FocusCover, ReachesThroughNoWallWithManyLocales) {
   const LocaleMap map = corridor(1000);
   FocusCover cover{CellPartition(map)};
   std::vector<Focus> entities;
   std::set<std::uint16_t> each;
-  for (std::uint16_t room = 4; room < 1000; room += 3) {  // 332 rooms, with two between
+  for (std::uint16_t room = 4; room < 1000; room += 3) {  // 332 rooms, two rooms apart
     for (const double along : {-4.0, 0.0, 4.0}) {
       entities.push_back({{10.0 * room + along, 0, 0}, 0.0, 9.0});
       each.merge(reached_by(map, {&entities.back(), 1}));

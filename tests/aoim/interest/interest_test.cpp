@@ -43,7 +43,7 @@ TEST(Interest, AgreesWithBruteForceOnRandomScenes) {
   }
 }
 
-TEST(Interest, HidesWhatIsBeyondAnAuraOrBehindABoxAndLooksAgainSoon) {
+TEST(Interest, HidesEntitiesBeyondAuraOrBehindABox) {
   InterestConfig config;
   config.aura = 60.0;
   config.occluders = {{{4, -1, -1}, {5, 1, 1}}};
@@ -87,7 +87,7 @@ TEST(Interest, CountsEveryVerdictOnce) {
   EXPECT_EQ(counts.not_finite, 1u);
 }
 
-TEST(Interest, DoesNotFlickerForAnEntityThatTremblesOnTheEdge) {
+TEST(Interest, DoesNotFlickerAtTheEdge) {
   Interest interest({});
   const Focus focus{{0, 0, 0}, 0.0, 100.0};
   interest.set_foci({&focus, 1});
@@ -101,7 +101,7 @@ TEST(Interest, DoesNotFlickerForAnEntityThatTremblesOnTheEdge) {
   EXPECT_EQ(flips, 1);
 }
 
-TEST(Interest, RemembersHowFarTheNearestOfThoseOutsideWas) {
+TEST(Interest, RemembersTheNearestEntityOutside) {
   Interest interest({});
   constexpr double kNone = std::numeric_limits<double>::infinity();
   interest.judge({5, 0, 0}, 0, 1, false);
@@ -117,8 +117,9 @@ TEST(Interest, RemembersHowFarTheNearestOfThoseOutsideWas) {
   EXPECT_EQ(interest.take_nearest_outside(), kNone);
 }
 
-// Whatever foci become: what had something to spare is kept until they have drawn back by as much.
-TEST(Interest, TellsHowFarItHasDrawnBackSoThatNothingShownIsLookedAtTooLate) {
+// For any change of the foci: an entity with a margin stays shown until the foci have withdrawn by
+// that margin.
+TEST(Interest, WithdrawalCoversTheMarginOfShownEntities) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> where(-300.0, 300.0), radius(0.0, 250.0), way(-20.0, 20.0);
   std::size_t kept = 0, left = 0;
@@ -131,7 +132,7 @@ TEST(Interest, TellsHowFarItHasDrawnBackSoThatNothingShownIsLookedAtTooLate) {
       const Position p{where(random), where(random), 0};
       const double before = interest.spare(p, 5.0, 1), due = interest.withdrawn() + before;
       if (!(before > 0.0)) continue;
-      if (random() % 8 == 0) foci.resize(1 + random() % 4, foci[0]);  // some merge, some come apart
+      if (random() % 8 == 0) foci.resize(1 + random() % 4, foci[0]);  // some foci merge, some split
       for (Focus& focus : foci) {
         focus.position.x += way(random);
         focus.position.y += way(random);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer with a budget among senders: how far around it cells stay joined.
+// A peer with a receive budget among senders: the distance up to which cells stay joined.
 #include "reckon/aoim/interest/reach_limit.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr double kSensed = 300.0, kSide = 50.0;  // [m]
 
-/// What is heard with cells joined up to a distance [B/s].
+/// Received traffic with cells joined up to a distance [B/s].
 using Traffic = std::function<double(double reach)>;
 
 // In rings of a cell's side around the own cell.
@@ -39,7 +39,7 @@ class Thrifty {
 
   void run(nanoseconds span) {
     for (const nanoseconds end = now_ + span; now_ < end; now_ += 50ms) {
-      // Groups are left 2 s after it is asked for, and joined at once.
+      // Groups are left 2 s after the request and joined at once.
       const double asked = std::min(limit_.cut(), kSensed);
       if (asked >= reach_) reach_ = asked, left_at_ = now_ + 2s;
       if (asked < reach_ && now_ >= left_at_) reach_ = asked;
@@ -63,14 +63,14 @@ class Thrifty {
   int changes_ = 0;
 };
 
-TEST(ReachLimit, LeavesAloneWhatFits) {
+TEST(ReachLimit, LeavesTrafficWithinTheBudgetAlone) {
   Thrifty peer(1e6, even(100));
   peer.run(10min);
   EXPECT_FALSE(peer.limit().is_cut());
   EXPECT_EQ(peer.take_changes(), 0);
 }
 
-TEST(ReachLimit, CutsUntilTheBudgetIsMetWithinHalfAMinuteAndUsesMostOfIt) {
+TEST(ReachLimit, MeetsTheBudgetWithinHalfAMinute) {
   for (const double share : {0.9, 0.5, 0.25, 0.1, 0.03, 0.01}) {
     const double whole = even(100)(kSensed);
     Thrifty peer(share * whole, even(100));
@@ -85,13 +85,13 @@ TEST(ReachLimit, CutsUntilTheBudgetIsMetWithinHalfAMinuteAndUsesMostOfIt) {
       peer.run(1s);
       sum += peer.hears();
     }
-    // A ring more or less is up to three quarters of what the inner ones bring.
+    // One more ring adds up to three quarters of the traffic of the inner ones.
     EXPECT_GT(sum / 180, 0.25 * share * whole) << share;
     EXPECT_LT(sum / 180, 1.1 * share * whole) << share;
   }
 }
 
-TEST(ReachLimit, NeverLeavesTheOwnCellAndReportsWhatCannotBeMet) {
+TEST(ReachLimit, KeepsTheOwnCellAndReportsUnmetBudgets) {
   Thrifty peer(8000, [](double reach) { return reach > 0 ? 60000.0 : 49000.0; });
   peer.run(1min);
   EXPECT_EQ(peer.limit().cut(), 0.0);
@@ -99,7 +99,7 @@ TEST(ReachLimit, NeverLeavesTheOwnCellAndReportsWhatCannotBeMet) {
   EXPECT_NEAR(peer.limit().heard(), 49000.0, 1.0);
 }
 
-TEST(ReachLimit, LetsAllInAgainWhenTheCrowdHasGone) {
+TEST(ReachLimit, RestoresTheReachWhenTheCrowdHasLeft) {
   Thrifty peer(5000, even(100));
   peer.run(1min);
   ASSERT_TRUE(peer.limit().is_cut());
@@ -108,9 +108,9 @@ TEST(ReachLimit, LetsAllInAgainWhenTheCrowdHasGone) {
   EXPECT_FALSE(peer.limit().is_cut());
 }
 
-// Just beyond the reach that fits is a crowd: to look again costs more each time, so it looks
-// seldom.
-TEST(ReachLimit, LooksForMoreRoomEverLessOftenWhereThereIsNone) {
+// A crowd is just beyond the reach that fits. Each attempt to widen the reach costs more, so
+// attempts become rare.
+TEST(ReachLimit, TriesToWidenEverLessOften) {
   Thrifty peer(10'000, [](double reach) { return reach < 100.0 ? 1000.0 : 90'000.0; });
   peer.run(2min);
   ASSERT_TRUE(peer.limit().is_cut());
@@ -132,7 +132,7 @@ TEST(ReachLimit, IsNotMovedByASecondOfNewcomers) {
   EXPECT_EQ(peer.take_changes(), 0);
 }
 
-TEST(ReachLimit, MeetsTheBudgetInWorldsDrawnByASeed) {
+TEST(ReachLimit, MeetsTheBudgetInRandomWorlds) {
   for (unsigned seed = 1; seed <= 300; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> u(0, 1);
@@ -160,7 +160,7 @@ TEST(ReachLimit, MeetsTheBudgetInWorldsDrawnByASeed) {
   }
 }
 
-TEST(ReachLimit, StartsAnewWhereTheCountDoes) {
+TEST(ReachLimit, RestartsWithTheByteCount) {
   ReachLimit limit({1000, kSensed, kSide});
   limit.note(1'000'000'000, 1s);
   limit.note(0, 20s);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One stream for all: as rich as the receiver wants it who asks for most.
+// One stream for all receivers: as detailed as the most demanding receiver needs.
 #include "reckon/aoim/interest/receiver_channels.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 ReceiverChannels channels() { return ReceiverChannels(default_channels()); }
 
-TEST(ReceiverChannels, GiveWhatTheNearestReceiverWants) {
+TEST(ReceiverChannels, ServeTheNearestReceiver) {
   ReceiverChannels to = channels();
   to.add({500, 0, 0});
   ASSERT_NE(to.of({0, 0, 0}), nullptr);
@@ -31,7 +31,7 @@ TEST(ReceiverChannels, GiveWhatTheNearestReceiverWants) {
   EXPECT_EQ(to.of({0, 0, 0})->active_hz, 1.0) << "nobody is known";
 }
 
-TEST(ReceiverChannels, CountDistancesAsLongAsEachReceiverAsksButNeverThoseOfContact) {
+TEST(ReceiverChannels, ScaleDistancesPerReceiverExceptInContact) {
   ReceiverChannels to = channels();
   to.add({30, 0, 0}, 2.0);
   EXPECT_EQ(to.of({0, 0, 0})->active_hz, 10.0) << "30 m count as 60";
@@ -42,8 +42,8 @@ TEST(ReceiverChannels, CountDistancesAsLongAsEachReceiverAsksButNeverThoseOfCont
   EXPECT_TRUE(to.of({0, 0, 0})->kept);
 }
 
-// With groups for near rows: who comes near is there before it is known to be.
-TEST(ReceiverChannels, ServeARowWhereSomebodyIsOrSoonWillBe) {
+// With groups for near rows: a row is served before an approaching receiver arrives in it.
+TEST(ReceiverChannels, ServeARowForPresentAndApproachingReceivers) {
   ReceiverChannels to = channels();
   const Position here{0, 0, 0};
   EXPECT_EQ(to.served_row(here, 0.0, 0.0), 2u) << "nobody is known";
@@ -65,7 +65,7 @@ TEST(ReceiverChannels, ServeARowWhereSomebodyIsOrSoonWillBe) {
   EXPECT_EQ(to.served_row(here, 0.0, 0.0), 0u) << "kept rows are said by the next one's group";
 }
 
-TEST(ReceiverChannels, ForgetWhoIsNowhere) {
+TEST(ReceiverChannels, IgnoreReceiversWithoutAValidPosition) {
   ReceiverChannels to = channels();
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   to.add({kNaN, 0, 0});
@@ -74,7 +74,7 @@ TEST(ReceiverChannels, ForgetWhoIsNowhere) {
   EXPECT_EQ(to.size(), 0u);
 }
 
-TEST(ReceiverChannels, AreNullBeyondATableWithAnEnd) {
+TEST(ReceiverChannels, AreNullBeyondAFiniteTable) {
   const Channel near{10.0, Body::full, 5.0, 1.0, 144.0, false};
   ReceiverChannels to({&near, 1});
   EXPECT_NE(to.of({0, 0, 0}), nullptr) << "nobody is known";
@@ -82,7 +82,7 @@ TEST(ReceiverChannels, AreNullBeyondATableWithAnEnd) {
   EXPECT_EQ(to.of({0, 0, 0}), nullptr);
 }
 
-TEST(ReceiverChannels, AgreeWithTheTableForEachReceiverAlone) {
+TEST(ReceiverChannels, AgreeWithTheTableForEachReceiver) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> place(-300, 300), octaves(0, 4);
   const ChannelTable table;

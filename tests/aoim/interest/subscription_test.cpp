@@ -53,7 +53,7 @@ struct Wanderer {
   double heading = 0.0;
 };
 
-/// Updates from inside R whose group's join had not taken effect yet.
+/// Number of updates from inside R whose group was joined too late.
 int updates_lost(double speed, nanoseconds lookahead, nanoseconds join_takes, std::uint64_t seed) {
   const CellGrid grid(grid_config());
   SubscriptionConfig config = uncapped();
@@ -102,7 +102,7 @@ TEST(Subscription, AlwaysCoversTheFocusAlongRandomPaths) {
   }
 }
 
-TEST(Subscription, LosesNoUpdateFromInsideTheRadiusThoughAJoinTakes30Milliseconds) {
+TEST(Subscription, LosesNoUpdateWithinTheRadiusWhileJoining) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const double speed : {1.5, 15.0, 60.0}) {
       EXPECT_EQ(updates_lost(speed, milliseconds(100), milliseconds(30), seed), 0)
@@ -121,7 +121,7 @@ TEST(Subscription, DoesNotFlapAtABorder) {
   Focus focus{{0, 0, 0}, 0.0, kRadius};
   std::size_t joins = 0, leaves = 0;
   for (int i = 0; i < 3000; ++i) {
-    // 1 Hz to and fro by 5 m: the edge of R crosses cell borders all the time.
+    // Moves to and fro by 5 m at 1 Hz: the edge of R crosses cell borders all the time.
     focus.position.x = 62.0 + 5.0 * std::sin(2 * std::numbers::pi * i / 100.0);
     const SubscriptionChange change = subscription.update({&focus, 1}, i * milliseconds(10));
     if (i > 100) joins += change.join.size();
@@ -131,7 +131,7 @@ TEST(Subscription, DoesNotFlapAtABorder) {
   EXPECT_EQ(leaves, 0u);
 }
 
-TEST(Subscription, KeepsAGroupAtLeastTwoSecondsAndThenLeavesIt) {
+TEST(Subscription, KeepsAGroupForAtLeastTwoSeconds) {
   const CellGrid grid(grid_config());
   Subscription subscription(grid, uncapped());
   Focus focus{{0, 0, 0}, 0.0, 50.0};
@@ -163,7 +163,7 @@ TEST(Subscription, LeavesOnlyBeyondElevenTenthsOfTheRadius) {
   EXPECT_FALSE(subscription.is_joined(origin));
 }
 
-TEST(Subscription, AtTheCapKeepsTheNearestAndSaysHowMuchIsCovered) {
+TEST(Subscription, KeepsTheNearestGroupsAtTheCap) {
   const CellGrid grid(grid_config());
   SubscriptionConfig config;
   config.maximum_groups = 7;
@@ -178,7 +178,7 @@ TEST(Subscription, AtTheCapKeepsTheNearestAndSaysHowMuchIsCovered) {
       focus.position, change.covered_share * focus.radius * 0.999,
       [&](CellId cell, double) { EXPECT_TRUE(subscription.is_joined(grid.group(cell))); });
 
-  // Standing still at the cap changes nothing.
+  // At the cap, a focus at rest causes no change.
   for (int i = 1; i < 100; ++i) {
     const SubscriptionChange next = subscription.update({&focus, 1}, i * milliseconds(100));
     EXPECT_TRUE(next.join.empty());
@@ -186,8 +186,9 @@ TEST(Subscription, AtTheCapKeepsTheNearestAndSaysHowMuchIsCovered) {
   }
 }
 
-TEST(Subscription, HearsAllWithinItsRadiusHoweverSmallTheCellsAreBesideIt) {
-  // Squares of 1 m and a radius of 3 m need 37 groups and more: nothing within 3 m may be deaf.
+TEST(Subscription, ReceivesAllWithinTheRadiusWithSmallCells) {
+  // Squares of 1 m and a radius of 3 m need 37 groups or more; every position within 3 m must be
+  // covered.
   GridConfig small = grid_config(CellScheme::square);
   small.cell_size = 1.0;
   const CellGrid grid(small);
@@ -219,7 +220,7 @@ TEST(Subscription, NeverExceedsTheCapWhileMoving) {
   }
 }
 
-TEST(Subscription, JoinsAllGroupsForARadiusWiderThanTheTileAndSkipsFociThatAreNotFinite) {
+TEST(Subscription, JoinsAllGroupsForAHugeRadius) {
   const CellGrid grid(grid_config());
   Subscription subscription(grid, uncapped());
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -233,7 +234,7 @@ TEST(Subscription, JoinsAllGroupsForARadiusWiderThanTheTileAndSkipsFociThatAreNo
   }
 }
 
-TEST(Subscription, JoinsInTheTownAboutEightGroupsOfHexagonsAsLargeAsTheRadius) {
+TEST(Subscription, JoinsAboutEightHexagonGroupsInTheTown) {
   // Recorded town traffic (2,002 hosts, R = 200 m) gave 8.3 groups per host for hexagons of this
   // size.
   const CellGrid grid(grid_config());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Beacons: where they are by what their owners say, how the map of groups tells of them, and who
-// follows one.
+// Beacons: their cells as reported by their owners, their entries in the group map, and peers that
+// follow one.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -38,7 +38,7 @@ TEST(BeaconBook, FollowsABeaconFromCellToCell) {
   EXPECT_EQ(book.size(), 0U);
 }
 
-TEST(BeaconBook, LeavesABeaconToWhoHadItFirstUntilThatFallsSilent) {
+TEST(BeaconBook, KeepsTheFirstOwnerUntilItIsSilent) {
   BeaconBook book(seconds(5));
   book.hear(kGate, {1, 0}, 7, seconds(1));
   EXPECT_FALSE(book.hear(kGate, {9, 0}, 8, seconds(2)));
@@ -50,7 +50,7 @@ TEST(BeaconBook, LeavesABeaconToWhoHadItFirstUntilThatFallsSilent) {
   EXPECT_EQ(book.size(), 0U);
 }
 
-TEST(BeaconBook, ForgetsWhatNobodySpeaksOf) {
+TEST(BeaconBook, ForgetsBeaconsWithoutReports) {
   BeaconBook book(seconds(5));
   book.hear(kGate, {1, 0}, 7, seconds(1));
   EXPECT_FALSE(book.expire(milliseconds(5999)));
@@ -58,7 +58,7 @@ TEST(BeaconBook, ForgetsWhatNobodySpeaksOf) {
   EXPECT_EQ(book.size(), 0U);
 }
 
-TEST(BeaconBook, KeepsSoManyAndOfOneOwnerFewer) {
+TEST(BeaconBook, LimitsBeaconsInTotalAndPerOwner) {
   BeaconBook book(seconds(5));
   for (std::uint32_t tag = 1; tag <= 1000; ++tag) book.hear(tag, {1, 0}, 7, seconds(1));
   EXPECT_EQ(book.size(), BeaconBook::kMostOfOne);
@@ -67,10 +67,10 @@ TEST(BeaconBook, KeepsSoManyAndOfOneOwnerFewer) {
   EXPECT_FALSE(book.hear(0, {1, 0}, 9, seconds(1))) << "no tag";
 }
 
-// Of each peer the beacons that it follows.
+// For each peer, the beacons that it follows.
 using Follows = std::vector<std::vector<std::uint32_t>>;
 
-// Peers of a field of 100 m cells, the first of which leads; groups are handed out.
+// Peers on a field of 100 m cells; the first one leads and hands out groups.
 struct Peers {
   explicit Peers(const Follows& follow, std::size_t pool = 8)
       : places(follow.size()), carried(follow.size()) {
@@ -134,7 +134,7 @@ struct Peers {
   std::vector<std::unique_ptr<AreaOfInterestManager>> managers;
 };
 
-TEST(Beacons, LeadWhoFollowsToTheirCellWhereverItIs) {
+TEST(Beacons, LetFollowersSubscribeToTheEntitysCell) {
   Peers three(Follows{{}, {}, {kGate}});
   three.run(seconds(4));
   EXPECT_FALSE(three.followed(2).found);
@@ -150,7 +150,7 @@ TEST(Beacons, LeadWhoFollowsToTheirCellWhereverItIs) {
   EXPECT_EQ(three.followed(2).cell, *three.managers[1]->leading()->carried_in(kGate));
 }
 
-TEST(Beacons, LetWhatIsInTheirCellBeSeenFromAnywhere) {
+TEST(Beacons, MakeTheirCellVisibleFromAnywhere) {
   Peers two(Follows{{}, {kGate}});
   two.carried[0] = kGate;
   two.run(seconds(5));
@@ -165,7 +165,7 @@ TEST(Beacons, LetWhatIsInTheirCellBeSeenFromAnywhere) {
             InterestVerdict::outside);
 }
 
-TEST(Beacons, GoWithTheirOwner) {
+TEST(Beacons, MoveWithTheirOwner) {
   Peers three(Follows{{}, {}, {kGate}});
   three.carried[1] = kGate;
   three.run(seconds(5));
@@ -178,7 +178,7 @@ TEST(Beacons, GoWithTheirOwner) {
   EXPECT_EQ(three.followed(2).number.value, 0U);
 }
 
-TEST(Beacons, StayFoundWhenTheLeaderOfTheSceneDies) {
+TEST(Beacons, StayFoundWhenTheSceneLeaderDies) {
   Peers three(Follows{{}, {}, {kGate}});
   three.carried[1] = kGate;
   three.run(seconds(5));
@@ -191,7 +191,7 @@ TEST(Beacons, StayFoundWhenTheLeaderOfTheSceneDies) {
   EXPECT_TRUE(three.managers[1]->leading()->role().leads(kWholeScene));
 }
 
-// A pool of which nothing is left: the cell speaks to the base group, and is found all the same.
+// The pool is used up: the cell sends to the base group, and its beacon is found all the same.
 TEST(Beacons, AreFoundInCellsWithoutAGroup) {
   Peers six(Follows{{}, {}, {}, {}, {}, {kGate}}, 4);
   six.carried[4] = kGate;
@@ -202,12 +202,12 @@ TEST(Beacons, AreFoundInCellsWithoutAGroup) {
   EXPECT_EQ(six.managers[5]->sight().judge(six.places[4], 0.0, 1, false), InterestVerdict::inside);
 }
 
-TEST(Beacons, OfOneCellDoNotTakeTurns) {
+TEST(Beacons, OfOneCellDoNotAlternate) {
   Peers three(Follows{{kGate, kFerry}, {}, {}});
   three.places[1] = three.places[2] = {4050.0, 50.0, 0.0};
   three.carried[1] = kGate;
   three.carried[2] = kFerry;
-  three.run(seconds(12));  // the cells of before are empty by then
+  three.run(seconds(12));  // the former cells are empty by then
   const std::uint32_t version = three.managers[0]->leading()->role().directory().version();
   for (int i = 0; i < 50; ++i) {
     three.run(milliseconds(100));
@@ -218,7 +218,7 @@ TEST(Beacons, OfOneCellDoNotTakeTurns) {
       << "the map stands";
 }
 
-TEST(Beacons, OfOneNameAreThatOfWhoSaidItFirst) {
+TEST(Beacons, OfOneNameBelongToTheFirstOwner) {
   Peers three(Follows{{kGate}, {}, {}});
   three.carried[1] = kGate;
   three.run(seconds(5));
@@ -230,7 +230,7 @@ TEST(Beacons, OfOneNameAreThatOfWhoSaidItFirst) {
   EXPECT_EQ(three.followed(0).cell, *three.managers[2]->leading()->carried_in(kGate));
 }
 
-TEST(Beacons, WantGroupsThatAreHandedOut) {
+TEST(Beacons, NeedGroupsThatAreHandedOut) {
   AreaOfInterestConfig config;
   config.follow = {kGate};
   pdu::Presence own;

@@ -44,7 +44,7 @@ struct One {
   CellLeadership cells;
 };
 
-TEST(CellLeadership, LeadsAloneAfterItHasListened) {
+TEST(CellLeadership, LeadsAloneAfterListening) {
   One one(7);
   one.run(milliseconds(1500));
   EXPECT_EQ(one.cells.leader(kCell), 0U);
@@ -53,9 +53,9 @@ TEST(CellLeadership, LeadsAloneAfterItHasListened) {
   EXPECT_EQ(one.run(seconds(10)).size(), 20U) << "a heartbeat every 0.5 s";
 }
 
-// Each would lead when it has listened, the first but for the stagger: where the other came that
-// much later, at the same time.
-TEST(CellLeadership, WaitsForWhoCameLaterWithAnEarlierClock) {
+// Both peers would lead after their listening time. The start stagger of the first makes both end
+// at the same time if the other came that much later.
+TEST(CellLeadership, WaitsForLaterPeerWithAnEarlierClock) {
   One one(7);
   one.run(milliseconds(200));
   one.cells.receive(claim(5, 0), 9, one.now);
@@ -68,7 +68,7 @@ TEST(CellLeadership, WaitsForWhoCameLaterWithAnEarlierClock) {
   EXPECT_TRUE(one.cells.leads(kCell));
 }
 
-TEST(CellLeadership, WaitsForNoMoreThanTwiceItsListening) {
+TEST(CellLeadership, WaitsAtMostTwiceItsListeningTime) {
   One one(7);
   for (std::uint32_t life = 10; life < 63; ++life) {  // each with an earlier clock than ours
     one.cells.receive(claim(5, 0), life, one.now);
@@ -81,7 +81,7 @@ TEST(CellLeadership, WaitsForNoMoreThanTwiceItsListening) {
   EXPECT_TRUE(other.cells.leads(kCell)) << "as long as that one is expected to";
 }
 
-TEST(CellLeadership, DoesNotUnseatALeaderThatCameLaterByItsClock) {
+TEST(CellLeadership, DoesNotUnseatLeaderWithALaterClock) {
   One one(7, seconds(1));  // a clock of 1970
   one.cells.receive(claim(5'000), 9, one.now);
   const auto said = one.run(milliseconds(100));
@@ -94,7 +94,7 @@ TEST(CellLeadership, DoesNotUnseatALeaderThatCameLaterByItsClock) {
   EXPECT_EQ(early.run(milliseconds(20)).back().entered, 5'001U) << "behind the leader";
 }
 
-TEST(CellLeadership, GivesWayToWhoLeadsForLonger) {
+TEST(CellLeadership, YieldsToTheLongerServingLeader) {
   One one(7);
   one.run(seconds(2));
   ASSERT_TRUE(one.cells.leads(kCell));
@@ -108,7 +108,7 @@ TEST(CellLeadership, GivesWayToWhoLeadsForLonger) {
   EXPECT_EQ(one.cells.leader(kCell), 9U);
 }
 
-TEST(CellLeadership, NamesTheOldestOfTheOthersAsSuccessor) {
+TEST(CellLeadership, NamesTheOldestMemberAsSuccessor) {
   One one(7);
   one.run(seconds(2));
   one.cells.receive(claim(2'000'000'000'000, 0), 20, one.now);
@@ -117,7 +117,7 @@ TEST(CellLeadership, NamesTheOldestOfTheOthersAsSuccessor) {
   EXPECT_EQ(one.run(seconds(10)).back().successor, 0U) << "they have fallen silent";
 }
 
-TEST(CellLeadership, FollowsTheNamedSuccessorWithinTwoSecondsOfADeath) {
+TEST(CellLeadership, SuccessorLeadsWithinTwoSecondsOfADeath) {
   One heir(7), other(8);
   for (int beat = 0; beat < 4; ++beat) {
     for (One* one : {&heir, &other}) {
@@ -133,7 +133,7 @@ TEST(CellLeadership, FollowsTheNamedSuccessorWithinTwoSecondsOfADeath) {
   EXPECT_EQ(other.cells.leader(kCell), 5U) << "leaves it to the successor";
 }
 
-TEST(CellLeadership, NewcomerIsTheHeirOfALeaderThatGoesBeforeItWasHeardToLead) {
+TEST(CellLeadership, NewcomerSucceedsALeaderThatLeavesAtOnce) {
   One heir(7), other(8), late(9);
   heir.cells.receive(claim(1, pdu::kRoleLeads | pdu::kRoleLeaves, 7), 5, heir.now);
   EXPECT_TRUE(heir.cells.leads(kCell));
@@ -148,15 +148,15 @@ TEST(CellLeadership, NewcomerIsTheHeirOfALeaderThatGoesBeforeItWasHeardToLead) {
   EXPECT_TRUE(heir.cells.leads(kCell)) << "another's good-bye does not unseat it";
 }
 
-TEST(CellLeadership, TakesOverAtOnceWhereTheLeaderSaysGoodbyeAndNamesIt) {
+TEST(CellLeadership, SuccessorTakesOverAtOnceOnDeparture) {
   One heir(7);
   heir.cells.receive(claim(1, pdu::kRoleLeads, 7), 5, heir.now);
   heir.cells.receive(claim(1, pdu::kRoleLeads | pdu::kRoleLeaves, 7), 5, heir.now);
   EXPECT_TRUE(heir.cells.leads(kCell));
 }
 
-// It came just before the leader left, and has not heard yet who else is there.
-TEST(CellLeadership, DoesNotLeadBesideASuccessorThatItDoesNotKnow) {
+// This peer came just before the leader left and has not received the other members yet.
+TEST(CellLeadership, DoesNotLeadBesideAnUnknownSuccessor) {
   One one(7);
   one.cells.receive(claim(5'000, pdu::kRoleLeads, 11), 9, one.now);
   one.run(milliseconds(100));
@@ -168,7 +168,7 @@ TEST(CellLeadership, DoesNotLeadBesideASuccessorThatItDoesNotKnow) {
   EXPECT_EQ(one.cells.leader(kCell), 11U);
 }
 
-TEST(CellLeadership, SaysGoodbyeThreeTimesAndNamesItsHeir) {
+TEST(CellLeadership, DepartsThreeTimesAndNamesItsSuccessor) {
   One one(7);
   one.run(seconds(2));
   one.cells.receive(claim(2'000'000'000'000, 0), 20, one.now);
@@ -182,7 +182,7 @@ TEST(CellLeadership, SaysGoodbyeThreeTimesAndNamesItsHeir) {
   }
 }
 
-TEST(CellLeadership, AsksBeforeItLeadsAgainAfterItStoodStill) {
+TEST(CellLeadership, ListensAgainAfterASuspension) {
   One one(7);
   one.run(seconds(3));
   one.now += seconds(4);

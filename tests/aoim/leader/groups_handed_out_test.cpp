@@ -18,7 +18,7 @@ constexpr nanoseconds kQuarantine = seconds(30);
 
 CellId cell(std::int32_t q) { return {q, 0}; }
 
-TEST(GroupPool, GivesEachCellAGroupUntilNoneIsLeft) {
+TEST(GroupPool, GivesEachCellAGroupUntilExhausted) {
   GroupPool pool(3, kQuarantine);
   EXPECT_EQ(pool.take(cell(1), seconds(1)), GroupIndex{1});
   EXPECT_EQ(pool.take(cell(2), seconds(1)), GroupIndex{2});
@@ -29,7 +29,7 @@ TEST(GroupPool, GivesEachCellAGroupUntilNoneIsLeft) {
   EXPECT_THROW(GroupPool(1001, kQuarantine), std::invalid_argument);
 }
 
-TEST(GroupPool, ReusesAGroupAfterTheQuarantineTheLongestIdleFirst) {
+TEST(GroupPool, ReusesTheLongestIdleGroupAfterQuarantine) {
   GroupPool pool(2, kQuarantine);
   pool.take(cell(1), seconds(0));
   pool.take(cell(2), seconds(0));
@@ -40,7 +40,7 @@ TEST(GroupPool, ReusesAGroupAfterTheQuarantineTheLongestIdleFirst) {
   EXPECT_EQ(pool.take(cell(4), seconds(50)), GroupIndex{1});
 }
 
-TEST(GroupPool, PutsInQuarantineWhatAnotherLeaderMayHaveHandedOut) {
+TEST(GroupPool, QuarantinesGroupsOfAnEarlierLeader) {
   GroupPool pool(3, kQuarantine);
   const std::vector<pdu::CellGroup> map{{1, 0, 0, 2, 0}};
   pool.begin(map, false, seconds(100));
@@ -51,7 +51,7 @@ TEST(GroupPool, PutsInQuarantineWhatAnotherLeaderMayHaveHandedOut) {
   EXPECT_TRUE(pool.take(cell(5), seconds(100))) << "nobody led before";
 }
 
-TEST(GroupPool, TakesAGroupFromBothCellsThatTwoLeadersGaveItTo) {
+TEST(GroupPool, WithdrawsAGroupThatTwoLeadersAssigned) {
   GroupPool pool(3, kQuarantine);
   pool.take(cell(1), seconds(0));  // group 1
   pool.take(cell(2), seconds(0));  // group 2
@@ -78,7 +78,7 @@ struct Map {
   pdu::GroupMap pdu;
 };
 
-TEST(GroupDirectory, KnowsGroupsAndBeaconsAsLongAsTheLeaseRuns) {
+TEST(GroupDirectory, KnowsGroupsAndBeaconsDuringTheLease) {
   GroupDirectory directory(8, seconds(10));
   EXPECT_TRUE(directory.receive(Map({{5, 0, 0xBEAC, 7, 0}, {-1, 0, 0, 2, 0}}).pdu, 3, seconds(1)));
   EXPECT_EQ(directory.group(cell(5), seconds(10)), GroupIndex{7});
@@ -90,7 +90,7 @@ TEST(GroupDirectory, KnowsGroupsAndBeaconsAsLongAsTheLeaseRuns) {
   EXPECT_FALSE(directory.find_beacon(0xBEAC, seconds(11)));
 }
 
-TEST(GroupDirectory, TakesRowsThatAreThereForABeaconAlone) {
+TEST(GroupDirectory, AcceptsRowsForABeaconOnly) {
   GroupDirectory directory(8, seconds(10));
   const Map map({{5, 0, 11, 7, 0}, {5, 0, 12, 0, 0}, {6, 0, 13, 0, 0}});
   ASSERT_TRUE(directory.receive(map.pdu, 3, seconds(1)));

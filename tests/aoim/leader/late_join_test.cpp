@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who comes late to a cell of many entities: told by the leader, once, and by nobody else.
+// A late peer in a cell of many entities receives each state once, only from the leader.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -28,7 +28,7 @@ struct Sent {
   std::vector<std::byte> octets;
 };
 
-// Peers in one cell, on a segment that loses what the newcomer is told.
+// Peers in one cell on a segment that loses a share of the snapshots to the newcomer.
 struct Cell {
   explicit Cell(double loss_ = 0.0) : loss(loss_) {
     for (std::size_t i = 0; i < kOwners; ++i) add();
@@ -68,8 +68,8 @@ struct Cell {
     for (std::size_t i = 0; i < peers.size(); ++i) {
       if (!alive[i]) continue;
       const pdu::EntityId asked{1, static_cast<std::uint16_t>(i + 1), 1};
-      // An owner asks for each of its entities; the first one stands for all.
-      // The newcomer introduces its own, and that is as it should be.
+      // An owner asks for each of its entities; the first one represents all. The newcomer also
+      // introduces its own; that is correct and not counted.
       if (i < kOwners)
         introduced += peers[i]->must_send(kCellTier, asked, kPlace,
                                           {now - seconds(1), peers[i]->route(kPlace)}, now);
@@ -123,7 +123,7 @@ struct Cell {
   std::map<pdu::EntityId, std::uint32_t> told;
 };
 
-TEST(LateJoin, TellsTheStatesOfAThousandEntitiesOnceWithinASecond) {
+TEST(LateJoin, LeaderSendsThousandStatesOnceWithinASecond) {
   Cell cell;
   const std::size_t leader = cell.leader();
   ASSERT_LT(leader, kOwners);
@@ -136,7 +136,7 @@ TEST(LateJoin, TellsTheStatesOfAThousandEntitiesOnceWithinASecond) {
   for (const auto& [entity, epoch] : cell.told) EXPECT_EQ(epoch, 99U + entity.application);
   ASSERT_EQ(cell.octets_of.size(), 1U) << "one peer tells";
   EXPECT_EQ(cell.octets_of.begin()->first, leader);
-  // The states themselves, as the leader's datagrams without envelope.
+  // Only the states, as in the leader's datagrams without envelope.
   const double share = static_cast<double>(cell.octets_of[leader]) / (1000.0 * 144.0);
   const double took = std::chrono::duration<double>(cell.last_told - came).count();
   std::printf("1,000 entities told after %.3f s with %.3f of their octets\n", took, share);
@@ -146,7 +146,7 @@ TEST(LateJoin, TellsTheStatesOfAThousandEntitiesOnceWithinASecond) {
   EXPECT_EQ(cell.introduced, 0U);
 }
 
-TEST(LateJoin, TellsTenNewcomersTogetherAlmostOnce) {
+TEST(LateJoin, TenSimultaneousNewcomersShareOneSnapshot) {
   Cell cell;
   const std::size_t leader = cell.leader();
   cell.counting = true;
@@ -156,14 +156,14 @@ TEST(LateJoin, TellsTenNewcomersTogetherAlmostOnce) {
   EXPECT_LE(static_cast<double>(cell.octets_of[leader]), 1.2 * 1000.0 * 144.0);
 }
 
-TEST(LateJoin, SaysAgainWhatWasLost) {
+TEST(LateJoin, LostStatesAreSentAgain) {
   Cell cell(0.2);
   cell.add();
   cell.run(milliseconds(1500));
   EXPECT_EQ(cell.told.size(), kOwners * kEntities);
 }
 
-TEST(LateJoin, HasANewLeaderWithinTwoSecondsOfADeathAndIsToldByIt) {
+TEST(LateJoin, NewLeaderServesNewcomersWithinTwoSeconds) {
   Cell cell;
   const std::size_t leader = cell.leader();
   cell.alive[leader] = false;
@@ -193,8 +193,9 @@ TEST(LateJoin, AsksTheOwnersWhereNoLeaderAnswers) {
   EXPECT_GT(cell.introduced, 0U);
 }
 
-// The heir of a leader that leaves while it tells has nobody to ask for the rest but the owners.
-TEST(LateJoin, AsksTheOwnersWhereItLeadsBeforeItWasToldAll) {
+// The leader leaves during its snapshot; its successor can get the missing states only from the
+// owners.
+TEST(LateJoin, SuccessorWithoutASnapshotAsksTheOwners) {
   Cell cell;
   const std::size_t leader = cell.leader();
   const Focus elsewhere{{kPlace.x + 5000.0, kPlace.y, kPlace.z}, 0.0, 10.0};

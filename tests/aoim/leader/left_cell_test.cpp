@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An entity that goes to a cell which its former cell's leader has not joined, where groups are
-// handed out.
+// An entity moves to a cell that the leader of its former cell has not joined; groups are handed
+// out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ using std::chrono::seconds;
 constexpr Position kNear{50.0, 50.0, 0.0}, kAway{950.0, 50.0, 0.0};
 constexpr pdu::EntityId kEntity{1, 2, 1};
 
-// The first one leads; the second one owns an entity.
+// The first peer leads; the second one owns an entity.
 struct LeaderAndOwner {
   LeaderAndOwner() {
     for (std::uint16_t i = 0; i < 2; ++i) {
@@ -76,7 +76,7 @@ struct LeaderAndOwner {
   std::array<std::unique_ptr<AreaOfInterestManager>, 2> peers;
 };
 
-TEST(StatesKept, ForgetAnEntityThatIsHeardInACellOfOthers) {
+TEST(StatesKept, ForgetEntityThatMovedToAForeignCell) {
   LeaderAndOwner two;
   two.say(kNear);
   ASSERT_TRUE(two.is_kept());
@@ -90,7 +90,7 @@ TEST(StatesKept, ForgetAnEntityThatIsHeardInACellOfOthers) {
   EXPECT_TRUE(two.is_kept());
 }
 
-TEST(StatesKept, ForgetNothingThatAnotherLifeHasSaid) {
+TEST(StatesKept, ForgetNothingFromAnotherEpoch) {
   StateStore store;
   pdu::EntityState state;
   state.entity_id = kEntity;

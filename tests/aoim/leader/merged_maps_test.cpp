@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two that lead the scene on two sides of a partition, which meet again.
+// Two leaders of the scene on two sides of a partition, which ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Side {
     role.start(utc, now);
     role.enter(cell, GroupIndex{3}, utc, now);
   }
-  // What it says meanwhile.
+  // PDUs that it sends meanwhile.
   std::vector<std::vector<std::byte>> run(nanoseconds length) {
     std::vector<std::vector<std::byte>> said;
     for (const nanoseconds end = now + length; now < end; now += milliseconds(10)) {
@@ -57,8 +57,8 @@ bool is_map(const std::vector<std::byte>& octets) {
   return pdu::decode(octets, map) == pdu::DecodeError::none;
 }
 
-// Both have given the first group to a cell of their own; the younger hears the elder, which has
-// not heard it.
+// Both have assigned the first group to a cell of their own. The younger receives the elder, which
+// has not received the younger.
 struct Meeting {
   Meeting() {
     elder.run(seconds(3));
@@ -68,7 +68,7 @@ struct Meeting {
   Side elder{kElder, seconds(1000), kHere}, younger{kYounger, seconds(1001), kThere};
 };
 
-TEST(LeaderRole, TakesAGroupFromBothCellsThoughItSpokeBeforeItHeardTheOther) {
+TEST(LeaderRole, WithdrawsASharedGroupFromBothCells) {
   Meeting met;
   ASSERT_EQ(met.elder.role.group(kHere, met.elder.now), GroupIndex{1});
   ASSERT_EQ(met.younger.role.group(kThere, met.younger.now), GroupIndex{1});
@@ -79,7 +79,7 @@ TEST(LeaderRole, TakesAGroupFromBothCellsThoughItSpokeBeforeItHeardTheOther) {
   EXPECT_NE(met.elder.role.group(kHere, met.elder.now), GroupIndex{1}) << "in quarantine";
 }
 
-TEST(LeaderRole, SaysItsLastMapAgainWhereNobodyMayHaveHeardIt) {
+TEST(LeaderRole, RepeatsItsLastMapForTheOtherLeader) {
   Meeting met;
   auto said = met.younger.run(milliseconds(1400));
   EXPECT_EQ(std::count_if(said.begin(), said.end(), is_map), 3);
@@ -89,8 +89,9 @@ TEST(LeaderRole, SaysItsLastMapAgainWhereNobodyMayHaveHeardIt) {
   EXPECT_NE(met.elder.role.group(kHere, met.elder.now), GroupIndex{1});
 }
 
-// What a cell gave back just before its leader gave way: those who missed that still use it.
-TEST(LeaderRole, TakesAGroupAwayThatTheOtherSideHasInQuarantine) {
+// A cell returned its group just before its leader yielded: peers that missed this still use the
+// group.
+TEST(LeaderRole, WithdrawsAGroupQuarantinedByTheOtherSide) {
   Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kThere);
   elder.run(seconds(9));
   younger.run(seconds(3));
@@ -108,8 +109,8 @@ TEST(LeaderRole, TakesAGroupAwayThatTheOtherSideHasInQuarantine) {
   EXPECT_EQ(younger.role.directory().entries().size(), 1U) << "cells, not groups that rest";
 }
 
-// That it began to lead with all idle groups in quarantine is no news of any of them.
-TEST(LeaderRole, LosesNothingToAnotherThatHasGivenNothingBack) {
+// A leader starts with all idle groups in quarantine; that alone is no evidence of their use.
+TEST(LeaderRole, LosesNothingToALeaderWithoutReturnedGroups) {
   Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kHere);
   younger.hear(elder.run(seconds(4)), kElder);
   younger.run(seconds(4));
@@ -124,8 +125,8 @@ TEST(LeaderRole, LosesNothingToAnotherThatHasGivenNothingBack) {
   EXPECT_EQ(elder.role.group(kThere, elder.now), GroupIndex{2});
 }
 
-// The elder's map comes before its claim: what is the elder's alone is not to rest.
-TEST(LeaderRole, TakesNothingOverFromAnElderToWhichItGivesWay) {
+// The elder's map arrives before its claim: groups of the elder alone must not go to quarantine.
+TEST(LeaderRole, YieldingLeaderTakesNothingFromTheElder) {
   constexpr CellId kFarther{5, 0};
   Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kThere);
   elder.role.enter(kFarther, GroupIndex{4}, seconds(1000), elder.now);
@@ -144,7 +145,7 @@ TEST(LeaderRole, TakesNothingOverFromAnElderToWhichItGivesWay) {
   EXPECT_EQ(elder.role.group(kFarther, elder.now), GroupIndex{2});
 }
 
-// Who slept meanwhile has its former map, and takes lower versions for overtaken ones.
+// Peers that slept meanwhile have its former map and treat lower versions as stale.
 TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
   Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
   one.run(seconds(3));
@@ -162,9 +163,9 @@ TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
   EXPECT_GT(one.role.directory().version(), before);
 }
 
-// It read its socket late: by then the groups of that map may be other cells'.
-// It never heard the leader, whose map still holds for others, only one of these.
-TEST(LeaderRole, HandsNothingOutAtOnceWhereOthersHaveAMapThatItHasNotHeard) {
+// The newcomer received no datagram of the leader, whose map is still valid for others. It received
+// only one of those others.
+TEST(LeaderRole, NewcomerQuarantinesGroupsOfAnUnreceivedLeader) {
   constexpr std::uint32_t kWitness = 11;
   Side elder(kElder, seconds(1000), kHere), witness(kWitness, seconds(1002), kHere);
   elder.run(seconds(3));
@@ -184,7 +185,8 @@ TEST(LeaderRole, HandsNothingOutAtOnceWhereOthersHaveAMapThatItHasNotHeard) {
   EXPECT_TRUE(newcomer.role.group(kThere, newcomer.now)) << "after the quarantine";
 }
 
-TEST(LeaderRole, TakesAMapForAsOldAsItsArrival) {
+// It read its socket late: meanwhile the groups of that map may belong to other cells.
+TEST(LeaderRole, AgesAMapFromItsArrivalTime) {
   Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
   const auto said = elder.run(seconds(4));
   const nanoseconds came = one.now;
@@ -202,7 +204,7 @@ TEST(LeaderRole, TakesAMapForAsOldAsItsArrival) {
   EXPECT_FALSE(one.role.group(kHere, came + seconds(10))) << "its lease is over";
 }
 
-TEST(LeaderRole, SaysNoMapAfterItHasSlept) {
+TEST(LeaderRole, SendsNoMapAfterASuspension) {
   Side side(kElder, seconds(1000), kHere);
   side.run(seconds(3));
   side.now += seconds(20);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the MAC of an announcement proves of its address, and when.
+// The proof of a sender's address by the MAC of its announcement.
 #include "reckon/aoim/presence/address_proof.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using namespace test;
 constexpr ProofFunctions kProofs{scrambled, scrambled_with};
 const SourceAddress kGenuine = source(2), kRelayed = source(66);
 
-// Announcements of one sender, in order, and when each was sent.
+// Announcements of one sender, in order, with their send times.
 class AddressMac : public testing::Test {
  protected:
   pdu::Presence said(nanoseconds at, const SourceAddress& from = kGenuine) {
@@ -62,7 +62,7 @@ TEST_F(AddressMac, RefutesARelayAndAlteredContent) {
   }
 }
 
-// Whoever has the key makes a MAC for any address.
+// Anyone with the key can make a MAC for any address.
 TEST_F(AddressMac, ProvesNothingOnceItsKeyMayBeRevealed) {
   for (const int late_ms : {-30'000, -150, -50, 0, 30'000}) {
     SCOPED_TRACE(late_ms);
@@ -86,7 +86,7 @@ TEST_F(AddressMac, IsAcceptedAgainAfterTheSenderWasSuspended) {
   nanoseconds slept{0};
   std::vector<bool> in_time;
   for (int s = 0; s < 60; ++s) {
-    if (s == 20) slept = seconds(9);  // longer than slots count
+    if (s == 20) slept = seconds(9);  // longer than the slot counter covers
     const auto now = seconds(s) + slept;
     const pdu::Presence one = said(now);
     (void)proof_.disclose(one, kGenuine, kProofs);
@@ -100,7 +100,7 @@ TEST_F(AddressMac, IsAcceptedAgainAfterTheSenderWasSuspended) {
   EXPECT_TRUE(in_time[40]);
 }
 
-TEST_F(AddressMac, OfManyAddressesEachHasAChance) {
+TEST_F(AddressMac, EachOfManyAddressesHasAChance) {
   int proven = 0;
   for (int s = 0; s < 200; ++s) {
     const pdu::Presence one = said(seconds(s), source(3));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A quiet peer on a network that loses datagrams, and relays that send its announcements again from
-// addresses of their own. They receive all; the listener receives all of theirs.
+// A quiet peer on a network that loses datagrams, and relays that repeat its announcements from
+// addresses of their own. They receive all; the listener receives all of their datagrams.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -55,7 +55,8 @@ class Street {
   void run(nanoseconds length) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(1)) step();
   }
-  // Looks at the peer ten times a second. @return looks that show it at a relay
+  // Samples the listener ten times a second. @return samples that have the victim at a relay's
+  // address
   std::size_t look(std::size_t looks) {
     std::size_t elsewhere = 0;
     for (std::size_t i = 0; i < looks; ++i) {
@@ -109,7 +110,7 @@ class Street {
   }
   double drawn() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
-  // 0.2 to 3 ms; every tenth datagram comes twice.
+  // 0.2 to 3 ms; every tenth datagram is duplicated.
   void send(const pdu::Presence& said, bool is_state) {
     const auto path = [&] { return now_ + microseconds(200 + random_() % 2800); };
     const bool is_lost = !victim_reaches || drawn() < attack_.loss;
@@ -174,7 +175,7 @@ class Relays : public testing::TestWithParam<Attack> {
   }
 };
 
-TEST_P(Relays, QuietPeerStaysWhereItIs) {
+TEST_P(Relays, DoNotMoveAQuietPeer) {
   Street street(GetParam());
   street.begin_with_the_victim_alone();
   expect_no_theft(street, 600);
@@ -189,9 +190,9 @@ TEST_P(Relays, ReplaysProveNothing) {
 }
 
 // The listener receives the relay's first announcement only.
-TEST_P(Relays, RelayHeardFirstIsDisplaced) {
+TEST_P(Relays, FirstReceivedRelayIsDisplaced) {
   Attack attack = GetParam();
-  attack.relays = std::min<std::size_t>(attack.relays, 2);  // each further one takes a share
+  attack.relays = std::min<std::size_t>(attack.relays, 2);  // each additional one takes a share
   Street street(attack);
   street.victim_reaches = false;
   street.run(milliseconds(100));
@@ -203,7 +204,7 @@ TEST_P(Relays, RelayHeardFirstIsDisplaced) {
   EXPECT_FALSE(street.accused.contains(source(1)));
 }
 
-TEST_P(Relays, RestartUnderARelayIsTheOwners) {
+TEST_P(Relays, RestartUnderARelayBelongsToTheOwner) {
   Attack attack = GetParam();
   attack.relays = std::min<std::size_t>(attack.relays, 2);
   Street street(attack);
@@ -226,7 +227,7 @@ TEST_P(Relays, SuspendedListenerIsNotDeceived) {
   }
 }
 
-TEST_P(Relays, HandInContactStaysWhereItIs) {
+TEST_P(Relays, DoNotMoveAHandInContact) {
   Attack attack = GetParam();
   attack.rate = 30;
   Street street(attack);
@@ -281,7 +282,7 @@ TEST_P(HonestChange, IsAcceptedWhenItsKeyIsRevealed) {
   RecordProperty("longest_ms", std::to_string(longest / milliseconds(1)));
 }
 
-TEST_P(HonestChange, OfAHandInContactTakesHalfASecond) {
+TEST_P(HonestChange, TakesHalfASecondInContact) {
   Attack attack = GetParam();
   attack.relays = 0;
   attack.rate = 60;
@@ -307,7 +308,7 @@ TEST_P(HonestChange, OfAHandInContactTakesHalfASecond) {
 INSTANTIATE_TEST_SUITE_P(Losses, HonestChange,
                          testing::Values(Attack{0.0}, Attack{0.1}, Attack{0.3}), attack_name);
 
-// The relay takes over a hand in contact whose owner is cut off: for a moment, once.
+// The relay takes over a hand in contact whose owner is cut off: briefly and once.
 TEST(MoveOnApproval, IsUndoneWhenTheKeyRefutesIt) {
   Street street({.rate = 30});
   street.is_touched = true;
@@ -321,7 +322,7 @@ TEST(MoveOnApproval, IsUndoneWhenTheKeyRefutesIt) {
   EXPECT_LE(street.known_after(), milliseconds(1100));
 }
 
-TEST(MoveOnApproval, EndsWhenTheOldAddressSpeaks) {
+TEST(MoveOnApproval, EndsWhenTheOldAddressSendsAgain) {
   Street street({.rate = 30});
   street.is_touched = true;
   street.begin_with_the_victim_alone();

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-// When announcements leave [ms after 2 s], until `until_ms`, where nobody lists us.
+// Times of announcements [ms after 2 s], until `until_ms`, if nobody lists us.
 std::vector<std::int64_t> left_by(AnnouncementPace& pace, std::int64_t from_ms,
                                   std::int64_t until_ms, bool acquainted = false) {
   std::vector<std::int64_t> left;
@@ -38,7 +38,7 @@ TEST(AnnouncementPace, IsNeverDueBeforeStartNorAfterStop) {
   EXPECT_FALSE(pace.is_due(seconds(100)));
 }
 
-TEST(AnnouncementPace, KeepsTheLeastGapWhateverHappens) {
+TEST(AnnouncementPace, AlwaysKeepsTheLeastGap) {
   const PresenceConfig config;
   AnnouncementPace pace(config);
   pace.start(seconds(2));
@@ -79,7 +79,7 @@ TEST(AnnouncementPace, EndsItsRepetitionOnceAllListUs) {
   EXPECT_EQ(pace.next(), seconds(2) + milliseconds(1150));
 }
 
-TEST(AnnouncementPace, AnnouncesAChangeOfItsSourceAndNotTheFirstOne) {
+TEST(AnnouncementPace, AnnouncesLaterChangesOfItsSourceOnly) {
   const PresenceConfig config;
   AnnouncementPace pace(config);
   pace.start(seconds(2));

@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr PeerId kOurs{7, 1};
 
-// Claims beside a table with one holder, of number 2 and epoch 22, heard since 0 s.
+// Claims beside a table with one holder, of number 2 and epoch 22, received since 0 s.
 class ClaimsOfOne : public testing::Test {
  protected:
   ClaimsOfOne() {
@@ -36,7 +36,7 @@ class ClaimsOfOne : public testing::Test {
   Claims claims_{config_, peers_, events_};
 };
 
-TEST_F(ClaimsOfOne, ARestartIsBelievedWhenTheHolderHasBeenSilentForItsWait) {
+TEST_F(ClaimsOfOne, RestartIsAcceptedAfterTheHoldersSilence) {
   const nanoseconds since = seconds(10);
   add(2, 33, since);
   EXPECT_EQ(claims_.next_step(kOurs, nanoseconds(0)), since + config_.restart_wait);
@@ -47,7 +47,7 @@ TEST_F(ClaimsOfOne, ARestartIsBelievedWhenTheHolderHasBeenSilentForItsWait) {
   EXPECT_EQ(claims_.size(), 0u);
 }
 
-TEST_F(ClaimsOfOne, AClaimToOurIdIsLeftToUsAndReportedOnceItLasts) {
+TEST_F(ClaimsOfOne, PersistentClaimToOurIdIsReported) {
   const nanoseconds since = seconds(10);
   add(1, 33, since);
   EXPECT_FALSE(claims_.settle(0, kOurs, since + milliseconds(900)));
@@ -68,7 +68,7 @@ TEST_F(ClaimsOfOne, AnotherIdIsAnotherClaim) {
   EXPECT_FALSE(claimant.reported);
 }
 
-TEST_F(ClaimsOfOne, AFreeIdGoesToWhoHasHeldItForLongThenToWhoStartedFirst) {
+TEST_F(ClaimsOfOne, FreeIdGoesToEstablishedThenOldestClaimant) {
   add(3, 44, seconds(10));
   add(3, 33, seconds(10));
   add(3, 55, seconds(10)).announced.flags |= pdu::kPresenceEstablished;
@@ -82,7 +82,7 @@ TEST_F(ClaimsOfOne, AFreeIdGoesToWhoHasHeldItForLongThenToWhoStartedFirst) {
   EXPECT_TRUE(claims_.contains({7, 2}));
 }
 
-TEST_F(ClaimsOfOne, WhoHasBeenSilentForLongClaimsNothing) {
+TEST_F(ClaimsOfOne, SilentClaimantsAreDropped) {
   add(1, 33, seconds(10));
   EXPECT_FALSE(claims_.settle(0, kOurs, seconds(10) + config_.patience()));
   EXPECT_EQ(claims_.size(), 1u);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What others can make a peer say: who joins is told all soon, who joins again and again makes
-// nobody say more than everything once a second.
+// The traffic that others can cause: a newcomer gets all states soon; repeated joins cause at most
+// one full introduction a second.
 #include "reckon/aoim/presence/introduction_budget.hpp"
 
 #include <gtest/gtest.h>
@@ -14,14 +14,14 @@ namespace {
 
 using namespace test;
 
-TEST(IntroductionBudget, LetsTheFirstBeginAndThenAsManyAsItFillsFor) {
+TEST(IntroductionBudget, AllowsOneAtOnceThenAtItsRate) {
   IntroductionBudget budget;
   budget.set_whole(200'000.0);
   nanoseconds now = seconds(50);
   EXPECT_TRUE(budget.may_begin(now));
   budget.spend(200'000, now);
   EXPECT_FALSE(budget.may_begin(now));
-  budget.spend(100'000, now);  // what was under way
+  budget.spend(100'000, now);  // rest of the running introduction
   EXPECT_FALSE(budget.may_begin(now + milliseconds(499)));
   EXPECT_TRUE(budget.may_begin(now + milliseconds(501)));
   EXPECT_TRUE(budget.may_begin(budget.ready_at()));
@@ -32,7 +32,7 @@ TEST(IntroductionBudget, LetsTheFirstBeginAndThenAsManyAsItFillsFor) {
   EXPECT_FALSE(budget.may_begin(now + seconds(100)));
 }
 
-TEST(IntroductionBudget, OfHugeOwnersFillsNoFasterThanItsPace) {
+TEST(IntroductionBudget, RefillRateIsLimitedForHugeOwners) {
   IntroductionBudget budget;
   budget.set_whole(20'000'000.0);
   budget.spend(20'000'000, seconds(1));
@@ -44,10 +44,10 @@ TEST(IntroductionBudget, OfHugeOwnersFillsNoFasterThanItsPace) {
 struct Asking {
   std::size_t entities;
   std::int64_t every_ms;
-  unsigned cells;  ///< said to be joined anew each time; 0: lives that announce themselves
+  unsigned cells;  ///< cells joined each time; 0: new epochs announce themselves instead
 };
 
-// An owner of many entities, which sends what it is asked for.
+// An owner of many entities, which answers requests.
 class AskedOwner {
  protected:
   static constexpr std::size_t kOctets = 200;
@@ -107,7 +107,7 @@ class AskedOwner {
 class OwnerAskedOften : public AskedOwner, public testing::TestWithParam<Asking> {};
 class AnOwner : public AskedOwner, public testing::Test {};
 
-TEST_P(OwnerAskedOften, SaysEverythingOnceASecondAtMost) {
+TEST_P(OwnerAskedOften, SendsAtMostOneFullIntroductionASecond) {
   const auto [entities, every_ms, cells] = GetParam();
   if (entities > 1000) pass_ = milliseconds(reckon::test::tries(4, 1));
   own(entities);
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, OwnerAskedOften,
                                          Asking{2000, 100, 0}, Asking{8000, 400, 0},
                                          Asking{500, 50, 1}, Asking{900, 11, 128}));
 
-TEST_F(AnOwner, TellsTheFirstAtOnceAndWhoComesMeanwhileWithinLittleMoreThanASecond) {
+TEST_F(AnOwner, IntroducesAtOnceThenWithinAboutASecond) {
   own(500);
   joins(1);
   nanoseconds joined = now_;
@@ -149,7 +149,7 @@ TEST_F(AnOwner, TellsTheFirstAtOnceAndWhoComesMeanwhileWithinLittleMoreThanASeco
   EXPECT_TRUE(all_sent_since(joined));
 }
 
-TEST_F(AnOwner, OfAFewEntitiesTellsEachNewcomerAtOnce) {
+TEST_F(AnOwner, IntroducesFewEntitiesToEachNewcomerAtOnce) {
   own(5);
   for (std::uint32_t life = 0; life < 40; ++life) {
     const nanoseconds joined = now_;
@@ -159,8 +159,8 @@ TEST_F(AnOwner, OfAFewEntitiesTellsEachNewcomerAtOnce) {
   }
 }
 
-// Whom it knows for long it tells, whatever strangers cause.
-TEST_F(AnOwner, TellsOneThatItKnowsForLongBesideStrangersWhoJoinAgainAndAgain) {
+// A long-known peer is served despite the joins of strangers.
+TEST_F(AnOwner, IntroducesKnownPeersDuringJoinFlood) {
   own(500);
   pdu::Presence member = presence_of(600, 4711);
   hears(member, 3000);

@@ -22,7 +22,7 @@ constexpr GroupIndex kGroup{12};
 
 pdu::EntityId entity(int i) { return {7, 1, static_cast<std::uint16_t>(i + 1)}; }
 
-/// Asks every millisecond; notes when each entity was sent.
+/// Asks every millisecond and notes the send times of each entity.
 struct Owner {
   std::map<int, std::vector<nanoseconds>> sent;
   std::vector<nanoseconds> last = std::vector<nanoseconds>(kEntities, -seconds(100));
@@ -35,7 +35,7 @@ struct Owner {
   }
 };
 
-TEST(Introduction, SendsEveryEntityOnceWithinAHundredMillisecondsOfTheNewcomer) {
+TEST(Introduction, SendsEveryEntityOnceWithinAHundredMilliseconds) {
   Introduction introduction({});
   Owner owner;
   introduction.begin(kBaseGroup, seconds(5));
@@ -50,11 +50,11 @@ TEST(Introduction, SendsEveryEntityOnceWithinAHundredMillisecondsOfTheNewcomer) 
     ++bins[std::min<std::size_t>(
         6, static_cast<std::size_t>((after - milliseconds(30)) / milliseconds(10)))];
   }
-  // Spread evenly: 143 expected in each tenth of a tenth of a second, 5 sigma is 55.
+  // Spread evenly: 143 expected per bin of 10 ms, 5 sigma is 55.
   for (const int bin : bins) EXPECT_NEAR(bin, kEntities / 7.0, 55);
 }
 
-/// When each of `count` entities is sent, in milliseconds after a newcomer, asking every 2 ms.
+/// Send time of each of `count` entities [ms] after a newcomer, asking every 2 ms.
 std::vector<int> moments(std::size_t count) {
   Introduction introduction({});
   introduction.set_owned(count);
@@ -76,7 +76,7 @@ std::vector<int> moments(std::size_t count) {
   return sent;
 }
 
-TEST(Introduction, SpreadsOverSoLongThatABundleOfEightLeavesFifteenThousandTimesASecond) {
+TEST(Introduction, SpreadsToFifteenThousandBundlesASecond) {
   for (const auto& [count, longest] : {std::pair{10u, 100}, {10'000u, 114}, {100'000u, 864}}) {
     const std::vector<int> sent = moments(count);
     std::vector<int> windows(100);
@@ -85,7 +85,7 @@ TEST(Introduction, SpreadsOverSoLongThatABundleOfEightLeavesFifteenThousandTimes
       ASSERT_LE(ms, longest + 2) << count << " entities";
       ++windows[static_cast<std::size_t>(ms / 10)];
     }
-    // 10 ms at 15,000 datagrams of 8, as a step of 2 ms more and 5 sigma of a hash's spread allow.
+    // 10 ms at 15,000 datagrams of 8; plus a step of 2 ms and 5 sigma of the hash's spread.
     const int most = *std::max_element(windows.begin(), windows.end());
     EXPECT_LE(most, std::max(10, 1200 * 12 / 10 + 173)) << count;
     const int last = *std::max_element(sent.begin(), sent.end());
@@ -93,7 +93,7 @@ TEST(Introduction, SpreadsOverSoLongThatABundleOfEightLeavesFifteenThousandTimes
   }
 }
 
-TEST(Introduction, KeepsThePaceOfANewcomerWhileEntitiesComeAndGo) {
+TEST(Introduction, KeepsANewcomersPaceWhileEntitiesChange) {
   Introduction introduction({});
   introduction.set_owned(100'000);
   EXPECT_EQ(introduction.spread(), milliseconds(30) + nanoseconds(833'333'333));
@@ -117,7 +117,7 @@ TEST(Introduction, GivesAnEntityTheSameMomentEveryTime) {
   for (int i = 0; i < kEntities; ++i) EXPECT_EQ(a.delay(entity(i)), b.delay(entity(i)));
 }
 
-TEST(Introduction, ServesASecondNewcomerThatComesWhileTheFirstIsServed) {
+TEST(Introduction, ServesASecondNewcomerDuringTheFirst) {
   Introduction introduction({});
   Owner owner;
   introduction.begin(kBaseGroup, milliseconds(0));
@@ -133,12 +133,13 @@ TEST(Introduction, ServesASecondNewcomerThatComesWhileTheFirstIsServed) {
   }
 }
 
-// Whatever their distance in time: what is sent in the time of a round is what is owned.
-TEST(Introduction, KeepsThePaceHoweverManyNewcomersComeInARow) {
+// For any interval between newcomers: at most the owned entities are sent within the time of a
+// round.
+TEST(Introduction, KeepsThePaceForNewcomersInARow) {
   for (const int apart : {1, 5, 20, 60, 150}) {
     Introduction introduction({});
     Owner owner;
-    const int round = 70;  // [ms], spread less settle
+    const int round = 70;  // [ms], spread minus settle time
     const int end = 40 * apart;
     for (int ms = 0; ms < end + 300; ++ms) {
       if (ms < end && ms % apart == 0) introduction.begin(kBaseGroup, milliseconds(ms));
@@ -155,8 +156,8 @@ TEST(Introduction, KeepsThePaceHoweverManyNewcomersComeInARow) {
       if (ms >= round) within -= sent[ms - round];
       most = std::max(most, within);
     }
-    // An entity is asked about once a millisecond, so that a round may end with the next one's
-    // first.
+    // Each entity is polled once a millisecond, so the end of a round may overlap the start of the
+    // next.
     EXPECT_LE(most, kEntities + kEntities / 25) << apart << " ms apart";
   }
 }
@@ -168,16 +169,16 @@ TEST(Introduction, ConcernsOnlyTheGroupThatWasJoined) {
   EXPECT_TRUE(introduction.is_due(entity(1), GroupIndex{3}, -seconds(1), milliseconds(100)));
 }
 
-TEST(Introduction, ConcernsNobodyElseHoweverManyGroupsAreJoined) {
+TEST(Introduction, ConcernsNobodyElseWhenManyGroupsAreJoined) {
   Introduction introduction({});
   for (std::uint16_t i = 13; i < 240; ++i) introduction.begin(GroupIndex{i}, milliseconds(i));
   EXPECT_FALSE(introduction.is_due(entity(1), kGroup, -seconds(100), seconds(1)));
   EXPECT_TRUE(introduction.is_due(entity(1), GroupIndex{13}, -seconds(100), seconds(1)));
 }
 
-// Somebody joins each few milliseconds for three seconds: each has heard all within a quarter of a
-// second, by a send after its joins have taken effect.
-TEST(Introduction, ServesMoreNewcomersThanItKeepsApart) {
+// A peer joins every few milliseconds for three seconds: each receives all states within a quarter
+// of a second, sent after its joins have taken effect.
+TEST(Introduction, ServesMoreNewcomersThanItDistinguishes) {
   for (const int apart : {1, 3, 10, 40}) {
     Introduction introduction({});
     Owner owner;

@@ -30,7 +30,7 @@ std::map<CellId, std::uint64_t> asked(JoinAsks& asks, nanoseconds now, bool anno
 
 using Cells = std::map<CellId, std::uint64_t>;
 
-TEST(JoinAsks, AskAtOnceAndOnceMoreByTheSameInstantForWhoHasNotHeardIt) {
+TEST(JoinAsks, RepeatOnceWithTheSameTime) {
   JoinAsks asks(16);
   EXPECT_FALSE(asks.has_new());
   asks.join(kAskedGroup, kAskedCell, true, seconds(1));
@@ -46,7 +46,7 @@ TEST(JoinAsks, AskAtOnceAndOnceMoreByTheSameInstantForWhoHasNotHeardIt) {
   EXPECT_EQ(asked(asks, seconds(3)), Cells{});
 }
 
-TEST(JoinAsks, AskAnewWhereNobodyIsHeardThreeTimesAtMost) {
+TEST(JoinAsks, AskSilentGroupsThreeTimesAtMost) {
   JoinAsks asks(16);
   asks.join(kAskedGroup, kAskedCell, true, seconds(1));
   asks.join(kSecondGroup, kSecondCell, true, seconds(1));
@@ -60,7 +60,7 @@ TEST(JoinAsks, AskAnewWhereNobodyIsHeardThreeTimesAtMost) {
   EXPECT_EQ(asked(asks, seconds(5)), Cells{});
 }
 
-TEST(JoinAsks, AskNoMoreOnceItIsHeardNorOfWhatWasLeft) {
+TEST(JoinAsks, StopForAnsweredAndLeftGroups) {
   JoinAsks asks(16);
   asks.join(kAskedGroup, kAskedCell, true, seconds(1));
   asks.join(kSecondGroup, kSecondCell, true, seconds(1));
@@ -71,7 +71,7 @@ TEST(JoinAsks, AskNoMoreOnceItIsHeardNorOfWhatWasLeft) {
   EXPECT_EQ(asked(asks, seconds(3)), Cells{});
 }
 
-TEST(JoinAsks, OfWhoStartsConcernWhatStaysSilentAlone) {
+TEST(JoinAsks, AtStartConcernOnlySilentGroups) {
   JoinAsks asks(16);
   asks.join(kAskedGroup, kAskedCell, false, seconds(1));
   asks.join(kSecondGroup, kSecondCell, false, seconds(1));
@@ -81,7 +81,7 @@ TEST(JoinAsks, OfWhoStartsConcernWhatStaysSilentAlone) {
   EXPECT_EQ(asked(asks, seconds(2)), (Cells{{kSecondCell, asked_utc(seconds(2))}}));
 }
 
-TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
+TEST(JoinAsks, SplitManyCellsIntoDistinctRequests) {
   JoinAsks asks(300);
   for (std::uint16_t i = 1; i <= 300; ++i) asks.join({i}, {i, 0}, true, seconds(1));
   std::map<std::uint64_t, std::size_t> questions;
@@ -91,14 +91,14 @@ TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
                            {first, 128}, {first + 1, 128}, {first + 2, 44}}));
 }
 
-// A program that moves the clock itself often makes several steps at one instant. Two requests with
+// A program that steps the clock itself often makes several steps at one instant. Two requests with
 // the same time would be one request to their receivers, and the second would have no answer.
-TEST(JoinAsks, GiveTheQuestionsOfOneInstantTimesOfTheirOwn) {
+TEST(JoinAsks, GiveRequestsOfOneInstantDistinctTimes) {
   JoinAsks asks(16);
   ReceivedAsks heard;
   asks.join(kAskedGroup, kAskedCell, true, seconds(1));
   static_cast<void>(asked(asks, seconds(1)));
-  for (const int second : {2, 3, 4}) {  // each request is repeated three times at most
+  for (const int second : {2, 3, 4}) {  // each request is repeated at most three times
     EXPECT_TRUE(heard.note(11, asked(asks, seconds(second)).at(kAskedCell)));
     asks.join(kSecondGroup, kSecondCell, true, seconds(second));
     EXPECT_TRUE(heard.note(11, asked(asks, seconds(second), false).at(kSecondCell)));
@@ -106,7 +106,7 @@ TEST(JoinAsks, GiveTheQuestionsOfOneInstantTimesOfTheirOwn) {
   }
 }
 
-TEST(ReceivedAsks, KnowAQuestionAgainByWhoAskedAndWhen) {
+TEST(ReceivedAsks, IdentifyARequestBySenderAndTime) {
   ReceivedAsks heard;
   EXPECT_TRUE(heard.note(11, 5));
   EXPECT_FALSE(heard.note(11, 5));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who proves that he is the same as before, and who cannot.
+// A peer proves its identity over time by a hash chain; others cannot.
 #include "reckon/aoim/presence/life_chain.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ std::vector<pdu::Presence> announcements(std::size_t count, std::uint8_t secret 
   return said;
 }
 
-TEST(LifeChain, OfOneLifeEachAnnouncementOpensThoseBeforeItWhateverIsLost) {
+TEST(LifeChain, AnyLaterAnnouncementOpensTheEarlierOnes) {
   const auto said = announcements(9000);
   std::mt19937 random(7);
   LifeTip tip(said[0], std::chrono::seconds(0));
@@ -48,14 +48,14 @@ TEST(LifeChain, OfOneLifeEachAnnouncementOpensThoseBeforeItWhateverIsLost) {
   }
 }
 
-TEST(LifeChain, NobodyElseOpensIt) {
+TEST(LifeChain, CannotBeForged) {
   const auto said = announcements(600), others = announcements(600, 2);
   std::mt19937 random(3);
   for (std::size_t i = 0; i < 500; ++i) {
     const LifeTip tip(said[i], std::chrono::seconds(0));
     for (std::size_t ahead = 1; ahead < 60; ahead += 7) {
       EXPECT_EQ(tip.judge(others[i + ahead], test::scrambled, 256), Opening::wrong);
-      pdu::Presence later = said[i];  // what was heard, as if it were the next
+      pdu::Presence later = said[i];  // a received announcement, presented as the next one
       later.chain_number = said[i + ahead].chain_number;
       EXPECT_EQ(tip.judge(later, test::scrambled, 256), Opening::wrong);
       pdu::Presence altered = said[i + ahead];
@@ -71,7 +71,7 @@ TEST(LifeChain, NobodyElseOpensIt) {
   }
 }
 
-TEST(LifeChain, WhatIsJudgedCostsNoMoreCallsThanAllowed) {
+TEST(LifeChain, JudgingCostsAtMostTheAllowedCalls) {
   auto said = announcements(600);
   const LifeTip tip(said[10], std::chrono::seconds(0));
   EXPECT_EQ(tip.farthest(std::chrono::seconds(1)), 184u);
@@ -103,7 +103,7 @@ TEST(LifeChain, SlotsFollowTheClockAndBridgeASuspension) {
   EXPECT_EQ(said.slot_time, 749'000u);
 }
 
-TEST(LifeChain, WithoutAFunctionNothingIsProved) {
+TEST(LifeChain, ProvesNothingWithoutAFunction) {
   LifeChain chain({}, {5});
   pdu::Presence said = presence_of(2, 22);
   chain.sign(said, {}, std::chrono::seconds(1));

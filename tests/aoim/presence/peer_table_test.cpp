@@ -20,11 +20,11 @@ Peer peer_of(std::uint16_t number, std::uint32_t epoch) {
   return peer;
 }
 
-TEST(PeerTable, FindsEachByIdAndByLifeWhileTheyComeGoAndRestart) {
+TEST(PeerTable, FindsPeersByIdAndEpochThroughRestarts) {
   PeerTable table(64);
   std::mt19937 random(7);
   std::uint32_t epoch = 100;
-  std::vector<std::uint32_t> lives(64, 0);  // by number; 0: not there
+  std::vector<std::uint32_t> lives(64, 0);  // by number; 0: absent
   for (int turn = 0; turn < 5000; ++turn) {
     const auto number = static_cast<std::uint16_t>(1 + random() % 63);
     const PeerId id = presence_of(number, 1).simulation;
@@ -58,7 +58,7 @@ FormerLife life_of(std::uint32_t epoch, int seconds_heard, bool returns) {
   return life;
 }
 
-TEST(FormerLives, RemembersLongestWhoMayComeBackAndWasHeardForLong) {
+TEST(FormerLives, KeepsLongKnownPeersThatMayReturn) {
   FormerLives lives;
   lives.add(life_of(1, 1000, true));
   lives.add(life_of(2, 2, true));
@@ -72,7 +72,7 @@ TEST(FormerLives, RemembersLongestWhoMayComeBackAndWasHeardForLong) {
   EXPECT_FALSE(lives.contains(2));
 }
 
-TEST(FormerLives, RemembersALifeOnceAndForgetsItWhenItIsTaken) {
+TEST(FormerLives, RemembersAnEpochOnceUntilItIsTaken) {
   FormerLives lives;
   lives.add(life_of(1, 10, true));
   lives.add(life_of(1, 20, true));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who holds which id: races, restarts, disputes, splits.
+// Ownership of ids: races, restarts, disputes, partitions.
 #include <gtest/gtest.h>
 
 #include "reckon/tests/aoim/support/segment.hpp"
@@ -18,7 +18,7 @@ struct Race {
 
 class PresenceRace : public testing::TestWithParam<Race> {};
 
-TEST_P(PresenceRace, AllAreDistinctAndMutuallySeenWithinTwoSecondsAndNobodyMovesAgain) {
+TEST_P(PresenceRace, AllAgreeOnDistinctIdsWithinTwoSeconds) {
   for (std::uint64_t seed = 1; seed <= reckon::test::tries(3U, 10U); ++seed) {
     Segment segment(seed, GetParam().loss);
     std::mt19937_64 random(seed);
@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(OneInstant, PresenceRace,
                                   std::to_string(static_cast<int>(100 * race.param.loss + 0.5));
                          });
 
-TEST(PresenceIdentity, ANewEpochUnderALiveIdWaitsAndIsThenARestart) {
+TEST(PresenceIdentity, NewEpochUnderLiveIdBecomesARestart) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   (void)presence.take_events();
@@ -61,7 +61,7 @@ TEST(PresenceIdentity, ANewEpochUnderALiveIdWaitsAndIsThenARestart) {
   EXPECT_EQ(events[0].kind, Kind::restarted);
   EXPECT_EQ(events[0].former_epoch, 22u);
 
-  presence.receive(presence_of(2, 22), seconds(4));  // a straggler of the former life
+  presence.receive(presence_of(2, 22), seconds(4));  // a late announcement of the former epoch
   presence.receive(leaving(presence_of(2, 22)), seconds(4));
   EXPECT_TRUE(presence.take_events().empty());
   EXPECT_EQ(presence.counts().former_life, 2u);
@@ -71,7 +71,7 @@ TEST(PresenceIdentity, ANewEpochUnderALiveIdWaitsAndIsThenARestart) {
   EXPECT_EQ(presence.standing(11), Standing::own);
 }
 
-TEST(PresenceIdentity, ARestartIsSeenWithinASecondAlsoWhenALastWordOfTheOldLifeComesLate) {
+TEST(PresenceIdentity, RestartIsSeenDespiteLateDatagrams) {
   for (int late_ms = -200; late_ms <= 200; late_ms += 25) {
     Presence presence({}, presence_of(1, 11));
     presence.receive(presence_of(2, 22), seconds(1));
@@ -85,7 +85,7 @@ TEST(PresenceIdentity, ARestartIsSeenWithinASecondAlsoWhenALastWordOfTheOldLifeC
   }
 }
 
-TEST(PresenceIdentity, OneWhoSpeaksIsNotBuriedByAnotherUnderItsId) {
+TEST(PresenceIdentity, AnActivePeerKeepsItsId) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   (void)presence.take_events();
@@ -99,19 +99,19 @@ TEST(PresenceIdentity, OneWhoSpeaksIsNotBuriedByAnotherUnderItsId) {
   EXPECT_EQ(kinds(presence), (std::vector<Kind>{Kind::disputed}));
 }
 
-TEST(PresenceIdentity, OneForgedAnnouncementBuriesNobodyWhoSpeaksLater) {
+TEST(PresenceIdentity, OneForgedAnnouncementDisplacesNobody) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   presence.receive(presence_of(2, 33, 0), seconds(1) + milliseconds(300));
   for (int ms = 700; ms < 20'000; ++ms) {
-    const bool speaks = ms == 700 || (ms >= 4500 && ms % 1000 == 500);  // three are lost between
+    const bool speaks = ms == 700 || (ms >= 4500 && ms % 1000 == 500);  // three are lost in between
     if (speaks) presence.receive(presence_of(2, 22), seconds(1) + milliseconds(ms));
     (void)presence.step(seconds(1) + milliseconds(ms));
     ASSERT_EQ(presence.epoch_of({7, 2}), 22u) << ms << " ms";
   }
 }
 
-TEST(PresenceIdentity, OneThatWasTakenForDeadAndSpeaksLaterIsHeardAgainWhenTheIdIsFree) {
+TEST(PresenceIdentity, DisplacedPeerReturnsWhenItsIdIsFree) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   presence.receive(presence_of(2, 33), seconds(2));
@@ -124,7 +124,7 @@ TEST(PresenceIdentity, OneThatWasTakenForDeadAndSpeaksLaterIsHeardAgainWhenTheId
   EXPECT_EQ(presence.epoch_of({7, 9}), 33u);
 }
 
-TEST(PresenceIdentity, AGoodByeConcernsItsEpochOnly) {
+TEST(PresenceIdentity, DepartureConcernsItsEpochOnly) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   presence.receive(presence_of(2, 33), seconds(1));
@@ -134,7 +134,7 @@ TEST(PresenceIdentity, AGoodByeConcernsItsEpochOnly) {
   EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
 }
 
-TEST(PresenceIdentity, AnotherNumberUnderAKnownEpochIsARename) {
+TEST(PresenceIdentity, NewNumberUnderKnownEpochIsARename) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   (void)presence.take_events();
@@ -147,7 +147,7 @@ TEST(PresenceIdentity, AnotherNumberUnderAKnownEpochIsARename) {
   EXPECT_EQ(presence.peers().size(), 1u);
 }
 
-TEST(PresenceIdentity, AnOvertakenAnnouncementOfALifeWithoutProofRenamesNobody) {
+TEST(PresenceIdentity, StaleAnnouncementWithoutProofRenamesNobody) {
   Presence presence({}, presence_of(1, 11));
   pdu::Presence former = presence_of(2, 22), latter = presence_of(5, 22);
   former.send_time = 1'000'000;
@@ -161,7 +161,7 @@ TEST(PresenceIdentity, LetsTheEstablishedKeepADisputedAddress) {
   Segment segment(1, 0.0);
   segment.add(presence_of(1, 900, 100));
   segment.run(seconds(10));
-  segment.add(presence_of(1, 5, 0));  // says it started earlier
+  segment.add(presence_of(1, 5, 0));  // claims an earlier start
   segment.run(milliseconds(300));
   EXPECT_EQ(segment[0].id(), (PeerId{7, 1}));
   EXPECT_NE(segment[1].id(), (PeerId{7, 1}));
@@ -170,7 +170,7 @@ TEST(PresenceIdentity, LetsTheEstablishedKeepADisputedAddress) {
   EXPECT_EQ(segment.count(1, Kind::identity_changed), 1u);
 }
 
-TEST(PresenceIdentity, ABystanderHearsBothPartiesAfterADispute) {
+TEST(PresenceIdentity, BystanderReceivesBothPartiesAfterADispute) {
   Segment segment(5, 0.0);
   segment.add(presence_of(3, 333, 50));
   segment.run(seconds(3));
@@ -183,8 +183,8 @@ TEST(PresenceIdentity, ABystanderHearsBothPartiesAfterADispute) {
   EXPECT_EQ(segment.count(Kind::timed_out), 0u);
 }
 
-// A stranger may claim what it likes: whom others hear keeps its id.
-TEST(PresenceIdentity, ForgedSeniorityEvictsNobodyWhomOthersHear) {
+// A stranger may claim anything: a peer that others receive keeps its id.
+TEST(PresenceIdentity, ForgedSeniorityEvictsNoReceivedPeer) {
   Segment segment(7, 0.0);
   segment.add(presence_of(1, 900, 100));
   segment.add(presence_of(2, 901, 100));
@@ -207,11 +207,11 @@ pdu::Presence numbered(pdu::Presence presence, std::uint8_t number) {
   return presence;
 }
 
-TEST(PresenceIdentity, TakesTheFirstNumberOfTheSceneThatNobodyHolds) {
+TEST(PresenceIdentity, TakesTheFirstFreeNumberOfTheScene) {
   Presence presence({}, numbered(presence_of(5, 11), pdu::kScenePeerWanted));
   presence.receive(numbered(presence_of(1, 21), 1), seconds(1));
   presence.receive(numbered(presence_of(2, 22), 3), seconds(1));
-  presence.receive(numbered(presence_of(3, 23), 0), seconds(1));  // is none of the scene's
+  presence.receive(numbered(presence_of(3, 23), 0), seconds(1));  // has no number of the scene
   pdu::Presence other = numbered(presence_of(4, 24), 2);
   other.scene_hash = 1;
   presence.receive(other, seconds(1));
@@ -219,7 +219,7 @@ TEST(PresenceIdentity, TakesTheFirstNumberOfTheSceneThatNobodyHolds) {
   EXPECT_EQ(presence.own().scene_peer, 2);
 }
 
-TEST(PresenceIdentity, ThoseThatWantANumberGetTheFreeOnesInTheOrderOfTheirIds) {
+TEST(PresenceIdentity, FreeNumbersGoInTheOrderOfIds) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Segment segment(seed, 0.05);
     for (std::uint32_t i = 0; i < 8; ++i) {
@@ -242,8 +242,8 @@ struct Split {
 
 class PresenceSplit : public testing::TestWithParam<Split> {};
 
-// Both halves have held the same ids for long when they meet.
-TEST_P(PresenceSplit, HealsWithOneRenameAtMostForEachAndNoneForTheMany) {
+// Both halves have held the same ids for a long time when they meet.
+TEST_P(PresenceSplit, HealsWithAtMostOneRenamePerPeer) {
   const auto [left, right] = GetParam();
   for (const double loss : {0.0, 0.2}) {
     for (std::uint64_t seed = 1; seed <= reckon::test::tries(4U, 10U); ++seed) {
@@ -274,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PresenceSplit,
                          testing::Values(Split{1, 1}, Split{2, 2}, Split{3, 1}, Split{4, 3},
                                          Split{8, 8}));
 
-TEST(PresenceClaim, OfOneThatIsSilentWhenItRisesLeavesNothingOverdue) {
+TEST(PresenceClaim, OfASilentClaimantLeavesNothingOverdue) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(1));
   (void)presence.step(seconds(1));
@@ -282,7 +282,7 @@ TEST(PresenceClaim, OfOneThatIsSilentWhenItRisesLeavesNothingOverdue) {
   for (const int ms : {4000, 5000, 6000}) (void)presence.step(milliseconds(ms));
   presence.note_alive(22, seconds(6));
   presence.receive(presence_of(2, 33), milliseconds(6100));
-  presence.note_alive(22, milliseconds(6400));  // it lives: the other waits for its silence
+  presence.note_alive(22, milliseconds(6400));  // it is alive: the other waits for its silence
   presence.receive(presence_of(2, 33), milliseconds(6450));
   for (const int ms : {7000, 8000, 8800}) (void)presence.step(milliseconds(ms));
   ASSERT_EQ(presence.epoch_of({7, 2}), 22u);
@@ -293,7 +293,7 @@ TEST(PresenceClaim, OfOneThatIsSilentWhenItRisesLeavesNothingOverdue) {
   EXPECT_GT(presence.next_step(), now);
 }
 
-TEST(PresenceClaim, OfTwoForAnIdThatIsFreedIsSettledInTheSameStep) {
+TEST(PresenceClaim, IsSettledInOneStepForFreedId) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(1));
   presence.receive(presence_of(2, 22), seconds(10));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A name stays with who had it: while it is cut off, when it comes back, and when its address
-// changes. The attacker hears what is said where he is, and speaks from an address of his own.
+// An identity stays with its owner: while it is cut off, when it returns, and when its address
+// changes. The attacker receives all datagrams at its place and sends from an address of its own.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t kVictim = 0, kPeers = 4, kBeside = 1;  // the attacker is beside this one
+constexpr std::size_t kVictim = 0, kPeers = 4, kBeside = 1;  // the attacker is next to this peer
 constexpr PeerId kName{7, 1};
 constexpr std::uint32_t kEpoch = 101;
 const SourceAddress kAttacker = source(66, 6666);
@@ -56,7 +56,7 @@ class Stolen : public testing::TestWithParam<Theft> {
     }
     return true;
   }
-  // How long it takes until that holds; `limit` where it does not.
+  // Time until that holds; `limit` if it does not.
   [[nodiscard]] nanoseconds known_after(const SourceAddress& at, nanoseconds limit) {
     const nanoseconds begin = segment_.now();
     while (!all_know_the_victim(at) && segment_.now() - begin < limit)
@@ -65,13 +65,13 @@ class Stolen : public testing::TestWithParam<Theft> {
   }
 
   Segment segment_;
-  pdu::Presence last_;  // of the victim, that the attacker heard
+  pdu::Presence last_;  // of the victim, as received by the attacker
   bool is_cut_ = false;
   std::size_t impostors_ = 0;
 };
 
-// The same epoch, as the attacker heard it, and guesses of what would come next.
-TEST_P(Stolen, TheVictimsEpochIsNotBelievedFromElsewhereHoweverLongItIsCutOff) {
+// The same epoch, as the attacker received it, and guesses of the next link.
+TEST_P(Stolen, VictimsEpochIsRefusedFromAnotherAddress) {
   const auto [outage_ms, attack_ms, gap_ms, seed] = GetParam();
   std::mt19937_64 random(seed);
   cut(true);
@@ -93,8 +93,8 @@ TEST_P(Stolen, TheVictimsEpochIsNotBelievedFromElsewhereHoweverLongItIsCutOff) {
   EXPECT_EQ(segment_.count(kVictim, Kind::identity_changed), 0u);
 }
 
-// A life of his own under the victim's name, which he proves as well as anybody.
-TEST_P(Stolen, TheNameGoesBackAtOnceFromALifeThatCameMeanwhile) {
+// An epoch of the attacker's own under the victim's id, correctly proved.
+TEST_P(Stolen, IdReturnsToItsOwnerAtOnce) {
   const auto [outage_ms, attack_ms, gap_ms, seed] = GetParam();
   LifeChain chain({scrambled, nullptr}, {static_cast<std::uint8_t>(99 + seed)});
   const auto speak = [&] {
@@ -106,7 +106,7 @@ TEST_P(Stolen, TheNameGoesBackAtOnceFromALifeThatCameMeanwhile) {
   cut(true);
   for (std::int64_t ms = 0; ms < outage_ms; ms += gap_ms) {
     speak();
-    if (ms > 3500) continue;  // its last word may have been 0.75 s before
+    if (ms > 3500) continue;  // its last datagram may have been sent 0.75 s earlier
     for (std::size_t i = 1; i < kPeers; ++i) EXPECT_EQ(segment_[i].epoch_of(kName), kEpoch) << ms;
   }
   cut(false);
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Outages, Stolen,
 
 class Moving : public Stolen {};
 
-TEST_F(Moving, HonestChangeOfAQuietPeerIsAcceptedWithinTwoSeconds) {
+TEST_F(Moving, QuietPeersMoveIsAcceptedWithinTwoSeconds) {
   nanoseconds longest{0};
   for (std::uint8_t i = 0; i < 40; ++i) {
     segment_.run(milliseconds(3000 + 131 * i));
@@ -152,7 +152,7 @@ TEST_F(Moving, ChangeDuringAnOutageIsAcceptedAfterIt) {
   EXPECT_LT(known_after(source(101), seconds(3)), seconds(2));
 }
 
-// Two cables that take turns, slower and faster than a change is accepted.
+// Two links that alternate, slower and faster than a change is accepted.
 TEST_F(Moving, BetweenTwoAddressesNeitherDropsNorRenames) {
   for (const std::int64_t every_ms : {2500, 700, 150}) {
     for (int i = 0; i < 20; ++i) {
@@ -174,15 +174,16 @@ class Relayed : public Stolen {
   Relayed() : Stolen(0.2, 9) {}
 };
 
-// He says again at once what the victim says, which one word in five does not reach.
-TEST_F(Relayed, WhoRepeatsWhatItHearsGetsNoNameWhileItsOwnerSpeaks) {
+// The attacker repeats all announcements of the victim at once. One in five of the victim's own is
+// lost.
+TEST_F(Relayed, RepeaterGetsNoIdWhileItsOwnerSends) {
   segment_.on_said = [this](std::size_t from, const pdu::Presence& said) {
     if (from == kVictim) segment_.inject(said, kAttacker, kBeside);
   };
   for (int ms = 0; ms < 60'000; ms += 50) {
     segment_.run(milliseconds(50));
     for (std::size_t i = 1; i < kPeers; ++i) {
-      segment_[i].note_alive(kEpoch, segment_.now());  // its hand
+      segment_[i].note_alive(kEpoch, segment_.now());  // updates of its hand
       EXPECT_NE(segment_[i].source_of(kEpoch), kAttacker) << ms;
     }
   }
@@ -203,7 +204,7 @@ TEST_F(Moving, OneWayOutageGivesNothingToARelay) {
   EXPECT_TRUE(all_know_the_victim(Segment::source_of(kVictim)));
 }
 
-TEST_F(Moving, AForgedWordFromTheVictimsOwnAddressIsRefusedWithoutItsProof) {
+TEST_F(Moving, ForgedDepartureFromVictimsAddressNeedsProof) {
   for (int i = 0; i < 10; ++i) {
     pdu::Presence forged = last_;
     forged.chain_number += 1;
@@ -215,7 +216,7 @@ TEST_F(Moving, AForgedWordFromTheVictimsOwnAddressIsRefusedWithoutItsProof) {
   }
 }
 
-TEST_F(Moving, AGoodByeOfAnEarlierTimeSaidAgainTakesNobodyAway) {
+TEST_F(Moving, ReplayedOldDepartureRemovesNobody) {
   pdu::Presence goodbye;
   segment_.on_said = [&](std::size_t from, const pdu::Presence& said) {
     if (from == 3) goodbye = said;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-TEST(Presence, AnnouncesAtOnceEverMoreRarelyAtFirstThenEverySecond) {
+TEST(Presence, AnnouncesAtOnceThenRarelyThenEverySecond) {
   Presence presence({}, presence_of(1, 11));
   EXPECT_TRUE(presence.step(seconds(1)).empty()) << "not started";
   presence.start(seconds(2));
@@ -36,7 +36,7 @@ pdu::PeersHeard list_of(std::uint32_t epoch, const Octets& epochs) {
   return list;
 }
 
-// Whether one whom we have met at 20 ms hears us late, where it lists `early` after our
+// Whether a peer received at 20 ms starts to receive us late: it lists `early` after our
 // announcement at 100 ms, and us at 300 ms.
 bool hears_late(const Octets& early) {
   Presence presence({}, presence_of(1, 11));
@@ -55,14 +55,14 @@ bool hears_late(const Octets& early) {
   return late;
 }
 
-TEST(Presence, TellsOfOneThatHearsUsOnlyAfterWhatWeIntroduced) {
+TEST(Presence, ReportsAPeerThatReceivesUsLate) {
   EXPECT_TRUE(hears_late({}));
   EXPECT_TRUE(hears_late(record_octets(pdu::PeerEpoch{33})));
   EXPECT_FALSE(hears_late(record_octets(pdu::PeerEpoch{11})));
 }
 
-// When it announces itself [ms after the start], where another, heard at 20 ms, lists `epochs` at
-// 120 ms.
+// Own announcements [ms after the start], if another peer, received at 20 ms, lists `epochs` at 120
+// ms.
 std::vector<std::int64_t> announced_to(const Octets& epochs) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(2));
@@ -76,22 +76,22 @@ std::vector<std::int64_t> announced_to(const Octets& epochs) {
   return announced;
 }
 
-TEST(Presence, SaysNothingTwiceToThoseWhoListIt) {
+TEST(Presence, RepeatsNothingToPeersThatListIt) {
   EXPECT_EQ(announced_to(record_octets(pdu::PeerEpoch{11})),
             (std::vector<std::int64_t>{0, 100, 1100}));
 }
 
-TEST(Presence, RepeatsItselfWhileOneThatItHearsDoesNotHearIt) {
+TEST(Presence, RepeatsItselfWhileReceivedPeerOmitsIt) {
   EXPECT_EQ(announced_to({}), (std::vector<std::int64_t>{0, 100, 250, 550, 1050, 1550}));
 }
 
-TEST(Presence, RepeatsItselfWhileAnotherHearsOneThatItDoesNot) {
+TEST(Presence, RepeatsItselfWhileAnotherListsAnUnknownPeer) {
   const Octets both = record_octets(pdu::PeerEpoch{11}) + record_octets(pdu::PeerEpoch{33});
   EXPECT_EQ(announced_to(both), (std::vector<std::int64_t>{0, 100, 250, 550, 1050, 1550}));
 }
 
-// When it lists whom it hears, after its first second, where it says
-// something else every `other_ms`.
+// Times of its lists of received peers after the first second, if it sends something else every
+// `other_ms`.
 std::vector<std::int64_t> listed_beside(int other_ms) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(2));
@@ -110,11 +110,11 @@ std::vector<std::int64_t> listed_beside(int other_ms) {
   return listed;
 }
 
-TEST(Presence, IsNeverSilentForMoreThanThreeQuartersOfAHeartbeat) {
+TEST(Presence, IsNeverSilentForAWholeHeartbeat) {
   EXPECT_EQ(listed_beside(100'000), (std::vector<std::int64_t>{1850, 2850, 3850, 4850}));
 }
 
-TEST(Presence, ListsWhomItHearsWithItsAnnouncementsWhereItSpeaksAnyway) {
+TEST(Presence, SendsItsListWithAnnouncementsWhenOtherwiseActive) {
   EXPECT_EQ(listed_beside(300), (std::vector<std::int64_t>{1100, 2100, 3100, 4100}));
 }
 
@@ -144,11 +144,11 @@ TEST(Presence, DoesNotStormWhenManyNewcomersAppear) {
   EXPECT_EQ(presence.peers().size(), 200u);
 }
 
-TEST(Presence, LosesAPeerAfterSixMissedHeartbeatsAndNotBefore) {
+TEST(Presence, LosesAPeerAfterSixMissedHeartbeats) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(10));
   (void)presence.take_events();
-  (void)presence.step(seconds(16) + milliseconds(100));  // the sixth may still be on its way
+  (void)presence.step(seconds(16) + milliseconds(100));  // the sixth may still arrive
   EXPECT_EQ(presence.peers().size(), 1u);
   EXPECT_EQ(presence.next_step(), seconds(16) + milliseconds(100) + nanoseconds(1));
   (void)presence.step(seconds(16) + milliseconds(101));
@@ -168,9 +168,9 @@ TEST(Presence, IsDocumentedAsItIs) {
   EXPECT_EQ(text.find("Three missed"), text.npos);
 }
 
-TEST(Presence, LosesNobodyOnALinkThatLosesTwentyPercent) {
-  // Six announcements in a row are lost once in 16,000; with 2 peers over 100 s the seed shows
-  // none.
+TEST(Presence, LosesNobodyAtTwentyPercentLoss) {
+  // Six announcements in a row are lost once in 16,000; this seed shows no such case with 2 peers
+  // over 100 s.
   Segment segment(3, 0.20);
   for (std::uint16_t i = 1; i <= 2; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(100));
@@ -178,7 +178,7 @@ TEST(Presence, LosesNobodyOnALinkThatLosesTwentyPercent) {
   EXPECT_EQ(segment.count(Kind::newcomer), 2u);
 }
 
-TEST(Presence, SaysGoodBye) {
+TEST(Presence, DepartsAtOnceOnStop) {
   Segment segment(1, 0.0);
   for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(2));
@@ -191,7 +191,7 @@ TEST(Presence, SaysGoodBye) {
   EXPECT_EQ(segment.count(Kind::timed_out), 0u);
 }
 
-TEST(Presence, TellsAnotherSceneOnceAndDoesNotJoinIt) {
+TEST(Presence, ReportsAnotherSceneOnceWithoutJoining) {
   Presence presence({}, presence_of(1, 11));
   pdu::Presence other = presence_of(2, 22);
   other.scene_hash = 1;
@@ -230,7 +230,7 @@ TEST(Presence, CountsPeersBeyondItsTable) {
   EXPECT_EQ(presence.counts().table_full, 5u);
 }
 
-TEST(Presence, SaysWhoMaySpeakForAnIdAndFromWhere) {
+TEST(Presence, GivesTheOwnerAndSourceOfAnId) {
   Presence presence({}, presence_of(1, 11));
   SourceAddress from;
   from.octets[15] = 9;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whom presence believes, how many of them, and who hears whom.
+// Trust of presence: accepted sources, limits of the table, and mutual reception.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-TEST(PresencePins, NothingIsBelievedOfAPeerFromAnotherAddressOrPort) {
+TEST(PresencePins, RefuseAPeerFromAnotherAddressOrPort) {
   for (const SourceAddress& other : {source(3), source(2, 4001), SourceAddress{}}) {
     Presence presence({}, presence_of(1, 11));
     presence.receive(presence_of(2, 22), seconds(1), source(2));
@@ -37,7 +37,7 @@ TEST(PresencePins, NothingIsBelievedOfAPeerFromAnotherAddressOrPort) {
   }
 }
 
-TEST(PresencePins, WhoProvesNothingMayMoveWhenItsOldAddressHasBeenSilentForThreeSeconds) {
+TEST(PresencePins, UnprovedPeerMayMoveAfterThreeSilentSeconds) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1), source(2));
   presence.receive(presence_of(2, 22), seconds(4), source(3));
@@ -48,7 +48,7 @@ TEST(PresencePins, WhoProvesNothingMayMoveWhenItsOldAddressHasBeenSilentForThree
   EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
 }
 
-TEST(PresencePins, AnUnknownAddressPinsNothing) {
+TEST(PresencePins, UnknownAddressPinsNothing) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1));
   presence.receive(presence_of(2, 22), seconds(2), source(2));
@@ -56,14 +56,14 @@ TEST(PresencePins, AnUnknownAddressPinsNothing) {
   EXPECT_EQ(presence.counts().impostors, 0u);
 }
 
-// Somebody who has proved to be boot `boot`, at host `host`.
+// A peer that has proved to be boot `boot`, at host `host`.
 SourceAddress sealed_source(std::uint8_t host, std::uint64_t boot) {
   SourceAddress from = source(host);
   from.boot = boot;
   return from;
 }
 
-TEST(PresencePins, ASealedPeerIsItsBootFromWhereverItSpeaks) {
+TEST(PresencePins, SealedPeerIsItsBootFromAnyAddress) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1), sealed_source(2, 7));
   presence.receive(presence_of(2, 22), seconds(1) + milliseconds(1), sealed_source(3, 7));
@@ -96,7 +96,7 @@ TEST(PresenceRoom, OneSenderCannotFillTheTable) {
   EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
 }
 
-TEST(PresenceRoom, OneProcessIsNotMoreThanAnExerciseOfPeers) {
+TEST(PresenceRoom, OneSourceHoldsALimitedNumberOfRows) {
   PresenceConfig config;
   Presence presence(config, presence_of(1, 11));
   for (std::uint16_t i = 0; i < 200; ++i) {
@@ -106,7 +106,7 @@ TEST(PresenceRoom, OneProcessIsNotMoreThanAnExerciseOfPeers) {
   EXPECT_EQ(presence.peers().size(), config.per_source);
 }
 
-TEST(PresenceRoom, WhoAnnouncedItselfOnceGoesForOneWhoComes) {
+TEST(PresenceRoom, NewcomersReplacePeersAnnouncedOnlyOnce) {
   PresenceConfig config;
   config.capacity = 8;
   Presence presence(config, presence_of(1, 11));
@@ -124,7 +124,7 @@ TEST(PresenceRoom, WhoAnnouncedItselfOnceGoesForOneWhoComes) {
   EXPECT_EQ(presence.peers().size(), 8u);
 }
 
-// Peers of invented addresses, one of each, that go on announcing themselves.
+// Peers of invented addresses, one of each, which keep announcing themselves.
 void announce_invented(Presence& presence, std::uint32_t count, nanoseconds now) {
   for (std::uint32_t i = 0; i < count; ++i) {
     SourceAddress from = source(static_cast<std::uint8_t>(i % 250));
@@ -133,7 +133,7 @@ void announce_invented(Presence& presence, std::uint32_t count, nanoseconds now)
   }
 }
 
-TEST(PresenceRoom, AsManyInventedPeersAsThereAreRowsDoNotShutANewcomerOutNorEvictWhoTells) {
+TEST(PresenceRoom, TableFullOfForgedPeersAdmitsNewcomers) {
   const PresenceConfig config;
   Presence presence(config, presence_of(1, 11));
   presence.start(seconds(1));
@@ -155,7 +155,7 @@ TEST(PresenceRoom, AsManyInventedPeersAsThereAreRowsDoNotShutANewcomerOutNorEvic
   EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
 }
 
-TEST(PresenceRoom, AThousandPeersOfSomeHostsAreKnown) {
+TEST(PresenceRoom, HoldsAThousandPeersOfSomeHosts) {
   Presence presence({}, presence_of(1, 11));
   for (std::uint16_t i = 0; i < 1000; ++i) {
     const auto port = static_cast<std::uint16_t>(4000 + i);
@@ -174,7 +174,7 @@ TEST(PresenceRoom, AThousandPeersOfSomeHostsAreKnown) {
   }
 }
 
-TEST(PresenceRoom, AFloodOfClaimsToTheIdsOfOthersIsBounded) {
+TEST(PresenceRoom, ClaimFloodIsBounded) {
   const PresenceConfig config;
   Presence presence(config, presence_of(1, 11));
   presence.start(seconds(1));
@@ -186,7 +186,7 @@ TEST(PresenceRoom, AFloodOfClaimsToTheIdsOfOthersIsBounded) {
   EXPECT_EQ(presence.counts().table_full, config.claims);
 }
 
-TEST(PresenceRoom, AFloodOfNamesIsAnsweredTenTimesASecondAtMost) {
+TEST(PresenceRoom, NameFloodIsAnsweredTenTimesASecond) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(0));
   std::size_t announced = 0;
@@ -201,7 +201,7 @@ TEST(PresenceRoom, AFloodOfNamesIsAnsweredTenTimesASecondAtMost) {
   EXPECT_LE(announced, 100u);
 }
 
-TEST(PresenceHearing, ASleeperCallsNobodySilentAndSaysThatItSlept) {
+TEST(PresenceHearing, SuspendedPeerReportsOnlyItsOwnSleep) {
   Segment segment(1, 0.0);
   for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(5));
@@ -217,7 +217,7 @@ TEST(PresenceHearing, ASleeperCallsNobodySilentAndSaysThatItSlept) {
   EXPECT_TRUE(segment.agree());
 }
 
-TEST(PresenceHearing, ASleeperWithoutAQueueGivesTheOthersTheirTime) {
+TEST(PresenceHearing, SuspendedPeerWithoutAQueueGrantsOthersTime) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(0));
   (void)presence.step(seconds(0));
@@ -232,7 +232,7 @@ TEST(PresenceHearing, ASleeperWithoutAQueueGivesTheOthersTheirTime) {
   EXPECT_EQ(presence.peers().size(), 1u);
 }
 
-TEST(PresenceHearing, WhatWaitedInTheQueueOfASleeperMakesNobodyHeardInTheFuture) {
+TEST(PresenceHearing, QueuedDatagramsAreNotDatedInTheFuture) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(0));
   presence.receive(presence_of(2, 22), milliseconds(500));
@@ -242,7 +242,7 @@ TEST(PresenceHearing, WhatWaitedInTheQueueOfASleeperMakesNobodyHeardInTheFuture)
   EXPECT_EQ(presence.peers()[0].last_heard, seconds(6));
 }
 
-TEST(PresenceHearing, BothSidesOfAOneWayCutSeeItWithinThreeSecondsAndWhenItIsOver) {
+TEST(PresenceHearing, BothSidesReportOneWayCutAndEnd) {
   Segment segment(2, 0.0);
   for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(5));
@@ -259,7 +259,7 @@ TEST(PresenceHearing, BothSidesOfAOneWayCutSeeItWithinThreeSecondsAndWhenItIsOve
   EXPECT_EQ(segment.count(Kind::unheard), 1u) << "told once";
 }
 
-TEST(PresenceHearing, NobodyIsCalledUnheardOnAGoodNetwork) {
+TEST(PresenceHearing, ReportsNobodyUnheardOnAGoodNetwork) {
   Segment segment(3, 0.01);
   for (std::uint16_t i = 1; i <= 8; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(60));
@@ -277,8 +277,8 @@ PresenceConfig in_parts() {
   return config;
 }
 
-// Else each of 244 to 256 peers would send all others two datagrams a second.
-TEST(PresenceParts, AndAWholeListFitTheDatagramOfAnAnnouncementAndATimeExchange) {
+// Otherwise each of 244 to 256 peers would send two datagrams a second to all others.
+TEST(PresenceParts, FitBesideAnnouncementAndTimeExchange) {
   const PresenceConfig config;
   const AggregatorConfig bundle;
   const std::size_t room = bundle.payload_limit - bundle.reserved - pdu::kDatagramTrailerSize;
@@ -291,7 +291,7 @@ TEST(PresenceParts, AndAWholeListFitTheDatagramOfAnAnnouncementAndATimeExchange)
   EXPECT_LE(kFixed + 24 * kEcho + config.part * kHeardEpoch, room);
 }
 
-TEST(PresenceParts, FollowEachOtherUntilAllWhomItHearsAreTold) {
+TEST(PresenceParts, CoverAllReceivedPeersInOrder) {
   Presence presence(in_parts(), presence_of(1, 11));
   presence.start(seconds(1));
   std::set<std::uint32_t> told;
@@ -321,7 +321,7 @@ TEST(PresenceParts, FollowEachOtherUntilAllWhomItHearsAreTold) {
   EXPECT_EQ(told.size(), 8u);
 }
 
-TEST(PresenceParts, SayNothingOfThoseWhomTheyDoNotCover) {
+TEST(PresenceParts, MakeNoStatementBeyondTheirRange) {
   Presence presence({}, presence_of(1, 500));
   presence.start(seconds(1));
   presence.receive(presence_of(2, 22), seconds(1), source(2));
@@ -349,7 +349,7 @@ TEST(PresenceParts, SayNothingOfThoseWhomTheyDoNotCover) {
   EXPECT_EQ(hears(1, 500, pdu::kPeersHeardAbove, 6), std::vector<Kind>{Kind::heard_again});
 }
 
-TEST(PresenceParts, NobodyIsCalledUnheardOnAGoodNetwork) {
+TEST(PresenceParts, ReportNobodyUnheardOnAGoodNetwork) {
   Segment segment(3, 0.01, in_parts());
   for (std::uint16_t i = 1; i <= 12; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(60));
@@ -358,12 +358,12 @@ TEST(PresenceParts, NobodyIsCalledUnheardOnAGoodNetwork) {
   EXPECT_TRUE(segment.agree());
 }
 
-TEST(PresenceParts, BothSidesOfAOneWayCutSeeItWithinARoundMore) {
+TEST(PresenceParts, ReportAOneWayCutOneRoundLater) {
   Segment segment(2, 0.0, in_parts());
   for (std::uint16_t i = 1; i <= 7; ++i) segment.add(presence_of(i, 100u + i));
   segment.run(seconds(10));
   segment.cut([](std::size_t from, std::size_t to) { return from == 0 && to == 1; });
-  segment.run(seconds(3 + 2));  // six heard are three parts
+  segment.run(seconds(3 + 2));  // six received peers take three parts
   EXPECT_EQ(segment.count(0, Kind::unheard), 1u);
   EXPECT_EQ(segment.count(1, Kind::quiet), 1u);
   segment.cut({});
@@ -373,8 +373,8 @@ TEST(PresenceParts, BothSidesOfAOneWayCutSeeItWithinARoundMore) {
   EXPECT_EQ(segment.count(Kind::unheard), 1u);
 }
 
-// Halves that met under the same ids, each of them a peer of one half and one of the other.
-TEST(PresenceParts, HalvesThatMeetAgreeOnWhoKeepsItsId) {
+// Halves that meet under the same ids; each id has a peer in either half.
+TEST(PresenceParts, MeetingHalvesAgreeOnOwnersOfIds) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     Segment segment(seed, 0.0, in_parts());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who keeps an id that two have held for long: what witnesses say, and when that is enough. And
-// what becomes of claims of those that have fallen silent.
+// Owner of an id that two peers have held for a long time: statements of witnesses, and when they
+// suffice; and claims of peers that have fallen silent.
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -16,7 +16,8 @@ using namespace test;
 constexpr std::uint32_t kOwn = 900, kRival = 66, kWitness = 22;
 constexpr PeerId kId{7, 1};
 
-// A peer that has long held its id, and one that claims the same and says that it started before.
+// A peer that has held its id for a long time, and one that claims the same id with an earlier
+// start.
 class Dispute : public testing::Test {
  protected:
   Dispute() : presence_({}, presence_of(1, kOwn, 100)) { presence_.start(now_); }
@@ -46,7 +47,7 @@ class Dispute : public testing::Test {
   Presence presence_;
 };
 
-TEST_F(Dispute, IsLostInHalfTheTimeWhereAllWitnessesNameTheRival) {
+TEST_F(Dispute, IsLostEarlierByUnanimousWitnesses) {
   witness_comes();
   run(3000, false);
   rival();
@@ -58,7 +59,7 @@ TEST_F(Dispute, IsLostInHalfTheTimeWhereAllWitnessesNameTheRival) {
   EXPECT_NE(presence_.id(), kId);
 }
 
-TEST_F(Dispute, WaitsForAWitnessWhoHasSaidNothingYet) {
+TEST_F(Dispute, WaitsForAWitnessWithoutAListYet) {
   run(3000, false);
   run(3000 - 500, true);
   witness_comes();
@@ -69,7 +70,7 @@ TEST_F(Dispute, WaitsForAWitnessWhoHasSaidNothingYet) {
   EXPECT_EQ(presence_.id(), kId);
 }
 
-TEST_F(Dispute, WaitsForAWitnessWhoWasCutOffAndHasNotHeardAnybodyAgain) {
+TEST_F(Dispute, WaitsForAWitnessThatWasCutOff) {
   witness_comes();
   run(3000, false);
   witness_lists({});
@@ -80,14 +81,14 @@ TEST_F(Dispute, WaitsForAWitnessWhoWasCutOffAndHasNotHeardAnybodyAgain) {
   EXPECT_NE(presence_.id(), kId);
 }
 
-TEST_F(Dispute, IsSettledBySeniorityWhereNobodyTellsWhomHeHears) {
+TEST_F(Dispute, IsSettledBySeniorityWithoutLists) {
   witness_comes();
   run(3000, false);
   run(3000, true);
   EXPECT_NE(presence_.id(), kId);
 }
 
-TEST_F(Dispute, IsNotLostToARivalThatHasFallenSilent) {
+TEST_F(Dispute, IsNotLostToASilentRival) {
   witness_comes();
   run(3000, false);
   run(1100, true);
@@ -97,8 +98,8 @@ TEST_F(Dispute, IsNotLostToARivalThatHasFallenSilent) {
   EXPECT_EQ(presence_.id(), kId);
 }
 
-// It is nearer to the witnesses than we are, and is always the first to be heard under our new id.
-TEST(PresenceFollowed, AStrangerWhoIsBelievedByAllMakesUsMoveSixTimesInFourteenSeconds) {
+// The rival is nearer to the witnesses and is always received first under our new id.
+TEST(PresenceFollowed, RivalBelievedByAllCausesFewMoves) {
   Presence presence({}, presence_of(1, kOwn, 100));
   presence.start(seconds(50));
   std::size_t moves = 0;
@@ -121,8 +122,8 @@ TEST(PresenceFollowed, AStrangerWhoIsBelievedByAllMakesUsMoveSixTimesInFourteenS
   EXPECT_GE(moves, 3u);
 }
 
-// It hears of the rival before its own two seconds are over, and would give way after them.
-TEST(PresenceClaim, ANewcomerJustBeforeAnIdIsHeldForLongDoesNotGetIt) {
+// The newcomer receives the rival before its own two seconds are over, and would yield after them.
+TEST(PresenceClaim, NewcomerDoesNotGetALongHeldId) {
   for (const bool rival_has_held : {false, true}) {
     Presence presence({}, presence_of(1, kOwn, 100));
     presence.start(seconds(10));
@@ -136,8 +137,8 @@ TEST(PresenceClaim, ANewcomerJustBeforeAnIdIsHeldForLongDoesNotGetIt) {
   }
 }
 
-// Otherwise who waits for next_step() would not wait at all for as long as the claim is kept.
-TEST(PresenceClaim, NoStepIsOverdueAfterAClaimThatEndedWhileWeStoodStill) {
+// Otherwise a caller that waits for next_step() would not wait at all while the claim is kept.
+TEST(PresenceClaim, NothingIsOverdueAfterASuspension) {
   Presence presence({}, presence_of(1, kOwn));
   presence.receive(presence_of(2, kWitness), seconds(1));
   presence.receive(presence_of(2, kRival), seconds(2));
@@ -150,7 +151,7 @@ TEST(PresenceClaim, NoStepIsOverdueAfterAClaimThatEndedWhileWeStoodStill) {
   EXPECT_GT(presence.next_step(), now);
 }
 
-TEST(PresenceClaim, AHolderThatHasAnsweredIsNotBuriedForASecondOfSilence) {
+TEST(PresenceClaim, HolderThatAnsweredSurvivesASecondOfSilence) {
   Presence presence({}, presence_of(1, kOwn));
   presence.receive(presence_of(2, kWitness), seconds(1));
   for (int ms = 0; ms <= 1500; ++ms) {
@@ -162,7 +163,7 @@ TEST(PresenceClaim, AHolderThatHasAnsweredIsNotBuriedForASecondOfSilence) {
   EXPECT_EQ(presence.epoch_of({7, 2}), kWitness);
 }
 
-TEST(PresenceClaim, AnIdThatBecomesFreeIsNotGivenToOneThatHasFallenSilent) {
+TEST(PresenceClaim, SilentClaimantDoesNotGetAFreedId) {
   Presence presence({}, presence_of(1, kOwn));
   presence.receive(presence_of(2, kWitness), seconds(1));
   presence.receive(presence_of(2, kRival), seconds(2));

@@ -20,7 +20,7 @@ pdu::Presence announced(std::uint32_t number, std::uint8_t secret) {
   return said;
 }
 
-TEST(ProofJudge, ManyWrongProofsDoNotKeepTheOwnerFromItsOwn) {
+TEST(ProofJudge, WrongProofsDoNotBlockTheOwnersProof) {
   const auto now = std::chrono::seconds(100);
   const LifeTip tip(announced(0, 1), std::chrono::seconds(0));
   const pdu::Presence far = announced(1600, 1), near = announced(48, 1),
@@ -34,7 +34,7 @@ TEST(ProofJudge, ManyWrongProofsDoNotKeepTheOwnerFromItsOwn) {
   EXPECT_EQ(proofs.judge(tip, far, now + std::chrono::seconds(1), false), Opening::newer);
 }
 
-TEST(ProofJudge, WithoutAFunctionNothingIsProved) {
+TEST(ProofJudge, ProvesNothingWithoutAFunction) {
   ProofJudge proofs(nullptr);
   const LifeTip tip(announced(0, 1), std::chrono::seconds(0));
   EXPECT_EQ(proofs.judge(tip, announced(1, 1), std::chrono::seconds(1), false), Opening::none);

@@ -100,7 +100,7 @@ inline pdu::Presence presence_of(std::uint16_t application, std::uint32_t epoch,
   return presence;
 }
 
-/// Stands for a one-way function: nobody here turns it round.
+/// Substitute for a one-way function: no test inverts it.
 inline pdu::ChainLink scrambled(const pdu::ChainLink& link, std::uint32_t number) noexcept {
   std::uint64_t state = 0x9E3779B97F4A7C15u * (number + 1u);
   pdu::ChainLink value{};
@@ -114,7 +114,7 @@ inline pdu::ChainLink scrambled(const pdu::ChainLink& link, std::uint32_t number
   return value;
 }
 
-/// Stands for a keyed hash function.
+/// Substitute for a keyed hash function.
 inline pdu::ChainLink scrambled_with(const pdu::ChainLink& key,
                                      std::span<const std::byte> octets) noexcept {
   pdu::ChainLink value = key;

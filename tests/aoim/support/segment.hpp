@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Presence objects on a multicast segment that loses, delays and cuts, on a clock of its own.
+// Presence objects on a multicast segment with loss, delay and cuts, on its own clock.
 #pragma once
 
 #include <algorithm>
@@ -39,15 +39,15 @@ inline pdu::Presence leaving(pdu::Presence presence) {
   return presence;
 }
 
-/// What was told, kinds alone.
+/// Kinds of the pending events.
 inline std::vector<Kind> kinds(Presence& presence) {
   std::vector<Kind> all;
   for (const PresenceEvent& event : presence.take_events()) all.push_back(event.kind);
   return all;
 }
 
-/// Peers on a multicast segment: what each says reaches everyone, the sender too, after 1 to 5 ms.
-/// All can prove who they are.
+/// Peers on a multicast segment: each datagram reaches everyone, the sender too, after 1 to 5 ms.
+/// All can prove their identity.
 class Segment {
  public:
   Segment(std::uint64_t seed, double loss, const PresenceConfig& config = {})
@@ -67,24 +67,24 @@ class Segment {
     return *peers_.back();
   }
   void kill(std::size_t index) { state_[index] = State::dead; }
-  /// It stands still; what is sent to it waits.
+  /// Suspends a peer; datagrams to it wait.
   void pause(std::size_t index) { state_[index] = State::stands; }
   void go_on(std::size_t index) { state_[index] = State::runs; }
-  /// Nothing of `from` reaches `to` as long as the function says so.
+  /// No datagram of `from` reaches `to` while the function returns true.
   void cut(std::function<bool(std::size_t from, std::size_t to)> is_cut) {
     is_cut_ = std::move(is_cut);
   }
 
-  /// From now on it speaks from there.
+  /// From now on it sends from this address.
   void move(std::size_t index, const SourceAddress& to) { sources_[index] = to; }
-  /// Somebody who is no peer says this, from there, to all whom peer `beside` reaches.
+  /// Sends an announcement of a non-peer from this address to all peers that peer `beside` reaches.
   void inject(const pdu::Presence& said, const SourceAddress& from, std::size_t beside) {
     for (std::size_t to = 0; to < peers_.size(); ++to) {
       if (is_cut_ && is_cut_(beside, to)) continue;
       flights_.push_back({now_ + milliseconds(1), kNobody, to, from, said});
     }
   }
-  /// Is told what peers announce, when they do, and of what happens to them.
+  /// Called with the announcements of peers when they are sent, and with the events of peers.
   std::function<void(std::size_t from, const pdu::Presence&)> on_said = [](auto, const auto&) {};
   std::function<void(std::size_t to, const PresenceEvent&)> on_event = [](auto, const auto&) {};
 
@@ -101,7 +101,7 @@ class Segment {
     for (const auto& [key, count] : events_) sum += key.second == kind ? count : 0;
     return sum;
   }
-  /// Whether all that live have different ids and each knows all others by theirs.
+  /// Whether all live peers have distinct ids and each knows all others by theirs.
   bool agree() const {
     std::set<PeerId> ids;
     std::vector<std::size_t> alive;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Managers of interest areas on a segment that loses nothing, with a clock of its own.
+// Area-of-interest managers on a lossless segment with its own clock.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ struct World {
   void run(nanoseconds length) {
     for (const nanoseconds end = now + length; now < end;) step();
   }
-  /// Each of the first `count` says where it is, as entity {7, its place from 1, 1}.
+  /// Each of the first `count` members sends its position, as entity {7, its place from 1, 1}.
   void let_speak(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       pdu::EntityState state = entity_state(1);
@@ -69,7 +69,7 @@ struct World {
       members[i].manager->send(kCellTier, StatePayload{state}, members[i].place, now);
     }
   }
-  /// How often a member has heard of entity 7:1:`entity`.
+  /// Number of received updates of entity 7:1:`entity` at a member.
   [[nodiscard]] std::size_t heard(std::size_t member, std::uint16_t entity) const {
     const auto& used = members[member].used;
     return static_cast<std::size_t>(

@@ -16,7 +16,8 @@ namespace {
 
 using std::chrono::seconds;
 
-// What one step asks a peer that knows a request by who asked and when, cell by cell.
+// Requests of one step as seen by a peer that identifies a request by sender and time, cell by
+// cell.
 class Listener {
  public:
   std::vector<pdu::CellIndex> hear(JoinAnnouncer& announcer, seconds now) {
@@ -41,7 +42,7 @@ class Listener {
 using Cells = std::vector<pdu::CellIndex>;
 
 // A leader that gives up cells asks for each of them, in one step or in several at one instant.
-TEST(JoinAnnouncer, GivesAllRequestsOfOneInstantTimesOfTheirOwn) {
+TEST(JoinAnnouncer, GivesRequestsOfOneInstantDistinctTimes) {
   JoinAnnouncer announcer(TierTable({}, 16), 16);
   Listener listener;
   announcer.ask_once(kCellTier, {1, 2});
@@ -56,7 +57,7 @@ TEST(JoinAnnouncer, GivesAllRequestsOfOneInstantTimesOfTheirOwn) {
   EXPECT_EQ(listener.hear(announcer, seconds(1)), (Cells{{9, 9}})) << "after one that was left";
 }
 
-TEST(JoinAnnouncer, SaysAThousandCellsThatWereGivenUpInRequestsOfTheirOwn) {
+TEST(JoinAnnouncer, SplitsAThousandReleasedCellsIntoRequests) {
   JoinAnnouncer announcer(TierTable({}, 1000), 1000);
   Listener listener;
   for (int i = 0; i < 1000; ++i) announcer.ask_once(kCellTier, {i, -i});

@@ -16,7 +16,7 @@ std::vector<const TierKind*> kinds(std::size_t by_distance, std::size_t by_touch
   return result;
 }
 
-TEST(TierTable, HasTheCellAloneWhereNothingElseIsAskedFor) {
+TEST(TierTable, HasOnlyTheCellByDefault) {
   const TierTable tiers({}, 4);
   EXPECT_EQ(tiers.count(), 1u);
   for (std::uint16_t group = 0; group <= 4; ++group) {
@@ -28,7 +28,7 @@ TEST(TierTable, HasTheCellAloneWhereNothingElseIsAskedFor) {
   EXPECT_EQ(tiers.row_of(kCellTier), 0u);
 }
 
-TEST(TierTable, GivesEachTierAndCellAGroupOfItsOwn) {
+TEST(TierTable, GivesEachTierAndCellItsOwnGroup) {
   for (const std::size_t touch : {0u, 1u}) {
     for (const std::size_t rows : {0u, 1u, 3u}) {
       constexpr std::size_t kPool = 7;
@@ -49,7 +49,7 @@ TEST(TierTable, GivesEachTierAndCellAGroupOfItsOwn) {
   }
 }
 
-// Groups are numbered as the kinds are given, whatever is inside of what.
+// Groups are numbered in the order of the kinds, independent of their nesting.
 TEST(TierTable, KnowsRowsByTierAndTiersByRow) {
   const std::vector orders{kinds(2, 1), std::vector{&kTouchKind, &kDistanceKind, &kDistanceKind},
                            std::vector{&kDistanceKind, &kTouchKind, &kDistanceKind}};
@@ -66,14 +66,14 @@ TEST(TierTable, KnowsRowsByTierAndTiersByRow) {
   }
 }
 
-TEST(TierTable, TakesNumbersBeyondAllTiersForCells) {
+TEST(TierTable, MapsNumbersBeyondAllTiersToCells) {
   const TierTable tiers(kinds(1, 1), 5);
   EXPECT_EQ(tiers.tier_of({16}), kCellTier);
   EXPECT_EQ(tiers.cell_of({16}), GroupIndex{16});
 }
 
-// What the rest of the layer takes for granted of a row of THE list.
-TEST(TierKinds, BesideTheCellAreUrgentOrRunAheadAndHaveNamesForTheirCounters) {
+// Assumptions of the layer about each row of THE list.
+TEST(TierKinds, NonCellKindsAreUrgentOrRunAhead) {
   for (const TierKind* kind : tier_kinds()) {
     const bool is_cell = kind == &kCellKind;
     EXPECT_EQ(kind->is_urgent != kind->runs_ahead, !is_cell);

@@ -23,14 +23,15 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 constexpr auto kWithPeriod = SpringReading::with_period;
 
-// (3.5) as it is written, at one frequency.
+// (3.5) as printed, at one frequency.
 template <typename H>
 double printed_3_5(const H& position_to_force, double T, double theta) {
   const Complex z = std::polar(1.0, theta);
   return T / (2 * (1 - std::cos(theta))) * ((1.0 - 1.0 / z) * position_to_force(z)).real();
 }
 
-// Spectral radius of a wall, d samples late, on mass, damper and spring to ground, held exactly.
+// Spectral radius of a wall, delayed by d samples, on mass, damper and spring to ground, with an
+// exact hold.
 double closed_loop_radius(double m, double b, double k, double K, double B, int d, double T) {
   MatrixXd A(2, 2), in(2, 1), out(1, 2);
   A << 0, 1, -k / m, -b / m;
@@ -54,7 +55,7 @@ TEST(DeviceDamping, NegativeVirtualDampingIsWorstAtRest) {
   EXPECT_NEAR(need.angular_frequency, 0.0, 1e-3);
 }
 
-TEST(DeviceDamping, CorrectedWallFormulaIsThreeFiveAndThePrintedOneLacksTheStiffness) {
+TEST(DeviceDamping, CorrectedWallFormulaIsThreeFive) {
   const double K = 0.2, b_e = 0.1, T = 0.01;
   const auto H = [&](Complex z) { return K + b_e * (z - 1.0) / (T * z); };
   for (double theta = 0.01; theta < M_PI; theta += 0.01) {
@@ -64,7 +65,7 @@ TEST(DeviceDamping, CorrectedWallFormulaIsThreeFiveAndThePrintedOneLacksTheStiff
   }
 }
 
-TEST(DeviceDamping, IsTheSupremumOfThreeFiveForRandomEnvironments) {
+TEST(DeviceDamping, IsTheSupremumForRandomEnvironments) {
   test::Random random(9);
   const double T = 1e-3;
   const StateSpace integrator = to_state_space({{T, 0}, {1, -1}, T});
@@ -84,7 +85,7 @@ TEST(DeviceDamping, IsTheSupremumOfThreeFiveForRandomEnvironments) {
           [&](double theta) { return -printed_3_5([&](Complex z) { return H.at(z); }, T, theta); },
           from, M_PI);
     };
-    // As it is written, (3.5) loses digits towards w = 0: 1e-16/theta^2 of them.
+    // Evaluated as printed, (3.5) loses digits towards w = 0: 1e-16/theta^2 of them.
     const double precise = dense(0.01), all = dense(1e-4);
     const double scale = T * (1 + H.direct + stiffness) + std::abs(all);
     EXPECT_GE(need.required, precise - 1e-9 * scale) << i;
@@ -95,7 +96,7 @@ TEST(DeviceDamping, IsTheSupremumOfThreeFiveForRandomEnvironments) {
   std::cout << "worst gap " << worst << " of the scale\n";
 }
 
-TEST(DeviceDamping, DelayedWallIsTheClosedForm) {
+TEST(DeviceDamping, DelayedWallMatchesTheClosedForm) {
   for (const int d : {0, 1, 2, 5, 20}) {
     EXPECT_NEAR(required_device_damping(virtual_wall(800, 0, 1e-3, kWithPeriod), d).required,
                 spring_damping(800, 1e-3, d), 1e-9 * spring_damping(800, 1e-3, d));
@@ -108,21 +109,22 @@ TEST(DeviceDamping, DelayedWallIsTheClosedForm) {
   }
 }
 
-TEST(DeviceDamping, PairOfUsersNeedsTheWholeRoundTrip) {
+TEST(DeviceDamping, PairNeedsTheWholeRoundTrip) {
   for (const int d : {1, 2, 7}) {
     const double need =
         required_device_damping_of_pair(virtual_wall(20, 0, 0.01, kWithPeriod), d).required;
     EXPECT_NEAR(need, 20 * (0.01 + d * 0.01), 1e-9);
   }
-  // The thesis' networked example needs 0.40 of a device that has 0.3 ("K, no T"), or 0.202.
+  // The thesis' networked example needs 0.40, or 0.202, of a device with 0.3 ("K, no T").
   const auto without = virtual_wall(0.2, 0.1, 0.01, SpringReading::without_period);
   EXPECT_NEAR(required_device_damping_of_pair(without, 1).required, 0.40, 5e-3);
   const auto with = virtual_wall(0.2, 0.1, 0.01, kWithPeriod);
   EXPECT_NEAR(required_device_damping_of_pair(with, 1).required, 0.202, 1e-3);
 }
 
-// "Passive with the complex environment, so passive with the simple one": not with its own numbers.
-TEST(DeviceDamping, SimpleEnvironmentsOfTheThesisNeedMoreThanTheComplexOne) {
+// "Passive with the complex environment, so passive with the simple one" does not hold for the
+// thesis' own numbers.
+TEST(DeviceDamping, SimpleEnvironmentsNeedMoreThanTheComplexOne) {
   const double b = 0.4, T = 1e-3;
   EXPECT_NEAR(required_device_damping(complex_environment(b, 0.1, T)).required, 0.35, 1e-9);
   EXPECT_NEAR(required_device_damping(simple_environment(b, 0.9, T)).required, 0.85, 1e-12);
@@ -131,7 +133,7 @@ TEST(DeviceDamping, SimpleEnvironmentsOfTheThesisNeedMoreThanTheComplexOne) {
   EXPECT_NEAR(required_device_damping(one_pole_environment(0.2, 1, 0.6, T)).required, 0.25, 1e-12);
 }
 
-TEST(DeviceDamping, TwoWallsSideBySideNeedWhatOneOfTheirSumNeeds) {
+TEST(DeviceDamping, ParallelWallsNeedAsMuchAsTheirSum) {
   // Two integrators at z = 1: a double pole with two eigenvectors.
   const StateSpace a = to_state_space(virtual_wall(500, 0.1, 1e-3, kWithPeriod));
   const StateSpace b = to_state_space(virtual_wall(300, 0.2, 1e-3, kWithPeriod));
@@ -139,7 +141,7 @@ TEST(DeviceDamping, TwoWallsSideBySideNeedWhatOneOfTheirSumNeeds) {
               1e-12);
 }
 
-TEST(DeviceDamping, WhatNoDampingCuresIsInfinite) {
+TEST(DeviceDamping, IncurableSystemsNeedInfiniteDamping) {
   const double T = 1e-3;
   EXPECT_TRUE(std::isinf(required_device_damping({{1}, {1, -1.1}, T}).required));
   EXPECT_TRUE(std::isinf(required_device_damping({{1}, {1, -2, 1}, T}).required));
@@ -148,7 +150,7 @@ TEST(DeviceDamping, WhatNoDampingCuresIsInfinite) {
   EXPECT_THROW((void)required_device_damping({{NAN}, {1, 1}, T}), std::invalid_argument);
 }
 
-// Border of passivity, searched, against 2 (b - |B|)/T.
+// Border of passivity, found by search, against 2 (b - |B|)/T.
 TEST(DeviceDamping, GreatestPassiveStiffnessIsTheFormula) {
   const double b = 1.0, T = 1e-3;
   for (const double B : {0.0, 0.3, -0.3}) {
@@ -162,7 +164,7 @@ TEST(DeviceDamping, GreatestPassiveStiffnessIsTheFormula) {
   }
 }
 
-TEST(DeviceDamping, FreeDeviceIsUnstableWithinFivePercentAboveThePassiveLimit) {
+TEST(DeviceDamping, FreeDeviceIsUnstableAboveThePassiveLimit) {
   const double m = 0.1, b = 1.0, T = 1e-3;
   const struct {
     int delay;

@@ -20,7 +20,7 @@ TEST(HybridMotion, PlantIsItsClosedFormToTwelveDigits) {
                           std::pow(10, test::uniform(random, -2, 2))};
     const MotionState s{test::uniform(random, -1, 1), test::uniform(random, -1, 1)};
     const double f = test::uniform(random, -5, 5), t = std::pow(10, test::uniform(random, -4, 0.5));
-    // In long double and by the textbook's formula.
+    // In long double and by the textbook formula.
     const long double r = static_cast<long double>(body.damping) / body.mass,
                       end = f / static_cast<long double>(body.damping);
     const long double decay = -std::expm1(-r * t);
@@ -33,7 +33,7 @@ TEST(HybridMotion, PlantIsItsClosedFormToTwelveDigits) {
   }
 }
 
-TEST(HybridMotion, PlantWithHardlyAnyDampingIsTheParabola) {
+TEST(HybridMotion, PlantWithNegligibleDampingIsTheParabola) {
   for (const double b : {0.0, 1e-300, 1e-14}) {
     const MotionState after = advanced({2.0, b}, {1.0, -3.0}, 4.0, 0.5);
     EXPECT_NEAR(after.velocity, -3 + 2 * 0.5, 1e-13);
@@ -52,24 +52,24 @@ TEST(HybridMotion, StepsOfAnyLengthGiveTheSameMotion) {
 
 TEST(HybridMotion, ContactIsFoundAtItsInstant) {
   EXPECT_NEAR(*first_contact({1, 0}, {2.0, 0.0}, -9.81, 0.0, 10), std::sqrt(2 * 2.0 / 9.81), 1e-15);
-  // Thrown up first.
+  // Thrown upwards first.
   EXPECT_NEAR(*first_contact({1, 0}, {0.0, 3.0}, -9.81, 0.0, 10), 2 * 3.0 / 9.81, 1e-15);
-  // Too slow to reach it: pushed back, or braked by the damper, or the horizon is near.
+  // Too slow to reach it: pushed back, braked by the damper, or beyond the horizon.
   EXPECT_FALSE(first_contact({1, 0}, {1.0, -1.0}, 1.0, 0.0, 10));
   EXPECT_FALSE(first_contact({1, 1}, {1.0, -0.99}, 0.0, 0.0, 100));
   EXPECT_TRUE(first_contact({1, 1}, {1.0, -1.01}, 0.0, 0.0, 100));
   EXPECT_FALSE(first_contact({1, 0}, {2.0, 0.0}, -9.81, 0.0, 0.5));
   EXPECT_FALSE(first_contact({1, 0}, {0.0, 1.0}, 1.0, 0.0, 10));
   EXPECT_EQ(*first_contact({1, 0}, {0.0, 0.0}, -1.0, 0.0, 10), 0.0);
-  // It grazes: a hundredth of a micrometre deep, both sides of the deepest point within the
-  // horizon.
+  // It grazes: a hundredth of a micrometre deep; the horizon contains both sides of the deepest
+  // point.
   const double speed = std::sqrt(2.0 * (1.0 + 1e-8));
   const double graze = *first_contact({1, 0}, {1.0, -speed}, 1.0, 0.0, 100);
   EXPECT_NEAR(advanced({1, 0}, {1.0, -speed}, 1.0, graze).position, 0, 1e-14);
   EXPECT_LT(graze, speed);
 }
 
-TEST(HybridMotion, BallOnALosslessFloorKeepsItsEnergyOverAHundredThousandBounces) {
+TEST(HybridMotion, LosslessBallKeepsItsEnergy) {
   const double m = 0.3, g = 9.81, h = 0.7;
   HybridMotion ball({m, 0.0}, {h, 0.0}, RigidStop{});
   for (int i = 0; i < 100'000; ++i) ASSERT_TRUE(ball.run_to_impact(-m * g, 10.0));
@@ -80,7 +80,7 @@ TEST(HybridMotion, BallOnALosslessFloorKeepsItsEnergyOverAHundredThousandBounces
   std::cout << "energy drift " << energy / (m * g * h) - 1 << "\n";
 }
 
-TEST(HybridMotion, RunMeetsTheSameBouncesWhateverItsSteps) {
+TEST(HybridMotion, BouncesAreIndependentOfTheSteps) {
   HybridMotion whole({1, 0.2}, {1.0, 0.0}, RigidStop{0.0, 0.9});
   HybridMotion parts({1, 0.2}, {1.0, 0.0}, RigidStop{0.0, 0.9});
   whole.run(-9.81, 3.0);
@@ -91,7 +91,7 @@ TEST(HybridMotion, RunMeetsTheSameBouncesWhateverItsSteps) {
   EXPECT_NEAR(whole.state().velocity, parts.state().velocity, 1e-9);
 }
 
-TEST(HybridMotion, BallThatLosesEnergyComesToRestAtTheSumOfItsBounces) {
+TEST(HybridMotion, LossyBallRestsAtTheSeriesLimit) {
   const double e = 0.5, g = 9.81, h = 1.0;
   HybridMotion ball({2, 0.0}, {h, 0.0}, RigidStop{0.0, e});
   double last = 0.0;

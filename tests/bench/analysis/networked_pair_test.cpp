@@ -27,7 +27,7 @@ TEST(NetworkedPair, PrintedEquationsDisagreeWithTheirOwnProduct) {
   EXPECT_NEAR(printed.real(), 0.0381, 5e-5);
   EXPECT_NEAR(direct.imag(), -0.1558, 5e-5);
   EXPECT_NEAR(printed.imag(), -0.1493, 5e-5);
-  // The b_e part of (4.9) alone is right.
+  // Only the b_e part of (4.9) is right.
   PairParameters no_spring;
   no_spring.stiffness = 0;
   EXPECT_NEAR(printed_g12(no_spring, 1.2).imag(), direct_g12(no_spring, 1.2).imag(), 1e-12);
@@ -45,7 +45,7 @@ TEST(NetworkedPair, CorrectedClosedFormIsTheProduct) {
   }
 }
 
-TEST(NetworkedPair, UnconditionalConditionFailsAtLowFrequencyWithAnySpring) {
+TEST(NetworkedPair, UnconditionalConditionFailsAtLowFrequency) {
   PairParameters p;
   const auto bands = [&] {
     return violating_bands([&](double w) { return unconditional_margin(p, w); }, 1e-6, 3.14, 2000);
@@ -86,8 +86,8 @@ TEST(NetworkedPair, ClosedMatrixIsTheResponseOfTheLoop) {
   }
 }
 
-// Both users by their recurrences, no matrix of the library: user 1 pushes with a sine that is
-// held.
+// Both users by their recurrences, without a matrix of the library: user 1 pushes with a sampled
+// and held sine.
 TEST(NetworkedPair, ClosedMatrixIsTheSimulatedFrequencyResponse) {
   PairParameters p;
   p.wall_damping = 0.5;  // transients die
@@ -115,12 +115,12 @@ TEST(NetworkedPair, ClosedMatrixIsTheSimulatedFrequencyResponse) {
   const Eigen::MatrixXcd expected = evaluate(pair_loop(p), std::polar(1.0, 2 * M_PI / period));
   EXPECT_LT(std::abs(response[0] - expected(0, 0)), 1e-3 * std::abs(expected(0, 0)));
   EXPECT_LT(std::abs(response[1] - expected(1, 0)), 1e-3 * std::abs(expected(1, 0)));
-  // The printed graph has not even its diagonal right: the local loop is missing.
+  // The printed graph has a wrong diagonal, too: the local loop is missing.
   const Eigen::Matrix2cd printed = printed_pair(p, 2 * M_PI / period);
   EXPECT_GT(std::abs(printed(0, 0) - expected(0, 0)), 0.1 * std::abs(expected(0, 0)));
 }
 
-TEST(NetworkedPair, OpposedMotionIsUnstableFromThreeSamplesOrFromThreeHundredAndFourteen) {
+TEST(NetworkedPair, OpposedMotionIsUnstableFromTheExpectedDelay) {
   PairParameters p;
   p.reading = SpringReading::without_period;
   const double radii[] = {0.9985, 0.9995, 1.0005, 1.0015};
@@ -136,7 +136,7 @@ TEST(NetworkedPair, OpposedMotionIsUnstableFromThreeSamplesOrFromThreeHundredAnd
   EXPECT_GT(pair_radii(p).opposed, 1.0);
 }
 
-TEST(NetworkedPair, ReducedModelInTheDelayedLoopIsUnstableToo) {
+TEST(NetworkedPair, ReducedModelInTheDelayedLoopIsUnstable) {
   PairParameters p;
   const TransferFunction reduced = simple_environment(0.1, 0.5, p.sample_period);
   EXPECT_NEAR(pair_radii(p, reduced).opposed, 1.0, 6e-6);
@@ -144,10 +144,10 @@ TEST(NetworkedPair, ReducedModelInTheDelayedLoopIsUnstableToo) {
   EXPECT_NEAR(pair_radii(p, reduced).opposed, 1.00248, 6e-6);
 }
 
-// Both push, what common motion lacks of its end falls by the radius each sample. 1 - 1.6 + 0.6 is
-// not 0 in binary: for such poles the integrator that common motion never reaches was once taken
-// for a mode of it, of radius 1.
-TEST(NetworkedPair, CommonMotionOfTwoPolesDecaysAsTheSimulationDoes) {
+// Both users push; the distance of common motion from its final value falls by the radius each
+// sample. In binary 1 - 1.6 + 0.6 is not 0: for such poles the integrator, which common motion
+// never reaches, was once taken for one of its modes, of radius 1.
+TEST(NetworkedPair, CommonMotionOfTwoPolesDecaysAsSimulated) {
   for (const double alpha : {0.5, 0.6, 0.7, 0.9}) {
     for (const int delay : {1, 2}) {
       TwoUserScene scene;

@@ -12,8 +12,8 @@
 namespace reckon::bench {
 namespace {
 
-// A hand's force on a mass; a damper in series with a spring hangs on the mass. Midpoint rule,
-// which conserves the energy of linear elements exactly.
+// A hand's force on a mass, with a damper and a spring in series attached to the mass. The midpoint
+// rule conserves the energy of linear elements exactly.
 struct Network {
   double m = 0.3, b = 1.5, k = 400, T = 1e-3;
   double v = 0.0, x = 0.0;          // of the mass, of the spring
@@ -38,7 +38,7 @@ struct Network {
   }
 };
 
-TEST(PowerLedger, BalancesToANanojouleATick) {
+TEST(PowerLedger, BalancesToANanojoulePerTick) {
   Network network;
   PowerLedger ledger(network.stored());
   for (int i = 0; i < 100'000; ++i) {
@@ -56,12 +56,12 @@ TEST(PowerLedger, JunctionsTakeNoPower) {
   Network network;
   for (int i = 0; i < 1000; ++i) {
     network.step(4.0);
-    // The hand pushes, mass and branch push back: one flow with the signs that add to 0.
+    // The hand pushes, mass and branch push back: one flow, with signs that add to 0.
     std::array<PortValue, 3> flow = network.body;
     flow[0] = {-network.body[0].effort, -network.body[0].flow};
     EXPECT_LT(junction_residual(Junction::common_flow, flow), 1e-9);
     EXPECT_NEAR(power(flow), 0.0, 1e-9);
-    // Spring and damper in series: one effort, the flows add up to that of the branch.
+    // Spring and damper in series: one effort, and flows that add up to the branch's.
     std::array<PortValue, 3> effort = network.branch;
     effort[0] = {-network.branch[0].effort, -network.branch[0].flow};
     EXPECT_LT(junction_residual(Junction::common_effort, effort), 1e-9);
@@ -69,7 +69,7 @@ TEST(PowerLedger, JunctionsTakeNoPower) {
   }
 }
 
-TEST(PowerLedger, SaysWhatIsMissingAndWhatWasMade) {
+TEST(PowerLedger, GivesMissingAndGeneratedEnergy) {
   PowerLedger ledger(2.0);
   const PortValue out{3.0, -1.0};  // 3 W out of the network
   EXPECT_NEAR(ledger.tick(std::span(&out, 1), 1.0, 0.0, 0.5), -0.5, 1e-15);
@@ -79,9 +79,9 @@ TEST(PowerLedger, SaysWhatIsMissingAndWhatWasMade) {
   EXPECT_NEAR(ledger.absorbed(), -3.0, 1e-15);
 }
 
-// Pressed in and released at one speed, the force held over each sample: it gives back K v T X more
-// than it took, which is what a damper of K T/2 takes on that way, (3.8).
-TEST(PowerLedger, SampledSpringMakesEnergyThatTheDevicesDampingMustTake) {
+// Pressed in and released at one speed, with the force held over each sample: it returns K v T X
+// more than it received. A damper of K T/2 dissipates exactly that on this path, (3.8).
+TEST(PowerLedger, SampledSpringGeneratesTheEnergyOfThreeEight) {
   const double K = 2000, v = 0.1, X = 5e-3;
   for (const double T : {1e-3, 1e-2}) {
     PowerLedger spring(0.0), damped(0.0);
@@ -102,7 +102,7 @@ TEST(PowerLedger, SampledSpringMakesEnergyThatTheDevicesDampingMustTake) {
   }
 }
 
-TEST(PowerLedger, ResidualSeesABrokenJunction) {
+TEST(PowerLedger, ResidualDetectsABrokenJunction) {
   const std::array<PortValue, 2> ports = {{{1.0, 2.0}, {1.5, -2.0}}};
   EXPECT_NEAR(junction_residual(Junction::common_effort, ports), 0.5, 1e-15);
   EXPECT_NEAR(junction_residual(Junction::common_flow, ports), 4.0, 1e-15);

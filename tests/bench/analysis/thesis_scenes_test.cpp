@@ -44,7 +44,7 @@ SceneSample strongest(const std::vector<SceneSample>& series) {
                            [](const auto& a, const auto& b) { return a.force < b.force; });
 }
 
-// Rows of numbers below one line of names.
+// Rows of numbers after one line of names.
 std::vector<std::vector<double>> read_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
@@ -68,7 +68,7 @@ TEST(ThesisScenes, OneUserWithThePeriodInTheSpring) {
   EXPECT_LT(std::abs(series.back().velocity), 0.02) << "a steady 0.2 there is not";
 }
 
-TEST(ThesisScenes, OneUserWithoutIt) {
+TEST(ThesisScenes, OneUserWithoutThePeriod) {
   const std::vector<SceneSample> series = run(alone(kWithout));
   EXPECT_NEAR(fastest(series).velocity, 0.2022, 5e-5) << "the 0.2 of the thesis is a peak";
   EXPECT_NEAR(fastest(series).time, 0.34, 1e-9);
@@ -90,7 +90,7 @@ TEST(ThesisScenes, HigherOrdersLoseStabilityAsTheThesisShows) {
   EXPECT_NEAR(loop_radius(alone(kWith, 3)), 1.0005, 1e-4);
   EXPECT_NEAR(loop_radius(alone(kWithout, 3)), 1.0045, 1e-4);
   EXPECT_NEAR(loop_radius(alone(kWithout, 4)), 1.0015, 1e-4);
-  // The guard refuses them: no device damping would do.
+  // The guard refuses them: no device damping suffices.
   for (const int order : {3, 4}) {
     EXPECT_TRUE(
         std::isinf(required_device_damping(environment_of(alone(kWithout, order))).required));
@@ -109,9 +109,9 @@ TEST(ThesisScenes, EnvelopeGrowsByTheRadius) {
   EXPECT_NEAR(std::log(full / half) / 2000, std::log(loop_radius(scene)), 5e-5);
 }
 
-// A free mass thrown at a sampled spring on one side: it comes back faster, unless the device's
-// damping takes what (3.8) says.
-TEST(ThesisScenes, WallOnOneSideThrowsBackWhatTheDeviceDoesNotTake) {
+// A free mass thrown at a sampled one-sided spring: it returns faster, unless the device's damping
+// dissipates the energy of (3.8).
+TEST(ThesisScenes, OneSidedWallReturnsUndissipatedEnergy) {
   OneUserScene scene;
   scene.mass = 0.1, scene.stiffness = 1000, scene.wall_damping = 0;
   scene.sample_period = 1e-3;
@@ -124,7 +124,7 @@ TEST(ThesisScenes, WallOnOneSideThrowsBackWhatTheDeviceDoesNotTake) {
     double in = 0, out = 0;
     for (std::size_t k = 1; k < series.size(); ++k) {
       EXPECT_TRUE(series[k].position > 0 || series[k].force == 0) << "it never pulls";
-      // From the last sample outside: the way in within a sample is a debt of the spring too.
+      // From the last sample outside: the spring also owes the energy of the entry within a sample.
       if (series[k].force > 0 && series[k - 1].force == 0) in = series[k - 1].velocity;
       if (series[k].force == 0 && series[k - 1].force > 0) out = -series[k].velocity;
     }
@@ -138,7 +138,7 @@ TEST(ThesisScenes, WallOnOneSideThrowsBackWhatTheDeviceDoesNotTake) {
   }
 }
 
-TEST(ThesisScenes, TwoUsersWhoBothPushReachTwoAndFourTenths) {
+TEST(ThesisScenes, TwoPushingUsersReachTwoAndFourTenths) {
   const auto series = run(together(kWithout));
   EXPECT_NEAR(series.back()[0].velocity, 2.000, 5e-4) << "1/(b + K_e d)";
   EXPECT_NEAR(series.back()[0].force, 0.400, 5e-4);
@@ -150,14 +150,14 @@ TEST(ThesisScenes, TwoUsersWhoBothPushReachTwoAndFourTenths) {
   EXPECT_NEAR(run(together(kWith)).back()[0].velocity, 3.303, 5e-4);
 }
 
-TEST(ThesisScenes, ReducedEnvironmentOfTheThesisReachesOneAndAQuarter) {
+TEST(ThesisScenes, ReducedEnvironmentReachesOneAndAQuarter) {
   // 1/(b + K/(1 - alpha)): K = 0.2, alpha = 0.6.
   const TransferFunction simple = one_pole_environment(0.2, 1.0, 0.6, 0.01);
   const auto series = run(together(kWithout), simple);
   EXPECT_NEAR(series.back()[0].velocity, 1.250, 5e-4);
 }
 
-TEST(ThesisScenes, ScenesThatAreNoneAreRefused) {
+TEST(ThesisScenes, InvalidScenesAreRefused) {
   EXPECT_THROW((void)run(alone(kWith, 5)), std::invalid_argument);
   OneUserScene still = alone(kWith);
   still.sample_period = 0;
@@ -167,7 +167,7 @@ TEST(ThesisScenes, ScenesThatAreNoneAreRefused) {
   EXPECT_THROW((void)run(early), std::invalid_argument);
 }
 
-TEST(ThesisScenes, EveryReferenceSeriesIsMetSampleBySample) {
+TEST(ThesisScenes, EveryReferenceSeriesMatchesSampleBySample) {
   RECKON_NEED_DATA("oracles/thesis/standalone_I1.csv");
   const std::filesystem::path folder = test::reference_data() / "oracles/thesis";
   int rows = 0;

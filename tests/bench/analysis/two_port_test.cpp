@@ -26,11 +26,11 @@ Matrix2cd random_matrix(test::Random& random) {
   return Matrix2cd::NullaryExpr(2, 2, [&] { return Complex(normal(random), normal(random)); });
 }
 
-TEST(TwoPort, EveryFormComesBackFromEveryOtherToTwelveDigits) {
+TEST(TwoPort, ConversionsBetweenAllFormsAreInvertible) {
   test::Random random(11);
   double worst = 0.0;
   for (int i = 0; i < 1000; ++i) {
-    // Diagonally heavy: all five forms exist and are well conditioned.
+    // Dominant diagonal: all five forms exist and are well conditioned.
     const Matrix2cd Z = random_matrix(random) + 6.0 * Matrix2cd::Identity();
     const TwoPortMatrix two_port{PortForm::impedance, Z};
     for (const PortForm from : kForms) {
@@ -44,8 +44,8 @@ TEST(TwoPort, EveryFormComesBackFromEveryOtherToTwelveDigits) {
   EXPECT_LT(worst, 1e-12);
 }
 
-// The four quantities themselves, not only a way there and back.
-TEST(TwoPort, EveryFormHoldsForTheSameEffortsAndFlows) {
+// The four quantities themselves, not only a conversion there and back.
+TEST(TwoPort, AllFormsHoldForEqualEffortsAndFlows) {
   test::Random random(12);
   for (int i = 0; i < 100; ++i) {
     const TwoPortMatrix z{PortForm::impedance, random_matrix(random)};
@@ -61,7 +61,7 @@ TEST(TwoPort, EveryFormHoldsForTheSameEffortsAndFlows) {
   }
 }
 
-TEST(TwoPort, CascadeOfTwoLinesIsALineOfTheirLength) {
+TEST(TwoPort, CascadeOfTwoLinesIsOneLongerLine) {
   const LineParameters line{3.0, 0.02}, both{3.0, 0.04};
   const double w = 7.0;
   const TwoPortMatrix joined = cascade(transmission_line(line, w), transmission_line(line, w));
@@ -69,7 +69,7 @@ TEST(TwoPort, CascadeOfTwoLinesIsALineOfTheirLength) {
   EXPECT_LT((joined.matrix - expected.matrix).norm(), 1e-12);
 }
 
-TEST(TwoPort, AWireHasNoImpedanceMatrixAndSaysSo) {
+TEST(TwoPort, WireWithoutImpedanceMatrixIsRefused) {
   const TwoPortMatrix wire{PortForm::chain, Matrix2cd::Identity()};
   EXPECT_THROW((void)converted(wire, PortForm::impedance), std::invalid_argument);
   EXPECT_THROW((void)converted(wire, PortForm::admittance), std::invalid_argument);
@@ -80,7 +80,7 @@ TEST(TwoPort, AWireHasNoImpedanceMatrixAndSaysSo) {
   EXPECT_THROW((void)converted(bad, PortForm::hybrid), std::invalid_argument);
 }
 
-TEST(TwoPort, CorrectedCriterionIsTheSignOfTheLeastEigenvalue) {
+TEST(TwoPort, CorrectedCriterionIsTheLeastEigenvaluesSign) {
   test::Random random(13);
   int passive = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -93,7 +93,7 @@ TEST(TwoPort, CorrectedCriterionIsTheSignOfTheLeastEigenvalue) {
   EXPECT_LT(passive, 9000);
 }
 
-TEST(TwoPort, PrintedCriterionRefusesALosslessLineAndAcceptsADelayedJunction) {
+TEST(TwoPort, PrintedCriterionMisjudgesALineAndAJunction) {
   const Matrix2cd line = transmission_line({1.0, 0.1}, 3.0).matrix;
   EXPECT_GE(passivity_margin(line), -1e-12);
   EXPECT_LT(printed_passivity_margin(line), -1);
@@ -102,9 +102,9 @@ TEST(TwoPort, PrintedCriterionRefusesALosslessLineAndAcceptsADelayedJunction) {
   EXPECT_GE(printed_passivity_margin(junction), -1e-15);
 }
 
-// Stable between any two passive one-ports: no passive load makes the other port's real part
+// Stable between any two passive one-ports: no passive load makes the real part at the other port
 // negative. Loads on the imaginary axis are the worst.
-TEST(TwoPort, LlewellynIsTheWorstOfAllPassiveLoads) {
+TEST(TwoPort, LlewellynMatchesTheWorstPassiveLoad) {
   test::Random random(14);
   int stable = 0, differ = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -125,7 +125,7 @@ TEST(TwoPort, LlewellynIsTheWorstOfAllPassiveLoads) {
   EXPECT_GT(differ, 20) << "it is weaker than passivity";
 }
 
-TEST(TwoPort, AsASystemIsJudgedAndEvaluatedInItsForm) {
+TEST(TwoPort, SystemIsEvaluatedInItsForm) {
   // Two devices, 1/(m s + b) each, with a damper c between them: admittance (Z)^-1.
   const double m = 0.2, b = 0.5, c = 3.0, w = 12.0;
   Eigen::MatrixXd damping(2, 2);

@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-TEST(DelayedJunction, HasRealEigenvaluesThatTheThesisPrintsImaginary) {
+TEST(DelayedJunction, HasRealEigenvaluesPrintedAsImaginary) {
   for (const double theta : {0.0, 0.2, 1.5, 3.0, M_PI}) {
     const Eigen::Vector2d found = power_eigenvalues(delayed_junction(theta));
     EXPECT_NEAR(found(0), -2 * std::abs(std::sin(theta)), 1e-15);
@@ -24,10 +24,10 @@ TEST(DelayedJunction, HasRealEigenvaluesThatTheThesisPrintsImaginary) {
   }
 }
 
-// Driven along the eigenvector of -2 sin(wT): F1 = cos, V2 a quarter turn from it.
-TEST(DelayedJunction, MakesTheEnergyOfItsNegativeEigenvalue) {
+// Driven along the eigenvector of -2 sin(wT): F1 = cos, V2 a quarter period from it.
+TEST(DelayedJunction, GeneratesTheEnergyOfItsNegativeEigenvalue) {
   const double theta = 0.1, T = 1e-3;
-  const int ticks = 62'832;  // a thousand turns, nearly
+  const int ticks = 62'832;  // nearly a thousand periods
   PowerLedger ledger(0.0);
   double late_F1 = 1.0, late_V2 = 0.0;
   for (int k = 0; k < ticks; ++k) {
@@ -46,7 +46,7 @@ TEST(TransmissionLine, IsLosslessOffItsPoles) {
       const Complex lambda2 = std::polar(1.0, -2 * w * delay);
       if (std::abs(lambda2 - 1.0) < 1e-2) continue;
       EXPECT_LT(power_eigenvalues(transmission_line(line, w)).cwiseAbs().maxCoeff(), 1e-12);
-      // 1e-12 of its entries: near a pole they are large.
+      // 1e-12 of its entries, which are large near a pole.
       const TwoPortMatrix printed = printed_transmission_line(line, w);
       EXPECT_LT(power_eigenvalues(printed).cwiseAbs().maxCoeff(),
                 1e-12 * (1 + printed.matrix.norm()));
@@ -64,7 +64,7 @@ TEST(TransmissionLine, PrintedDiagonalHasTheOtherSign) {
   EXPECT_LT(std::abs(printed(0, 1) - right(0, 1)), 1e-12);
 }
 
-TEST(TransmissionLine, IsWavesThatArriveLate) {
+TEST(TransmissionLine, IsAPairOfDelayedWaves) {
   const LineParameters line{2.5, 0.3};
   const double w = 4.0;
   const Complex lambda = std::polar(1.0, -w * line.delay);
@@ -75,7 +75,7 @@ TEST(TransmissionLine, IsWavesThatArriveLate) {
   EXPECT_LT(std::abs(F(0) - Z * V(0) - lambda * (F(1) + Z * V(1))), 1e-12);
 }
 
-TEST(TransmissionLine, KeepsItsBooksAtAnyConstantDelay) {
+TEST(TransmissionLine, BalancesItsEnergyAtAnyConstantDelay) {
   test::Random random(15);
   std::normal_distribution<double> normal;
   for (const int delay : {1, 10, 200, 1000}) {
@@ -88,7 +88,7 @@ TEST(TransmissionLine, KeepsItsBooksAtAnyConstantDelay) {
       past.push_back({{{efforts.a, flows.a}, {efforts.b, flows.b}}});
       ledger.tick(past.back(), line.stored(), 0.0, 1e-3);
       if (k < delay) continue;
-      // The same recurrence as in frequency.
+      // The same recurrence as in the frequency domain.
       const PortValue& a = past[static_cast<std::size_t>(k - delay)][0];
       EXPECT_NEAR(efforts.b - 4 * flows.b, a.effort + 4 * a.flow,
                   1e-9 * std::abs(efforts.b) + 1e-9);
@@ -99,12 +99,12 @@ TEST(TransmissionLine, KeepsItsBooksAtAnyConstantDelay) {
   }
 }
 
-TEST(TransmissionLine, MatchedEndTakesAllThatArrives) {
+TEST(TransmissionLine, MatchedEndAbsorbsTheWholeWave) {
   WaveLine line(4.0, 3, 1e-3);
   double flow_b = 0.0;
   double effort = 0.0;
   for (int k = 0; k < 20; ++k) {
-    // F_b = -Z V_b: solved for the sample at hand, V_b = -v/sqrt(Z), from what the line gives at 0.
+    // F_b = -Z V_b, solved for the present sample: V_b = -v/sqrt(Z), from the line's output at 0.
     WaveLine probe = line;
     flow_b = -probe.step({1.0, 0.0}).b / (2 * 4.0);
     effort = line.step({1.0, flow_b}).a;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of each coupling in the cells of one grid: three operators, stiffness as a share of
-// 2 b/T, delay with 30 % jitter, loss. RECKON_SOAK=1 runs all 504 cells of an environment, ours
-// with five seeds; without it 36 of them, in shorter runs.
+// Outcome of each coupling in the cells of one grid: three operators, stiffness as a share of 2
+// b/T, delay with 30 % jitter, loss. RECKON_SOAK=1 runs all 504 cells of an environment, and
+// Reckon's coupling with five seeds. Without it, 36 cells in shorter runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Cells {
   [[nodiscard]] double failed() const { return static_cast<double>(made) / runs; }
 };
 
-// What a share of 1 is, and how the runs differ.
+// The stiffness at a share of 1, and the parameters of the runs.
 struct Study {
   CouplingMode mode = CouplingMode::reckon;
   Counterpart counterpart = Counterpart::server;
@@ -94,7 +94,7 @@ TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
   for (const auto environment : kEnvironments) {
     const Cells cells =
         run({CouplingMode::printed_dead_reckoning, Counterpart::server, environment});
-    // Above the device's own limit no spring is passive: that is no matter of updates.
+    // Above the device's own limit no spring is passive, with or without updates.
     if (environment == EnvironmentKind::linear && !test::soaks()) {
       EXPECT_EQ(cells.made, 0);
     } else if (environment != EnvironmentKind::linear) {
@@ -103,7 +103,7 @@ TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
   }
 }
 
-TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
+TEST(CouplingGrid, ReckonMakesNoEnergyInAnyCell) {
   for (const auto environment : kEnvironments) {
     Study study{CouplingMode::reckon, Counterpart::server, environment};
     if (test::soaks()) study.seeds = 5;
@@ -111,7 +111,7 @@ TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
     EXPECT_EQ(cells.made, 0) << name_of(environment);
     EXPECT_LE(cells.peak, 15.0) << name_of(environment);
   }
-  // What is lost in one draw and not in another decides whether a hand has to borrow.
+  // The losses of a seed decide whether a hand has to borrow.
   const Cells hands =
       run({CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, test::tries(2U, 5U)});
   EXPECT_EQ(hands.made, 0);
@@ -119,8 +119,8 @@ TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
   EXPECT_LE(hands.peak, 25.0);
 }
 
-// Its rule knows the delay, not what is lost: without loss it keeps what it promises.
-TEST(CouplingGrid, GainCutIsStableAtAFractionOfOurStiffness) {
+// Its rule depends on the delay, not on loss: without loss it keeps its guarantee.
+TEST(CouplingGrid, GainCutIsStableAtMuchLessStiffness) {
   for (const auto counterpart : {Counterpart::server, Counterpart::hand}) {
     Study study{CouplingMode::gain_cut, counterpart};
     study.losses = {0.0};
@@ -134,7 +134,7 @@ TEST(CouplingGrid, GainCutIsStableAtAFractionOfOurStiffness) {
   }
 }
 
-TEST(CouplingGrid, TheOtherBaselinesForComparison) {
+TEST(CouplingGrid, OtherBaselinesAreReported) {
   const Cells line = run({CouplingMode::transmission_line});
   EXPECT_EQ(line.made, 0) << "a device of 1 N s/m pays for what jitter makes";
   EXPECT_GT(run({CouplingMode::velocity_exchange, Counterpart::hand}).failed(), 0.1);
@@ -144,9 +144,9 @@ TEST(CouplingGrid, TheOtherBaselinesForComparison) {
   EXPECT_GT(controlled.peak, 15.0) << "N";
 }
 
-// Quick taps on a world that changes as quickly, seen late: nothing is made, and this is how far
-// off the force is.
-TEST(CouplingGrid, OursMakesNoEnergyInARapidlyChangingWorld) {
+// Quick taps on a world that changes as quickly, with delayed updates: no energy is generated; the
+// test also prints the force error.
+TEST(CouplingGrid, ReckonMakesNoEnergyInARapidWorld) {
   OperatorModel tapping{500.0, 2.0, [](double t) {
                           haptics::HandTarget target;
                           target.position.x() = kCouplingStart;
@@ -184,8 +184,8 @@ TEST(CouplingGrid, OursMakesNoEnergyInARapidlyChangingWorld) {
   EXPECT_GE(defeated, 1);
 }
 
-// Stiffness that each shows against one delay, no loss, no jitter, two hands that press: the table
-// of docs/baselines.md.
+// Stiffness rendered by each coupling against one delay, without loss and jitter, by two hands that
+// press: the table of docs/baselines.md.
 TEST(CouplingGrid, StiffnessKeptAgainstDelay) {
   for (const double delay : {0.0, 0.005, 0.02, 0.05, 0.1, 0.2}) {
     std::printf("%3.0f ms:", 1e3 * delay);

@@ -28,13 +28,13 @@ CouplingRun run_of(CouplingMode mode, Counterpart counterpart, double stiffness)
   return run;
 }
 
-TEST(CouplingMode, HasANameThatFindsIt) {
+TEST(CouplingMode, HasANameForLookUp) {
   for (const CouplingMode mode : kCouplingModes) EXPECT_EQ(coupling_mode(name_of(mode)), mode);
   EXPECT_FALSE(coupling_mode("wave"));
   EXPECT_EQ(name_of(CouplingMode::transmission_line), "transmission_line");
 }
 
-TEST(Environment, ForceIsTheSlopeOfTheEnergyAndMeetsItsTangent) {
+TEST(Environment, ForceIsTheSlopeOfTheEnergy) {
   for (const auto kind : {EnvironmentKind::linear, EnvironmentKind::hardening,
                           EnvironmentKind::moving, EnvironmentKind::switching}) {
     const Environment environment(kind, 800);
@@ -50,13 +50,13 @@ TEST(Environment, ForceIsTheSlopeOfTheEnergyAndMeetsItsTangent) {
   }
 }
 
-// Twice the linear force where that is 1 N: numerics of the published grid.
+// The force is 2 N where the linear one is 1 N: numbers of the published grid.
 TEST(Environment, HardeningSpringDoublesTheForceAtOneNewton) {
   const ContactLaw law = Environment(EnvironmentKind::hardening, 800).at(0);
   EXPECT_NEAR(law.force(1.0 / 200), 2.0, 1e-12);
 }
 
-TEST(CouplingSimulation, GivesTheSameToTheLastBitForTheSameSeed) {
+TEST(CouplingSimulation, IsDeterministicForASeed) {
   for (const CouplingMode mode : kCouplingModes) {
     CouplingRun run = run_of(mode, Counterpart::hand, 400);
     run.network = peer::delayed_by(0.02, 0.3, 0.2);
@@ -74,7 +74,7 @@ TEST(CouplingSimulation, GivesTheSameToTheLastBitForTheSameSeed) {
   }
 }
 
-TEST(CouplingSimulation, ShowsALinearWallAsItIsWhereTheModelIsLocal) {
+TEST(CouplingSimulation, LocalModelsRenderALinearWallExactly) {
   for (const CouplingMode mode :
        {CouplingMode::velocity_exchange, CouplingMode::printed_dead_reckoning,
         CouplingMode::passivity_controller, CouplingMode::reckon}) {
@@ -88,8 +88,8 @@ TEST(CouplingSimulation, ShowsALinearWallAsItIsWhereTheModelIsLocal) {
   }
 }
 
-// 2 N against a spring: what is right is known without any simulation.
-TEST(CouplingSimulation, TruthIsTheForceOfTheOperatorAtRest) {
+// 2 N against a spring: the correct answer is known without simulation.
+TEST(CouplingSimulation, TruthIsTheOperatorsForceAtRest) {
   CouplingRun run = run_of(CouplingMode::reckon, Counterpart::hand, 400);
   run.duration = 6;
   run.update_hz = 1000;
@@ -109,7 +109,7 @@ TEST(CouplingSimulation, MakesEnergyWithTheGateOff) {
   EXPECT_TRUE(simulate(run).made_energy());
 }
 
-TEST(CouplingSimulation, RefusesWhatIsOutOfRangeAndSaysWhat) {
+TEST(CouplingSimulation, RefusesParametersOutOfRangeByName) {
   const auto complaint = [](const CouplingRun& run) -> std::string {
     try {
       (void)simulate(run);
@@ -149,8 +149,8 @@ TEST(CouplingEnd, AllocatesNothingInAStep) {
   }
 }
 
-// Samples carried by hand, two late on the way out and one on the way back, for the hand sends what
-// it reflects a sample later: the waves are those of the line of the analysis.
+// Samples passed by the test: two late to the world and one late back, for the hand sends its
+// reflection one sample later. The waves are equal to the analysis' line.
 TEST(TransmissionLine, IsTheWaveLineOfTheAnalysis) {
   CouplingEndConfig config;
   config.mode = CouplingMode::transmission_line;
@@ -202,8 +202,8 @@ TEST(TransmissionLine, MakesNoEnergyAtConstantDelay) {
   EXPECT_EQ(runs, 96);
 }
 
-// With a device that hardly damps, so that nothing hides it.
-TEST(TransmissionLine, MakesEnergyWhereTheDelayVaries) {
+// With a device of little damping, which would otherwise hide it.
+TEST(TransmissionLine, MakesEnergyUnderVaryingDelay) {
   double least = 0;
   for (const OperatorKind hand : kOperators)
     for (const double delay : {0.02, 0.05, 0.2}) {
@@ -222,8 +222,8 @@ TEST(TransmissionLine, MakesEnergyWhereTheDelayVaries) {
 }
 
 // The world of a moving or switching surface works on the hand through a lossless line: with that
-// in the books nothing is made.
-TEST(TransmissionLine, CarriesTheWorkOfAWorldThatMoves) {
+// work included no energy is generated.
+TEST(TransmissionLine, TransmitsTheWorkOfAMovingWorld) {
   for (const auto kind : {EnvironmentKind::moving, EnvironmentKind::switching})
     for (const OperatorKind hand : kOperators) {
       CouplingRun run = run_of(CouplingMode::transmission_line, Counterpart::server, 900);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two sides that do not wait for one another, as processes on two clocks: one is up to 5 samples
-// before the other. What that changes, beside the same run in lock-step.
+// Two sides that do not wait for each other, as processes on two clocks: one is up to 5 samples
+// ahead of the other. Compared with the same run in lock-step.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -56,18 +56,18 @@ CouplingRun run_of(CouplingMode mode, double delay) {
   return run;
 }
 
-TEST(FreeRunning, IsLockStepToTheBitWhereTheDelayIsLongerThanTheyAreApart) {
+TEST(FreeRunning, EqualsLockStepForALongerDelay) {
   for (const CouplingMode mode : kCouplingModes) {
     const CouplingRun run = run_of(mode, 0.02);
     const CouplingOutcome together = simulate(run);
     auto apart = run_apart(run, 1);
-    for (auto& trace : apart) trace.resize(together.trace[0].size());  // what diverges ends early
+    for (auto& trace : apart) trace.resize(together.trace[0].size());  // diverging runs end early
     EXPECT_TRUE(apart == together.trace) << name_of(mode);
   }
 }
 
-// On a perfect line a sample comes up to 5 samples late: a delay that varies. Modes that are stable
-// at such delays stay near the run in lock-step.
+// On a perfect line a sample is up to 5 samples late: a varying delay. Modes that are stable at
+// such delays stay near the run in lock-step.
 TEST(FreeRunning, StaysNearLockStepOnAPerfectLine) {
   struct Stated {
     CouplingMode mode;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients that change on a hand in motion, out of step with it: what the whole receiver does
-// with each attack that defeats a peer which applies updates as they come.
+// Coefficients that change on a moving hand, out of step with it: the complete receiver under each
+// attack that defeats a peer which applies updates as they arrive.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ struct Books {
   double work = 0, least_work = 0, least = 0, peak = 0;
 };
 
-// The hand moves as it is told; updates come every sample, at once.
+// The hand moves as prescribed; an update arrives every sample, at once.
 Books suffer(const Attack& a, CouplingMode mode) {
   CouplingEndConfig config;
   config.mode = mode;
@@ -78,7 +78,7 @@ Books suffer(const Attack& a, CouplingMode mode) {
   return books;
 }
 
-TEST(UpdateAttacks, DefeatPrintedDeadReckoningByTheEnergyStated) {
+TEST(UpdateAttacks, DefeatPrintedDeadReckoningByTheStatedEnergy) {
   RECKON_NEED_DATA("oracles/update_attacks.json");
   const nlohmann::json oracle = read_oracle();
   int defeated = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A coupling study over sockets against the same one in one process: sample for sample.
+// A coupling study over sockets, compared sample for sample with the same study in one process.
 #include "reckon/bench/coupling/udp_sample_link.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ SampleQueue queue_of(const CouplingRun& run, CouplingSide side) {
   return {run.network, run.device.period, run.seed, side};
 }
 
-// One side in a thread of its own, as a process would have it.
+// One side in a thread of its own, as if it were a process.
 std::vector<CouplingTrace> play(const CouplingRun& run, CouplingSide side, UdpSampleLink& link,
                                 std::uint32_t samples) {
   CouplingPeer peer(run, side, link);
@@ -65,7 +65,7 @@ TEST(UdpSampleLink, GivesEveryModeTheTraceOfOneProcess) {
     }
 }
 
-TEST(UdpSampleLink, SaysWhoIsMissing) {
+TEST(UdpSampleLink, NamesTheMissingSide) {
   CouplingRun run;
   UdpSampleLink link(kLoopback, queue_of(run, CouplingSide::first), std::chrono::milliseconds(1));
   link.connect(link.local());
@@ -77,7 +77,7 @@ TEST(UdpSampleLink, SaysWhoIsMissing) {
   }
 }
 
-TEST(SampleDatagram, ReadsBackWhatWasWritten) {
+TEST(SampleDatagram, RestoresTheWrittenSamples) {
   const CouplingSample sample{7, 0.1, -0.2, 3.5, 400, 1e-3, 2e-3, 3e-3};
   const std::array<SampleRecord, 2> records{to_record(7, sample), to_record(6, std::nullopt)};
   SampleDatagram datagram;
@@ -90,7 +90,7 @@ TEST(SampleDatagram, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(from_record(read.records[1]));
 }
 
-TEST(SampleDatagram, TakesNothingFromWhatIsCutOrForeign) {
+TEST(SampleDatagram, RefusesTruncatedOrForeignOctets) {
   const std::array<SampleRecord, 2> records{to_record(1, CouplingSample{}),
                                             to_record(0, CouplingSample{})};
   SampleDatagram datagram;
@@ -98,7 +98,7 @@ TEST(SampleDatagram, TakesNothingFromWhatIsCutOrForeign) {
   for (std::size_t cut = 0; cut < size; ++cut)
     EXPECT_LT(decode_samples(std::span(datagram).first(cut)).count, 2U) << cut;
   std::mt19937 random(1);
-  for (int i = 0; i < 20'000; ++i) {  // must not read beyond it, whatever is in it
+  for (int i = 0; i < 20'000; ++i) {  // must not read beyond its end for any content
     SampleDatagram noise = datagram;
     for (int k = 0; k < 4; ++k) noise[random() % size] = static_cast<std::byte>(random());
     EXPECT_LE(decode_samples(std::span(noise).first(random() % (size + 1))).count, 2U);

@@ -29,7 +29,7 @@ struct Truth {
 using Hearings = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 using Changes = std::vector<HearingChange>;
 
-/// Who hears whom, by comparing all with all.
+/// Pairs of observer and received entity, by comparing all with all.
 Hearings brute_force(const std::map<std::uint32_t, Truth>& world) {
   Hearings hearings;
   for (const auto& [a, own] : world) {
@@ -44,7 +44,7 @@ Hearings brute_force(const std::map<std::uint32_t, Truth>& world) {
   return hearings;
 }
 
-/// Entities that do all that entities do, and what they must be told.
+/// Entities that make every kind of change, and the changes that must be reported.
 class World {
  public:
   World(std::size_t capacity, double extent, std::uint64_t seed, SimdLevel level)
@@ -77,7 +77,7 @@ class World {
       interest_.move(entity, truth.position);
     }
   }
-  /// Fails where the changes of this tick are not the difference of the two truths, in order.
+  /// Fails if the changes of this tick are not the difference of the two truths, in order.
   void expect_exact_step() {
     const std::span<const HearingChange> changes = interest_.step();
     const Hearings now = brute_force(world_);
@@ -115,7 +115,7 @@ class World {
   std::size_t seen_ = 0;
 };
 
-TEST(IncrementalInterest, TellsWhatBruteForceTellsWhateverEntitiesDo) {
+TEST(IncrementalInterest, EqualsBruteForceForAnyChanges) {
   for (std::uint64_t seed = 1; seed <= test::tries(6U, 12U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     World world(400, seed % 3 == 0 ? 400.0 : 60.0, seed, static_cast<SimdLevel>(seed / 2 % 3));
@@ -141,7 +141,7 @@ TEST(IncrementalInterest, StaysExactOverManyLayoutsOfSteadyMotion) {
   }
 }
 
-TEST(IncrementalInterest, HearingIsNotMutualWhereRadiiDiffer) {
+TEST(IncrementalInterest, ReceptionIsNotMutualForDifferentRadii) {
   IncrementalInterest interest(2);
   interest.add(0, {0, 0, 0}, 10.0);
   interest.add(1, {6, 0, 8}, 9.0);
@@ -153,7 +153,7 @@ TEST(IncrementalInterest, HearingIsNotMutualWhereRadiiDiffer) {
   EXPECT_TRUE(interest.step().empty());
 }
 
-TEST(IncrementalInterest, WhoLeavesAndComesBackInOneTickHasNotChanged) {
+TEST(IncrementalInterest, LeavingAndReturningAtOnceIsNoChange) {
   IncrementalInterest interest(3);
   for (std::uint32_t i = 0; i < 3; ++i) interest.add(i, {1.0 * i, 0, 0}, 1.5);
   EXPECT_EQ(interest.step().size(), 4u);
@@ -165,7 +165,7 @@ TEST(IncrementalInterest, WhoLeavesAndComesBackInOneTickHasNotChanged) {
   EXPECT_EQ(interest.size(), 2u);
 }
 
-TEST(IncrementalInterest, NobodyHearsAnEntityThatIsNowhere) {
+TEST(IncrementalInterest, NobodyReceivesAnEntityWithoutAPosition) {
   IncrementalInterest interest(2);
   interest.add(0, {0, 0, 0}, 5.0);
   interest.add(1, {kNan, 0, 0}, 5.0);
@@ -176,7 +176,7 @@ TEST(IncrementalInterest, NobodyHearsAnEntityThatIsNowhere) {
   EXPECT_EQ(interest.step().size(), 2u);
 }
 
-TEST(IncrementalInterest, AllocatesNothingWhileEntitiesWalkLeapComeAndGo) {
+TEST(IncrementalInterest, AllocatesNothingInSteadyState) {
   constexpr std::uint32_t kCount = 500;
   IncrementalInterest interest(kCount);
   std::mt19937_64 random(8);
@@ -206,9 +206,9 @@ TEST(IncrementalInterest, AllocatesNothingWhileEntitiesWalkLeapComeAndGo) {
   EXPECT_GT(told, 10'000u);
 }
 
-TEST(IncrementalInterest, FewAreComparedByThemselvesAmongManyThatWalk) {
-  // Leaps, entities that hear much farther and some far outside, each by itself; no tick of which
-  // most leapt but the first.
+TEST(IncrementalInterest, FewJumpingEntitiesAreComparedIndividually) {
+  // Jumps, entities with much larger radii and some far outside, each compared individually; in no
+  // tick but the first do most entities jump.
   World world(800, 80.0, 41, best_simd_level());
   world.use_radii({10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 150.0});
   for (int i = 0; i < 1500; ++i) world.join();
@@ -221,7 +221,7 @@ TEST(IncrementalInterest, FewAreComparedByThemselvesAmongManyThatWalk) {
 }
 
 TEST(IncrementalInterest, StaysExactWhereSinglePrecisionIsTooCoarse) {
-  // Fifty kilometres from most others single precision tells 1 m to 4 mm.
+  // Fifty kilometres from most others single precision resolves 4 mm.
   for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512}) {
     IncrementalInterest interest(7, level);
     for (std::uint32_t i = 0; i < 4; ++i) interest.add(i, {0, 100.0 * i, 0}, 1.0);
@@ -236,8 +236,8 @@ TEST(IncrementalInterest, StaysExactWhereSinglePrecisionIsTooCoarse) {
   }
 }
 
-TEST(IncrementalInterest, StaysExactForThoseWhoStrayAndForWorldsThatAreLongAndThin) {
-  // A street of 40 km, and pairs that walk over its ends and some 100 m to 1,000 km beside it.
+TEST(IncrementalInterest, StaysExactForStraysAndLongThinWorlds) {
+  // A street of 40 km, and pairs that walk beyond its ends and some 100 m to 1,000 km beside it.
   constexpr std::uint32_t kStreet = 600, kAll = 640;
   IncrementalInterest interest(kAll);
   std::map<std::uint32_t, Truth> world;
@@ -270,7 +270,7 @@ TEST(IncrementalInterest, StaysExactForThoseWhoStrayAndForWorldsThatAreLongAndTh
   }
 }
 
-TEST(IncrementalInterest, MemoryFollowsTheNumberOfEntitiesWhereverTheyAre) {
+TEST(IncrementalInterest, MemoryFollowsTheNumberOfEntities) {
   IncrementalInterest interest(5000);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> along(0.0, 1e12);
@@ -279,7 +279,7 @@ TEST(IncrementalInterest, MemoryFollowsTheNumberOfEntitiesWhereverTheyAre) {
   EXPECT_LT(interest.memory(), 400u * 5000u);
 }
 
-TEST(IncrementalInterest, GivesBackTheRoomOfTheTickInWhichAllCame) {
+TEST(IncrementalInterest, ReleasesTheMemoryOfAMassJoin) {
   constexpr std::uint32_t kCount = 4000;
   IncrementalInterest interest(kCount);
   std::mt19937_64 random(2);

@@ -21,7 +21,7 @@ template <std::size_t D>
 using Regions = std::vector<Region<D>>;
 using PairList = std::vector<RegionPair>;
 
-/// Every pair, sorted: by comparing each region with each.
+/// Every pair, sorted, by comparing each region with each.
 template <std::size_t D>
 PairList brute_force(const Regions<D>& subscriptions, const Regions<D>& updates) {
   PairList pairs;
@@ -101,7 +101,7 @@ void expect_exact(Layout layout, std::size_t count, double side, std::uint64_t s
   EXPECT_EQ(sorted_match(subscriptions, updates), brute_force(subscriptions, updates));
 }
 
-TEST(RegionMatching, EqualsBruteForceWhateverTheSizesAndPlaces) {
+TEST(RegionMatching, EqualsBruteForceForAllLayouts) {
   for (const Layout layout :
        {Layout::even, Layout::crowds, Layout::all_sizes, Layout::long_and_thin, Layout::lattice}) {
     std::uint64_t seed = 1;
@@ -115,7 +115,7 @@ TEST(RegionMatching, EqualsBruteForceWhateverTheSizesAndPlaces) {
   }
 }
 
-TEST(RegionMatching, EqualsBruteForceOfSomeOfAHundredThousand) {
+TEST(RegionMatching, EqualsBruteForceOnSamplesOfManyRegions) {
   std::mt19937_64 random(5);
   const Regions<2> subscriptions = made<2>(Layout::even, 50000, 0.01, random);
   const Regions<2> updates = made<2>(Layout::all_sizes, 50000, 0.01, random);
@@ -130,14 +130,14 @@ TEST(RegionMatching, EqualsBruteForceOfSomeOfAHundredThousand) {
   }
 }
 
-TEST(RegionMatching, UpperBoundsDoNotBelong) {
+TEST(RegionMatching, UpperBoundsAreExclusive) {
   const double next = std::nextafter(1.0, 2.0);
   EXPECT_EQ(sorted_match<1>({{{0.0}, {1.0}}}, {{{1.0}, {2.0}}}), PairList{});
   EXPECT_EQ(sorted_match<1>({{{0.0}, {next}}}, {{{1.0}, {2.0}}}), (PairList{{0, 0}}));
   EXPECT_EQ(sorted_match<1>({{{1.0}, {next}}}, {{{1.0}, {next}}}), (PairList{{0, 0}}));
 }
 
-TEST(RegionMatching, TellsWhichRegionsItRefuses) {
+TEST(RegionMatching, ReportsTheRefusedRegions) {
   const Regions<2> subscriptions = {
       {{0, 0}, {1, 1}}, {{0, 1}, {1, 0}}, {{0, 0}, {kNan, 1}}, {{0, 0}, {0, 1}}};
   const Regions<2> updates = {{{0, kNan}, {1, 1}}, {{0.5, 0.5}, {2, 2}}};
@@ -169,12 +169,12 @@ TEST(RegionMatching, TakesInfiniteAndHugeBounds) {
   EXPECT_EQ(sorted_match(subscriptions, updates), brute_force(subscriptions, updates));
 }
 
-TEST(RegionMatching, OnePairOfTheWorldAndOfNothingElse) {
+TEST(RegionMatching, EmptySetsHaveNoPairs) {
   EXPECT_EQ(sorted_match<3>({}, {{{0, 0, 0}, {1, 1, 1}}}), PairList{});
   EXPECT_EQ(sorted_match<3>({{{0, 0, 0}, {1, 1, 1}}}, {}), PairList{});
 }
 
-TEST(RegionMatching, EveryProcessorGivesTheSamePairsInTheSameOrder) {
+TEST(RegionMatching, AllSimdLevelsGiveTheSamePairs) {
   std::mt19937_64 random(3);
   const Regions<3> subscriptions = made<3>(Layout::all_sizes, 900, 0.4, random);
   const Regions<3> updates = made<3>(Layout::even, 900, 0.2, random);
@@ -188,7 +188,7 @@ TEST(RegionMatching, EveryProcessorGivesTheSamePairsInTheSameOrder) {
   }
 }
 
-TEST(RegionMatching, MemoryFollowsTheNumberOfRegionsWhateverTheirSizes) {
+TEST(RegionMatching, MemoryFollowsTheNumberOfRegions) {
   constexpr std::size_t kCount = 20000;
   for (const Layout layout : {Layout::even, Layout::crowds, Layout::long_and_thin}) {
     std::mt19937_64 random(11);
@@ -202,7 +202,7 @@ TEST(RegionMatching, MemoryFollowsTheNumberOfRegionsWhateverTheirSizes) {
   }
 }
 
-TEST(RegionMatching, GoesOnAfterASinkThatThrew) {
+TEST(RegionMatching, ContinuesAfterASinkThatThrew) {
   std::mt19937_64 random(2);
   const Regions<1> regions = made<1>(Layout::even, 2000, 0.1, random);
   RegionMatcher<1> matcher;

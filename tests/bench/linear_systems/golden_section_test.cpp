@@ -10,7 +10,7 @@
 namespace reckon::bench {
 namespace {
 
-TEST(GoldenSection, FindsTheTopOfAHillToItsPrecision) {
+TEST(GoldenSection, FindsAMaximumToItsPrecision) {
   for (const double top : {-0.999, -0.3, 0.0, 0.7, 1.999}) {
     int calls = 0;
     const Greatest found = greatest_between(-1, 2, 1e-6, [&](double x) {
@@ -23,7 +23,7 @@ TEST(GoldenSection, FindsTheTopOfAHillToItsPrecision) {
   }
 }
 
-TEST(GoldenSection, EndsWhereNothingIsGreatest) {
+TEST(GoldenSection, EndsOnAConstantFunction) {
   const double none = -std::numeric_limits<double>::infinity();
   const auto flat = [](double) { return 3.0; };
   EXPECT_EQ(greatest_between(0, 1, 1e-9, flat).value, 3.0);

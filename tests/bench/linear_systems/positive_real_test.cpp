@@ -34,7 +34,7 @@ Complex point(double angular_frequency, bool sampled) {
   return {0, std::isinf(angular_frequency) ? 1e200 : angular_frequency};
 }
 
-// Dense and by the sum of modes alone: nothing of the library.
+// Dense, and only by the sum of modes: nothing of the library.
 Swept sweep(const test::ModeSum& modes, bool sampled) {
   Swept swept;
   const auto at = [&](double x) {
@@ -47,7 +47,7 @@ Swept sweep(const test::ModeSum& modes, bool sampled) {
   return swept;
 }
 
-TEST(PositiveReal, VerdictOnRandomModelsIsThatOfADenseSweep) {
+TEST(PositiveReal, VerdictOnRandomModelsEqualsADenseSweep) {
   test::Random random(7);
   const int models = test::tries(2'000, 10'000);
   int positive = 0, undecided = 0, wrong = 0;
@@ -59,8 +59,8 @@ TEST(PositiveReal, VerdictOnRandomModelsIsThatOfADenseSweep) {
     const PositiveRealReport report =
         judge_positive_real(modes.as_state_space(random, sampled ? kPeriod : 0.0));
 
-    // The sweep can only miss a part of a dip: what it finds is never below the exact value, which
-    // is what the sum of modes has at the frequency that is named.
+    // The sweep can only miss a part of a dip: its least value is never below the exact one. The
+    // sum of modes has the exact value at the reported frequency.
     EXPECT_LE(report.least, swept.least + 1e-10 * swept.size) << "model " << i;
     const double named = modes.at(point(report.angular_frequency, sampled)).real();
     EXPECT_NEAR(named, report.least, 1e-9 * swept.size) << "model " << i;
@@ -79,9 +79,9 @@ TEST(PositiveReal, VerdictOnRandomModelsIsThatOfADenseSweep) {
   std::cout << positive << " positive real, worst gap " << worst << "\n";
 }
 
-// 1 - h b(s) with the band-pass b = 2 zeta w0 s/(s^2 + 2 zeta w0 s + w0^2), Re b = 1/(1 + x^2):
-// 1e-3 deep at w0, negative for |x| < sqrt(h - 1).
-TEST(PositiveReal, FindsADipOfAThousandthOneDecadeWideInAllCases) {
+// 1 - h b(s) with the band-pass b = 2 zeta w0 s/(s^2 + 2 zeta w0 s + w0^2), Re b = 1/(1 + x^2): a
+// dip of 1e-3 at w0, negative for |x| < sqrt(h - 1).
+TEST(PositiveReal, FindsADipOfAThousandth) {
   test::Random random(8);
   const double h = 1.001, zeta = (std::sqrt(10.0) - std::sqrt(0.1)) / (2 * std::sqrt(h - 1));
   for (int i = 0; i < 1000; ++i) {
@@ -94,8 +94,8 @@ TEST(PositiveReal, FindsADipOfAThousandthOneDecadeWideInAllCases) {
   }
 }
 
-TEST(PositiveReal, FindsADipThatNoSweepWouldMeet) {
-  // The same, 1e-7 of its frequency wide, and just not there: 1e-3 above zero.
+TEST(PositiveReal, FindsADipThatSweepsWouldMiss) {
+  // The same, 1e-7 of its frequency wide, and a passive one: 1e-3 above zero.
   const double zeta = 1e-6, w0 = 1234.5;
   for (const double h : {1.001, 0.999}) {
     const double g = 2 * zeta * w0;
@@ -106,10 +106,10 @@ TEST(PositiveReal, FindsADipThatNoSweepWouldMeet) {
   }
 }
 
-// Narrow resonances six decades from the others, which pull the middle of the poles away: mapped
-// onto the circle, the whole of one lies within 1e-9 rad. Found by climbing; told 2e-4 too high, so
-// that some active models of this kind passed.
-TEST(PositiveReal, FindsANarrowDipFarFromAllOtherPoles) {
+// Narrow resonances six decades from the others, which shift the centre of the poles: mapped onto
+// the circle, a whole resonance is within 1e-9 rad. Found by a climb. The least value was once
+// reported 2e-4 too high, so that some active models of this kind passed.
+TEST(PositiveReal, FindsANarrowDipFarFromOtherPoles) {
   test::ModeSum modes;
   modes.poles = {{-7.08229189e-08, 0.00315946965},
                  {-0.0998204431, 1905.46072},
@@ -132,8 +132,9 @@ TEST(PositiveReal, FindsANarrowDipFarFromAllOtherPoles) {
   }
 }
 
-// Finite impulse responses: all poles at 0, some fifteen dips of like depth anywhere on the circle.
-TEST(PositiveReal, FindsTheDeepestOfManyDipsThatNoPolePointsAt) {
+// Finite impulse responses: all poles at 0, some fifteen dips of similar depth anywhere on the
+// circle.
+TEST(PositiveReal, FindsTheDeepestOfManyDips) {
   test::Random random(18);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 100; ++i) {
@@ -153,7 +154,7 @@ TEST(PositiveReal, FindsTheDeepestOfManyDipsThatNoPolePointsAt) {
   }
 }
 
-TEST(PositiveReal, LightDampingOverManyDecadesIsNotTakenForNone) {
+TEST(PositiveReal, LightDampingIsNotTakenForNone) {
   // Resonators s g/(s^2 + g s + w^2), g = 2e-5 w, eight decades apart: each passive.
   StateSpace model{MatrixXd(0, 0), MatrixXd(0, 1), MatrixXd(1, 0), MatrixXd::Zero(1, 1)};
   for (const double w : {1e-2, 1.0, 1e3, 1e6}) {
@@ -169,9 +170,9 @@ TEST(PositiveReal, LightDampingOverManyDecadesIsNotTakenForNone) {
   EXPECT_NEAR(report.least, 0, 1e-9);
 }
 
-// 0.1 + 1/(s + 1) - 1.5/(s + 10) is positive real; with the fast mode replaced by its static gain
-// it is not: "passive with the complex model, so passive with the simple one" does not hold.
-TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
+// 0.1 + 1/(s + 1) - 1.5/(s + 10) is positive real; with the static gain instead of the fast mode it
+// is not. So "passive with the complex model, so passive with the simple one" is false.
+TEST(PositiveReal, DetectsAReductionThatMakesAModelActive) {
   const TransferFunction slow{{1}, {1, 1}, 0}, fast{{-1.5}, {1, 10}, 0}, direct{{0.1}, {1}, 0};
   const PositiveRealReport full = judge_positive_real(sum(sum(slow, fast), direct));
   EXPECT_TRUE(full.is_positive_real());
@@ -184,7 +185,7 @@ TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
   EXPECT_EQ(describe(reduced), "negative real part, -0.05 at inf rad/s");
 }
 
-TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {
+TEST(PositiveReal, PolesOnTheBorderAreJudgedByResidues) {
   using TF = TransferFunction;
   EXPECT_TRUE(judge_positive_real(TF{{1}, {1, 0}, 0}).is_positive_real()) << "a spring";
   EXPECT_TRUE(judge_positive_real(TF{{1, 0}, {1, 0, 4}, 0}).is_positive_real()) << "a resonator";
@@ -194,7 +195,7 @@ TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {
   EXPECT_EQ(judge_positive_real(TF{{1}, {1, 0, 0}, 0}).because, ActiveBecause::multiple_pole);
   EXPECT_EQ(judge_positive_real(TF{{1, 0, 0}, {1}, 0}).because, ActiveBecause::multiple_pole);
   EXPECT_EQ(judge_positive_real(TF{{1}, {1, -1}, 0}).because, ActiveBecause::pole_beyond_border);
-  // Trapezoidal integrator: lossless. Backward: loses. Forward: makes energy.
+  // Trapezoidal integrator: lossless. Backward: dissipates. Forward: generates energy.
   EXPECT_NEAR(judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).least, 0, 1e-12);
   EXPECT_TRUE(judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).is_positive_real());
   EXPECT_NEAR(judge_positive_real(TF{{1, 0}, {1, -1}, 0.1}).least, 0.5, 1e-12);
@@ -202,14 +203,14 @@ TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {
 }
 
 TEST(PositiveReal, MatricesAreJudgedByTheirLeastEigenvalue) {
-  // Two masses' admittances side by side: a semisimple double pole at 0, passive.
+  // Admittances of two separate masses: a semisimple double pole at 0, passive.
   const MatrixXd I = MatrixXd::Identity(2, 2), O = MatrixXd::Zero(2, 2);
   EXPECT_TRUE(judge_positive_real(StateSpace{O, I, I, O}).is_positive_real());
-  // A residue that is not symmetric is not lossless, both diagonals being good.
+  // A residue that is not symmetric is not lossless, even with good diagonals.
   MatrixXd skew(2, 2);
   skew << 1, 1, -1, 1;
   EXPECT_EQ(judge_positive_real(StateSpace{O, I, skew, O}).because, ActiveBecause::residue);
-  // A gyrator is lossless, a transformer of power with gain is not.
+  // A gyrator is lossless, a power transformer with gain is not.
   MatrixXd gyrator(2, 2), gain(2, 2);
   gyrator << 0, 2, -2, 0;
   gain << 1, 3, 0, 1;
@@ -217,7 +218,7 @@ TEST(PositiveReal, MatricesAreJudgedByTheirLeastEigenvalue) {
   EXPECT_NEAR(judge_positive_real(static_gain(gain, 0)).least, 1 - 1.5, 1e-14);
 }
 
-TEST(PositiveReal, RandomTwoPortsAreJudgedAsASweepOfTheCorrectedCriterionDoes) {
+TEST(PositiveReal, RandomTwoPortsMatchTheCorrectedCriterion) {
   test::Random random(17);
   std::normal_distribution<double> normal;
   int positive = 0;
@@ -244,7 +245,7 @@ TEST(PositiveReal, RandomTwoPortsAreJudgedAsASweepOfTheCorrectedCriterionDoes) {
   EXPECT_LT(positive, 240);
 }
 
-TEST(PositiveReal, ShapesAndNumbersThatAreNotPortsAreRefused) {
+TEST(PositiveReal, InvalidShapesAndNumbersAreRefused) {
   EXPECT_THROW((void)judge_positive_real(static_gain(MatrixXd::Zero(1, 2), 0)),
                std::invalid_argument);
   EXPECT_THROW((void)judge_positive_real(TransferFunction{{std::nan("")}, {1, 1}, 0}),

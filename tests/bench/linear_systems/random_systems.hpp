@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Random linear systems whose poles and responses are known before any matrix is made of them.
+// Random linear systems with poles and responses that are known before a matrix is made of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ inline Eigen::MatrixXd joined(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
   return all;
 }
 
-/// Real matrix with eigenvalue p, and its conjugate where p is not real.
+/// Real matrix with eigenvalue p, and its conjugate if p is not real.
 inline Eigen::MatrixXd block_of(std::complex<double> p) {
   if (p.imag() == 0) return Eigen::MatrixXd::Constant(1, 1, p.real());
   Eigen::MatrixXd block(2, 2);
@@ -56,7 +56,7 @@ struct ModeSum {
     return value;
   }
 
-  /// The same behind a random orthogonal change of state.
+  /// The same after a random orthogonal change of state.
   bench::StateSpace as_state_space(Random& random, double sample_period) const {
     Eigen::MatrixXd A(0, 0), B(0, 1), C(1, 0);
     for (std::size_t i = 0; i < poles.size(); ++i) {

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 
 MatrixXd scalar(double value) { return MatrixXd::Constant(1, 1, value); }
 
-// Jordan block of size 2 for p and, where p is not real, for its conjugate.
+// Jordan block of size 2 for p and, if p is not real, for its conjugate.
 MatrixXd defective(Complex p) {
   const MatrixXd block = test::block_of(p);
   MatrixXd twice = test::joined(block, block);
@@ -81,7 +81,7 @@ Known random_known(test::Random& random, Kind kind, bool sampled) {
   return known;
 }
 
-TEST(Stability, IsRightOnTenThousandRandomSystemsWithKnownPoles) {
+TEST(Stability, IsCorrectForRandomSystemsWithKnownPoles) {
   test::Random random(5);
   int wrong = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -101,7 +101,7 @@ TEST(Stability, IsRightOnTenThousandRandomSystemsWithKnownPoles) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Stability, MultipleRootsOfTheCharacteristicEquationOnTheCircleAreUnstable) {
+TEST(Stability, MultipleRootsOnTheCircleAreUnstable) {
   // (z - 1)^2, (z^2 + 1)^2 and, for comparison, (z - 1)(z + 1).
   EXPECT_EQ(judge_roots(roots({1, -2, 1}), 1e-3).verdict, Stability::unstable);
   EXPECT_EQ(judge_roots(roots({1, 0, 2, 0, 1}), 1e-3).verdict, Stability::unstable);
@@ -109,7 +109,7 @@ TEST(Stability, MultipleRootsOfTheCharacteristicEquationOnTheCircleAreUnstable) 
   EXPECT_TRUE(judge_roots(roots({1, -2, 1}), 1e-3).multiple_on_border);
 }
 
-TEST(Stability, NothingIsStableAndContinuousHasNoRadius) {
+TEST(Stability, EmptySystemIsStable) {
   EXPECT_EQ(judge_roots(Eigen::VectorXcd(0), 0).verdict, Stability::asymptotic);
   EXPECT_EQ(spectral_radius(static_gain(scalar(2), 1e-3)), 0.0);
   EXPECT_THROW((void)spectral_radius(static_gain(scalar(2), 0)), std::invalid_argument);

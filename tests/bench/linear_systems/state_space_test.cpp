@@ -32,20 +32,20 @@ StateSpace device(double m, double b) {
   return {scalar(-b / m), scalar(1 / m), scalar(1), scalar(0)};
 }
 
-TEST(StateSpace, FirstOrderDeviceAtAFrequencyIsItsClosedForm) {
+TEST(StateSpace, FirstOrderDeviceIsItsClosedForm) {
   const Complex s = border_point(0, 7.0);
   EXPECT_NEAR(std::abs(evaluate(device(2, 0.5), s)(0, 0) - 1.0 / (2.0 * s + 0.5)), 0, 1e-15);
 }
 
-TEST(StateSpace, HeldInputOnADeviceIsTheExponentialToTwelveDigits) {
+TEST(StateSpace, HeldInputOnADeviceIsTheExponential) {
   const double m = 0.1, b = 0.3, T = 0.01, a = std::exp(-b * T / m);
   const StateSpace sampled = discretise_zero_order_hold(device(m, b), T);
   EXPECT_NEAR(sampled.A(0, 0), a, 1e-14);
   EXPECT_NEAR(sampled.B(0, 0), (1 - a) / b, 1e-13);
 }
 
-TEST(StateSpace, HeldForceOnAFreeMassIsTheParabola) {
-  // A is singular: no formula with its inverse would do.
+TEST(StateSpace, HeldForceMovesAFreeMassParabolically) {
+  // A is singular: a formula with its inverse would fail.
   MatrixXd A(2, 2), B(2, 1), C(1, 2);
   A << 0, 1, 0, 0;
   B << 0, 0.5;
@@ -55,7 +55,7 @@ TEST(StateSpace, HeldForceOnAFreeMassIsTheParabola) {
   EXPECT_NEAR(sampled.B(1, 0), 0.5 * 0.2, 1e-16);
 }
 
-TEST(StateSpace, SchurResponseIsThatOfLu) {
+TEST(StateSpace, SchurResponseEqualsTheLuResponse) {
   std::mt19937 random(1);
   for (const Eigen::Index order : {0, 1, 2, 5, 12}) {
     const StateSpace system = random_system(random, order, 2, 1e-3);
@@ -67,7 +67,7 @@ TEST(StateSpace, SchurResponseIsThatOfLu) {
   }
 }
 
-TEST(StateSpace, ConnectionsAreTheAlgebraOfTheirResponses) {
+TEST(StateSpace, ConnectionsAreTheAlgebraOfResponses) {
   std::mt19937 random(2);
   for (int i = 0; i < 100; ++i) {
     const StateSpace f = random_system(random, i % 4, 2, 1e-3);

@@ -42,7 +42,7 @@ TEST(TransferFunction, StateFormHasTheSameResponse) {
   }
 }
 
-TEST(TransferFunction, ArithmeticIsThatOfItsValues) {
+TEST(TransferFunction, ArithmeticEqualsTheArithmeticOfValues) {
   const TransferFunction a{{2, 1}, {1, -0.5}, 0.1}, b{{1}, {1, 0.2, 0.3}, 0.1};
   const Complex z(0.3, 1.1), A = evaluate(a, z), B = evaluate(b, z);
   EXPECT_LT(std::abs(evaluate(sum(a, b), z) - A - B), 1e-14);
@@ -52,7 +52,7 @@ TEST(TransferFunction, ArithmeticIsThatOfItsValues) {
   EXPECT_EQ(sum(a, a).denominator.size(), 2u) << "an equal denominator is kept";
 }
 
-TEST(TransferFunction, ImproperNotFiniteAndEmptyOnesAreRefused) {
+TEST(TransferFunction, ImproperNonFiniteAndEmptyOnesAreRefused) {
   EXPECT_THROW((void)to_state_space({{1, 0}, {1}, 0}), std::invalid_argument);
   EXPECT_THROW((void)checked({{std::nan("")}, {1}, 0}), std::invalid_argument);
   EXPECT_THROW((void)checked({{1}, {0, 0}, 0}), std::invalid_argument);
@@ -72,7 +72,7 @@ TEST(VirtualEnvironment, WallHasBothReadings) {
   EXPECT_EQ(without.numerator, (std::vector<double>{b_e + K, -b_e}));
 }
 
-TEST(VirtualEnvironment, PositionFormOfAWallIsSpringAndBackwardDifference) {
+TEST(VirtualEnvironment, PositionFormIsSpringAndBackwardDifference) {
   const double K = 300, b_e = 2, T = 1e-3;
   const Complex z = std::polar(1.0, 0.4);
   const TransferFunction H = position_form(virtual_wall(K, b_e, T, SpringReading::with_period));
@@ -81,19 +81,19 @@ TEST(VirtualEnvironment, PositionFormOfAWallIsSpringAndBackwardDifference) {
   EXPECT_LT(std::abs(evaluate(back, z) - (b_e + K * T * z / (z - 1.0))), 1e-12);
 }
 
-TEST(VirtualEnvironment, ReductionOfTheTwoPoleModelKeepsItsStaticGain) {
-  // Beside the pole a = 1 itself, which is the integrator: (z - a) VE at z = 1.
+TEST(VirtualEnvironment, TwoPoleReductionKeepsTheStaticGain) {
+  // Next to the pole a = 1, which is the integrator: (z - a) VE at z = 1.
   const double K = 0.2, a = 1.0, alpha = 0.6, T = 0.01;
   const Complex z(1.0, 1e-9);
   const Complex ratio = evaluate(one_pole_environment(K, a, alpha, T), z) /
                         evaluate(two_pole_environment(K, a, alpha, T), z);
   EXPECT_NEAR(std::abs(ratio), 1.0, 1e-8);
-  // With a pole off 1 both static gains are finite and equal.
+  // With a pole that is not 1 both static gains are finite and equal.
   const double simple = evaluate(one_pole_environment(K, 0.9, alpha, T), 1.0).real();
   EXPECT_NEAR(simple, evaluate(two_pole_environment(K, 0.9, alpha, T), 1.0).real(), 1e-12 * simple);
 }
 
-TEST(VirtualEnvironment, PrintedHoldHasThePhaseOfTheTrueOneAndAnotherSize) {
+TEST(VirtualEnvironment, PrintedHoldHasTheTruePhaseOnly) {
   for (const double theta : {0.0, 0.1, 1.0, 3.0}) {
     const Complex printed = printed_hold(theta), exact = zero_order_hold(theta);
     EXPECT_NEAR(std::arg(printed), std::arg(exact), 1e-14);
@@ -103,8 +103,8 @@ TEST(VirtualEnvironment, PrintedHoldHasThePhaseOfTheTrueOneAndAnotherSize) {
   EXPECT_NEAR(std::abs(zero_order_hold(M_PI)), 2 / M_PI, 1e-15);
 }
 
-TEST(VirtualEnvironment, DeviceByBackwardDifferenceIsPositiveRealForAnyDamping) {
-  // (4.2) comes to m + b T >= m cos w: it holds for every b >= 0 and so tells nothing.
+TEST(VirtualEnvironment, BackwardDifferenceDeviceIsAlwaysPositiveReal) {
+  // (4.2) reduces to m + b T >= m cos w: it holds for every b >= 0 and so proves nothing.
   for (const double b : {0.0, 0.3, 5.0}) {
     const TransferFunction device = backward_difference_device(1.0, b, 1.0, 0.01);
     for (double w = 0.01; w < M_PI; w += 0.01) {

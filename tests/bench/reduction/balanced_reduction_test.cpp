@@ -25,7 +25,7 @@ using test::oscillator;
 
 double static_gain_of(const StateSpace& system) { return evaluate(system, 0.0)(0, 0).real(); }
 
-TEST(BlockSchur, PutsWhatIsSlowOrUnstableInFront) {
+TEST(BlockSchur, PutsSlowOrUnstablePolesInFront) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   for (int round = 0; round < 200; ++round) {
@@ -69,19 +69,19 @@ TEST(BlockSchur, GramiansAndSylvesterSolveTheirEquations) {
                std::runtime_error);
 }
 
-// Two equal poles have no two eigenvectors; Hankel values (sqrt(2) +- 1)/4.
-TEST(BalancedReduction, OfACriticallyDampedPairIsItsClosedForm) {
+// Two equal poles do not have two eigenvectors; the Hankel values are (sqrt(2) +- 1)/4.
+TEST(BalancedReduction, CriticallyDampedPairIsItsClosedForm) {
   const BalancedReduction reduction(oscillator(1.0));
   EXPECT_NEAR(reduction.hankel_values()[0], (std::sqrt(2.0) + 1.0) / 4.0, 1e-9);
   EXPECT_NEAR(reduction.hankel_values()[1], (std::sqrt(2.0) - 1.0) / 4.0, 1e-9);
   EXPECT_NEAR(reduction.bound(1), (std::sqrt(2.0) - 1.0) / 2.0, 1e-9);
-  // The whole of it at once where one state is left out: the direct term is -bound.
+  // With one omitted state the error reaches the bound at once: the direct term is -bound.
   EXPECT_NEAR(reduction.model(1).D(0, 0), -(std::sqrt(2.0) - 1.0) / 2.0, 1e-8);
   EXPECT_NEAR(static_gain_of(reduction.model(1)), 1.0, 1e-12);
   EXPECT_LE(largest_difference(oscillator(1.0), reduction.model(2), 1e-3, 1e3), 1e-9);
 }
 
-TEST(BalancedReduction, StaysWithinItsBoundWherePolesCoincide) {
+TEST(BalancedReduction, StaysWithinItsBoundForCoincidentPoles) {
   for (const StateSpace& system :
        {oscillator(1.0), oscillator(1.0 + 1e-9), oscillator(1.0 - 1e-9), oscillator(0.01),
         cascade(2, 20, 0), cascade(4, 20, 1e-7), cascade(8, 20, 0), cascade(8, 20, 1e-3),
@@ -116,8 +116,8 @@ TEST(BalancedReduction, StaysWithinItsBoundForRandomSystems) {
   }
 }
 
-// Pushed freely, beside what swings in it: the double integrator comes through untouched.
-TEST(BalancedReduction, KeepsFreeAndUnstableMotionsAsTheyAre) {
+// Pushed freely, beside an oscillating part: the double integrator is unchanged.
+TEST(BalancedReduction, KeepsFreeAndUnstableMotions) {
   const auto body = test::make_chain(10, 0.02, 900, 0, 0, 2e-3);
   StateSpace system = test::pressed(body, 0.0);
   system.B.bottomRows(10) = MatrixXd(body.M).inverse() * body.B;
@@ -126,13 +126,13 @@ TEST(BalancedReduction, KeepsFreeAndUnstableMotionsAsTheyAre) {
   EXPECT_EQ(reduction.least_order(), 2);
   const double size = reduction.hankel_values()[0];
   for (int order = 2; order <= reduction.most_order(); ++order) {
-    // The rest is of the size of 1 mm/N; the free motion at 0.1 rad/s 500 m/N.
+    // The rest has a magnitude of 1 mm/N; the free motion at 0.1 rad/s has 500 m/N.
     EXPECT_LE(largest_difference(system, reduction.model(order), 0.1, 1e4),
               reduction.bound(order) + 1e-6 * size + 1e-8 * 500)
         << order;
   }
 
-  // A buckled body: one spring pushes away.
+  // A buckled body: one spring is repulsive.
   StateSpace buckled = test::pressed(test::make_chain(8, 0.02, 900, 100, 1, 1e-3), 900);
   buckled.A(8, 0) += 15000.0;
   const double unstable = poles(buckled).real().maxCoeff();
@@ -147,7 +147,7 @@ TEST(BalancedReduction, KeepsFreeAndUnstableMotionsAsTheyAre) {
 }
 
 // Thesis (4.21): K z/((z - a)(z - alpha)) becomes (K z/(1 - alpha))/(z - a).
-TEST(BalancedReduction, HoldingAPoleAtRestIsTheExampleOfTheThesis) {
+TEST(BalancedReduction, ResidualisationIsTheExampleOfTheThesis) {
   for (const double a : {1.0, 0.9, 0.3}) {
     for (const double alpha : {0.0, 0.6, 0.95}) {
       const double K = 0.2;
@@ -171,14 +171,14 @@ TEST(BalancedReduction, HoldingAPoleAtRestIsTheExampleOfTheThesis) {
   }
 }
 
-TEST(BalancedReduction, RefusesWhatItCannotReduce) {
+TEST(BalancedReduction, RefusesSystemsThatItCannotReduce) {
   StateSpace sampled = oscillator(0.5);
   sampled.sample_period = 1e-3;
   EXPECT_THROW(BalancedReduction{sampled}, std::invalid_argument);
   const BalancedReduction reduction(oscillator(0.5));
   EXPECT_THROW((void)reduction.model(3), std::invalid_argument);
   EXPECT_THROW((void)reduction.bound(-1), std::invalid_argument);
-  // An integrator has no rest.
+  // An integrator has no static equilibrium.
   StateSpace free = oscillator(0.5);
   free.A(1, 0) = 0.0;
   EXPECT_THROW((void)residualised(free, 0), std::invalid_argument);

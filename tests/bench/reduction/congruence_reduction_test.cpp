@@ -35,7 +35,7 @@ std::complex<double> felt(std::complex<double> compliance, double stiffness) {
   return 1.0 / (1.0 / stiffness + compliance);
 }
 
-// Largest difference of the force through a contact over frequencies, of the largest force.
+// Largest difference of the contact force over all frequencies, relative to the largest force.
 double relative_error(const SecondOrderSystem& body, const ModalForceModel& model,
                       double stiffness) {
   double error = 0.0, most = 0.0;
@@ -51,7 +51,7 @@ MatrixXd static_answer(const SecondOrderSystem& body) {
   return body.B.transpose() * MatrixXd(body.K).ldlt().solve(body.B);
 }
 
-TEST(CongruenceReduction, AnswersForcesThatLastExactly) {
+TEST(CongruenceReduction, IsExactForStaticForces) {
   test::Membrane three_points;
   three_points.side = 6;
   three_points.touched = {3, 14, 35};
@@ -68,11 +68,11 @@ TEST(CongruenceReduction, AnswersForcesThatLastExactly) {
   }
 }
 
-TEST(CongruenceReduction, IsWithinFivePerCentOfMembranesWithSixteenModes) {
+TEST(CongruenceReduction, IsWithinFivePerCentWithSixteenModes) {
   for (const int side : {6, 8, 14}) {
     for (const double bed : {4.0, 40.0}) {
       for (const double spring_damping : {2e-4, 2e-3}) {
-        // Of the largest ones in a gate the softest, least damped one.
+        // In the gate, of the largest membranes only the softest, least damped one.
         if (!test::soaks() && side > 8 && (bed > 4.0 || spring_damping > 2e-4)) continue;
         test::Membrane of;
         of.side = side;
@@ -88,7 +88,7 @@ TEST(CongruenceReduction, IsWithinFivePerCentOfMembranesWithSixteenModes) {
   }
 }
 
-// Random springs, dampers and masses in a random net, held at one node.
+// Random springs, dampers and masses in a random network, fixed at one node.
 SecondOrderSystem random_body(std::mt19937& random, int nodes) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::uniform_int_distribution<int> node(0, nodes - 1);
@@ -110,7 +110,7 @@ SecondOrderSystem random_body(std::mt19937& random, int nodes) {
   return body;
 }
 
-TEST(CongruenceReduction, IsPassiveWhateverTheBasis) {
+TEST(CongruenceReduction, IsPassiveForAnyBasis) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (int round = 0; round < 60; ++round) {
@@ -124,7 +124,7 @@ TEST(CongruenceReduction, IsPassiveWhateverTheBasis) {
         const ModalForceModel model = reduction.model(modes);
         EXPECT_EQ(refusal(model), "");
         for (double w = 1.0; w < 1e5; w *= 3.0) {
-          // Force to speed: its real part is what the points take.
+          // Force to velocity: its real part is the power absorbed at the points.
           const MatrixXcd mobility = std::complex<double>(0.0, w) * compliance(model, w);
           const Eigen::SelfAdjointEigenSolver<MatrixXcd> taken(mobility + mobility.adjoint());
           EXPECT_GE(taken.eigenvalues()[0], -1e-9 * mobility.norm());
@@ -134,7 +134,7 @@ TEST(CongruenceReduction, IsPassiveWhateverTheBasis) {
   }
 }
 
-TEST(CongruenceReduction, KeepsTheWholeMassOfAFreeBody) {
+TEST(CongruenceReduction, KeepsTheMassOfAFreeBody) {
   const SecondOrderSystem body = make_chain(12, 0.02, 4000.0, 0.0, 0.0, 2e-4);
   for (const Basis basis : {Basis::krylov, Basis::snapshots, Basis::modes}) {
     const BodyReduction reduction(body, basis);
@@ -143,7 +143,7 @@ TEST(CongruenceReduction, KeepsTheWholeMassOfAFreeBody) {
       const ModalForceModel model = reduction.model(modes);
       EXPECT_EQ(model.omega[0], 0.0);
       const double w = 0.05;
-      // 12 x 20 g that nothing holds.
+      // 12 x 20 g, free.
       EXPECT_NEAR(std::abs(compliance(model, w)(0, 0)) * w * w * 0.24, 1.0, 1e-5);
     }
     EXPECT_LE(relative_error(body, reduction.model(reduction.most_modes()), 900.0), 1e-4);
@@ -153,7 +153,7 @@ TEST(CongruenceReduction, KeepsTheWholeMassOfAFreeBody) {
 
 TEST(CongruenceReduction, SnapshotsOfARunServeAsBasis) {
   const SecondOrderSystem body = make_chain(30, 0.01, 2000.0, 400.0, 5.0, 1e-3);
-  // What it looks like at ten frequencies.
+  // Deflections at ten frequencies.
   MatrixXd snapshots(body.size(), 20);
   for (Index k = 0; k < 10; ++k) {
     const double w = 3.0 * std::pow(1.8, static_cast<double>(k));
@@ -179,7 +179,7 @@ std::string told(SecondOrderSystem body) {
   return "";
 }
 
-TEST(SecondOrderSystem, SaysWhereABodyIsNotPassive) {
+TEST(SecondOrderSystem, ReportsTheCauseOfANonPassiveBody) {
   const SecondOrderSystem good = make_chain(6, 0.02, 400.0, 100.0, 1.0, 1e-3);
   EXPECT_EQ(told(good), "");
   SecondOrderSystem bad = good;
@@ -207,7 +207,7 @@ TEST(SecondOrderSystem, SaysWhereABodyIsNotPassive) {
   EXPECT_THAT(told(bad), HasSubstr("B is 5 x 1"));
 }
 
-TEST(ModalForceModel, IsTheSameWithForceAndWithMotionGiven) {
+TEST(ModalForceModel, ForceAndMotionFormsAreEquivalent) {
   const ModalForceModel model = BodyReduction(make_membrane({}), Basis::snapshots).model(8);
   const StateSpace motion = displacement_of_force(model);
   const StateSpace force = force_of_displacement(model, 900.0);
@@ -216,13 +216,13 @@ TEST(ModalForceModel, IsTheSameWithForceAndWithMotionGiven) {
     EXPECT_LE(std::abs(evaluate(motion, s)(0, 0) - C), 1e-9 * std::abs(C));
     EXPECT_LE(std::abs(evaluate(force, s)(0, 0) - felt(C, 900.0)), 1e-7 * 900.0);
   }
-  // A steady contact: the force that a motion gives, given, makes that motion.
+  // A steady contact: the force of a given motion, applied as input, gives that motion.
   const double given = 4e-3, f = given * evaluate(force, 0.0)(0, 0).real();
   EXPECT_NEAR(f / 900.0 + f * evaluate(motion, 0.0)(0, 0).real(), given, 1e-9);
   EXPECT_THROW((void)force_of_displacement(model, 0.0), std::invalid_argument);
 }
 
-TEST(ModalForceModel, HoldsNoMoreThanItWasGiven) {
+TEST(ModalForceModel, StoresNoMoreThanItsInput) {
   const ModalForceModel model =
       BodyReduction(make_chain(9, 0.02, 900.0, 200.0, 0.5, 1e-4), Basis::krylov).model(5);
   const double dt = 1e-4;
@@ -232,7 +232,7 @@ TEST(ModalForceModel, HoldsNoMoreThanItWasGiven) {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(10);
   double given = 0.0, force = 0.0;
   for (int k = 0; k < 20000; ++k) {
-    // A force that jumps gives the rest its energy at the jump.
+    // A step of the force gives energy to the residual term at once.
     const double next = 0.9 * force + normal(random);
     given += 0.5 * (next + force) * model.rest(0, 0) * (next - force);
     force = next;

@@ -30,7 +30,7 @@ std::vector<ContactSample> recorded(const ContactCoefficients& wall, double from
   return samples;
 }
 
-TEST(ContactFit, FindsCoefficientsThatTheSamplesWereMadeOf) {
+TEST(ContactFit, FindsTheCoefficientsOfSamples) {
   const ContactCoefficients wall{300.0, 4e6, 0.2};
   const ContactFit fit = fit_contact(recorded(wall, 0.0, 0.3), {});
   EXPECT_NEAR(fit.contact.k1, wall.k1, 1e-4 * wall.k1);
@@ -41,12 +41,12 @@ TEST(ContactFit, FindsCoefficientsThatTheSamplesWereMadeOf) {
   EXPECT_LE(fit.error, 1e-4);
 }
 
-// What the full model does: exponential stiffening and a damper that grows with depth.
+// The full model: exponential stiffening and a damper that grows with depth.
 double full_force(const ContactSample& at) {
   return 0.8 * (std::exp(250.0 * at.depth) - 1.0) + 60.0 * at.depth * at.rate;
 }
 
-TEST(ContactFit, StaysUnderItsErrorWhileItLastsThenFallsBack) {
+TEST(ContactFit, StaysUnderItsErrorThenFallsBack) {
   constexpr double kThreshold = 0.03;  // [N]
   const ContactCoefficients fallback{100.0, 0.0, 0.0};
   int used = 0;
@@ -63,13 +63,13 @@ TEST(ContactFit, StaysUnderItsErrorWhileItLastsThenFallsBack) {
     }
     EXPECT_EQ(contact.at(now + 0.1011, 4e-3).k1, fallback.k1);
     EXPECT_EQ(contact.at(now - 1e-3, 4e-3).k1, fallback.k1);
-    // Deeper than it has been seen: not known.
+    // Deeper than any sample: unknown.
     EXPECT_EQ(contact.at(now, 1.01 * fit.deepest).k1, fallback.k1);
   }
   EXPECT_GT(used, 1000);
 }
 
-TEST(ContactFit, IsPassiveOnTheDeviceWhateverTheSamples) {
+TEST(ContactFit, IsPassiveOnTheDeviceForAnySamples) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit(0, 1);
@@ -103,8 +103,8 @@ double weighted_squares(const std::vector<ContactSample>& samples,
   return sum;
 }
 
-// Stiffer than the device shows, so that limits bind; nothing within them is nearer.
-TEST(ContactFit, IsTheNearestWithinItsLimits) {
+// Stiffer than the device can render, so that limits bind; no fit within them is nearer.
+TEST(ContactFit, IsTheNearestFitWithinItsLimits) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(0, 1);
   const FitLimits limits{.device_damping = 1.0, .sample_period = 1e-3};
@@ -129,17 +129,17 @@ TEST(ContactFit, IsTheNearestWithinItsLimits) {
   }
 }
 
-TEST(ContactFit, IsNotSentWhereHoldingTheForceIsAsGood) {
+TEST(ContactFit, IsNotSentIfAHeldForceSuffices) {
   std::vector<ContactSample> samples = recorded({}, 0.0, 0.3);
-  // A force that has nothing to do with the depth.
+  // A force independent of the depth.
   for (ContactSample& at : samples) at.force = 2.0 + 0.01 * std::sin(900 * at.time);
   const ContactFit fit = fit_contact(samples, {});
   EXPECT_FALSE(fit.worth_sending()) << fit.error << " N, held " << fit.hold_error;
-  // Nor one that has been seen for less time than it is to be used.
+  // Nor a fit with a sampled time shorter than its horizon.
   EXPECT_FALSE(fit_contact(recorded({300.0, 0, 0}, 0.0, 0.05), {}).worth_sending());
 }
 
-TEST(ContactFit, RefusesWhatItCannotFit) {
+TEST(ContactFit, RefusesInvalidSamplesAndLimits) {
   std::vector<ContactSample> samples = recorded({300.0, 0, 0}, 0.0, 0.3);
   EXPECT_THROW((void)fit_contact({}, {}), std::invalid_argument);
   EXPECT_THROW((void)fit_contact(samples, {.device_damping = 0.0}), std::invalid_argument);

@@ -37,22 +37,22 @@ double swept_need(const StateSpace& sampled, int count) {
 
 StateSpace spring(double stiffness) { return static_gain(number(stiffness), 0.0); }
 
-TEST(DeviceAcceptance, OfASpringIsTheClosedForm) {
+TEST(DeviceAcceptance, SpringNeedsItsClosedForm) {
   // b > K T/2.
   const Acceptance soft = accepted(spring(1000.0), {0.6, 1e-3});
   EXPECT_TRUE(soft.model);
   EXPECT_NEAR(soft.required, 0.5, 1e-9);
   EXPECT_EQ(soft.added_damping, 0.0);
   EXPECT_EQ(soft.remark, "");
-  // A damper takes as much off the need of slow motion as it adds to that of fast motion.
+  // A damper reduces the need of slow motion by as much as it increases the need of fast motion.
   const Acceptance stiff = accepted(spring(1000.0), {0.4, 1e-3});
   EXPECT_FALSE(stiff.model);
   EXPECT_THAT(stiff.remark, HasSubstr("it has 0.4"));
   EXPECT_THAT(stiff.remark, HasSubstr("lower its stiffness"));
 }
 
-// A mode that pushes where it should yield, but only slowly: damping beside it mends that.
-TEST(DeviceAcceptance, AddsTheLeastDamperThatDoes) {
+// A mode with a wrong sign, but only a slow one: parallel damping corrects it.
+TEST(DeviceAcceptance, AddsTheLeastSufficientDamper) {
   const double active = 0.7, rate = 20.0;
   StateSpace model{number(-rate), number(rate), number(active * rate), number(100.0), 0.0};
   const RenderingDevice device{0.5, 1e-3};
@@ -62,7 +62,7 @@ TEST(DeviceAcceptance, AddsTheLeastDamperThatDoes) {
   EXPECT_GT(answer.added_damping, 0.0);
   EXPECT_THAT(answer.remark, HasSubstr("of direct damping is added"));
   EXPECT_LE(swept_need(*answer.model, 20000), device.damping * (1 + 1e-9));
-  // A hundredth less does not do.
+  // One hundredth less is not sufficient.
   const double less = 0.99 * answer.added_damping / device.sample_period;
   const StateSpace damper{number(0), number(1), number(-less), number(less), device.sample_period};
   const StateSpace weaker =
@@ -70,8 +70,9 @@ TEST(DeviceAcceptance, AddsTheLeastDamperThatDoes) {
   EXPECT_GT(swept_need(weaker, 20000), device.damping);
 }
 
-// Positive real, least real part 0.0166; with its fast mode at rest it gives energy.
-TEST(DeviceAcceptance, CatchesTheModelThatReductionMadeActive) {
+// Positive real, least real part 0.0166; with its fast mode replaced by the static gain it
+// generates energy.
+TEST(DeviceAcceptance, DetectsAModelMadeActiveByReduction) {
   StateSpace full{MatrixXd::Zero(2, 2), MatrixXd::Ones(2, 1), MatrixXd(1, 2), number(0.1), 0.0};
   full.A.diagonal() << -1.0, -10.0;
   full.C << 1.0, -1.5;
@@ -92,8 +93,8 @@ TEST(DeviceAcceptance, CatchesTheModelThatReductionMadeActive) {
   EXPECT_FALSE(nearest_passive(unstable).model);
 }
 
-// Whatever reduction makes of random models, stiff and soft, passive and not.
-TEST(DeviceAcceptance, NeverLetsAModelNeedMoreThanTheDeviceHas) {
+// Reductions of random models, stiff and soft, passive and not.
+TEST(DeviceAcceptance, AcceptedModelsNeverNeedMoreThanTheDevice) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> unit(0, 1);
   int kept = 0, mended = 0, refused = 0;
@@ -127,7 +128,7 @@ TEST(DeviceAcceptance, NeverLetsAModelNeedMoreThanTheDeviceHas) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(DeviceAcceptance, RefusesWhatIsNoDeviceOrNoModel) {
+TEST(DeviceAcceptance, RefusesInvalidDevicesAndModels) {
   EXPECT_THROW((void)accepted(spring(1.0), {0.0, 1e-3}), std::invalid_argument);
   EXPECT_THROW((void)accepted(static_gain(number(1.0), 1e-3), {1.0, 1e-3}), std::invalid_argument);
   EXPECT_THROW((void)accepted(static_gain(MatrixXd::Ones(2, 2), 0.0), {1.0, 1e-3}),

@@ -18,7 +18,7 @@ using test::cascade;
 using test::largest_difference;
 using test::oscillator;
 
-TEST(EigenTruncation, IsRightWherePolesLieApart) {
+TEST(EigenTruncation, IsCorrectForSeparatePoles) {
   std::mt19937 random(2);
   for (int round = 0; round < 50; ++round) {
     const StateSpace system = test::random_stable(random, 2 + round % 10);
@@ -33,7 +33,7 @@ TEST(EigenTruncation, IsRightWherePolesLieApart) {
 }
 
 // Each gain is 1: an error of 1e4 is a force 1e4 times too large.
-TEST(EigenTruncation, ErrsWithoutBoundWherePolesCoincide) {
+TEST(EigenTruncation, ErrsWithoutBoundForCoincidentPoles) {
   struct Case {
     const char* name;
     StateSpace system;
@@ -58,9 +58,9 @@ TEST(EigenTruncation, ErrsWithoutBoundWherePolesCoincide) {
   }
 }
 
-// A mass on a drag of 1e-6 1/s: 1/(s (s + 1e-6)) is 1e6/s less 1e6/(s + 1e-6). With one of them
-// alone the body is not pushed but thrown.
-TEST(EigenTruncation, GivesAFreeBodyResiduesThatAreNotThere) {
+// A mass with a drag of 1e-6 1/s: 1/(s (s + 1e-6)) is 1e6/s less 1e6/(s + 1e-6). With only one of
+// the two terms the body is not pushed but thrown.
+TEST(EigenTruncation, GivesAFreeBodySpuriousResidues) {
   StateSpace body = test::oscillator(0.5e-6);
   body.A(1, 0) = 0.0;
   const ModalDecomposition thrown = truncated_by_eigenvectors(body, 1, Dropped::forgotten);

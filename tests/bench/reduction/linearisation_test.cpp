@@ -13,8 +13,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Masses in a row on hardening springs; the last one is pressed by the input, the first one meets
-// a wall at 0. State: positions, then speeds.
+// Masses in a row on hardening springs; the input presses the last one, the first one meets a wall
+// at 0. State: positions, then speeds.
 struct HardeningChain {
   template <typename Scalar>
   ModelAnswer<Scalar> operator()(const VectorOf<Scalar>& state,
@@ -69,7 +69,7 @@ TEST(Linearisation, EqualsCentralDifferences) {
   for (int round = 0; round < 200; ++round) {
     VectorXd state(8), input(1);
     for (double& x : state) x = 0.02 * unit(random);
-    // The wall's corner has no slope; central differences would see both sides.
+    // The wall's corner has no derivative; central differences would span both sides.
     state[0] += state[0] > 0 ? 1e-3 : -1e-3;
     input[0] = unit(random);
     const Linearisation at = linearise(HardeningChain{}, state, input);
@@ -91,11 +91,11 @@ double wall_slope(double position, double speed) {
   return linearise(HardeningChain{}, state, VectorXd::Zero(1)).system.C(0, 0);
 }
 
-TEST(Linearisation, TakesTheSideOfAContactOnWhichItIs) {
+TEST(Linearisation, TakesTheActualSideOfAContact) {
   const double inside = -300.0 - 20.0 * 1e-3;
   EXPECT_NEAR(wall_slope(-1e-4, 0.0), inside, 1.0);
   EXPECT_EQ(wall_slope(1e-4, -1.0), 0.0);
-  // On the surface the motion decides.
+  // On the surface the direction of motion decides.
   EXPECT_NEAR(wall_slope(0.0, -0.1), inside, 1e-9);
   EXPECT_NEAR(wall_slope(1e-12, -0.1), inside, 1e-6);
   EXPECT_EQ(wall_slope(0.0, 0.1), 0.0);
@@ -112,7 +112,7 @@ struct Corner {
   }
 };
 
-TEST(Linearisation, RefusesAPointWithoutSlope) {
+TEST(Linearisation, RefusesAPointWithoutDerivative) {
   EXPECT_THROW((void)linearise(Corner{}, VectorXd::Zero(1), VectorXd(0)), std::invalid_argument);
   EXPECT_NO_THROW((void)linearise(Corner{}, VectorXd::Ones(1), VectorXd(0)));
   EXPECT_THROW((void)linearise(Corner{}, VectorXd::Ones(2), VectorXd(0)), std::invalid_argument);

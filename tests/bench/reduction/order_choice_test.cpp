@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 
 constexpr double kHz = 2.0 * 3.141592653589793;
 
-// Greatest value over (0, band], by brute force: a dense grid, then a denser one around each of its
-// three greatest local maxima, three times over.
+// Greatest value over (0, band], by brute force: a dense grid, then three times a denser one around
+// each of its three greatest local maxima.
 double greatest(const std::function<double(double)>& of, double band) {
   double most = 0.0;
   struct Peak {
@@ -67,8 +67,8 @@ double drawn(std::mt19937& random, double low, double high) {
   return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));
 }
 
-// Above and below what all orders do.
-TEST(OrderChoice, IsTheLeastOfAllOrdersForRandomSystems) {
+// Thresholds above and below the errors of all orders.
+TEST(OrderChoice, IsTheLeastOrderForRandomSystems) {
   std::mt19937 random(11);
   const int rounds = test::tries(120, 500);
   int chosen = 0;
@@ -94,7 +94,7 @@ TEST(OrderChoice, IsTheLeastOfAllOrdersForRandomSystems) {
   EXPECT_EQ(chosen, rounds);
 }
 
-TEST(OrderChoice, IsTheLeastOfAllNumbersOfModesForRandomBodies) {
+TEST(OrderChoice, IsTheLeastModeCountForRandomBodies) {
   std::mt19937 random(12);
   const int rounds = test::tries(120, 500);
   int refused = 0;
@@ -128,7 +128,7 @@ TEST(OrderChoice, IsTheLeastOfAllNumbersOfModesForRandomBodies) {
     EXPECT_EQ(choice.model->modes(), least);
     EXPECT_LE(choice.error, choice.bound * (1 + 1e-9) + 1e-12);
   }
-  // Two masses that are lightly damped have no third mode to take.
+  // Two lightly damped masses have no third mode to take.
   EXPECT_LE(refused, rounds / 5);
 }
 
@@ -145,9 +145,10 @@ TEST(OrderChoice, BoundsTheErrorAtAllFrequencies) {
   EXPECT_GE(choice.bound, choice.error);
 }
 
-// A square of equal masses has its modes in pairs, which a damper at one corner parts a little: two
-// frequencies that are one but for rounding once hid the peak between them and their neighbour.
-TEST(OrderChoice, ErrorIsTheGreatestBesidePairsOfEqualModes) {
+// A square of equal masses has its modes in pairs, which a damper at one corner separates a little:
+// two frequencies that are equal but for rounding once hid the peak between them and their
+// neighbour.
+TEST(OrderChoice, ErrorIsTheGreatestForPairsOfModes) {
   SecondOrderSystem body = test::make_membrane({.side = 6});
   body.D.coeffRef(0, 0) += 0.01;
   const BodyReduction reduction(body);
@@ -165,7 +166,7 @@ TEST(OrderChoice, ErrorIsTheGreatestBesidePairsOfEqualModes) {
   }
 }
 
-// Waves in a long chain, hardly damped: nothing small is like it.
+// Waves in a long chain with little damping: no small model approximates it.
 TEST(OrderChoice, RefusesWithTheNumberAndTheRemedy) {
   const auto chain = test::make_chain(40, 0.01, 4000.0, 400.0, 0.05, 1e-6);
   const auto choice = choose_order(BodyReduction(chain), {3e-3, 100.0}, 900.0, 1e-3);

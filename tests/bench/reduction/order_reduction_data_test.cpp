@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Held against reference data that others computed in other ways, where it is on this machine.
+// Against reference data that others computed by other methods, if present on this machine.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -52,9 +52,10 @@ StateSpace system_of(const Json& vector) {
           MatrixXd::Constant(1, 1, number(vector.at("D"))), 0.0};
 }
 
-// Step of the balanced model at t = 0, its direct term. Of one system the file's is 1.8e-3 off, as
-// its Hankel values from 1e-5 down are rounding; this is by 64-bit mantissas (eigenvectors, which
-// are good there: Cauchy form of the Gramians), the same from 30 to 34 balanced states to 1e-5.
+// Step response of the balanced model at t = 0, its direct term. For one system the file is 1.8e-3
+// off, as its Hankel values from 1e-5 down are rounding errors. This value was computed with 64-bit
+// mantissas (eigenvectors, which are good there: Cauchy form of the Gramians); it is the same from
+// 30 to 34 balanced states to 1e-5.
 double corrected(const std::string& id, double time, double expected) {
   return id == "open-patch4" && time == 0.0 ? 796.884523 : expected;
 }
@@ -65,7 +66,7 @@ double step_response(const StateSpace& system, double time) {
   return (system.C * discretise_zero_order_hold(system, time).B + system.D)(0, 0);
 }
 
-TEST(OrderReductionData, StepsOfBalancedModelsAreTheReference) {
+TEST(OrderReductionData, BalancedModelsMatchTheReferenceSteps) {
   RECKON_NEED_DATA(kFile);
   for (const Json& vector : vectors()) {
     SCOPED_TRACE(vector.at("id").get<std::string>());
@@ -95,7 +96,7 @@ TEST(OrderReductionData, StepsOfBalancedModelsAreTheReference) {
   }
 }
 
-// The bodies among them, with their contact's spring taken out, by congruence.
+// The bodies among them, without the spring of their contact, by congruence.
 TEST(OrderReductionData, BodiesKeepTheirStaticGain) {
   RECKON_NEED_DATA(kFile);
   int bodies = 0;
@@ -124,7 +125,7 @@ TEST(OrderReductionData, BodiesKeepTheirStaticGain) {
         EXPECT_NEAR(evaluate(model, 0.0)(0, 0).real(), gain, 1e-6 * gain);
       }
       if (basis == Basis::modes || reduction.most_modes() < body.size()) continue;
-      // With as many modes as the body has nothing is lost but coupling by its dampers.
+      // With all modes of the body only the coupling by its dampers is lost.
       const StateSpace model = force_of_displacement(reduction.model(reduction.most_modes()), kc);
       EXPECT_LE(test::largest_difference(full, model, 1e-2, 1e5), 0.05 * kc);
     }

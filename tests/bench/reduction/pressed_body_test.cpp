@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStiffness = 900.0;
 
-// In positions and speeds, by LU: nothing of the body's modes.
+// In positions and speeds, by LU, without the body's modes.
 void expect_right(const SecondOrderSystem& body, bool by_modes, double tolerance) {
   PressedBody pressed(BodyReduction(body), kStiffness);
   EXPECT_EQ(pressed.is_by_modes(), by_modes);
@@ -28,14 +28,14 @@ void expect_right(const SecondOrderSystem& body, bool by_modes, double tolerance
   EXPECT_LE(worst, tolerance);
 }
 
-TEST(PressedBody, AnswersByModesAsTheWholeBodyDoes) {
+TEST(PressedBody, ModesGiveTheAnswerOfTheWholeBody) {
   expect_right(test::make_membrane({.side = 6}), true, 1e-9);
   expect_right(test::make_membrane({.side = 5, .touched = {3, 17, 24}}), true, 1e-9);
   expect_right(test::make_chain(9, 0.01, 2000.0, 0.0, 2.0, 1e-3), true, 1e-9);   // free
   expect_right(test::make_chain(9, 0.01, 2000.0, 300.0, 0.0, 0.0), true, 1e-6);  // no damper
 }
 
-TEST(PressedBody, AnswersByFactorsWhereDampersCoupleModes) {
+TEST(PressedBody, UsesFactorsWhereDampersCoupleModes) {
   SecondOrderSystem body = test::make_membrane({.side = 6});
   body.D.coeffRef(0, 0) += 0.01;
   expect_right(body, false, 1e-9);
@@ -44,8 +44,8 @@ TEST(PressedBody, AnswersByFactorsWhereDampersCoupleModes) {
   expect_right(body, false, 1e-6);
 }
 
-// A mass of a billionth moves the fastest mode so far away that rounding eats the slow ones.
-TEST(PressedBody, IsNotMisledByMassesOfVeryUnlikeSizes) {
+// A tiny mass moves the fastest mode so far away that rounding destroys the slow ones.
+TEST(PressedBody, ToleratesMassesOfVeryDifferentSizes) {
   SecondOrderSystem body = test::make_chain(8, 0.01, 2000.0, 300.0, 2.0, 0.0);
   body.M.coeffRef(3, 3) *= 1e-13;
   body.D = 2.0 * body.M;

@@ -11,7 +11,7 @@
 namespace reckon::bench {
 namespace {
 
-TEST(Quantile, IsTheLeastWithTheShareAtOrBelowIt) {
+TEST(Quantile, IsTheLeastValueReachingTheShare) {
   std::vector<double> values{40, 10, 30, 20};
   EXPECT_EQ(quantile(values, 0), 10);
   EXPECT_EQ(quantile(values, 0.25), 10);
@@ -23,7 +23,7 @@ TEST(Quantile, IsTheLeastWithTheShareAtOrBelowIt) {
 }
 
 // Below 32 ns each number has a bucket of its own.
-TEST(Quantile, IsThatOfTheHistograms) {
+TEST(Quantile, MatchesTheHistogram) {
   std::vector<double> values;
   peer::DurationHistogram histogram;
   for (int i = 0; i < 31; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Linear systems on which eigenvectors fail, and measures that need nothing but the definition.
+// Linear systems on which eigenvectors fail, and measures that use only the definition.
 #pragma once
 
 #include <Eigen/LU>
@@ -36,7 +36,7 @@ inline bench::StateSpace cascade(int lags, double rate, double spread) {
   return system;
 }
 
-/// Displacement of probes to force through a contact spring on a body's points, in positions and
+/// Displacement of probes to force through a contact spring at a body's points, in positions and
 /// speeds: f = k (x - B^T q).
 inline bench::StateSpace pressed(const bench::SecondOrderSystem& body, double stiffness) {
   const Eigen::Index n = body.size(), p = body.points();
@@ -76,7 +76,7 @@ inline double largest_difference(const bench::StateSpace& G, const bench::StateS
   for (double w = lowest; w < highest; w *= ratio) {
     const std::complex<double> s(0.0, w);
     const double at = (bench::evaluate(G, s) - bench::evaluate(H, s)).cwiseAbs().maxCoeff();
-    // Not a number is the largest of all.
+    // NaN counts as the largest.
     if (!(at <= most)) most = at;
     if (std::isnan(most)) return HUGE_VAL;
   }

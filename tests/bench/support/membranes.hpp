@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Elastic test bodies: a square membrane of masses and springs, held by its own bed of springs, and
-// a chain, held or free.
+// Elastic test bodies: a square membrane of masses and springs on its own bed of springs, and a
+// chain, fixed or free.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct Membrane {
   double bed = 4.0;                 ///< of each node to the ground [N/m]
   double mass_damping = 2.0;        ///< a [1/s] of D = a M + b K
   double spring_damping = 2e-4;     ///< b [s]
-  std::vector<int> touched = {-1};  ///< nodes that are pressed; -1: beside the middle
+  std::vector<int> touched = {-1};  ///< pressed nodes; -1: beside the middle
 };
 
 inline bench::SecondOrderSystem assembled(int nodes, double mass,
@@ -63,7 +63,8 @@ inline bench::SecondOrderSystem make_membrane(const Membrane& of) {
                    of.spring_damping);
 }
 
-/// Masses in a row; the first hangs on the ground by `ground` [N/m], 0: free. Pressed at the last.
+/// Masses in a row; the first is attached to the ground by `ground` [N/m], 0: free. Pressed at the
+/// last.
 inline bench::SecondOrderSystem make_chain(int masses, double mass, double spring, double ground,
                                            double mass_damping, double spring_damping) {
   std::vector<Eigen::Triplet<double>> springs{{0, 0, ground}};

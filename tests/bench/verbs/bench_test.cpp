@@ -29,7 +29,7 @@ using test::unbalanced;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A study that takes milliseconds, with more words behind it.
+/// A study that takes milliseconds, with more arguments after it.
 ProgramResult small_study(std::vector<std::string> more = {}) {
   std::vector<std::string> words{"bench",    "accuracy",   "--motion",     "circle,hand",
                                  "--for",    "4s",         "--models",     "auto,fpw,rvw",
@@ -48,7 +48,7 @@ class BenchAccuracy : public testing::Test {
 
 // --- tables ---
 
-TEST_F(BenchAccuracy, ShowsTheFrontOfEachMotionAndHowManyAreDominated) {
+TEST_F(BenchAccuracy, ShowsTheFrontAndTheDominatedCount) {
   const auto result = small_study();
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("circle: 100 m radius at 20 m/s"));
@@ -59,7 +59,7 @@ TEST_F(BenchAccuracy, ShowsTheFrontOfEachMotionAndHowManyAreDominated) {
   for (const std::string& line : result.lines()) EXPECT_LE(tools::text_width(line), 100U) << line;
 }
 
-TEST_F(BenchAccuracy, FitsAHundredColumnsForEveryMotionAndModel) {
+TEST_F(BenchAccuracy, FitsAHundredColumns) {
   const auto result =
       run_bench({"bench", "accuracy", "--all", "--for", "2s", "--loss", "10%", "--delay", "80ms",
                  "--jitter", "40%", "--seeds", "2", "--first-heartbeat", "200ms"});
@@ -71,11 +71,11 @@ TEST_F(BenchAccuracy, FitsAHundredColumnsForEveryMotionAndModel) {
     EXPECT_THAT(result.out, HasSubstr("\n" + std::string(model.name) + " "));
 }
 
-TEST_F(BenchAccuracy, ShowsDominatedSettingsWhereAsked) {
+TEST_F(BenchAccuracy, ShowsDominatedSettingsOnRequest) {
   EXPECT_GT(small_study({"--all"}).lines().size(), small_study().lines().size());
 }
 
-TEST_F(BenchAccuracy, SaysWhatAnotherModelSavesAtTheSameError) {
+TEST_F(BenchAccuracy, GivesTheSavingAtTheSameError) {
   const auto result = run_bench({"bench", "accuracy", "--against", "fpw:1m", "--motion", "circle",
                                  "--for", "10s", "--models", "rvb", "--angle", "none"});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -86,12 +86,12 @@ TEST_F(BenchAccuracy, SaysWhatAnotherModelSavesAtTheSameError) {
   ASSERT_EQ(lines.size(), 1U);
   const json row = json::parse(lines.front());
   EXPECT_EQ(row["baseline"]["model"], "fpw");
-  // The tangent leaves the circle after 43 samples: 14 updates in 10 s, against 3 heartbeats.
+  // The tangent leaves the circle after 43 samples: 14 updates in 10 s, compared with 3 heartbeats.
   EXPECT_NEAR(row["saving"].get<double>(), 11.0 / 14, 1e-12);
   EXPECT_LE(row["rival"]["position_m"]["p99"], row["baseline"]["position_m"]["p99"]);
 }
 
-TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
+TEST_F(BenchAccuracy, DefaultClearsTheBarOfTheCircle) {
   const auto good =
       run_bench({"bench", "accuracy", "--circle", "--curves", "cubic", "--seeds", "3"});
   EXPECT_EQ(good.status, 0) << good.out;
@@ -104,7 +104,7 @@ TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
   EXPECT_TRUE(json::parse(lines.front())["clears"].get<bool>());
 }
 
-TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectoriesAtTheSameError) {
+TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectories) {
   RECKON_NEED_DATA("trajectories");
   std::vector<std::string> words{"bench", "accuracy", "--against", "rvw:1m", "--json"};
   for (const char* name : {"vehicles_town_sumo.csv", "pedestrians_ucy_students03.csv",
@@ -143,7 +143,7 @@ TEST_F(BenchAccuracy, WritesOneJsonObjectALine) {
   for (const std::string& line : front) EXPECT_THAT(line, Not(HasSubstr("beaten_by")));
 }
 
-TEST_F(BenchAccuracy, RepeatsItselfButForTheTimes) {
+TEST_F(BenchAccuracy, IsDeterministicExceptForTimes) {
   const auto without_times = [](const ProgramResult& result) {
     std::vector<json> rows;
     for (const std::string& line : result.lines()) {
@@ -156,7 +156,7 @@ TEST_F(BenchAccuracy, RepeatsItselfButForTheTimes) {
   EXPECT_EQ(without_times(small_study(words)), without_times(small_study(words)));
 }
 
-TEST_F(BenchAccuracy, WritesCsvThatSaysWhatTheTableSays) {
+TEST_F(BenchAccuracy, CsvMatchesTheTable) {
   const std::string path = file("poses.csv");
   const auto result = small_study({"--csv", path});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -176,7 +176,7 @@ TEST_F(BenchAccuracy, WritesCsvThatSaysWhatTheTableSays) {
 
 // --- the page ---
 
-TEST_F(BenchAccuracy, WritesOnePageThatNeedsNothingElse) {
+TEST_F(BenchAccuracy, WritesASelfContainedPage) {
   const std::string path = file("poses.html");
   EXPECT_EQ(small_study({"--report", path}).status, 0);
   const std::string page = content(path);
@@ -189,7 +189,7 @@ TEST_F(BenchAccuracy, WritesOnePageThatNeedsNothingElse) {
   EXPECT_THAT(page, HasSubstr("prefers-color-scheme:dark"));
 }
 
-TEST_F(BenchAccuracy, ShowsEverySettingInTheTableAndEachOfTheFrontInThePicture) {
+TEST_F(BenchAccuracy, PageHasAllSettingsAndPictureTheFront) {
   const std::string path = file("poses.html");
   (void)small_study({"--report", path});
   const std::string page = content(path);
@@ -203,13 +203,13 @@ TEST_F(BenchAccuracy, ShowsEverySettingInTheTableAndEachOfTheFrontInThePicture) 
   EXPECT_GT(dominated, 0U);
   EXPECT_EQ(dominated + count("<tr><td"), 24U);
   EXPECT_EQ(count("<svg class=\"plot\""), 2U);
-  // A title for each mark, and the page's own; marks that lie on each other are one.
+  // A title for each mark, and one for the page; coincident marks are one.
   const std::size_t pale = count(", dominated</title>");
   EXPECT_LE(pale, dominated);
   EXPECT_LE(count("</title>") - 1 - pale, 24 - dominated);
 }
 
-TEST_F(BenchAccuracy, FindsOutBeforeTheStudyWhereItsPageCannotBeWritten) {
+TEST_F(BenchAccuracy, DetectsAnUnwritablePageBeforeTheStudy) {
   const auto result = small_study({"--report", "/no/such/folder/page.html"});
   EXPECT_EQ(result.status, 2);
   EXPECT_TRUE(result.out.empty());
@@ -218,7 +218,7 @@ TEST_F(BenchAccuracy, FindsOutBeforeTheStudyWhereItsPageCannotBeWritten) {
 
 // --- forces ---
 
-TEST_F(BenchAccuracy, TellsWhatContactsCostBesidePoses) {
+TEST_F(BenchAccuracy, ShowsTheCostOfContactsBesidePoses) {
   const std::vector<std::string> tap{"--contact", "tap", "--send-at", "20mN,50Hz", "--for", "3s"};
   const auto with = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"bench", "accuracy", "--force"});
@@ -259,7 +259,7 @@ TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
   }
 }
 
-TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
+TEST_F(BenchAccuracy, ExplainsAWrongValueAndItsRemedy) {
   const std::map<std::vector<std::string>, std::string> wrong{
       {{"--thresholds", "0"}, "--thresholds: '0' is not above 0; write it as in 50mm"},
       {{"--thresholds", "1m,3s"}, "--thresholds: "},
@@ -298,7 +298,7 @@ TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
   }
 }
 
-TEST_F(BenchAccuracy, LeavesWhatOtherStudiesCannotUse) {
+TEST_F(BenchAccuracy, RefusesArgumentsThatOtherStudiesCannotUse) {
   const auto file = run_bench({"bench", "latency", "cars.csv"});
   EXPECT_EQ(file.status, 2);
   EXPECT_THAT(file.err, HasSubstr("reads no FILE"));
@@ -331,7 +331,7 @@ TEST_F(BenchAccuracy, RefusesFlagsOfTheOtherStudyByName) {
   EXPECT_THAT(apart.err, HasSubstr("--contact-groups belongs to reckon bench latency"));
 }
 
-TEST_F(BenchAccuracy, EndsWhenAsked) {
+TEST_F(BenchAccuracy, StopsOnRequest) {
   const std::atomic<bool> stop{true};
   const auto result = run_bench({"bench", "accuracy"}, &stop);
   EXPECT_EQ(result.status, 0) << result.err;

@@ -25,7 +25,7 @@ using test::run_bench;
 using test::unbalanced;
 using ::testing::HasSubstr;
 
-TEST(BenchTouch, TellsWhatAccuracyOfAForceCostsInTheServo) {
+TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
   const auto touch = [](std::vector<std::string> words) {
     words.insert(words.begin(), {"bench", "accuracy", "--touch"});
     return run_bench(words);
@@ -52,7 +52,7 @@ TEST(BenchTouch, TellsWhatAccuracyOfAForceCostsInTheServo) {
     EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
 }
 
-TEST(BenchTouch, WritesOneJsonObjectForEachSettingOfATouch) {
+TEST(BenchTouch, WritesOneJsonObjectPerSetting) {
   const auto result =
       run_bench({"bench", "accuracy", "--touch", "--axis", "quantisation,integrator", "--json"});
   std::map<std::string, int> kinds;

@@ -26,7 +26,7 @@ std::size_t files_in(const std::string& folder) {
   return count;
 }
 
-TEST(FiguresVerb, MakesThoseThatAreNamed) {
+TEST(FiguresVerb, MakesTheNamedFigures) {
   const test::ScratchFolder scratch;
   const std::string folder = scratch.file("new/pictures");
   const auto result = run_bench({"figures", "4.4", "3.1", "4.4", "--out", folder});
@@ -50,7 +50,7 @@ TEST(FiguresVerb, ReplacesFilesOfAnOlderRun) {
   EXPECT_THAT(content(folder + "figure_3.1.svg"), Not(HasSubstr("old")));
 }
 
-TEST(FiguresVerb, GivesAnObjectForEachFigure) {
+TEST(FiguresVerb, WritesAnObjectForEachFigure) {
   const test::ScratchFolder scratch;
   const auto result =
       run_bench({"figures", "3.1", "4.3", "4.4", "--json", "--out", scratch.file("")});
@@ -67,7 +67,7 @@ TEST(FiguresVerb, GivesAnObjectForEachFigure) {
   EXPECT_GT(velocity["numbers"].size(), 3U);
 }
 
-TEST(FiguresVerb, DrawingsAreNamedAsSuchAndHaveNoNumbers) {
+TEST(FiguresVerb, DrawingsAreMarkedAndHaveNoNumbers) {
   const test::ScratchFolder scratch;
   const auto result = run_bench({"figures", "3.2", "--out", scratch.file("x")});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -109,7 +109,7 @@ TEST(FiguresVerb, NamesTheNearestFigures) {
   EXPECT_FALSE(std::filesystem::exists(scratch.file("x"))) << "before anything is written";
 }
 
-TEST(FiguresVerb, TellsWhichFolderCannotBeWritten) {
+TEST(FiguresVerb, NamesTheUnwritableFolder) {
   const test::ScratchFolder scratch;
   std::ofstream(scratch.file("file")) << "in the way";
   const auto blocked = run_bench({"figures", "3.1", "--out", scratch.file("file/below")});

@@ -11,7 +11,7 @@
 namespace reckon::bench {
 namespace {
 
-TEST(BenchLatency, RefusesAKeyThatOthersMayRead) {
+TEST(BenchLatency, RefusesAKeyReadableByOthers) {
   const test::ScratchFolder folder;
   const std::string key = folder.file("group.key");
   ASSERT_EQ(test::run_reckon({"key", "new", key}).status, 0);

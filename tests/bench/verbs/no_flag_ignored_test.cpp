@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every flag of a study beside every mode of it: it changes what comes out, or it is refused by
-// name.
+// Every flag of a study with every mode of it: it changes the output, or it is refused by name.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ using test::ProgramResult;
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-/// By the program that has the verb.
+/// By the program of the verb.
 ProgramResult run(const Words& words) {
   const bool is_study = words.front() != "demo" && words.front() != "key";
   return is_study ? test::run_bench(words) : test::run_reckon(words);
@@ -57,7 +56,7 @@ class NoFlagIgnored : public testing::Test {
 
   struct Outcome {
     ProgramResult result;
-    /// All that the run gave: files and output, but for measured times and the command itself.
+    /// All output of the run, files included, without measured times and the command itself.
     std::string text;
   };
 
@@ -81,8 +80,8 @@ class NoFlagIgnored : public testing::Test {
     return text;
   }
 
-  /// Each flag with its value beside `mode`, whose base has none of them. `neutral` are those that
-  /// say what is the case anyway.
+  /// Each flag with its value added to `mode`, whose base has none of them. `neutral` are flags
+  /// that only state a default.
   void check(const Words& mode, const std::map<std::string, Words>& values,
              const std::set<std::string>& neutral) {
     const std::string plain = accepted(mode);
@@ -154,7 +153,7 @@ class NoFlagIgnored : public testing::Test {
 TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
   const std::map<std::string, Words> values = values_of_accuracy();
   Words flags = flags_of({"bench"}, run_program);
-  // Those of other studies are refused as such.
+  // Flags of other studies are refused as such.
   std::erase_if(flags, [](const std::string& flag) {
     const std::string error = run({"bench", "accuracy", "--motion", "none", flag + "=1"}).err;
     return flag == "STUDY" || flag == "--help" ||
@@ -251,7 +250,7 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
       {"--iface", {"lo"}},
       {"--scheme", {"quadtree"}},
   };
-  // Of about a tick: jitter decides in which one an update arrives.
+  // About one tick: jitter decides in which tick an update arrives.
   check(scale + Words{"--peers", "2", "--entities", "40", "--for", "1s", "--rate", "5", "--delay",
                       "190ms", "--json"},
         values, {});
@@ -314,11 +313,11 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
   for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
   const Words demo{"demo", "--simulated-time", "--for", "3s", "--json"};
   const Words poor{"--impair", "delay=20ms jitter=10ms loss=20%"};
-  // Hands that meet at once, and later go over the mesh. Sealed datagrams change nothing that is
-  // told unless some are lost.
+  // Hands that meet at once, and later move over the mesh. Sealed datagrams change no result unless
+  // some are lost.
   check(demo, values, {"--mesh", "--key"});
   check(demo + poor, values, {"--mesh"});
-  // One that touches an object, and no other hand.
+  // A hand that touches an object, and no other hand.
   check(Words{"demo", scenes + "slip.toml"} + Words(demo.begin() + 1, demo.end()), values,
         {"--no-transfer", "--key"});
 }
@@ -344,7 +343,7 @@ TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
   EXPECT_THAT(out.err, HasSubstr("leave --out out"));
 }
 
-TEST_F(NoFlagIgnored, AndHandsThatNeverMetHaveNoErrors) {
+TEST_F(NoFlagIgnored, WithoutContactThereAreNoErrors) {
   const std::string scene = folder_.file("apart.toml");
   std::ofstream(scene) << "[[operator]]\npassive = true\n[[operator]]\npassive = true\n"
                           "position = \"1 0 0 m\"\n";
@@ -354,7 +353,7 @@ TEST_F(NoFlagIgnored, AndHandsThatNeverMetHaveNoErrors) {
   const auto row = run({"tune", "--force", scene, "--for", "1s", "--json"});
   EXPECT_THAT(row.out, HasSubstr(R"("rms":null,"p99":null,"max":null)"));
 
-  // They begin 20 mm apart and set out after 2 s.
+  // They begin 20 mm apart and start after 2 s.
   const Words contact{"bench", "accuracy", "--force", "--contact", "press-10", "--for", "1s"};
   EXPECT_THAT(run(contact).out, HasSubstr("did not touch"));
   const auto rows = run(contact + Words{"--json"});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon bench stability`: its files, a study that was cut off, scenes and recorded hands.
+// `reckon bench stability`: its files, an interrupted study, scenes and recorded hands.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -35,7 +35,7 @@ json first_line(const std::vector<std::string>& more) {
   return result.lines().empty() ? json() : json::parse(result.lines().front());
 }
 
-TEST(StabilityVerb, CutOffAnywhereItGoesOnToTheSameFile) {
+TEST(StabilityVerb, ContinuesAnInterruptedFile) {
   const test::ScratchFolder scratch;
   const std::string whole = scratch.file("whole.csv"), cut = scratch.file("cut.csv");
   const auto words = [](const std::string& file) {
@@ -56,7 +56,7 @@ TEST(StabilityVerb, CutOffAnywhereItGoesOnToTheSameFile) {
   }
 }
 
-TEST(StabilityVerb, StopsWithWhatItHasAndSaysHowToGoOn) {
+TEST(StabilityVerb, StopsWithItsResultsAndCanContinue) {
   const test::ScratchFolder scratch;
   const std::string file = scratch.file("s.csv");
   const std::atomic<bool> stop{true};
@@ -67,7 +67,7 @@ TEST(StabilityVerb, StopsWithWhatItHasAndSaysHowToGoOn) {
   EXPECT_THAT(content(file), ::testing::StartsWith("# reckon bench stability: modes="));
 }
 
-TEST(StabilityVerb, OtherOptionsDoNotGoOnInAFile) {
+TEST(StabilityVerb, RefusesAFileOfOtherOptions) {
   const test::ScratchFolder scratch;
   const std::string file = scratch.file("s.csv");
   ASSERT_EQ(run_bench(study({"--sweep", "delay=0", "--csv", file})).status, 0);
@@ -126,7 +126,7 @@ TEST(StabilityVerb, HandFollowsARecording) {
   EXPECT_THAT(run_bench(study({"--hand", "nowhere.csv"})).err, HasSubstr("--hand: nowhere.csv"));
 }
 
-TEST(StabilityVerb, AnotherRecordingOfTheSameNameDoesNotGoOn) {
+TEST(StabilityVerb, RefusesAnotherRecordingOfTheSameName) {
   const test::ScratchFolder scratch;
   const std::string trace = scratch.file("hand.csv"), file = scratch.file("s.csv");
   const auto run = [&](double end) {
@@ -140,7 +140,7 @@ TEST(StabilityVerb, AnotherRecordingOfTheSameNameDoesNotGoOn) {
   EXPECT_THAT(other.err, HasSubstr("holds the study of other options: it has hand="));
 }
 
-TEST(StabilityVerb, WithoutTheGateItIsToldWherever) {
+TEST(StabilityVerb, ReportsEverywhereThatTheGateIsOff) {
   const test::ScratchFolder scratch;
   const std::string page = scratch.file("s.html");
   const auto result = run_bench(study({"--no-gate", "--sweep", "delay=0", "--report", page}));
@@ -166,7 +166,7 @@ TEST(StabilityVerb, PeakAndSeedHaveTheirEffect) {
   EXPECT_NE(seeded("1"), seeded("2"));
 }
 
-TEST(StabilityVerb, TakesNoFlagOfOtherStudies) {
+TEST(StabilityVerb, RefusesFlagsOfOtherStudies) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"bench", "stability", "--delay", "5ms"},
         {"bench", "stability", "--force"},

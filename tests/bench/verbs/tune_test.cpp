@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon tune`: what users and scripts rely on.
+// `reckon tune`: the behaviour on which users and scripts rely.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ class Tune : public testing::Test {
   void SetUp() override {
     std::ofstream file(path_);
     file << "t_s,id,x_m,y_m,vx_mps,vy_mps\n";
-    // A sample a second: however small the threshold, the way of a second stays unseen, which
-    // makes the knee.
+    // A sample a second: with any threshold, the displacement within a second stays invisible,
+    // which makes the knee.
     for (int t = 0; t < 600; ++t) {
       const double slow = t / 5.0, quick = t / 3.0;
       file << t << ",a," << 30 * std::cos(slow) + 6 * std::sin(quick) << ',' << 20 * std::sin(slow)
@@ -56,7 +56,7 @@ std::vector<json> objects_of(const ProgramResult& result) {
   return objects;
 }
 
-TEST_F(Tune, ShowsTheCurveItsKneeAndLinesForASceneFile) {
+TEST_F(Tune, ShowsCurveKneeAndSceneLines) {
   const ProgramResult result = run({});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("1 entity, 600 samples in 599 s"));
@@ -67,7 +67,7 @@ TEST_F(Tune, ShowsTheCurveItsKneeAndLinesForASceneFile) {
   EXPECT_TRUE(result.err.empty()) << result.err;
 }
 
-TEST_F(Tune, GivesOneObjectASettingAndTheRecommendationLast) {
+TEST_F(Tune, JsonHasSettingsAndARecommendation) {
   const std::vector<json> objects = objects_of(run({"--json", "--models", "auto,rvw"}));
   ASSERT_GT(objects.size(), 4U);
   std::size_t settings = 0, knees = 0, fronts = 0;
@@ -105,7 +105,7 @@ TEST_F(Tune, PicksTheMostAccurateSettingWithinABudget) {
   EXPECT_EQ(octets["model"], packets["model"]);
 }
 
-TEST_F(Tune, GivesLinesThatASceneFileTakes) {
+TEST_F(Tune, GivesLinesForASceneFile) {
   const json advice =
       objects_of(run({"--json", "--models", "fpw,rvw", "--heartbeat", "10min", "--error", "2m"}))
           .back();
@@ -114,7 +114,7 @@ TEST_F(Tune, GivesLinesThatASceneFileTakes) {
   EXPECT_EQ(scene.dead_reckoning.heartbeat, std::chrono::seconds(60));
 }
 
-TEST_F(Tune, TellsByItsStatusThatNothingReachesTheGoal) {
+TEST_F(Tune, StatusReportsThatNothingReachesTheGoal) {
   const ProgramResult error = run({"--error", "1um"});
   EXPECT_EQ(error.status, 1);
   EXPECT_THAT(error.out, HasSubstr("No setting keeps the p99 error"));
@@ -122,7 +122,7 @@ TEST_F(Tune, TellsByItsStatusThatNothingReachesTheGoal) {
   EXPECT_EQ(run({"--budget", "0.0001"}).status, 1);
 }
 
-TEST_F(Tune, WritesCsvWithAsManyCellsInEachRow) {
+TEST_F(Tune, CsvRowsHaveEqualNumbersOfCells) {
   const ProgramResult result = run({"--csv", "--thresholds", "10cm,1m", "--models", "rvw"});
   const std::vector<std::string> lines = result.lines();
   ASSERT_GE(lines.size(), 5U);
@@ -143,13 +143,13 @@ TEST_F(Tune, DrawsTheCurveWithItsKnee) {
   EXPECT_THAT(error_of({"--plot", "/nowhere/curve.svg"}), HasSubstr("cannot be written"));
 }
 
-TEST_F(Tune, SaysWhatHalfTheErrorCostsWhereThereIsNoKnee) {
+TEST_F(Tune, WithoutAKneeGivesThePriceOfHalving) {
   const ProgramResult result = run({"--models", "rvw", "--thresholds", "2m,5m"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("The curve has no knee"));
 }
 
-TEST_F(Tune, CountsWhatALossyNetworkDoes) {
+TEST_F(Tune, IncludesTheEffectsOfALossyNetwork) {
   const json good = objects_of(run({"--json", "--models", "rvw", "--thresholds", "0.1m"})).front();
   const json bad = objects_of(run({"--json", "--models", "rvw", "--thresholds", "0.1m", "--delay",
                                    "3s", "--loss", "30%"}))
@@ -174,7 +174,7 @@ TEST_F(Tune, NamesTheMistake) {
   EXPECT_THAT(missing.err, HasSubstr("/nowhere/a.csv"));
 }
 
-TEST_F(Tune, ShowsWhatADeadbandSavesOfAForce) {
+TEST_F(Tune, ShowsTheSavingOfADeadband) {
   std::ofstream(path_) << "t_s,f_N\n0,1\n0.001,1\n0.002,1\n0.003,2\n";
   const ProgramResult text = run({"--force"});
   EXPECT_EQ(text.status, 0) << text.err;

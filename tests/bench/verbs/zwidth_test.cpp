@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon zwidth`: what each flag does, its files and its errors.
+// `reckon zwidth`: the effect of each flag, its files and its errors.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -81,7 +81,7 @@ TEST(ZWidthVerb, WritesTableCurveAndPage) {
   EXPECT_THAT(content(page), HasSubstr("<circle"));
 }
 
-TEST(ZWidthVerb, RefusesWhatItCannotUse) {
+TEST(ZWidthVerb, RefusesInvalidArguments) {
   const auto refusal = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "zwidth");
     const auto result = run_bench(arguments);

@@ -18,18 +18,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Straight, circle, jerky noise: a motion whose best order changes.
+// Straight line, circle, jerky noise: a motion with a changing best order.
 MotionSample mixed(double t, Random& random) {
   const double phase = std::fmod(t, 60.0);
   if (phase < 20) return Polynomial{{0, 0, 0}, {10, 0, 0}, {0, 0, 0}}.at(t);
   if (phase < 40) return on_circle(t);
   MotionSample sample = Polynomial{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}.at(t);
-  sample.velocity += random.vector(2);  // told rates are noise, positions are right
+  sample.velocity += random.vector(2);  // sent rates are noise, positions are exact
   sample.acceleration += random.vector(20);
   return sample;
 }
 
-TEST(AdaptiveOrder, IsAsGoodAsTheBestFixedOrderOnEverySegment) {
+TEST(AdaptiveOrder, MatchesTheBestFixedOrderOnEverySegment) {
   constexpr double kGap = 0.2;
   for (int segment = 0; segment < 3; ++segment) {
     Random random(7);
@@ -39,7 +39,7 @@ TEST(AdaptiveOrder, IsAsGoodAsTheBestFixedOrderOnEverySegment) {
     std::array<double, kExtrapolators.size()> fixed_square{};
     for (int i = 0; i < 100; ++i) {
       const double t = 20 * segment + i * kGap;
-      if (i > 5) {  // the choice needs some updates to be made
+      if (i > 5) {  // the choice needs some updates
         const Vector3d truth = mixed(t, random).position;
         adaptive_square += (adaptive.predict(kGap).position - truth).squaredNorm();
         for (std::size_t k = 0; k < kExtrapolators.size(); ++k)
@@ -67,7 +67,7 @@ TEST(AdaptiveOrder, ChangesItsChoiceWithTheMotion) {
   EXPECT_EQ(adaptive.chosen().needs, SentRates::position);
 }
 
-TEST(AdaptiveOrder, TakesNoExtrapolatorThatTheSenderDoesNotFeed) {
+TEST(AdaptiveOrder, UsesNoExtrapolatorThatNeedsUnsentRates) {
   AdaptiveSettings settings;
   settings.sent = SentRates::position;
   AdaptiveOrder adaptive(settings);
@@ -81,7 +81,8 @@ TEST(AdaptiveOrder, TakesNoExtrapolatorThatTheSenderDoesNotFeed) {
   EXPECT_EQ(adaptive.chosen().name, "position_history");
 }
 
-// A sender of DRM 4 whose updates come apart as they like, over a motion with steps in its rates.
+// A sender of DRM 4 with arbitrary intervals between updates, over a motion with steps in its
+// rates.
 MotionSample rough(double t, Random& random) {
   MotionSample sample;
   sample.time = t;
@@ -99,7 +100,7 @@ Pose told_by(const MotionSample& sample, double tau) {
   return second_order_one_step(history, tau, {});
 }
 
-TEST(AdaptiveOrder, StraysNoFartherFromWhatWasToldThanUpdatesHaveShownItToBeOff) {
+TEST(AdaptiveOrder, StraysByAtMostTheObservedErrors) {
   double farthest = 0;
   for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
     Random random(seed);
@@ -125,7 +126,7 @@ TEST(AdaptiveOrder, StraysNoFartherFromWhatWasToldThanUpdatesHaveShownItToBeOff)
       // Rounding of positions of up to 1e300 m.
       const double rounding = 1e-12 * told.position.norm();
       ASSERT_LE(apart, adaptive.stray(tau) + rounding) << seed << ' ' << tau;
-      // Whatever the silence: 1.25 x^3, which from x = 4.5 on fades, is at most 114.
+      // For any silence: 1.25 x^3, faded from x = 4.5 on, is at most 114.
       ASSERT_LE(apart, 114 * worst_error + rounding) << seed << ' ' << tau;
       if (tau > AdaptiveOrder::kGivenUp * longest) {
         ASSERT_EQ(near.position, told.position) << seed << ' ' << tau;
@@ -133,11 +134,11 @@ TEST(AdaptiveOrder, StraysNoFartherFromWhatWasToldThanUpdatesHaveShownItToBeOff)
       if (tau < 1e4) farthest = std::max(farthest, apart / worst_error);
     }
   }
-  EXPECT_GT(farthest, 1);  // it is no bound of something that never moves
+  EXPECT_GT(farthest, 1);  // the bound is not trivial: it does move
   RecordProperty("farthest", std::to_string(farthest));
 }
 
-TEST(AdaptiveOrder, FollowsItsChoiceUnhinderedWhereTheMotionGoesOnAsItDid) {
+TEST(AdaptiveOrder, FollowsItsChoiceOnAContinuingMotion) {
   AdaptiveOrder adaptive;
   MotionSample newest = on_circle(0);
   adaptive.add(newest);
@@ -146,7 +147,7 @@ TEST(AdaptiveOrder, FollowsItsChoiceUnhinderedWhereTheMotionGoesOnAsItDid) {
     adaptive.add(next, told_by(newest, 0.2));
     newest = next;
   }
-  // Up to two lost updates and a third under way.
+  // Up to two lost updates and a third in transit.
   for (const double tau : {0.05, 0.2, 0.4, 0.65}) {
     const Pose near = adaptive.predict_near(told_by(newest, tau), tau);
     const Vector3d truth = on_circle(newest.time + tau).position;

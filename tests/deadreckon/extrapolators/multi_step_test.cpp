@@ -69,7 +69,7 @@ TEST(MultiStep, MeetsEveryOracleVectorAtItsTolerance) {
                              : formula == "2nd_one" ? "one_step_2"
                                                     : "two_step_2";
     const double tau = number(v["t"]) - number(v["t1"]);
-    // The vectors test the formula: no cap, and gaps however short.
+    // The vectors test the formula: no cap, and any interval.
     const Pose pose = extrapolator(name).predict(history, tau, {1e-12, kInfinity});
     const Vector3d expected = vector(v.contains("expected_x") ? v["expected_x"] : v["fallback_x"]);
     const double off = (pose.position - expected).lpNorm<Eigen::Infinity>();
@@ -79,7 +79,7 @@ TEST(MultiStep, MeetsEveryOracleVectorAtItsTolerance) {
   RecordProperty("worst_share_of_tolerance", std::to_string(worst));
 }
 
-TEST(MultiStep, ErrsOnTheCircleOfTheThesisAsTheFormulasDo) {
+TEST(MultiStep, ErrsOnTheThesisCircleAsTheFormulas) {
   // Printed digits: closed forms of a circle of 10 m at 1 rad/s.
   EXPECT_NEAR(circle_error("hold", 0.1, 0.1), 0.9996, 5e-5);
   EXPECT_NEAR(circle_error("one_step_1", 0.1, 0.1), 0.04999, 5e-6);
@@ -93,7 +93,7 @@ TEST(MultiStep, ErrsOnTheCircleOfTheThesisAsTheFormulasDo) {
   EXPECT_NEAR(circle_error("two_step_2", 1, 1), 3.903, 5e-4);
 }
 
-TEST(Extrapolators, HoldEveryPredictionFromAHistoryOfAnyHeader) {
+TEST(Extrapolators, HaveARowForEveryDeclaredPrediction) {
   std::size_t predictions = 0;
   for (const std::string& header : reckon::test::headers_in("deadreckon/extrapolators")) {
     for (const std::string& name : reckon::test::all_of(
@@ -122,7 +122,7 @@ TEST_P(EveryExtrapolator, IsExactUpToItsOrder) {
     for (const double t : {-2 * gap, -gap, 0.0}) history.add(motion.at(t));
     const double tau = random.real(0, 5 * gap);
     const Pose pose = GetParam().predict(history, tau, {});
-    // 1000 m at 2.2e-16, differenced over a gap and carried on for five: below 1e-9.
+    // 1000 m at 2.2e-16, differenced over one interval and extrapolated over five: below 1e-9.
     EXPECT_NEAR((pose.position - motion.at(tau).position).norm(), 0, 1e-9);
     EXPECT_NEAR((pose.velocity - motion.at(tau).velocity).norm(), 0, 1e-9);
   }
@@ -139,7 +139,7 @@ TEST_P(EveryExtrapolator, GivesTheRateOfItsPositionAsVelocity) {
   }
 }
 
-TEST_P(EveryExtrapolator, StaysFiniteWhateverTheGapsAndTimes) {
+TEST_P(EveryExtrapolator, StaysFiniteForAnyGapsAndTimes) {
   for (const double gap : {0.0, 1e-300, 1e-9, 1e-3, 1.0, 1e9}) {
     MotionHistory history;
     history.add(
@@ -164,7 +164,7 @@ TEST_P(EveryExtrapolator, NeedsNoHistoryToAnswer) {
   EXPECT_TRUE(is_finite(GetParam().predict(MotionHistory{}, 1, {})));
 }
 
-TEST_P(EveryExtrapolator, StandsInTheTableOfTheDocument) {
+TEST_P(EveryExtrapolator, IsInTheTableOfTheDocument) {
   EXPECT_NE(reckon::test::source_text("docs/dead_reckoning.md")
                 .find("| `" + std::string(GetParam().name) + "` |"),
             std::string::npos);
@@ -173,11 +173,11 @@ TEST_P(EveryExtrapolator, StandsInTheTableOfTheDocument) {
 INSTANTIATE_TEST_SUITE_P(Extrapolators, EveryExtrapolator, testing::ValuesIn(kExtrapolators),
                          [](const auto& row) { return std::string(row.param.name); });
 
-TEST(MultiStep, FallsBackToTheSentVelocityWhenTwoUpdatesAreTooClose) {
+TEST(MultiStep, UsesTheSentVelocityForCloseUpdates) {
   MotionHistory history;
   history.add({1.0, {0, 0, 0}, Quaterniond::Identity(), {1, 0, 0}, {0, 0, 0}, {0, 0, 0}});
   history.add({1.0005, {5, 0, 0}, Quaterniond::Identity(), {1, 0, 0}, {0, 0, 0}, {0, 0, 0}});
-  // 5 m in half a millisecond is no 10 km/s.
+  // 5 m in half a millisecond must not become 10 km/s.
   EXPECT_NEAR(first_order_two_step(history, 1, {}).position.x(), 6, 1e-12);
   EXPECT_NEAR(second_order_two_step(history, 1, {}).position.x(), 6, 1e-12);
 }
@@ -191,7 +191,7 @@ TEST(MultiStep, HoldsADifferencedVelocityForTenGapsOnly) {
   EXPECT_EQ(first_order_two_step(history, 60, {}).velocity, Vector3d::Zero());
 }
 
-TEST(MultiStep, TurnsAsTheLastTwoOrientationsDidTheShorterWay) {
+TEST(MultiStep, ContinuesTheLastTurnTheShorterWay) {
   MotionHistory history;
   const Vector3d axis = Vector3d(1, 2, -3).normalized();
   const auto turned = [&](double angle) { return Quaterniond(Eigen::AngleAxisd(angle, axis)); };
@@ -218,7 +218,7 @@ TEST(PositionHistory, UsesTheSecondOrderBetweenTheCutoffsOnly) {
   EXPECT_NEAR(error(25), 25 * 0.15, 1e-11);
 }
 
-TEST(MotionHistory, RefusesTheOldAndTheNotFiniteAndReplacesTheSameInstant) {
+TEST(MotionHistory, RefusesOldAndNonFiniteSamples) {
   MotionHistory history;
   EXPECT_TRUE(history.add(on_circle(1)));
   EXPECT_TRUE(history.add(on_circle(2)));
@@ -238,7 +238,7 @@ TEST(MotionHistory, RefusesTheOldAndTheNotFiniteAndReplacesTheSameInstant) {
 }
 
 TEST(MotionHistory, SamplesBodyAxesAsTheModelMoves) {
-  // The model's own motion, differenced, is the oracle of velocity and acceleration.
+  // Velocity and acceleration are checked by differences of the model's own motion.
   Random random(5);
   for (int model = 0; model <= 9; ++model) {
     const KinematicState state = random.state(static_cast<pdu::DeadReckoningAlgorithm>(model), 0.7);

@@ -77,7 +77,7 @@ TEST(ForceModel, PlanePushesAlongItsNormalByDepth) {
             Vector3d::Zero());
 }
 
-TEST(ForceModel, TwoSpheresOverlapByTheSumOfRadiiLessTheirDistance) {
+TEST(ForceModel, SpheresOverlapByRadiiLessDistance) {
   const ForceModel m = model_of(Kind::sphere);
   Pose entity;
   entity.orientation = exponential({0, 0, 1.0});
@@ -93,7 +93,7 @@ TEST(ForceModel, TwoSpheresOverlapByTheSumOfRadiiLessTheirDistance) {
   }
 }
 
-TEST(ForceModel, FieldIsFeltByTheProbesCentreAlone) {
+TEST(ForceModel, FieldActsOnTheProbesCentreOnly) {
   const ForceModel m = model_of(Kind::field);
   const Vector3d probe = m.point + Vector3d(0.02, 0, 0);
   EXPECT_EQ(contact(m, {}, probe, 0.0).depth, contact(m, {}, probe, 0.05).depth);
@@ -106,27 +106,27 @@ TEST(ForceModel, RegionIsAPegWithAFlatEnd) {
   m.normal = Vector3d::UnitZ();
   EXPECT_NEAR(contact(m, {}, {0.01, 0, -0.002}, 0).depth, 0.002, 1e-15);
   EXPECT_EQ(contact(m, {}, {0.01, 0, -0.002}, 0).normal, Vector3d::UnitZ());
-  // Beside the patch there is nothing, close to its side the side pushes out.
+  // Beside the patch there is no contact; just inside, its side pushes out.
   EXPECT_LT(contact(m, {}, {0.031, 0, -0.002}, 0).depth, 0);
   EXPECT_NEAR(contact(m, {}, {0.029, 0, -0.01}, 0).depth, 0.001, 1e-15);
   EXPECT_EQ(contact(m, {}, {0.029, 0, -0.01}, 0).normal, Vector3d::UnitX());
 }
 
-TEST(ForceModel, PushesAlongItsNormalFromTheVeryCentreOfASphere) {
+TEST(ForceModel, PushesAlongItsNormalFromASpheresCentre) {
   const ForceModel m = model_of(Kind::sphere);
   const Contact c = contact(m, {}, m.point, 0);
   EXPECT_EQ(c.normal, m.normal);
   EXPECT_EQ(c.depth, 0.03);
 }
 
-TEST(ForceModel, GivesNoForceForKindsItDoesNotEvaluate) {
+TEST(ForceModel, GivesNoForceForUnsupportedKinds) {
   for (const Kind kind : {Kind::none, Kind::modal, static_cast<Kind>(200)}) {
     ForceModel m = model_of(kind);
     EXPECT_EQ(evaluate(m, {}, m.point, Vector3d::Zero(), 1.0), Vector3d::Zero());
   }
 }
 
-TEST(ForceModel, NeverPullsHoweverFastTheProbeLeaves) {
+TEST(ForceModel, NeverPullsAProbeThatLeavesFast) {
   Random random(3);
   for (const Kind kind : kTouchable) {
     ForceModel m = model_of(kind);
@@ -162,12 +162,12 @@ TEST(ForceModel, DampsAgainstTheMovingAndTurningSurface) {
   EXPECT_NEAR(evaluate(m, entity, probe, with_surface + Vector3d(0.1, 0, 0), 0).x(), 3.0, 1e-12);
 }
 
-// [J], of strokes of about 0.1 J. The peg's force turns by a right angle where its side gets nearer
-// than its face, so a cell across that line is off by (force x step).
+// [J], for strokes of about 0.1 J. The peg's force turns by a right angle where its side becomes
+// nearer than its face, so a cell across that line has an error of (force x step).
 double quadrature_error(Kind kind) { return kind == Kind::spring_damper_region ? 1e-3 : 2e-6; }
 
-// Work of the spring along a closed path; zero to the accuracy of the quadrature for a force with a
-// potential, wherever the path enters and leaves.
+// Work of the spring along a closed path. For a force with a potential it is zero to the accuracy
+// of the quadrature, wherever the path enters and leaves.
 double work_around(const ForceModel& m, const Vector3d& centre, const Vector3d& a,
                    const Vector3d& b) {
   constexpr int kSteps = 20000;
@@ -197,7 +197,7 @@ TEST(ForceModel, GainsNoEnergyOnAnyClosedPath) {
   }
 }
 
-TEST(ForceModel, WorkOfASlowProbeIsTheChangeOfStoredEnergy) {
+TEST(ForceModel, WorkOfASlowProbeEqualsStoredEnergy) {
   Random random(5);
   for (const Kind kind : kTouchable) {
     const ForceModel m = model_of(kind);

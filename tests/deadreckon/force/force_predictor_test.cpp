@@ -38,7 +38,7 @@ KinematicState drifting() {
 
 ProbeState touching() { return {{0.015, 0.01, 0}, {-0.02, 0, 0}, 0.005}; }
 
-TEST(ForcePredictor, GivesTheForceOfTheModelOnTheExtrapolatedEntity) {
+TEST(ForcePredictor, EvaluatesTheModelOnTheExtrapolatedEntity) {
   ForcePredictor predictor;
   predictor.update(ball(), drifting(), 0);
   for (double age = 0; age < 0.5; age += 0.05) {
@@ -48,7 +48,7 @@ TEST(ForcePredictor, GivesTheForceOfTheModelOnTheExtrapolatedEntity) {
   EXPECT_GT(predictor.predict(touching(), 0).norm(), 1);
 }
 
-TEST(ForcePredictor, HasNoForceBeforeAModelCameOrAfterItWasForgotten) {
+TEST(ForcePredictor, HasNoForceWithoutAModel) {
   ForcePredictor predictor;
   EXPECT_EQ(predictor.predict(touching(), 0), Vector3d::Zero());
   EXPECT_TRUE(predictor.expired(0));
@@ -58,7 +58,7 @@ TEST(ForcePredictor, HasNoForceBeforeAModelCameOrAfterItWasForgotten) {
   EXPECT_EQ(predictor.predict(touching(), 0), Vector3d::Zero());
 }
 
-TEST(ForcePredictor, FadesWithinATenthOfASecondAfterItsValidityWithoutAStep) {
+TEST(ForcePredictor, FadesContinuouslyAfterItsValidity) {
   ForcePredictor predictor;
   predictor.update(ball(), KinematicState{}, 1);
   const double full = predictor.predict(touching(), 1).norm();
@@ -84,7 +84,7 @@ TEST(ForcePredictor, AnEntityUpdateDoesNotProlongTheModel) {
   EXPECT_EQ(predictor.weight(12.2), 0);
 }
 
-TEST(ForcePredictor, SeesNoErrorWhilePeersComputeTheTrueForce) {
+TEST(ForcePredictor, HasNoErrorForCorrectlyPredictedForce) {
   ForcePredictor predictor;
   predictor.update(ball(), drifting(), 0);
   const std::array<ProbeState, 2> probes = {touching(), ProbeState{{0, 0.02, 0}, {0, 0, 0}, 0.005}};
@@ -95,7 +95,7 @@ TEST(ForcePredictor, SeesNoErrorWhilePeersComputeTheTrueForce) {
   }
 }
 
-TEST(ForcePredictor, SendsWhenTheForceAtAProbeIsOffByMoreThanTheThreshold) {
+TEST(ForcePredictor, SendsWhenTheForceErrorExceedsTheThreshold) {
   ForcePredictor predictor;
   ForceModel sent = ball();
   sent.k3 = 0;
@@ -109,7 +109,7 @@ TEST(ForcePredictor, SendsWhenTheForceAtAProbeIsOffByMoreThanTheThreshold) {
   EXPECT_TRUE(predictor.should_send(truth, {}, {&probe, 1}, 0, 0.049));
 }
 
-TEST(ForcePredictor, CountsAForceErrorThatComesFromThePoseAlone) {
+TEST(ForcePredictor, CountsAForceErrorFromThePoseAlone) {
   ForcePredictor predictor;
   ForceModel m = ball();
   m.k3 = 0;
@@ -117,7 +117,7 @@ TEST(ForcePredictor, CountsAForceErrorThatComesFromThePoseAlone) {
   predictor.update(m, KinematicState{}, 0);
   const ProbeState probe = {{0.015, 0, 0}, Vector3d::Zero(), 0.005};
   Pose moved;
-  moved.position = {0.001, 0, 0};  // 1 mm is 0.5 N here, far below any pose threshold in metres
+  moved.position = {0.001, 0, 0};  // 1 mm is 0.5 N here, far below any position threshold
   EXPECT_NEAR(predictor.error(m, moved, {&probe, 1}, 0), 0.5, 1e-12);
 }
 
@@ -126,11 +126,12 @@ TEST(ForcePredictor, TakesTheWorstProbeAndNeedsNone) {
   const std::array<ProbeState, 3> probes = {ProbeState{{1, 0, 0}, {}, 0}, touching(),
                                             ProbeState{{2, 0, 0}, {}, 0}};
   const double expected = evaluate(ball(), Pose{}, touching()).norm();
-  EXPECT_EQ(predictor.error(ball(), {}, probes, 0), expected);  // never sent: peers feel nothing
+  EXPECT_EQ(predictor.error(ball(), {}, probes, 0), expected);  // never sent: peers compute no
+                                                                // force
   EXPECT_EQ(predictor.error(ball(), {}, {}, 0), 0);
 }
 
-TEST(ForcePredictor, TakesNumbersThatAreNotFiniteForNoForce) {
+TEST(ForcePredictor, TreatsNonFiniteNumbersAsNoForce) {
   ForcePredictor predictor;
   predictor.update(ball(), KinematicState{}, 0);
   const double felt = predictor.predict(touching(), 0).norm();

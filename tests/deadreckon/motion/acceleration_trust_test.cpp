@@ -43,14 +43,15 @@ KinematicState random_state(Random& random, Model model) {
   return state;
 }
 
-// Way per acceleration after tau, with trust T: the integral of tau, then 2T - tau, then 0.
+// Displacement per acceleration after tau, with trust T: the integral of tau, then 2T - tau, then
+// 0.
 double reach(double tau, double trust) {
   if (tau <= trust) return tau * tau / 2;
   const double back = std::max(0.0, 2 * trust - tau);
   return trust * trust - back * back / 2;
 }
 
-TEST(AccelerationTrust, LastsFourTimesTheTimeInWhichTheVelocityChangesByItself) {
+TEST(AccelerationTrust, LastsFourTimesVelocityOverAcceleration) {
   EXPECT_DOUBLE_EQ(acceleration_trust(moving(Model::rvw, {3, 4, 0}, {0, 0, 2})), 10.0);
   EXPECT_DOUBLE_EQ(acceleration_trust(moving(Model::rvb, {0, 0, 0}, {0, 0, 2})), 0.0);
   EXPECT_EQ(acceleration_trust(moving(Model::fvw, {3, 4, 0}, {0, 0, 0})), kWithoutEnd);
@@ -58,7 +59,7 @@ TEST(AccelerationTrust, LastsFourTimesTheTimeInWhichTheVelocityChangesByItself) 
   EXPECT_EQ(acceleration_trust(KinematicState{}), kWithoutEnd);
 }
 
-TEST(AccelerationTrust, WithinItAndWithoutAnAccelerationThePoseIsTheStandardsToTheBit) {
+TEST(AccelerationTrust, PoseWithinItIsTheStandardPose) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
     const auto model = static_cast<Model>(i % 10);
@@ -73,7 +74,7 @@ TEST(AccelerationTrust, WithinItAndWithoutAnAccelerationThePoseIsTheStandardsToT
   }
 }
 
-TEST(AccelerationTrust, InReferenceAxesTheChangeOfVelocityComesAndGoesAsInClosedForm) {
+TEST(AccelerationTrust, InReferenceAxesFollowsTheClosedForm) {
   Random random(2);
   for (int i = 0; i < 5000; ++i) {
     const KinematicState state = random_state(random, i % 2 == 0 ? Model::rvw : Model::fvw);
@@ -90,7 +91,7 @@ TEST(AccelerationTrust, InReferenceAxesTheChangeOfVelocityComesAndGoesAsInClosed
   }
 }
 
-TEST(AccelerationTrust, InEveryModelPositionAndVelocityHaveNoStepWhereItEnds) {
+TEST(AccelerationTrust, PositionAndVelocityAreContinuousAtItsEnd) {
   Random random(3);
   for (int i = 0; i < 3000; ++i) {
     const auto model = static_cast<Model>(i % 10);
@@ -110,7 +111,7 @@ TEST(AccelerationTrust, InEveryModelPositionAndVelocityHaveNoStepWhereItEnds) {
 }
 
 // Velocity in body axes by numerical integration of the same law.
-TEST(AccelerationTrust, InTurningBodyAxesItIsTheIntegralOfThatVelocity) {
+TEST(AccelerationTrust, InBodyAxesEqualsTheIntegratedVelocity) {
   Random random(4);
   for (int i = 0; i < 30; ++i) {
     const KinematicState state = random_state(random, Model::rvb);
@@ -124,12 +125,12 @@ TEST(AccelerationTrust, InTurningBodyAxesItIsTheIntegralOfThatVelocity) {
       position += dt * (state.orientation * exponential(t * state.angular_velocity) *
                         (state.velocity + change * state.acceleration));
     }
-    // The midpoint rule is off by the second derivative times dt^2.
+    // The error of the midpoint rule is the second derivative times dt^2.
     EXPECT_LT((extrapolate_trusted(state, end).position - position).norm(), 1e-4) << i;
   }
 }
 
-TEST(AccelerationTrust, TheSampleOfABounceMovesABallByLessThanItsSpeedDoes) {
+TEST(AccelerationTrust, BounceSampleMovesABallABoundedDistance) {
   const KinematicState bounce = moving(Model::rvw, {0, 0, 5}, {0, 0, 600});
   const auto stray = [&](const Pose& pose, double t) {
     return (pose.position - t * bounce.velocity).norm();
@@ -140,13 +141,13 @@ TEST(AccelerationTrust, TheSampleOfABounceMovesABallByLessThanItsSpeedDoes) {
   EXPECT_NEAR(stray(extrapolate_trusted(bounce, 60), 60), 16 * 25.0 / 600, 1e-9);
 }
 
-TEST(AccelerationTrust, AThrownBallIsTrustedUntilItHasFallenBack) {
+TEST(AccelerationTrust, ThrownBallIsTrustedUntilItFallsBack) {
   const KinematicState thrown = moving(Model::rvw, {2, 0, 6}, {0, 0, -kFallRate});
   const double flight = 2 * 6 / kFallRate;
   EXPECT_FALSE(is_beyond_trust(thrown, 1.9 * flight));
 }
 
-TEST(AccelerationTrust, ASteadyTurnInBodyAxesIsTrustedForEver) {
+TEST(AccelerationTrust, SteadyBodyAxisTurnIsTrustedForEver) {
   // 100 m at 20 m/s: the rate of the body components is 0.
   KinematicState turn = moving(Model::rvb, {20, 0, 0}, {0, 0, 0});
   turn.angular_velocity = {0, 0, 0.2};
@@ -156,7 +157,7 @@ TEST(AccelerationTrust, ASteadyTurnInBodyAxesIsTrustedForEver) {
   EXPECT_LT((pose.position - on_circle).norm(), 1e-9);
 }
 
-TEST(AccelerationTrust, IsFiniteForEveryFloatAndEveryTimeAndKeepsNaNApart) {
+TEST(AccelerationTrust, IsFiniteForEveryFloatAndTime) {
   constexpr double kHuge = std::numeric_limits<float>::max();
   constexpr double kTiny = std::numeric_limits<float>::denorm_min();
   for (const Model model : {Model::rvw, Model::fvw, Model::rvb, Model::fvb}) {
@@ -193,7 +194,7 @@ struct FallSeen {
   double reckon = 0, standard = 0;  // largest errors [m]
 };
 
-// An owner without repetitions, thresholds of 0.1 m. Errors are those before an update.
+// An owner without heartbeats, with thresholds of 0.1 m. Errors are sampled before each update.
 FallSeen fall(double seconds, double first, double step = 1e-3, bool looks_ahead = false) {
   Thresholds thresholds;
   thresholds.position = 0.1;
@@ -220,19 +221,17 @@ FallSeen fall(double seconds, double first, double step = 1e-3, bool looks_ahead
   return seen;
 }
 
-TEST(AccelerationTrust, OfAFreeFallFromRestBothKindsOfViewersSeeTheThreshold) {
+TEST(AccelerationTrust, BothViewersKeepTheThresholdInFreeFall) {
   const FallSeen seen = fall(20, 0);
   EXPECT_LT(seen.reckon, 0.11);
   EXPECT_LT(seen.standard, 0.11);
-  // At rest, after 0.14 s (0.1 m), and then at five times the last time and little more.
+  // At rest, after 0.14 s (0.1 m), and then at about five times the time of the last update.
   EXPECT_LE(seen.updates, 5);
 }
 
-TEST(AccelerationTrust, AFallThatIsUnderWayNeedsNoUpdateForFourTimesItsAge) {
-  EXPECT_EQ(fall(3.9, 1.0).updates, 1);
-}
+TEST(AccelerationTrust, FallIsTrustedForFourTimesItsAge) { EXPECT_EQ(fall(3.9, 1.0).updates, 1); }
 
-TEST(AccelerationTrust, AnOwnerThatLooksOnceASecondSendsBeforeItEnds) {
+TEST(AccelerationTrust, SlowlyPolledOwnerSendsBeforeItEnds) {
   const FallSeen late = fall(20, 1, 1), ahead = fall(20, 1, 1, true);
   EXPECT_GT(late.reckon, 9) << "trusted for 4 s, seen after 5";
   EXPECT_LT(ahead.reckon, 1e-9);
@@ -240,7 +239,7 @@ TEST(AccelerationTrust, AnOwnerThatLooksOnceASecondSendsBeforeItEnds) {
   EXPECT_EQ(ahead.updates, late.updates);
 }
 
-TEST(AccelerationTrust, ASteadyTurnCostsNoUpdateMoreInAnyModel) {
+TEST(AccelerationTrust, SteadyTurnCostsNoExtraUpdate) {
   const auto on_circle = [](double t) {
     const Vector3d out(std::cos(0.2 * t), std::sin(0.2 * t), 0);
     const Vector3d along(-out.y(), out.x(), 0);

@@ -16,14 +16,14 @@
 namespace reckon::deadreckon::test {
 namespace {
 
-TEST(Articulation, GoesOnAtItsRateRoundTheCircleAndStandsAfterTheTimeOut) {
+TEST(Articulation, ContinuesAtItsRateUntilTheTimeOut) {
   Random random(3);
   for (int i = 0; i < 10'000; ++i) {
     const PartParameter p =
         parameter(kTurret, PartMetric::azimuth, random.real(-kPi, kPi), random.real(-20, 20));
     const double tau = random.real(-12, 12);
     const PartMotion at = predict(p, tau);
-    const double angle = p.value + p.rate * tau;  // sine and cosine know nothing of wrapping
+    const double angle = p.value + p.rate * tau;  // sine and cosine ignore wrapping
     ASSERT_NEAR(std::cos(at.value), std::cos(angle), 1e-12);
     ASSERT_NEAR(std::sin(at.value), std::sin(angle), 1e-12);
     ASSERT_EQ(at.rate, p.rate);
@@ -51,7 +51,7 @@ TEST(Articulation, ComparesAnglesTheShorterWay) {
   EXPECT_EQ(difference(PartMetric::z, 7, -7), 14);
 }
 
-TEST(Articulation, SendsWhatIsOffByMoreThanItsUnitAllows) {
+TEST(Articulation, SendsErrorsAboveTheThresholdOfTheUnit) {
   const PartThresholds limits;
   const auto sends = [&](PartMetric metric, double off) {
     return should_send(one(parameter(5, metric, 1 + off)), one(parameter(5, metric, 1)), 0);
@@ -71,7 +71,7 @@ TEST(Articulation, SendsWhatIsOffByMoreThanItsUnitAllows) {
   EXPECT_TRUE(should_send(one(parameter(5, PartMetric::azimuth, -kPi + 0.0525)), near_pi, 0));
 }
 
-TEST(Articulation, SendsWhenAPartComesGoesOrIsAttachedElsewhere) {
+TEST(Articulation, SendsWhenAPartAppearsDisappearsOrMoves) {
   const PartState sent = one(parameter(kGun, PartMetric::elevation, 0.2));
   EXPECT_FALSE(should_send(sent, sent, 5));
   EXPECT_TRUE(should_send(PartState(), sent, 0));
@@ -85,7 +85,7 @@ TEST(Articulation, SendsWhenAPartComesGoesOrIsAttachedElsewhere) {
   EXPECT_TRUE(should_send(sent, sent, 0, broken)) << "rather one packet too many";
 }
 
-// What peers have is what was decoded.
+// The state of peers is the decoded state.
 PartState as_received(const PartState& state) {
   std::array<std::byte, 64 * 16> octets;
   PartState back;
@@ -93,7 +93,7 @@ PartState as_received(const PartState& state) {
   return back;
 }
 
-TEST(Articulation, ATurretThatTurnsSteadilyNeedsTwoPackets) {
+TEST(Articulation, SteadilyTurningTurretNeedsTwoPackets) {
   constexpr double kRate = 0.4;  // [rad/s], from t = 1 s on
   constexpr double kTimeout = 132;
   PartState sent = as_received(one(parameter(kTurret, PartMetric::azimuth, 1)));
@@ -116,13 +116,14 @@ TEST(Articulation, ATurretThatTurnsSteadilyNeedsTwoPackets) {
   EXPECT_LE(worst, PartThresholds().angle);
 }
 
-TEST(Articulation, CountsItsChangesForTheWireAndNeverReturnsToZero) {
+TEST(Articulation, ChangeCounterWrapsToOne) {
   PartState state;
   for (int i = 0; i < 600; ++i) {
     ASSERT_TRUE(state.set(parameter(kTurret, PartMetric::azimuth, 1e-3 * i)));
     const int change = state.parameters()[0].change;
     ASSERT_EQ(change, i == 0 ? 0 : 1 + (i - 1) % 255);
-    ASSERT_TRUE(state.set(parameter(kTurret, PartMetric::azimuth, 1e-3 * i)));  // the same again
+    // the same value again
+    ASSERT_TRUE(state.set(parameter(kTurret, PartMetric::azimuth, 1e-3 * i)));
     ASSERT_EQ(state.parameters()[0].change, change);
   }
   for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
@@ -131,21 +132,21 @@ TEST(Articulation, CountsItsChangesForTheWireAndNeverReturnsToZero) {
   }
 }
 
-TEST(Articulation, IsShownWithoutAStepInValueOrRateAtAnyUpdate) {
+TEST(Articulation, IsShownWithoutAStepAtAnyUpdate) {
   Random random(5);
   for (const PartMetric metric : kMetrics) {
     PartConvergence convergence;
     double now = 0;
     convergence.update(one(parameter(kTurret, metric, 3.1, 1)), 0, 0);
     for (int i = 0; i < 2000; ++i) {
-      now += random.real(0.001, 0.2);  // many before the last error has gone
+      now += random.real(0.001, 0.2);  // often before the last error has decayed
       const PartMotion before = convergence.shown(0, now);
       const double told = random.real(-kPi, kPi), rate = random.real(-3, 3);
       convergence.update(one(parameter(kTurret, metric, told, rate)), now - 0.05, now);
       const PartMotion after = convergence.shown(0, now);
       ASSERT_LE(std::abs(difference(metric, after.value, before.value)), 1e-12);
       ASSERT_NEAR(after.rate, before.rate, 1e-12);
-      // The rate is that of what is shown.
+      // The rate is the slope of the displayed value.
       constexpr double h = 1e-6;
       const double t = now + random.real(0.01, 0.09);
       const double slope =
@@ -167,7 +168,7 @@ TEST(Articulation, ConvergesTheShorterWayAcrossPi) {
     ASSERT_GE(std::abs(convergence.shown(0, t).value), kPi - 0.2 - 1e-12) << t;
 }
 
-TEST(Articulation, ShowsPartsThatComeGoOrMoveToAnotherPlaceAtOnce) {
+TEST(Articulation, ShowsAppearedRemovedOrMovedPartsAtOnce) {
   PartConvergence convergence;
   convergence.update(one(parameter(kTurret, PartMetric::azimuth, 1)), 0, 0);
   PartState next = one(parameter(kLandingGear, PartMetric::position, 0.5));

@@ -22,7 +22,7 @@ using Curve = ConvergenceCurve;
 
 using NamedCurve = ConvergenceCurveRow;
 
-// Of a fixed duration, without teleports.
+// With a fixed duration, without teleports.
 ConvergenceSettings settings(Curve curve, double duration) {
   ConvergenceSettings s;
   s.curve = curve;
@@ -51,7 +51,7 @@ void check_vector(const nlohmann::json& v, const NamedCurve& named) {
 
   const double t = test::number(v.at("t"));
   const Pose shown = convergence.shown(predicted_at(v, t), t);
-  // The oracles call projective velocity blending pvb, and have no velocity of it.
+  // The oracles call projective velocity blending pvb and contain no velocity for it.
   const std::string name = named.curve == Curve::projective ? "pvb" : std::string(named.name);
   const Vector3d p = test::vector(v.at("expected_p").at(name));
   EXPECT_LE((shown.position - p).lpNorm<Eigen::Infinity>(), test::number(v.at("tol_m")))
@@ -80,7 +80,7 @@ double step_between(const Pose& a, const Pose& b) {
                    (a.angular_velocity - b.angular_velocity).norm()});
 }
 
-TEST(Convergence, HasNoStepInPoseOrVelocityAtAnyUpdate) {
+TEST(Convergence, PoseAndVelocityAreContinuousAtAnyUpdate) {
   Random random(1);
   for (const NamedCurve& named : kConvergenceCurves) {
     if (named.continuity < 1) continue;
@@ -111,7 +111,7 @@ TEST(Convergence, ArrivesAtThePredictionWithoutAStep) {
   EXPECT_FALSE(convergence.converging(1.5));
 }
 
-TEST(Convergence, ShowsVelocitiesThatAreTheRatesOfWhatItShows) {
+TEST(Convergence, ShowsTheRatesOfTheDisplayedPose) {
   Random random(3);
   for (const NamedCurve& named : kConvergenceCurves) {
     PoseConvergence convergence(settings(named.curve, 0.5));
@@ -134,7 +134,7 @@ TEST(Convergence, ShowsVelocitiesThatAreTheRatesOfWhatItShows) {
   }
 }
 
-TEST(Convergence, OvershootsNoMoreThanTheBoundOfItsCurve) {
+TEST(Convergence, OvershootsWithinTheBoundOfItsCurve) {
   for (const NamedCurve& named : kConvergenceCurves) {
     if (named.curve == Curve::snap) continue;
     Random random(4);
@@ -160,13 +160,13 @@ TEST(Convergence, OvershootsNoMoreThanTheBoundOfItsCurve) {
   }
 }
 
-TEST(Convergence, ListsTheCurvesInTheOrderOfTheirEnumeration) {
+TEST(Convergence, ListsTheCurvesInEnumerationOrder) {
   for (std::size_t i = 0; i < kConvergenceCurves.size(); ++i)
     EXPECT_EQ(static_cast<std::size_t>(kConvergenceCurves[i].curve), i);
 }
 
-// Second differences of what is shown, just before and just after an update in mid-correction.
-TEST(Convergence, QuinticHasNoStepInAccelerationAtAnUpdateOfTheSameMotion) {
+// Second differences of the displayed pose, just before and just after an update in mid-correction.
+TEST(Convergence, QuinticAccelerationIsContinuousOnTheSameMotion) {
   constexpr double h = 1e-4;
   PoseConvergence convergence(settings(Curve::quintic, 0.4));
   Pose shown;
@@ -190,7 +190,7 @@ TEST(Convergence, QuinticHasNoStepInAccelerationAtAnUpdateOfTheSameMotion) {
   EXPECT_LE((before.second - after.second).norm(), 0.02);
 }
 
-TEST(Convergence, ErrorsDieOutAtAnyRateOfUpdates) {
+TEST(Convergence, ErrorsDecayAtAnyUpdateRate) {
   for (const NamedCurve& named : kConvergenceCurves) {
     for (const double rate : {0.2, 1.0, 7.0, 60.0, 1000.0}) {
       PoseConvergence convergence(settings(named.curve, 0.1));
@@ -215,7 +215,7 @@ TEST(Convergence, ErrorsDieOutAtAnyRateOfUpdates) {
   }
 }
 
-TEST(Convergence, GivesALargeErrorTheTimeToLookLikeMotion) {
+TEST(Convergence, StretchesTheDurationForLargeErrors) {
   PoseConvergence convergence;
   Pose shown, predicted;
   double now = 0;
@@ -226,7 +226,7 @@ TEST(Convergence, GivesALargeErrorTheTimeToLookLikeMotion) {
     EXPECT_DOUBLE_EQ(convergence.duration(),
                      std::clamp(1.5 * error / s.gentle_speed, s.duration, s.longest));
   }
-  predicted.velocity = shown.velocity = {100, 0, 0};  // a tenth of it
+  predicted.velocity = shown.velocity = {100, 0, 0};  // the error is a tenth of the speed
   convergence.restart(shown, predicted, now += 10);
   EXPECT_DOUBLE_EQ(convergence.duration(), 1.0);
   shown.position = {3, 0, 0};
@@ -243,7 +243,7 @@ TEST(Convergence, KeepsPaceWithFrequentUpdates) {
   Pose shown, predicted;
   shown.position = {1e-3, 0, 0};
   convergence.restart(shown, predicted, 0);
-  EXPECT_DOUBLE_EQ(convergence.duration(), 0.1);  // nothing to compare the first one with
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.1);  // no earlier update to compare with
   convergence.restart(shown, predicted, 0.04);
   EXPECT_DOUBLE_EQ(convergence.duration(), 0.06);
   convergence.restart(shown, predicted, 0.041);
@@ -253,9 +253,9 @@ TEST(Convergence, KeepsPaceWithFrequentUpdates) {
   EXPECT_DOUBLE_EQ(convergence.duration(), 0.3);
 }
 
-// Held where it was told, the copy of what moves at 20 m/s falls no farther behind than it moves in
+// Held at its last position, the displayed copy of an entity at 20 m/s lags by at most its way in
 // the time of the correction, 1.5 updates.
-TEST(Convergence, DoesNotStayBehindAPredictionThatTellsNoVelocity) {
+TEST(Convergence, KeepsUpWithAPredictionWithoutVelocity) {
   PoseConvergence convergence;
   Pose held;
   double worst = 0;
@@ -302,7 +302,7 @@ TEST(Convergence, TurnsTheShorterWay) {
   }
 }
 
-TEST(Convergence, SnapsWhenTheEntityWasMovedOnPurpose) {
+TEST(Convergence, SnapsAtATeleport) {
   PoseConvergence convergence({Curve::cubic, 0.1, 10.0});
   Pose shown, predicted;
   predicted.position = {9.9, 0, 0};
@@ -327,7 +327,7 @@ TEST(Convergence, SnapsOnNumbersThatAreNotFinite) {
   EXPECT_TRUE(is_finite(convergence.shown(Pose{}, std::numeric_limits<double>::quiet_NaN())));
 }
 
-TEST(Convergence, SnapCurveAndZeroDurationShowThePredictionAtOnce) {
+TEST(Convergence, ZeroDurationShowsThePredictionAtOnce) {
   for (const ConvergenceSettings& s :
        {ConvergenceSettings{Curve::snap, 0.1, 10}, ConvergenceSettings{Curve::cubic, 0.0, 10}}) {
     PoseConvergence convergence(s);

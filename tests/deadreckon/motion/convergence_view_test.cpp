@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer sees of a vehicle over a poor link: smoothness against error.
+// The view of a vehicle over a poor link: smoothness against error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 using test::Random;
 using Curve = ConvergenceCurve;
 
-// A vehicle on a circle, seen over a delaying and losing network, as a viewer draws it at 60 Hz.
+// A vehicle on a circle over a network with delay and loss, drawn at 60 Hz.
 struct Viewing {
-  double rms = 0;            // shown against true position [m]
-  double velocity_step = 0;  // largest change of shown velocity from frame to frame [m/s]
+  double rms = 0;            // displayed against true position [m]
+  double velocity_step = 0;  // largest change of the displayed velocity between two frames [m/s]
 };
 
 KinematicState on_circle(double t) {
@@ -73,7 +73,7 @@ Viewing view(Curve curve) {
   return seen;
 }
 
-TEST(Convergence, CubicMovesTenTimesSmootherThanSnapForLessThanTwiceItsError) {
+TEST(Convergence, CubicIsTenTimesSmootherThanSnap) {
   const Viewing snap = view(Curve::snap), cubic = view(Curve::cubic);
   std::printf("snap %.4f m, %.3f m/s; cubic %.4f m, %.3f m/s\n", snap.rms, snap.velocity_step,
               cubic.rms, cubic.velocity_step);

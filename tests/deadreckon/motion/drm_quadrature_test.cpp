@@ -24,11 +24,11 @@ using Eigen::Vector3d;
 constexpr int kStates = 100'000;
 constexpr double kLongest = 10;   // [s]
 constexpr double kFastest = 10;   // [rad/s]
-constexpr double kMetres = 1e-6;  // what is promised
+constexpr double kMetres = 1e-6;  // required accuracy
 constexpr double kRadians = 1e-9;
-// What is reached: a last digit of 6.4e6 m is 1e-9 m, one of 100 rad 1e-14 rad, and in the inertial
-// reading the acceleration w x v makes a speed of 1e5 m/s. Held here, so that a series that loses
-// its ninth digit is seen.
+// Accuracy achieved: a last digit of 6.4e6 m is 1e-9 m, one of 100 rad 1e-14 rad, and in the
+// inertial reading the acceleration w x v gives a speed of 1e5 m/s. Asserted here, so that a series
+// that loses its ninth digit is detected.
 constexpr double kMetresReached = 5e-9;
 constexpr double kRadiansReached = 1e-13;
 constexpr double kSpeedReached = 1e-8;  // [m/s]
@@ -53,7 +53,8 @@ constexpr std::array<Case, 11> kCases{{
     {Algorithm::fvb, kOther},
 }};
 
-// Not inlined: GCC 12 may else carry the unrounded number into the long double of the reference.
+// Not inlined: otherwise GCC 12 may carry the unrounded number into the long double of the
+// reference.
 [[gnu::noinline]] double as_float(double value) {
   return static_cast<double>(static_cast<float>(value));
 }
@@ -62,7 +63,7 @@ Vector3d as_floats(const Vector3d& v) {
   return {as_float(v.x()), as_float(v.y()), as_float(v.z())};
 }
 
-// What an Entity State says of a motion, and when it is asked for.
+// The motion of an Entity State, and the time of its extrapolation.
 struct Motion {
   Euler euler;
   Vector3d position, velocity, acceleration, rate;
@@ -93,7 +94,7 @@ class Motions {
   Vector3d along(double size) { return as_floats(size * random_.direction()); }
   double decades(double low, double high) { return std::pow(10, random_.real(low, high)); }
 
-  // Mostly 0 to 10 s; exactly 0, tiny, and back in time.
+  // Mostly 0 to 10 s; also exactly 0, tiny, and negative.
   double tau() {
     const double kind = random_.real(0, 1);
     if (kind < 0.05) return 0;
@@ -102,8 +103,8 @@ class Motions {
     return random_.real(0, kLongest);
   }
 
-  // All sizes of rate: none, those that a float32 holds with few digits, every decade up to 10
-  // rad/s, the fast ones again, and those where series and closed form meet.
+  // All magnitudes of rate: zero, denormal float32 values, every decade up to 10 rad/s, the fast
+  // ones again, and rates where series and closed form meet.
   double rate(double t) {
     const double kind = random_.real(0, 1);
     if (kind < 0.05) return 0;
@@ -126,7 +127,7 @@ struct Off {
   }
 };
 
-// The reference for one motion: axes and rotation are worked out once for all models.
+// The reference for one motion: axes and rotation are computed once for all models.
 class Reference {
  public:
   explicit Reference(const Motion& m, int finer = 1)
@@ -141,7 +142,7 @@ class Reference {
   };
 
   [[nodiscard]] Truth at(const Case& c) const {
-    // What the letters of the model's name mean; written out, not taken from drm_terms().
+    // The letters of the model's name, written out and not taken from drm_terms().
     static constexpr std::string_view kNames[] = {"",    "",    "FPW", "RPW", "RVW",
                                                   "FVW", "FPB", "RPB", "RVB", "FVB"};
     const std::string_view name = kNames[static_cast<std::size_t>(c.algorithm)];
@@ -176,7 +177,7 @@ bool has_rate(Algorithm algorithm) {
          algorithm == Algorithm::rpb || algorithm == Algorithm::rvb;
 }
 
-TEST(DrmQuadrature, EveryModelIsWithinAMicrometreAndANanoradianForAllRates) {
+TEST(DrmQuadrature, EveryModelMeetsItsAccuracyForAllRates) {
   Motions motions(20);
   std::array<Off, kCases.size()> worst;
   for (int i = 0; i < reckon::test::tries(30'000, kStates); ++i) {
@@ -187,7 +188,7 @@ TEST(DrmQuadrature, EveryModelIsWithinAMicrometreAndANanoradianForAllRates) {
       const Pose pose = extrapolate(state, m.tau, kCases[k].reading);
       const Off off = compare(pose, reference.at(kCases[k]));
       worst[k].take(off);
-      // Written so that what is not a number fails.
+      // Written so that NaN fails.
       ASSERT_TRUE(off.metres <= kMetres && off.radians <= kRadians &&
                   off.metres_a_second <= kSpeedReached)
           << "state " << i << " model " << static_cast<int>(kCases[k].algorithm) << " rate "
@@ -206,8 +207,8 @@ TEST(DrmQuadrature, EveryModelIsWithinAMicrometreAndANanoradianForAllRates) {
   }
 }
 
-// The states above leave out no size of turn, down to none at all.
-TEST(DrmQuadrature, DrawsEveryDecadeOfTurnFromTenToTheMinusTwelveUp) {
+// The states above cover every magnitude of turn, including zero.
+TEST(DrmQuadrature, SamplesEveryDecadeOfTurn) {
   Motions motions(20);
   std::array<int, 14> in_decade{};  // |w t| from 1e-12 to 100 rad
   int none = 0, tiny = 0;
@@ -229,7 +230,7 @@ TEST(DrmQuadrature, DrawsEveryDecadeOfTurnFromTenToTheMinusTwelveUp) {
   EXPECT_GE(tiny, 1000);
 }
 
-TEST(DrmQuadrature, TheReferenceDoesNotChangeWithTwiceAsManyPanels) {
+TEST(DrmQuadrature, ReferenceIsTheSameWithTwiceThePanels) {
   Motions motions(21);
   Real worst = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -245,7 +246,7 @@ TEST(DrmQuadrature, TheReferenceDoesNotChangeWithTwiceAsManyPanels) {
   EXPECT_LE(worst, 1e-11L);
 }
 
-TEST(DrmQuadrature, TheReferencesExponentialTurnsByItsAngle) {
+TEST(DrmQuadrature, ReferenceExponentialTurnsByItsAngle) {
   // Closed form about one axis; the weights of the nodes add up to the interval.
   const RealMatrix m = matrix_exponential({0, 0, 0.7L});
   EXPECT_LE(std::abs(m(0, 0) - std::cos(0.7L)), 1e-18L);

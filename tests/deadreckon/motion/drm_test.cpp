@@ -63,9 +63,10 @@ TEST(Drm, MeetsEveryOracleVectorOfTheInertialReading) {
   EXPECT_EQ(check_column("accel_inertial", AccelerationReading::inertial), 11);
 }
 
-// FPB and FVB of a state with an angular velocity can be read as going along axes that turn, with
-// an orientation that does not. Not our reading, but what RPB and RVB do is then the position.
-TEST(Drm, MeetsTheOraclesOfTheOtherReadingOfFixedModelsWhereTheirTurningTwinsGo) {
+// FPB and FVB of a state with an angular velocity can be read as moving along turning axes, with a
+// constant orientation. Reckon does not use this reading; its position is then the position of RPB
+// and RVB.
+TEST(Drm, MeetsOraclesOfFixedModelsReadAsTurning) {
   RECKON_NEED_DATA("oracles/dead_reckoning.json");
   int checked = 0;
   const auto file = test::oracle("dead_reckoning.json");
@@ -158,7 +159,7 @@ Residual residual(const KinematicState& s, double tau, AccelerationReading readi
           angle_between(pose.orientation, Quaterniond(rotation).normalized())};
 }
 
-TEST(Drm, EqualsAnIndependentQuadratureForAllRatesWithoutAGap) {
+TEST(Drm, EqualsAnIndependentQuadratureForAllRates) {
   Random random(1);
   Residual worst;
   for (const Algorithm algorithm : kAll) {
@@ -182,7 +183,7 @@ TEST(Drm, EqualsAnIndependentQuadratureForAllRatesWithoutAGap) {
   std::printf("worst residual %.2g m, %.2g rad\n", worst.position, worst.angle);
 }
 
-TEST(Drm, EqualsTheQuadratureAcrossTheSwitchFromSeriesToClosedForm) {
+TEST(Drm, EqualsTheQuadratureAroundTheSeriesSwitch) {
   Random random(2);
   for (double turn = 0.9; turn < 1.1; turn += 0.004) {
     const KinematicState s = random.state(Algorithm::rvb, turn);
@@ -201,7 +202,7 @@ TEST(Drm, SeriesAndClosedFormMeetWithoutAStep) {
   EXPECT_LE(test::difference(below.orientation, above.orientation), 1e-15);
 }
 
-TEST(Drm, GivesTheRateOfItsOwnPositionAsVelocity) {
+TEST(Drm, GivesTheRateOfItsPositionAsVelocity) {
   Random random(4);
   for (const Algorithm algorithm : kAll) {
     const KinematicState s = random.state(algorithm, 2.0);
@@ -225,7 +226,7 @@ TEST(Drm, IsTheUpdateItselfAtTimeZero) {
   }
 }
 
-TEST(Drm, MovesBodyModelsAtZeroRateAlongTheirAxes) {
+TEST(Drm, ZeroRateBodyModelsMoveAlongTheirAxes) {
   KinematicState s;
   s.velocity = {10, 0, 0};
   s.acceleration = {0, 2, 0};
@@ -252,7 +253,7 @@ TEST(Drm, FliesACircleInTheInertialReadingOnly) {
   EXPECT_GT(extrapolate(s, full_turn).position.norm(), 1000);
 }
 
-TEST(Drm, LetsFixedModelsIgnoreAngularVelocity) {
+TEST(Drm, FixedModelsIgnoreAngularVelocity) {
   Random random(6);
   for (const Algorithm algorithm :
        {Algorithm::fpw, Algorithm::fvw, Algorithm::fpb, Algorithm::fvb}) {
@@ -296,7 +297,7 @@ TEST(Drm, StaysFiniteForEveryFloatAndEveryTime) {
   }
 }
 
-TEST(Drm, GoesBackInTimeAsItGoesForward) {
+TEST(Drm, ExtrapolatesBackwardsInTime) {
   Random random(9);
   for (const Algorithm algorithm : {Algorithm::rpw, Algorithm::rpb}) {
     const KinematicState s = random.state(algorithm, 1.5);
@@ -317,7 +318,7 @@ TEST(Drm, KeepsAUnitQuaternionAfterAMillionSeconds) {
   }
 }
 
-TEST(Drm, TurnsThroughGimbalLockWithoutNotice) {
+TEST(Drm, TurnsThroughGimbalLockWithoutError) {
   // Pitching at 1 rad/s through theta = 90 degrees: the orientation is exact on either side.
   KinematicState s;
   s.algorithm = Algorithm::rvw;

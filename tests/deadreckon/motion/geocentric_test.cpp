@@ -64,7 +64,7 @@ TEST(Geocentric, LocalAxesAreEastNorthUp) {
   EXPECT_LE((frame.world_from_scene_vector(Vector3d::UnitZ()) - Vector3d::UnitX()).norm(), 1e-15);
 }
 
-TEST(Geocentric, GoesToTheWorldAndBack) {
+TEST(Geocentric, RoundTripsThroughTheWorld) {
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
     const LocalFrame frame(random.real(-kPi / 2, kPi / 2), random.real(-kPi, kPi), 100);
@@ -72,14 +72,14 @@ TEST(Geocentric, GoesToTheWorldAndBack) {
     EXPECT_LE((frame.scene_from_world(frame.world_from_scene(point)) - point).norm(), 3e-9);
     EXPECT_LE((frame.scene_from_world_vector(frame.world_from_scene_vector(v)) - v).norm(), 1e-14);
 
-    // Rotations and vectors turn alike.
+    // Rotations and vectors turn in the same way.
     const Quaterniond q = random.rotation();
     EXPECT_LE(test::difference(frame.scene_from_world(frame.world_from_scene(q)), q), 1e-15);
     EXPECT_LE((frame.world_from_scene(q) * v - frame.world_from_scene_vector(q * v)).norm(), 1e-13);
   }
 }
 
-TEST(Geocentric, RefusesAnOriginOffTheEarthAndNamesTheValue) {
+TEST(Geocentric, RefusesAnOriginThatIsNotOnEarth) {
   EXPECT_THROW(LocalFrame(1.6, 0, 0), std::invalid_argument);
   EXPECT_THROW(LocalFrame(0, 7, 0), std::invalid_argument);
   EXPECT_THROW(LocalFrame(0, 0, 1e9), std::invalid_argument);
@@ -135,7 +135,7 @@ TEST(Euler, KeepsItsDigitsAtAndNearGimbalLock) {
   EXPECT_NEAR(up.psi, 0.3, 1e-15);
 }
 
-TEST(Euler, ReturnsAnglesOfTheOraclesAwayFromTheLock) {
+TEST(Euler, ReturnsOracleAnglesAwayFromTheLock) {
   RECKON_NEED_DATA("oracles/dead_reckoning.json");
   const auto file = test::oracle("dead_reckoning.json");
   for (const auto& v : file.at("vectors")) {
@@ -143,7 +143,7 @@ TEST(Euler, ReturnsAnglesOfTheOraclesAwayFromTheLock) {
     if (main.at("euler").is_null()) continue;
     const Euler e = euler_from_quaternion(test::quaternion(main.at("q_bw")));
     const Vector3d expected = test::vector(main.at("euler"));
-    // Near the lock psi and phi share what the quaternion tells of their sum alone.
+    // Near the lock the quaternion determines only the sum of psi and phi.
     const double scale = 1.0 / std::cos(expected.y());
     EXPECT_LE(std::abs(std::remainder(e.psi - expected.x(), 2 * kPi)), 1e-15 * scale + 1e-15);
     EXPECT_NEAR(e.theta, expected.y(), 1e-15);

@@ -46,7 +46,7 @@ TEST(Rotation, LogarithmUndoesExponentialFromZeroToPi) {
   EXPECT_EQ(logarithm(Quaterniond::Identity()), Vector3d::Zero());
 }
 
-// On both sides of where the series ends, in longer numbers.
+// On both sides of the end of the series, in long double.
 TEST(Rotation, SmallTurnsAreExactToRounding) {
   const Vector3d axis = Vector3d(1, -2, 2) / 3;
   for (long double angle = 1e-9L; angle < 0.2L; angle *= 1.07L) {
@@ -63,7 +63,7 @@ TEST(Rotation, SmallTurnsAreExactToRounding) {
   }
 }
 
-TEST(Rotation, AngleIgnoresTheSignOfTheQuaternionAndSeesNanoradians) {
+TEST(Rotation, AngleIgnoresTheQuaternionsSign) {
   Random random(2);
   const Quaterniond q = random.rotation();
   const Quaterniond opposite(-q.w(), -q.x(), -q.y(), -q.z());

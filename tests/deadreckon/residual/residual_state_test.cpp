@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The residual form: exact on what is rounded to quanta, whatever was lost before, or it says that
-// it awaits a key; never a wrong state.
+// The residual form: exact on quantised states after any loss, or it reports that it awaits a key;
+// never a wrong state.
 #include "reckon/deadreckon/residual/residual_state.hpp"
 
 #include <gtest/gtest.h>
@@ -23,9 +23,9 @@ namespace {
 using Random = std::mt19937_64;
 using pdu::EntityState;
 
-constexpr double kTicks = 4294967294.0 / 3600.0;  // of a timestamp in 1 s
+constexpr double kTicks = 4294967294.0 / 3600.0;  // ticks of a timestamp in 1 s
 
-/// A vehicle that swings about a drift; `rate` [1/s] of its swings.
+/// A vehicle that oscillates about a drift; `rate` [1/s] of its oscillations.
 struct Mover {
   std::array<double, 3> size, rate, phase;
   explicit Mover(Random& random) {
@@ -69,7 +69,7 @@ struct Tally {
   double octets = 0;
 };
 
-/// Some 500 updates, one key in 33, of which `loss` are lost.
+/// Some 500 updates with loss rate `loss`, one in 33 of them a key.
 Tally run(std::uint64_t seed, double loss, pdu::DeadReckoningAlgorithm algorithm) {
   Random random(seed);
   const Mover mover(random);
@@ -105,7 +105,7 @@ Tally run(std::uint64_t seed, double loss, pdu::DeadReckoningAlgorithm algorithm
 
 class ResidualLoss : public ::testing::TestWithParam<pdu::DeadReckoningAlgorithm> {};
 
-TEST_P(ResidualLoss, IsExactOnWhatArrivesAndSeldomAwaitsAKey) {
+TEST_P(ResidualLoss, IsExactAndSeldomAwaitsAKey) {
   for (const double loss : {0.0, 0.01, 0.05, 0.2, 0.5}) {
     Tally all;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Models, ResidualLoss,
                          ::testing::Values(pdu::DeadReckoningAlgorithm::rvw,
                                            pdu::DeadReckoningAlgorithm::rvb));
 
-TEST(ResidualState, GoesPlainWhereAnythingButTheMotionChanges) {
+TEST(ResidualState, SendsPlainWhenMoreThanTheMotionChanges) {
   Random random(1);
   const Mover mover(random);
   const auto body_after = [&](auto change) {
@@ -184,7 +184,7 @@ TEST(ResidualState, AwaitsTheKeyOfAnotherAppearance) {
   EXPECT_EQ(newcomer.decode(octets, third.header.timestamp, out), ResidualVerdict::no_key);
 }
 
-/// A vehicle that turns ever faster, half a second a step.
+/// A vehicle that turns ever faster; a step is half a second.
 EntityState turning_vehicle(int step) {
   const double t = 0.5 * step;
   EntityState state;
@@ -206,7 +206,7 @@ EntityState turning_vehicle(int step) {
   return state;
 }
 
-TEST(ResidualState, WritesAndReadsTheOctetsThatOtherPeersDo) {
+TEST(ResidualState, WritesAndReadsTheReferenceOctets) {
   const EntityState first = turning_vehicle(0);
   std::array<std::byte, pdu::kMostCompact> key;
   const std::size_t key_size = pdu::encode_compact(first, {}, key);
@@ -238,7 +238,7 @@ TEST(ResidualState, WritesAndReadsTheOctetsThatOtherPeersDo) {
   }
 }
 
-TEST(ResidualState, TakesAnyOctetsWithoutHarmAndNextToNoneForGood) {
+TEST(ResidualState, DecodesAnyOctetsSafely) {
   Random random(3);
   const Mover mover(random);
   ResidualEncoder sender;

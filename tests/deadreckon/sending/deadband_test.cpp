@@ -26,7 +26,7 @@ struct Sent {
   SignalModel model = SignalModel::hold;
 };
 
-// Sender and receiver; the receiver sees the updates only.
+// Sender and receiver; the receiver gets the updates only.
 Sent send(const Signal& signal, const Deadband& deadband = {}) {
   DeadbandSender sender(deadband);
   SignalUpdate received;
@@ -67,7 +67,7 @@ Signal forces(const std::string& file) {
 
 class RealForces : public testing::TestWithParam<const char*> {};
 
-TEST_P(RealForces, NeedAtMost13PercentOfTheirSamplesAt10PercentWeber) {
+TEST_P(RealForces, NeedFewSamplesAtTenPercentWeber) {
   RECKON_NEED_DATA("haptic-traces");
   const Signal signal = forces(GetParam());
   ASSERT_GT(signal.size(), 900U);
@@ -97,25 +97,25 @@ TEST(Deadband, FollowsSmoothSignalsAlongLinesAndHoldsNoise) {
   EXPECT_EQ(send(noisy).model, SignalModel::hold);
 }
 
-TEST(Deadband, SendsTheFirstSampleAndThenNothingWhileNothingChanges) {
+TEST(Deadband, SendsOneSampleOfAConstantSignal) {
   Signal constant;
   for (int i = 0; i < 1000; ++i) constant.emplace_back(0.001 * i, Vector3d(0, 3, 0));
   EXPECT_EQ(send(constant).packets, 1U);
 }
 
-TEST(Deadband, WidthIsAShareOfTheValueAboveItsFloor) {
+TEST(Deadband, WidthIsAShareOfTheValue) {
   const Deadband deadband{0.2, 0.05};
   EXPECT_EQ(deadband_width(deadband, {0, 0, 0}), 0.05);
   EXPECT_EQ(deadband_width(deadband, {3, 4, 0}), 1.0);
 }
 
-TEST(Deadband, ALostUpdateDoesNotRunAway) {
+TEST(Deadband, LostUpdateDoesNotRunAway) {
   const SignalUpdate update{1, {1, 0, 0}, {10, 0, 0}, SignalModel::line};
   EXPECT_EQ(predict(update, 1e9), Vector3d(1 + 10 * kLongestLine, 0, 0));
   EXPECT_EQ(predict(update, 0), Vector3d(1, 0, 0));
 }
 
-TEST(Deadband, PassesOverWhatIsNotFiniteOrNotNewer) {
+TEST(Deadband, IgnoresNonFiniteAndOldSamples) {
   DeadbandSender sender;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(sender.sample(kNan, {1, 0, 0}).has_value());

@@ -53,7 +53,7 @@ MotionSample circle(double t) {
           {0, 0, w}};
 }
 
-// The same, speeding up along the circle.
+// The same, accelerating along the circle.
 MotionSample faster_circle(double t) {
   const double angle = 0.2 * t + 0.01 * t * t, w = 0.2 + 0.02 * t;
   const Vector3d out(std::cos(angle), std::sin(angle), 0);
@@ -102,7 +102,7 @@ TEST(ModelChoice, FollowsAChangeOfTheMotion) {
   EXPECT_TRUE(drm_terms(choice.chosen()).acceleration);  // RVB without a turn is RVW
 }
 
-// Updates that an owner sends with one model, or with the choice.
+// Number of updates of an owner with one model, or with the choice.
 int updates(const Motion& motion, const std::function<Model(const MotionSample&)>& model,
             double seconds = 180) {
   KinematicState sent;
@@ -122,8 +122,8 @@ int updates(const Motion& motion, const std::function<Model(const MotionSample&)
   return count;
 }
 
-// Of three parts, none is best for all: the choice needs fewer updates than any model alone.
-TEST(ModelChoice, NeedsFewerUpdatesThanEachModelOnAMotionThatChanges) {
+// No model is best for all three parts: the choice needs fewer updates than any model alone.
+TEST(ModelChoice, BeatsEverySingleModelOnChangingMotion) {
   const Motion mixed = [random = Random(5)](double t) mutable {
     if (t < 60) return circle(t);
     if (t < 120) return faster_circle(t - 60);
@@ -143,7 +143,7 @@ TEST(ModelChoice, NeedsFewerUpdatesThanEachModelOnAMotionThatChanges) {
   }
 }
 
-TEST(ModelChoice, BeginsWithTheSimplestModelThatTellsWhatTheFirstSampleTells) {
+TEST(ModelChoice, BeginsWithTheSimplestSufficientModel) {
   const auto first = [](const MotionSample& sample) {
     ModelChoice choice;
     choice.note(sample, {});
@@ -157,12 +157,12 @@ TEST(ModelChoice, BeginsWithTheSimplestModelThatTellsWhatTheFirstSampleTells) {
   EXPECT_EQ(first(faster_circle(1)), Model::rvb);
   MotionSample huge = straight(1);
   huge.position.x() = huge.velocity.x() = std::numeric_limits<double>::max();
-  EXPECT_EQ(first(huge), Model::rvb);  // nothing can be told apart there
+  EXPECT_EQ(first(huge), Model::rvb);  // nothing can be distinguished there
 }
 
-// Where a bend may come later its first update is to tell it, so a vehicle that says nothing of
-// turns yet is ready for RPB. Until it turns that is FPW, by name too.
-TEST(ModelChoice, TellsTheFirstBendOfAStraightWay) {
+// The first update after a turn begins shall contain it, so a vehicle that is not turning yet is
+// prepared for RPB. Until it turns, RPB equals FPW and is named so.
+TEST(ModelChoice, ReportsTheFirstTurnAfterAStraightPath) {
   const auto bend = [](double t) { return t < 20 ? straight(t) : circle(t); };
   const auto named = [&](const Thresholds& thresholds, double until) {
     ModelChoice choice;
@@ -177,7 +177,7 @@ TEST(ModelChoice, TellsTheFirstBendOfAStraightWay) {
   EXPECT_EQ(named(any_angle, 20.2), Model::fpw);
 }
 
-// Stands for 10 s, speeds up for 3 s, drives for 4 s, brakes for 3 s, and so on.
+// Rests for 10 s, accelerates for 3 s, drives for 4 s, brakes for 3 s, and so on.
 MotionSample stop_and_go(double time) {
   const double lap = std::floor(time / 20), t = time - 20 * lap;
   const double up = std::clamp(t - 10, 0.0, 3.0), down = std::clamp(t - 17, 0.0, 3.0);
@@ -187,8 +187,8 @@ MotionSample stop_and_go(double time) {
   return {time, {x, 0, 0}, heading(0), {2 * (up - down), 0, 0}, {a, 0, 0}, {0, 0, 0}};
 }
 
-// The models of the closed forms, and what learning them costs.
-TEST(ModelChoice, CostsAtMostTwoPerCentMoreThanTheBestModel) {
+// The models of the closed forms, and the cost of learning them.
+TEST(ModelChoice, CostsAtMostTwoPerCentMore) {
   struct Case {
     const char* name;
     Motion motion;
@@ -221,9 +221,9 @@ TEST(ModelChoice, CostsAtMostTwoPerCentMoreThanTheBestModel) {
   }
 }
 
-// Speeding up at 2 m/s^2, which the first sample does not tell: FPW is 1 m off each second, RVW
-// once. Two updates against one may be chance; more of them are not.
-TEST(ModelChoice, IsNotTurnedByTheFirstFewUpdates) {
+// Accelerates at 2 m/s^2, but the first sample has no acceleration: FPW reaches an error of 1 m
+// each second, RVW once. Two updates against one may be chance; more are not.
+TEST(ModelChoice, IsNotMisledByTheFirstFewUpdates) {
   Thresholds any_angle;
   any_angle.angle = 4;
   const auto chosen_after = [&](double seconds) {
@@ -239,7 +239,7 @@ TEST(ModelChoice, IsNotTurnedByTheFirstFewUpdates) {
   EXPECT_EQ(chosen_after(10), Model::rvw);
 }
 
-TEST(ModelChoice, PassesOverSamplesThatAreNotFinite) {
+TEST(ModelChoice, IgnoresSamplesThatAreNotFinite) {
   ModelChoice choice;
   MotionSample bad = straight(0);
   bad.position.x() = std::numeric_limits<double>::quiet_NaN();
@@ -252,8 +252,8 @@ TEST(ModelChoice, PassesOverSamplesThatAreNotFinite) {
   EXPECT_EQ(choice.chosen(), Model::rpb);
 }
 
-// The same pose, velocity and acceleration come back, as far as the model tells them.
-TEST(KinematicState, OfASampleTellsTheSampleAgain) {
+// The same pose, velocity and acceleration are restored, as far as the model contains them.
+TEST(KinematicState, OfASampleRestoresTheSample) {
   Random random(8);
   for (int model = 0; model <= 9; ++model) {
     const auto algorithm = static_cast<Model>(model);
@@ -267,7 +267,8 @@ TEST(KinematicState, OfASampleTellsTheSampleAgain) {
                           random.vector(2)};
       const MotionSample again = motion_sample(kinematic_state(sample, algorithm), 1.0);
       if (!terms.velocity) sample.velocity.setZero();
-      // A turning body accelerates across its way whether the model tells an acceleration or not.
+      // A turning body accelerates across its path whether the model contains an acceleration or
+      // not.
       if (!terms.rotation) sample.angular_velocity.setZero();
       EXPECT_EQ(again.position, sample.position);
       EXPECT_NEAR((again.velocity - sample.velocity).norm(), 0, 1e-12);

@@ -41,7 +41,7 @@ UpdatePolicy policy_at_rest() {
   return policy;
 }
 
-TEST(UpdatePolicy, SendsFirstOfAll) {
+TEST(UpdatePolicy, SendsTheFirstState) {
   UpdatePolicy policy({}, kHeartbeat);
   EXPECT_EQ(policy.decide({}, 0), SendReason::first);
   policy.sent(KinematicState{}, 0);
@@ -62,7 +62,7 @@ TEST(UpdatePolicy, PositionThresholdIsASphereNotACube) {
   }
 }
 
-TEST(UpdatePolicy, AngleThresholdIsTheTrueAngleAboutAnyAxisAndAnySign) {
+TEST(UpdatePolicy, AngleThresholdIsTheAngleAboutAnyAxis) {
   const UpdatePolicy policy = policy_at_rest();
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
@@ -79,7 +79,7 @@ TEST(UpdatePolicy, AngleThresholdIsTheTrueAngleAboutAnyAxisAndAnySign) {
   }
 }
 
-// The distance from which each rule sends, for an error along this direction.
+// The error along this direction at which each rule sends.
 double border(const SendRule& rule, const Thresholds& thresholds, const Eigen::Vector3d& direction,
               double speed = 0) {
   double low = 0, high = 100;
@@ -95,7 +95,7 @@ double border(const SendRule& rule, const Thresholds& thresholds, const Eigen::V
   return high;
 }
 
-TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
+TEST(SendRules, ApplyTheirOwnErrorLimits) {
   Thresholds thresholds;
   thresholds.position = 0.5;
   thresholds.of<VelocityAware>().speed_allowance = 0.05;
@@ -113,11 +113,11 @@ TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
   EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 20), 1.5, 1e-8);
   EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 4000 / 60.0 * (std::numbers::pi / 180),
               1e-8);
-  thresholds.of<SeenFrom>().viewer_distance = 1;  // near by: the threshold itself
+  thresholds.of<SeenFrom>().viewer_distance = 1;  // nearby: the threshold itself
   EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 0.5, 1e-8);
 }
 
-TEST(SendRules, HoldEveryRuleOfAnyHeader) {
+TEST(SendRules, HaveARowForEveryDeclaredRule) {
   std::size_t rules = 0;
   for (const std::string& header : reckon::test::headers_in("deadreckon/sending")) {
     for (const std::string& rule :
@@ -142,7 +142,7 @@ TEST(SendRules, StartFromTheDefaultsOfTheirTables) {
   });
 }
 
-TEST(SendRules, SendAPredictionThatIsNotANumber) {
+TEST(SendRules, SendForANonFinitePrediction) {
   KinematicState broken;
   broken.position.x() = std::numeric_limits<double>::quiet_NaN();
   for (const SendRule& rule : kSendRules) {
@@ -163,13 +163,13 @@ TEST(UpdatePolicy, AllowsAShareOfALargeForce) {
   EXPECT_EQ(policy.decide(Pose{}, 0, 0.11, 0.2), SendReason::force);
 }
 
-TEST(UpdatePolicy, DefaultsAreThoseOfTheStandard) {
+TEST(UpdatePolicy, HasTheDefaultsOfTheStandard) {
   const Thresholds thresholds;
   EXPECT_EQ(thresholds.position, 1.0);
   EXPECT_NEAR(thresholds.angle, 3.0 / 57.29577951308232, 1e-12);
 }
 
-TEST(UpdatePolicy, SendsAtTheHeartbeatAndNotBefore) {
+TEST(UpdatePolicy, SendsAtTheHeartbeat) {
   const UpdatePolicy policy = policy_at_rest();
   EXPECT_EQ(policy.decide({}, 4.999), SendReason::none);
   EXPECT_EQ(policy.decide({}, 5.0), SendReason::heartbeat);
@@ -183,7 +183,7 @@ TEST(UpdatePolicy, SendsAnEventAtOnceAndOnce) {
   EXPECT_EQ(policy.decide({}, 0.002), SendReason::none);
 }
 
-// When it says again [s] what it said at 0 for this reason.
+// Times [s] at which it repeats a state sent at 0 for this reason.
 std::vector<double> said_again(SendReason reason, double first_heartbeat) {
   UpdatePolicy policy({}, 60.0, first_heartbeat, kDefaultSendRule, kEventRepeat);
   policy.sent({}, 0.0, reason);
@@ -196,7 +196,7 @@ std::vector<double> said_again(SendReason reason, double first_heartbeat) {
   return times;
 }
 
-TEST(UpdatePolicy, SaysAnEventAgainSoonerAndNoMoreOften) {
+TEST(UpdatePolicy, RepeatsAnEventSoonerButNotMoreOften) {
   using testing::DoubleNear, testing::ElementsAre;
   const auto near = [](double time) { return DoubleNear(time, 0.25); };
   EXPECT_THAT(said_again(SendReason::position, 1.0),
@@ -209,14 +209,14 @@ TEST(UpdatePolicy, SaysAnEventAgainSoonerAndNoMoreOften) {
       ElementsAre(near(0.2), near(0.6), near(1.4), near(3), near(6.2), near(12.6), near(25.4)));
 }
 
-TEST(UpdatePolicy, SendsWhenTheForceIsOff) {
+TEST(UpdatePolicy, SendsWhenTheForceErrorIsTooLarge) {
   const UpdatePolicy policy = policy_at_rest();
   EXPECT_EQ(policy.decide({}, 1, 0.0999), SendReason::none);
   EXPECT_EQ(policy.decide({}, 1, 0.1001), SendReason::force);
   EXPECT_EQ(policy.decide({}, 1, std::numeric_limits<double>::quiet_NaN()), SendReason::force);
 }
 
-TEST(UpdatePolicy, ComparesWithThePredictionNotWithTheLastPosition) {
+TEST(UpdatePolicy, ComparesWithThePredictedPosition) {
   UpdatePolicy policy({1.0, 0.05, 0.1}, kHeartbeat);
   KinematicState s;
   s.algorithm = pdu::DeadReckoningAlgorithm::fpw;
@@ -226,7 +226,7 @@ TEST(UpdatePolicy, ComparesWithThePredictionNotWithTheLastPosition) {
   EXPECT_EQ(policy.decide(still_at({0, 0, 0}), 103), SendReason::position);
 }
 
-TEST(UpdatePolicy, NeverSendsATruthThatIsNotFinite) {
+TEST(UpdatePolicy, NeverSendsANonFiniteTruth) {
   UpdatePolicy policy({}, kHeartbeat);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(policy.decide(still_at({nan, 0, 0}), 0), SendReason::none);
@@ -235,7 +235,7 @@ TEST(UpdatePolicy, NeverSendsATruthThatIsNotFinite) {
   EXPECT_EQ(policy.decide(truth, 100), SendReason::none);
 }
 
-// What a peer sees of an entity that moves freely never leaves the thresholds by more than one
+// The error at a peer for a freely moving entity never exceeds the thresholds by more than one
 // tick.
 TEST(UpdatePolicy, BoundsTheErrorOfPeersByTheThreshold) {
   constexpr double tick = 1e-3;
@@ -291,7 +291,7 @@ TEST(Heartbeat, FollowsKindAndDomain) {
   EXPECT_EQ(kHapticHeartbeat, 5);
 }
 
-TEST(Heartbeat, IsSpreadByTenPercentTheSameWayForTheSameEntity) {
+TEST(Heartbeat, IsSpreadByTenPercentPerEntity) {
   std::set<double> periods;
   double sum = 0;
   constexpr int kCount = 4000;
@@ -308,7 +308,7 @@ TEST(Heartbeat, IsSpreadByTenPercentTheSameWayForTheSameEntity) {
   EXPECT_NEAR(sum / kCount, 5.0, 0.03);
 }
 
-TEST(Heartbeat, OfManyEntitiesOfAPeerComeAtFewMomentsAndWithinATenth) {
+TEST(Heartbeat, OfManyEntitiesShareFewMoments) {
   constexpr double kNominal = 60.0;
   const HeartbeatGrid grid = heartbeat_grid(kNominal, {7, 3});
   EXPECT_DOUBLE_EQ(grid.step, 6.0);
@@ -317,13 +317,13 @@ TEST(Heartbeat, OfManyEntitiesOfAPeerComeAtFewMomentsAndWithinATenth) {
     const double heartbeat = jittered_heartbeat(kNominal, {7, 3, number});
     UpdatePolicy policy({}, heartbeat, 1.0);
     policy.align_heartbeats(grid.step, grid.phase);
-    double sent = 0.3 * number;  // they began one after another
+    double sent = 0.3 * number;  // they start one after another
     policy.sent({}, sent, SendReason::event);
     for (int i = 0; i < 12; ++i) {
       const double due = sent + policy.silence();
       EXPECT_EQ(policy.decide({}, due - 1e-3), SendReason::none);
       ASSERT_EQ(policy.decide({}, due + 1e-9), SendReason::heartbeat);
-      if (i > 7) {  // the doubled repetitions are over
+      if (i > 7) {  // the doubling repetitions are over
         EXPECT_GE(due - sent, heartbeat - grid.step - 1e-5);
         EXPECT_LE(due - sent, heartbeat + 1e-5);
         const double beats = (due - grid.phase) / grid.step;
@@ -337,7 +337,7 @@ TEST(Heartbeat, OfManyEntitiesOfAPeerComeAtFewMomentsAndWithinATenth) {
   EXPECT_LE(moments.size(), 11U);
 }
 
-TEST(Heartbeat, OfTwoPeersComeAtDifferentMoments) {
+TEST(Heartbeat, OfTwoPeersAreAtDifferentMoments) {
   std::set<double> phases;
   for (std::uint16_t application = 1; application <= 50; ++application) {
     const HeartbeatGrid grid = heartbeat_grid(60.0, {7, application});
@@ -348,7 +348,7 @@ TEST(Heartbeat, OfTwoPeersComeAtDifferentMoments) {
   EXPECT_GT(phases.size(), 45U);
 }
 
-TEST(Heartbeat, TimesOutAfterTwoPointFourAndThusSurvivesALostOne) {
+TEST(Heartbeat, TimesOutAfterTwoPointFourPeriods) {
   EXPECT_DOUBLE_EQ(timeout(5.0), 12.0);
   EXPECT_DOUBLE_EQ(timeout(55.0), 132.0);
   EXPECT_GT(timeout(5.0), 2 * 5.0 * 1.1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Motions in closed form: what extrapolators are told of, and held against.
+// Motions in closed form: input of extrapolators and reference for them.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reading of the numerical oracles, and random states, for the tests of this folder.
+// Reads the numerical oracles and makes random states, for the tests of this folder.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -34,7 +34,7 @@ inline Eigen::Quaterniond quaternion(const nlohmann::json& j) {
   return {number(j.at(0)), number(j.at(1)), number(j.at(2)), number(j.at(3))};
 }
 
-/// Largest component difference, the sign of q being free.
+/// Largest component difference, for either sign of q.
 inline double difference(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double plus = (a.coeffs() - b.coeffs()).lpNorm<Eigen::Infinity>();
   const double minus = (a.coeffs() + b.coeffs()).lpNorm<Eigen::Infinity>();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The motion of a turning body by quadrature in long double: the reference of the dead-reckoning
 // models. Shares no formula with deadreckon/: the rotation is the power series of the matrix
-// exponential, the way is a sum over Gauss-Legendre nodes.
+// exponential, the displacement is a sum over Gauss-Legendre nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 
-/// exp([v]x) as the plain power series; |v| of a few radians at most.
+/// exp([v]x) as the plain power series; |v| at most a few radians.
 inline RealMatrix matrix_exponential(const RealVector& v) {
   RealMatrix skew;
   skew << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -71,7 +71,7 @@ inline const std::array<Node, kNodes>& gauss_legendre() {
 /// A body that turns at a constant rate for `time`.
 class TurningBody {
  public:
-  /// Panels of at most one radian, `finer` times as many as that needs.
+  /// Panels of at most one radian, and `finer` times as many.
   TurningBody(const RealVector& rate, Real time, int finer = 1)
       : panels_(finer * (1 + static_cast<int>(rate.norm() * std::abs(time)))),
         panel_(time / panels_),
@@ -84,7 +84,7 @@ class TurningBody {
     for (int i = 0; i < panels_; ++i) end_ = end_ * turn_;
   }
 
-  /// Body axes at the end in those of the start.
+  /// Body axes at the end, in the axes of the start.
   [[nodiscard]] const RealMatrix& rotation() const { return end_; }
 
   /// The integral of R(s) (v + a s) from 0 to `time`, in the axes of the start.
@@ -118,7 +118,7 @@ inline Real angle_between(const RealMatrix& a, const RealMatrix& b) {
   return std::atan2(axis.norm(), c.trace() - 1);
 }
 
-/// The rotation of a quaternion (w, x, y, z) of any length but zero.
+/// The rotation of a quaternion (w, x, y, z) of any non-zero length.
 template <typename Quaternion>
 RealMatrix rotation_of(const Quaternion& q) {
   const Real w = q.w(), x = q.x(), y = q.y(), z = q.z();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What happens around a contact: far bodies change nothing, passing bodies let a hand go, and what
-// overlaps or is pinched gives no energy.
+// Effects around a contact: far bodies change nothing, passing bodies release a hand, and
+// overlapping or pinched bodies give no energy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -96,7 +96,7 @@ class Hands {
     static_cast<void>(servos_[hand]->snapshots().update());
     return servos_[hand]->snapshots().read();
   }
-  /// What the hand's user and the device's damping took out of the scene [J].
+  /// Energy that the hand's user and the device's damping took out of the scene [J].
   [[nodiscard]] double got(std::size_t hand = 0) const {
     return -(devices_[hand]->port_work() + devices_[hand]->damping_loss());
   }
@@ -135,7 +135,7 @@ std::vector<Hands::Path> fingers() {
   return {side(-1), side(1), flick};
 }
 
-// What lies, falls, heaps and is carried far away, by a seed.
+// Bodies at rest, falling, in a heap and carried, far away, by a seed.
 void add_far_pile(Stage& stage, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
@@ -178,7 +178,7 @@ TEST(FarPile, ChangesNeitherForceNorMotionElsewhere) {
   }
 }
 
-TEST(FarPile, LeavesFreeFallAsItIs) {
+TEST(FarPile, LeavesFreeFallUnchanged) {
   Stage stage;
   stage.floor();
   stage.ball(0.02, {0, 0, 40}, 0.3);
@@ -188,13 +188,14 @@ TEST(FarPile, LeavesFreeFallAsItIs) {
   EXPECT_NEAR(hands.body(0).position.z(), 40 - 0.5 * 9.81 * 2.5 * 2.5, 1e-9);
 }
 
-// Kinetic energy, weight, and what is kept to lift bodies out of one another.
+// Kinetic energy, weight, and the energy stored to separate overlapping bodies.
 TEST(FarPile, NeverGainsEnergy) {
   for (const unsigned seed : {5u, 6u}) {
     Stage stage;
     stage.floor();
     add_far_pile(stage, seed);
-    stage.scene.objects.resize(stage.scene.objects.size() - 2);  // what overlaps at the start
+    stage.scene.objects.resize(stage.scene.objects.size() - 2);  // the objects that overlap at the
+                                                                 // start
     Hands hands(stage, {[](double) { return Vector3d(0, -3, 1); }});
     double least = hands.world->energy();
     for (int i = 0; i < test::tries(2'000, 4'000); ++i) {
@@ -205,7 +206,7 @@ TEST(FarPile, NeverGainsEnergy) {
   }
 }
 
-// A hand rests on bodies that are pushed out of one another: that pays nothing to the hand.
+// A hand rests on bodies that are pushed apart: the hand gets no energy from that.
 TEST(Overlap, AtTheStartGivesAHandNothing) {
   for (const double mass : {0.05, 0.5, 3.0}) {
     for (const double deep : {0.004, 0.017}) {
@@ -229,7 +230,7 @@ TEST(Overlap, AtTheStartGivesAHandNothing) {
   }
 }
 
-/// One that moves by 0.6 m/s.
+/// A mover with a speed of 0.6 m/s.
 class Paddle final : public ObjectMover {
  public:
   explicit Paddle(double from) : from_(from) {}
@@ -245,7 +246,7 @@ class Paddle final : public ObjectMover {
   double from_;
 };
 
-TEST(CarriedPaddle, FlingsNoBodyThatItPinches) {
+TEST(CarriedPaddle, FlingsNoPinchedBody) {
   for (const double mass : {0.05, 1.0}) {
     for (const double turned : {0.0, 0.2, 0.7}) {
       Stage stage;
@@ -268,7 +269,7 @@ TEST(CarriedPaddle, FlingsNoBodyThatItPinches) {
   }
 }
 
-TEST(PassingBody, LetsGoOfAHandItPassed) {
+TEST(PassingBody, ReleasesAHandThatItPassed) {
   for (const double mass : {0.5, 2.0, 5.0, 20.0}) {
     for (const double force : {3.0, 10.0}) {
       for (const double beside : {0.0, 0.03}) {
@@ -281,7 +282,7 @@ TEST(PassingBody, LetsGoOfAHandItPassed) {
           hands.step();
           const ServoSnapshot& step = hands.at();
           felt = std::max(felt, step.force.norm());
-          // Its top is below the hand by the stretch of the greatest force, and 60 mm.
+          // Its top is below the hand by the stretch of the greatest force, plus 60 mm.
           if (hands.body(0).position.z() + 0.05 > step.device.z() - force / 500 - 0.06) continue;
           if (i > 400) last = std::max(last, step.force.norm());
         }
@@ -294,8 +295,8 @@ TEST(PassingBody, LetsGoOfAHandItPassed) {
   }
 }
 
-// Between two contacts, where the speed of the ball is that of its place. What it has more of is
-// what the hand gave.
+// Sampled between two contacts, where the ball's speed and position belong together. The ball's
+// additional energy is the energy given by the hand.
 TEST(Rebound, FromAHandMakesNoEnergy) {
   for (const double mass : {0.02, 0.1, 0.3}) {
     for (const double drop : {0.03, 0.3}) {
@@ -323,7 +324,7 @@ TEST(Rebound, FromAHandMakesNoEnergy) {
   }
 }
 
-TEST(PassingBody, ThinBoardKeepsAPressedHandOut) {
+TEST(PassingBody, ThinBoardStopsAPressedHand) {
   for (const double mass : {0.2, 5.0}) {
     for (const double stiffness : {200.0, 500.0, 1000.0}) {
       Stage stage;

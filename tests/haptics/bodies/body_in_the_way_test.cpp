@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A body that a hand meets on a floor, frozen, in its fall, and in the way of the hand.
+// A body that meets a hand: on a floor, frozen, in its fall, and moving towards the hand.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -25,8 +25,8 @@ using squeezed::kT;
 using squeezed::target;
 using std::chrono::nanoseconds;
 
-// What lies against something that stands still does not give way, however light it is.
-TEST(PushedBody, IsAWallWhereItLiesOnTheFloor) {
+// A body against something at rest does not yield, however light it is.
+TEST(PushedBody, IsAWallOnTheFloor) {
   for (const double mass : {0.001, 0.01, 0.1, 1.0}) {
     Scene scene = cube_of(mass, 500);
     scene.gravity = {0, 0, -9.81};
@@ -47,7 +47,7 @@ TEST(PushedBody, IsAWallWhereItLiesOnTheFloor) {
     for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
     ASSERT_TRUE(servo.snapshots().update());
     const ServoSnapshot& step = servo.snapshots().read();
-    // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
+    // The hand's spring of 300 N/m has its goal 10 mm inside a surface of 500 N/m.
     const double right = 500.0 * 300.0 / 800.0 * 0.01;
     EXPECT_NEAR(step.force.z(), right, 0.005 * right) << mass << " kg";
     EXPECT_NEAR(world->states()[0].position.z(), kHalf, 1e-4) << mass << " kg";
@@ -55,7 +55,7 @@ TEST(PushedBody, IsAWallWhereItLiesOnTheFloor) {
 }
 
 // A hand that pushes a cube over a floor with friction feels that friction, mu m g.
-TEST(PushedBody, IsPushedOverAFloorAgainstItsFriction) {
+TEST(PushedBody, IsPushedAgainstFriction) {
   for (const double mass : {0.005, 0.05, 0.5}) {
     Scene scene = cube_of(mass, 500);
     scene.gravity = {0, 0, -9.81};
@@ -114,7 +114,7 @@ TEST(PushedBody, StandsStillWhileTheSimulationIsFrozen) {
       << "it falls on as fast as it was";
 }
 
-// However light it is, and whoever presses it.
+// For any mass, from either side.
 TEST(PushedBody, IsAWallWhileTheSimulationIsFrozen) {
   const Scene scene = cube_of(0.001, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
@@ -131,16 +131,16 @@ TEST(PushedBody, IsAWallWhileTheSimulationIsFrozen) {
   servo.contacts().write(set);
   for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
   ASSERT_TRUE(servo.snapshots().update());
-  // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
+  // The hand's spring of 300 N/m has its goal 10 mm inside a surface of 500 N/m.
   const double right = 500.0 * 300.0 / 800.0 * 0.01;
   EXPECT_NEAR(-servo.snapshots().read().force.x(), right, 0.005 * right);
   EXPECT_EQ(world->states()[0].position, Vector3d::Zero());
   EXPECT_EQ(world->states()[0].velocity, Vector3d::Zero());
 }
 
-// It goes on after the hands' forces are written, for a whole period: where the next step comes
-// sooner it is ahead by so much, and where it comes up to 50 us later, behind.
-TEST(PushedBody, FallsBesideAHandAsTheClosedFormSaysWhereStepsJitter) {
+// The world advances by a whole period after the hands' forces are written. If the next step comes
+// sooner the world is ahead by the difference; if it comes up to 50 us later, behind.
+TEST(PushedBody, FallsBesideAHandAsTheClosedForm) {
   Scene scene = cube_of(0.05, 400);
   scene.gravity = {0, 0, -9.81};
   const auto plan = std::make_shared<const EffectPlan>(scene);
@@ -164,8 +164,8 @@ TEST(PushedBody, FallsBesideAHandAsTheClosedFormSaysWhereStepsJitter) {
   }
 }
 
-// A cube thrown at a hand that holds still: what moves meets the hand, and is felt.
-TEST(PushedBody, MeetsAHandThatStandsInItsWay) {
+// A cube thrown at a resting hand: the hand feels it.
+TEST(PushedBody, MeetsARestingHand) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

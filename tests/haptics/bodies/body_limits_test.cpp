@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What bounds a body: the work space, drag, and what cannot move.
+// Limits of a body: the work space, drag, and immovable shapes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 using tables::kG;
 using tables::Table;
 
-// A ball between the walls of a work space: each rebound leaves the square of the restitution, of
-// each axis, and nothing is ever outside.
+// A ball between the walls of a work space: each rebound leaves the square of the restitution of
+// each axis, and no body is ever outside.
 TEST(BodyWorld, KeepsBodiesWithinTheWorkSpace) {
   for (const double e : {1.0, 0.9}) {
     for (const double speed : {0.5137, 20.31, 150.7}) {
@@ -37,7 +37,7 @@ TEST(BodyWorld, KeepsBodiesWithinTheWorkSpace) {
         table.run(0.001);
         const Vector3d& p = table.state().position;
         ASSERT_LE(std::abs(p.x()), 0.18 + 1e-15) << speed;
-        // Walls that it met in this step, from where it was.
+        // Walls reached in this step, from its former position.
         double v = before, x = at, left = 1e-3;
         while (v != 0 && (v > 0 ? 0.18 - x : x + 0.18) < std::abs(v) * left) {
           left -= (v > 0 ? 0.18 - x : x + 0.18) / std::abs(v);
@@ -52,7 +52,7 @@ TEST(BodyWorld, KeepsBodiesWithinTheWorkSpace) {
   }
 }
 
-TEST(BodyWorld, HoldsTumblingBoxesInTheWorkSpaceTooWithWeight) {
+TEST(BodyWorld, HoldsTumblingBoxesInTheWorkSpace) {
   Table table;
   table.within({0.4, 0.3, 0.5}, 0.7);
   for (int i = 0; i < 8; ++i)
@@ -81,7 +81,7 @@ TEST(BodyWorld, SlowsABodyByItsDrag) {
   EXPECT_NEAR(table.state().position.z(), 1 - kG / c * (t - (1 - std::exp(-c * t)) / c), 1e-9);
 }
 
-TEST(BodyWorld, RefusesWhatCannotMoveByName) {
+TEST(BodyWorld, RefusesImmovableShapesByName) {
   Table plane;
   plane.floor({1.0});
   EXPECT_THROW(plane.begin(), std::invalid_argument);

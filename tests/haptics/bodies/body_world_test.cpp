@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies that no hand holds, against closed forms.
+// Bodies without a hand, against closed forms.
 #include "reckon/haptics/bodies/body_world.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using tables::kG;
 using tables::kStep;
 using tables::Table;
 
-TEST(BodyWorld, AFreeBodyFallsAsTheClosedFormSays) {
+TEST(BodyWorld, FreeBodyFallsAsTheClosedForm) {
   for (const int microseconds : {1000, 250, 3000}) {
     Table table;
     table.ball(0.02, {0, 0, 10}, {0.3});
@@ -38,7 +38,7 @@ TEST(BodyWorld, AFreeBodyFallsAsTheClosedFormSays) {
   }
 }
 
-TEST(BodyWorld, APushGivesForceTimesTimeAndItsWorkIsToldToTheServo) {
+TEST(BodyWorld, PushGivesImpulseAndReportsItsWork) {
   Table table;
   table.without_gravity();
   table.box(0.04, {0, 0, 0}, {0.5});
@@ -59,7 +59,7 @@ TEST(BodyWorld, APushGivesForceTimesTimeAndItsWorkIsToldToTheServo) {
   EXPECT_EQ(world.work(0), 0.0) << "a push lasts one period";
 }
 
-TEST(BodyWorld, AHeavierOneThatIsHitGoesOnAndTheLighterComesBack) {
+TEST(BodyWorld, LighterBodyReboundsFromAHeavierBody) {
   Table table;
   table.without_gravity();
   table.ball(0.02, {-0.1, 0, 0}, {1.0, 0.0, 1.0});
@@ -74,8 +74,8 @@ TEST(BodyWorld, AHeavierOneThatIsHitGoesOnAndTheLighterComesBack) {
   EXPECT_NEAR(table.state(1).velocity.x(), 2.0 / 3, 1e-8);
 }
 
-// As a servo's thread ends before its world does, and another may go on with it.
-TEST(BodyWorld, StepsInThreadsThatEndBeforeIt) {
+// A servo's thread ends before its world does, and another thread may continue.
+TEST(BodyWorld, StepsInThreadsThatEndFirst) {
   Table one, other, alone;
   for (Table* table : {&one, &other, &alone}) {
     table->floor({0.0, 0.5, 0.3});
@@ -98,7 +98,7 @@ TEST(BodyWorld, StepsInThreadsThatEndBeforeIt) {
 }
 
 // Four contacts at once.
-TEST(BodyWorld, BoxesThatMeetFaceToFacePartByTheirMassesAndRestitution) {
+TEST(BodyWorld, MeetingBoxesPartByMassAndRestitution) {
   for (const double restitution : {1.0, 0.5}) {
     Table table;
     table.without_gravity();
@@ -113,7 +113,7 @@ TEST(BodyWorld, BoxesThatMeetFaceToFacePartByTheirMassesAndRestitution) {
 }
 
 // The friction of a pair is sqrt(0.8 x 0.2) = 0.4.
-TEST(BodyWorld, ABoxSlidesWithItsFrictionWhateverItsWay) {
+TEST(BodyWorld, BoxSlidesWithItsFriction) {
   for (const double way : {0.0, 0.4, 0.785, 1.9}) {
     Table table;
     table.floor({0.0, 0.8});
@@ -131,7 +131,7 @@ TEST(BodyWorld, ABoxSlidesWithItsFrictionWhateverItsWay) {
   }
 }
 
-TEST(BodyWorld, ABoxStaysWhereItsFrictionHoldsIt) {
+TEST(BodyWorld, BoxStaysWithinItsFriction) {
   for (const double share : {0.97, 1.03}) {
     Table table;
     table.floor({0.0, 0.5});
@@ -152,7 +152,7 @@ TEST(BodyWorld, ABoxStaysWhereItsFrictionHoldsIt) {
   }
 }
 
-TEST(BodyWorld, AStackOfFiveComesToRestAndSleeps) {
+TEST(BodyWorld, StackOfFiveRestsAndSleeps) {
   Table table;
   table.floor();
   for (int i = 0; i < 5; ++i) table.box(0.04, {0.001 * i, 0, 0.0205 + 0.0405 * i}, {0.1});
@@ -172,8 +172,8 @@ TEST(BodyWorld, AStackOfFiveComesToRestAndSleeps) {
   EXPECT_TRUE(table.state(4).awake) << "woken by a push";
 }
 
-// More contacts than the exact solver is asked for.
-TEST(BodyWorld, ARowThatTouchesFallsAsleepTogether) {
+// More contacts than the exact solver accepts.
+TEST(BodyWorld, TouchingRowFallsAsleepTogether) {
   Table table;
   table.floor();
   for (int i = 0; i < 27; ++i) table.box(0.04, {0.04 * i, 0, 0.02}, {0.1});
@@ -192,7 +192,7 @@ TEST(BodyWorld, ARowThatTouchesFallsAsleepTogether) {
   }
 }
 
-TEST(ContactIslands, CountByWhatTouches) {
+TEST(ContactIslands, CountConnectedContacts) {
   ContactIslands<8> islands;
   EXPECT_EQ(islands.largest(), 0);
   islands.add(0, 4);
@@ -209,7 +209,7 @@ TEST(ContactIslands, CountByWhatTouches) {
   EXPECT_NE(islands.island_of(1), islands.island_of(3));
 }
 
-TEST(BodyWorld, AHeavyBoxDoesNotSinkIntoALightOne) {
+TEST(BodyWorld, HeavyBoxDoesNotSinkIntoLightOne) {
   for (const double ratio : {100.0, 1e4}) {
     Table table;
     table.floor();
@@ -241,7 +241,7 @@ TEST(BodyWorld, NoPileEverGainsEnergy) {
       most = std::max(most, world.energy() - energy);
       energy = std::min(energy, world.energy());
     }
-    // What the weight of all is worth over the depth at which contacts rest, 10 um.
+    // The weight of all bodies times the rest depth of contacts, 10 um.
     EXPECT_LT(most, 1e-4) << "seed " << seed;
     EXPECT_LT(energy, 0.0) << "they fell";
     for (const BodyState& state : world.states()) {
@@ -253,7 +253,7 @@ TEST(BodyWorld, NoPileEverGainsEnergy) {
   }
 }
 
-TEST(BodyWorld, ABallThatBouncesNeverRisesHigher) {
+TEST(BodyWorld, BouncingBallNeverRisesHigher) {
   Table table;
   table.floor({0.0, 0.5, 1.0});
   table.ball(0.02, {0, 0, 0.52}, {0.1, 0.5, 0.9});
@@ -265,7 +265,7 @@ TEST(BodyWorld, ABallThatBouncesNeverRisesHigher) {
     highest = 0.0;
     while (table.state().velocity.z() > 0) {
       table.run(0.001);
-      const BodyState& now = table.state();  // and what its speed lifts it by
+      const BodyState& now = table.state();  // plus the height of its kinetic energy
       highest = std::max(highest, now.position.z() + std::pow(now.velocity.z(), 2) / (2 * kG));
     }
     EXPECT_LE(highest, before + 1e-9) << "bounce " << i;
@@ -274,7 +274,7 @@ TEST(BodyWorld, ABallThatBouncesNeverRisesHigher) {
   }
 }
 
-TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
+TEST(BodyWorld, BulletDoesNotPassAThinWall) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int passed = 0;
@@ -296,7 +296,7 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
     nanoseconds now{1'000'000'000};
     const double speed = 100 * std::abs(any(random)) + 1;
     world.push(0, from, 0.01 * speed / 1e-3 * Vector3d(1, 0.2 * any(random), 0.2 * any(random)));
-    // Behind the wall, in its own axes.
+    // Behind the wall, in the wall's axes.
     const Vector3d normal = turned * Vector3d::UnitX();
     for (int i = 0; i < 600; ++i) {
       world.advance_to(now += (i % 20 == 0 ? 3 : 1) * kStep);
@@ -309,7 +309,7 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
   EXPECT_EQ(passed, 0);
 }
 
-TEST(BodyWorld, IsTheSameTwice) {
+TEST(BodyWorld, IsDeterministic) {
   const auto run = [] {
     Table table;
     table.floor();
@@ -328,7 +328,7 @@ TEST(BodyWorld, IsTheSameTwice) {
   EXPECT_EQ(run(), run());
 }
 
-TEST(BodyWorld, LiesOnAMesh) {
+TEST(BodyWorld, RestsOnAMesh) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("table.obj");
   std::ofstream(file) << "v -1 -1 -0.1\nv 1 -1 -0.1\nv 1 1 -0.1\nv -1 1 -0.1\n"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Objects that the scene moves: nothing passes them, and what they give to a hand is bounded.
+// Objects moved by the scene: no hand passes through them, and their energy to a hand is bounded.
 // RECKON_SOAK=1 tries a million steps at each mesh.
 #include <gtest/gtest.h>
 
@@ -74,7 +74,8 @@ SimulatedDevice device_at(double height, double grip = 300) {
   });
 }
 
-// A hand that goes anywhere at 0.5 m/s, against a mesh whose surface moves as fast, late steps too.
+// A hand with random motion at 0.5 m/s, against a mesh with an equally fast surface, with late
+// steps.
 void press_on(test::MeshData data, double size, unsigned seed) {
   const test::ScratchFolder folder;
   const SurfaceMesh mesh = test::make_mesh(data, size);
@@ -99,7 +100,7 @@ void press_on(test::MeshData data, double size, unsigned seed) {
     if (i % 150 == 0) wanted = 0.6 * size * Vector3d(any(random), any(random), any(random));
     const Vector3d way = wanted - hand;
     hand += std::min(1.0, 0.5 * dt / std::max(1e-9, way.norm())) * way;
-    // 0.25 m/s of its middle, and as much by turning at its rim.
+    // 0.25 m/s of its middle, and the same at its rim by rotation.
     ObjectMotion motion = swing(Vector3d::Zero(), Vector3d(0.02, 0.01, 0.015), 9.3, time);
     const Vector3d axis = Vector3d(1, 0.3, -0.5).normalized();
     motion.orientation = Eigen::AngleAxisd(0.25 / (0.5 * size) * time, axis);
@@ -114,14 +115,14 @@ void press_on(test::MeshData data, double size, unsigned seed) {
   EXPECT_GT(touched, 3'000);
 }
 
-TEST(CarriedObject, IsPassedByNoHandWhateverItsMesh) {
+TEST(CarriedObject, StopsEveryHandForAnyMesh) {
   press_on(test::torus(48, 24), 0.2, 1);
   press_on(test::groove(), 0.2, 2);
   press_on(test::fin(0.05), 0.2, 3);
   press_on(test::cube(), 0.15, 4);
 }
 
-TEST(CarriedObject, IsAWallWhereItStands) {
+TEST(CarriedObject, IsAWallAtRest) {
   const Scene still = block(false), carried = block(true);
   const auto wall = std::make_shared<const EffectPlan>(still);
   const auto plan = std::make_shared<const EffectPlan>(carried);
@@ -142,8 +143,8 @@ TEST(CarriedObject, IsAWallWhereItStands) {
   EXPECT_GT(felt, 1.0);
 }
 
-// Slowly, so that the springs of the hand and the surface are in balance, and the power is small.
-TEST(CarriedObject, LiftsAHandThatHoldsOnByTheRightForce) {
+// Slowly, so that the springs of hand and surface are in balance and the power is small.
+TEST(CarriedObject, LiftsAHandByTheCorrectForce) {
   const Scene scene = block(true);
   const auto plan = std::make_shared<const EffectPlan>(scene);
   const double rate = 2 * std::numbers::pi * 0.1;
@@ -166,8 +167,8 @@ TEST(CarriedObject, LiftsAHandThatHoldsOnByTheRightForce) {
   }
 }
 
-// A block that beats at a hand gives no more than the port may receive, whatever the steps.
-TEST(CarriedObject, GivesAHandNoMoreThanItMayReceive) {
+// A block that strikes a hand gives at most the permitted power, for any timing of steps.
+TEST(CarriedObject, GivesAHandAtMostItsLimit) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(0.0, 1.0);
@@ -203,7 +204,7 @@ TEST(CarriedObject, GivesAHandNoMoreThanItMayReceive) {
   }
 }
 
-TEST(CarriedObject, TakesAlongWhatLiesOnIt) {
+TEST(CarriedObject, CarriesBodiesOnItsTop) {
   Scene scene = block(true);
   SceneObject& cube = scene.objects.emplace_back();
   cube.name = "cube";
@@ -212,7 +213,7 @@ TEST(CarriedObject, TakesAlongWhatLiesOnIt) {
   cube.effects.of<SpringDamper>() = {300, 0.0};
   cube.matter = {0.05, 0.6, 0.0};
   const EffectPlan plan(scene);
-  // It rises, goes aside and turns; never faster than friction can follow.
+  // It rises, moves aside and turns; never faster than friction can follow.
   const auto path = [](double t) {
     ObjectMotion out;
     const double u = 0.5 - 0.5 * std::cos(t), du = 0.5 * std::sin(t);

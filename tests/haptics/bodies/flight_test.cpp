@@ -27,8 +27,8 @@ TEST(Flight, FallsWithDragAsInTinySteps) {
   }
 }
 
-// Without weight a rebound is all that changes the energy: e^2 of it is left each time.
-TEST(Flight, KeepsTheSquareOfTheRestitutionInEachRebound) {
+// Without gravity only rebounds change the energy: each leaves e^2 of it.
+TEST(Flight, ReboundsKeepTheSquareOfTheRestitution) {
   for (const double restitution : {1.0, 0.9, 0.5}) {
     const Walls walls{-0.1, 0.2, restitution};
     Flight now{0.05, 3.0};
@@ -45,7 +45,7 @@ TEST(Flight, KeepsTheSquareOfTheRestitutionInEachRebound) {
   }
 }
 
-// With weight: the energy over the floor, after each rebound from it.
+// With gravity: the energy above the floor, after each rebound from it.
 TEST(Flight, KeepsItsEnergyBetweenReboundsFromAFloor) {
   const double e = 0.8;
   const Walls walls{0.0, 100.0, e};
@@ -62,7 +62,7 @@ TEST(Flight, KeepsItsEnergyBetweenReboundsFromAFloor) {
   EXPECT_EQ(rebounds, 8);
 }
 
-TEST(Flight, IsNeverOutsideWhateverItsSpeed) {
+TEST(Flight, IsNeverOutsideAtAnySpeed) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 200'000; ++i) {
@@ -89,7 +89,7 @@ TEST(Flight, ComesToRestOnAFloor) {
   EXPECT_EQ(now.speed, 0.0);
 }
 
-TEST(Flight, IsStoppedAtAWallThatSomethingElsePushesItThrough) {
+TEST(Flight, IsStoppedByAWall) {
   const Walls walls{-1, 1, 0.5};
   EXPECT_EQ(stop({1.2, 3}, walls).speed, -1.5);
   EXPECT_EQ(stop({1.2, 3}, walls).place, 1.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two hands that hold a body, let go and hold again make no energy, by their own books, whatever
-// cuts their force. RECKON_SOAK=1 tries 1,000 seeds.
+// Two hands that hold a body, release it and hold it again make no energy, by their own ledgers,
+// for any limitation of their force. RECKON_SOAK=1 tries 1,000 seeds.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -33,7 +33,7 @@ using grabbed::holding;
 using grabbed::kT;
 using std::chrono::nanoseconds;
 
-/// A way of a hand: slow waves about the cube.
+/// The path of a hand: slow waves about the cube.
 struct Waves {
   explicit Waves(std::mt19937& random) {
     std::uniform_real_distribution<double> any(0.0, 1.0);
@@ -81,8 +81,8 @@ void draw_hand(std::size_t side, unsigned seed, std::mt19937& random,
   device->rate = random() % 3 == 0 ? 200 : 0;
 }
 
-// Two hands that hold, let go and hold again, weak, late, unread, delayed, in encoder steps.
-TEST(Grab, MakesNoEnergyWhateverCutsItsForce) {
+// Two hands that hold, release and hold again: weak, late, unread, delayed, with encoder steps.
+TEST(Grab, MakesNoEnergyUnderForceLimits) {
   double worst = -1e9, held = 0.0, both = 0.0, loan = 0.0;
   int free = 0;
   const int seeds = test::tries(16, 1000);
@@ -111,7 +111,7 @@ TEST(Grab, MakesNoEnergyWhateverCutsItsForce) {
         servos[s]->step(now);
         EXPECT_TRUE(servos[s]->snapshots().update());
         const ServoSnapshot& step = servos[s]->snapshots().read();
-        // In free space the device's damping takes nothing that was in play.
+        // In free space the device's damping takes no energy of the interaction.
         const double loss = devices[s]->damping_loss();
         if (touches[s]) damped[s] += loss - before[s];
         before[s] = loss;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A body that a hand holds: by a button, or because it sticks. Forces against the same play without
-// sampling and against statics.
+// A body held by a hand: by a button, or because it sticks. Forces are compared with the same
+// motion without sampling and with statics.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -56,7 +56,7 @@ struct Rig {
   nanoseconds now{1'000'000'000};
 };
 
-// Down onto the cube, which stands on a floor, and up again with it.
+// Down onto the cube on a floor, and up again with it.
 HandTarget lifts(double t) {
   HandTarget out;
   const double down = std::min(t, 0.5) / 0.5, up = std::clamp((t - 1.0) / 1.0, 0.0, 1.0);
@@ -74,8 +74,8 @@ Scene cube_on_floor(double mass) {
   return scene;
 }
 
-// The weight stretches the spring, and the hand carries it.
-TEST(Grab, ABodyHangsBelowTheHandByItsWeight) {
+// The weight stretches the spring; the hand carries it.
+TEST(Grab, BodyHangsBelowTheHandByItsWeight) {
   constexpr double kSpring = 250.0, kMass = 1.0;
   Rig rig(cube_on_floor(kMass), device_at({0, 0, 0.05}), holding(kSpring, 1.0), lifts);
   std::optional<double> begun;
@@ -95,7 +95,7 @@ TEST(Grab, ABodyHangsBelowTheHandByItsWeight) {
   EXPECT_GT(last.tally.grabbed, 7.0);
 }
 
-TEST(Grab, WithoutTheButtonTheBodyStaysAndReleasedItFalls) {
+TEST(Grab, NeedsTheButtonAndReleasesTheBody) {
   const auto released = [](double t) {
     HandTarget out = lifts(t);
     if (t > 3.0) out.buttons = 0;
@@ -182,9 +182,9 @@ TEST(Grab, IsFeltAsWithoutSampling) {
   }
 }
 
-// Held or pushed, also where the device is too weak for the spring: what it does not show, the body
-// does not get.
-TEST(Grab, TheBodyGetsWhatTheHandFeels) {
+// Held or pushed, also with a device too weak for the spring: the body gets only the rendered
+// force.
+TEST(Grab, BodyGetsTheForceOfTheHand) {
   constexpr double kMass = 0.5;
   for (const auto& [spring, most] :
        {std::pair{250.0, 0.3}, {250.0, 1.0}, {250.0, 30.0}, {0.0, 0.1}, {0.0, 30.0}}) {
@@ -204,8 +204,8 @@ TEST(Grab, TheBodyGetsWhatTheHandFeels) {
   }
 }
 
-// Pulled slowly, so that its weight adds little.
-TEST(Grab, WhatSticksIsTornOffAtItsMost) {
+// Pulled slowly, so that inertia adds little.
+TEST(Grab, StickingBodyIsTornOffAtItsLimit) {
   Scene scene = cube_on_floor(0.5);
   scene.objects[0].grab = {200.0, 0.0, 1.5};
   const auto lift = [](double t) {
@@ -233,8 +233,8 @@ TEST(Grab, WhatSticksIsTornOffAtItsMost) {
   EXPECT_GT(held.body().position.z(), 0.1);
 }
 
-// A hand that was cut off is somewhere else afterwards.
-TEST(Grab, ABodyIsLostWhereTheForceIsCutToZero) {
+// After a cut the hand is at another place.
+TEST(Grab, CutForceReleasesTheBody) {
   Rig rig(cube_on_floor(0.1), device_at({0, 0, 0.05}), holding(250, 0.5), lifts);
   for (int i = 0; i < 3'000; ++i) rig.step();
   ASSERT_TRUE(rig.step().grabs);
@@ -246,16 +246,16 @@ TEST(Grab, ABodyIsLostWhereTheForceIsCutToZero) {
   EXPECT_NEAR(rig.body().position.z(), kHalf, 1e-4);
 }
 
-// What moves by itself, and what stands still, is not held.
-TEST(Grab, HoldsBodiesAlone) {
+// A moving object of the scene and a fixed one are not held.
+TEST(Grab, HoldsBodiesOnly) {
   Scene scene = cube_on_floor(0.1);
   scene.objects[0].matter.mass = 0.0;
   Rig rig(scene, device_at({0, 0, 0.05}), holding(250, 0.5), lifts);
   for (int i = 0; i < 4'000; ++i) EXPECT_FALSE(rig.step().grabs);
 }
 
-// Two probes of a tool that turns hold a bar at both ends, and turn it.
-TEST(Grab, ATurningToolTurnsWhatItHolds) {
+// Two probes of a turning tool hold a bar at both ends, and turn it.
+TEST(Grab, TurningToolTurnsTheHeldBody) {
   Scene scene = cube_of(0.1);
   scene.objects[0].shape = BoxShape{Vector3d(0.1, 0.02, 0.02)};
   SimulatedDeviceConfig config = device_at({0, 0, 0.011});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies that hit one another at any angle and speed, against the closed form of an impulse.
+// Bodies that collide at any angle and speed, against the closed form of an impulse.
 #include "reckon/haptics/bodies/impacts.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ Scene scene_of(const std::array<Thrown, 2>& balls, double restitution) {
   return scene;
 }
 
-/// Two balls that meet, after `seconds`.
+/// Two colliding balls, after `seconds`.
 std::array<BodyState, 2> after(const std::array<Thrown, 2>& balls, double restitution,
                                double seconds) {
   const Scene scene = scene_of(balls, restitution);
@@ -55,7 +55,7 @@ std::array<BodyState, 2> after(const std::array<Thrown, 2>& balls, double restit
   return {world.states()[0], world.states()[1]};
 }
 
-// The speeds after they met, in closed form; none if they miss.
+// The speeds after the collision, in closed form; none if they miss.
 std::optional<std::array<Vector3d, 2>> impulse(const std::array<Thrown, 2>& balls,
                                                double restitution) {
   const Vector3d apart = balls[1].at - balls[0].at, closing = balls[0].velocity - balls[1].velocity;
@@ -75,7 +75,7 @@ double angle(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
 }
 
-TEST(Impacts, TurnObliqueBallsAsTheImpulseDoes) {
+TEST(Impacts, DeflectObliqueBallsAsTheImpulse) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int hits = 0;
@@ -120,7 +120,7 @@ TEST(Impacts, TurnObliqueBallsAsTheImpulseDoes) {
   EXPECT_LT(gained, 1e-9);
 }
 
-TEST(Impacts, LetNoFastPairPass) {
+TEST(Impacts, CatchEveryFastPair) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int passed = 0;
@@ -140,7 +140,8 @@ TEST(Impacts, LetNoFastPairPass) {
   EXPECT_EQ(passed, 0);
 }
 
-// A ball hits a box or a cylinder at rest, anywhere: momentum stays, energy does not grow.
+// A ball hits a box or a cylinder at rest, at any point: momentum is conserved, energy does not
+// grow.
 TEST(Impacts, KeepMomentumOfBoxesAndCylinders) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> any(-1.0, 1.0);

@@ -32,11 +32,11 @@ using std::chrono::nanoseconds;
 struct Lift {
   double highest = 0.0;  // [m], of the cube's middle
   double turned = 0.0;   // [rad], at most
-  double slipped = 0.0;  // [m], of the cube against the fingers while it is carried
+  double slipped = 0.0;  // [m], of the cube relative to the fingers while carried
   double at_end = 0.0;   // [m], height
   double made = -1e9;    // [J]
 };
-/// @param off [m], of the fingers beside the cube's middle  @param patch [m], of the fingers
+/// @param off [m], offset of the fingers from the cube's middle  @param patch [m], of the fingers
 Lift lift(double mass, double stiffness, double friction, double off = 0.0, double patch = 0.0) {
   Scene scene = cube_of(mass, stiffness);
   scene.gravity = {0, 0, -9.81};
@@ -94,7 +94,7 @@ Lift lift(double mass, double stiffness, double friction, double off = 0.0, doub
   return out;
 }
 
-TEST(PushedBody, IsLiftedByTwoFingersShakenAndPutDown) {
+TEST(PushedBody, IsLiftedShakenAndPutDown) {
   const Lift cube = lift(0.05, 400, 0.9);
   std::printf("turned %.3g rad, moved %.3g mm against the fingers, made %.3g J\n", cube.turned,
               1e3 * cube.slipped, cube.made);
@@ -106,8 +106,8 @@ TEST(PushedBody, IsLiftedByTwoFingersShakenAndPutDown) {
   EXPECT_LT(lift(0.05, 400, 0.05).highest, kHalf + 0.005) << "a slippery one stays on the floor";
 }
 
-// Held beside its middle, a cube swings through between two points. A patch holds it, as far as
-// 2/3 of friction, force and radius goes.
+// Held beside its middle, a cube swings between two points. A patch holds it up to a torque of 2/3
+// of friction, force and radius.
 TEST(PushedBody, IsHeldAgainstTurningByPatches) {
   const Lift points = lift(0.1, 400, 0.9, 0.004);
   const Lift patches = lift(0.1, 400, 0.9, 0.004, 0.006);

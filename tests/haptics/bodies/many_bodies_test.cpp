@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Worlds of more bodies than move at one time: what sleeps stands, wakes when it is met, and is as
-// if it had been there all the time.
+// Worlds with more bodies than can be awake at one time: sleeping bodies rest, wake on contact, and
+// then behave as if always awake.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class Field {
   void run(int steps) {
     for (int i = 0; i < steps; ++i) step();
   }
-  /// A blow that gives the body this speed along its row [m/s].
+  /// An impulse that gives the body this speed along its row [m/s].
   void strike(std::size_t body, double speed) {
     const BodyState& at = world_->states()[body];
     world_->push(body, at.position, Vector3d(kMass * speed / 1e-3, 0, 0));
@@ -87,11 +87,11 @@ class Field {
   nanoseconds now_{1'000'000'000};
 };
 
-// A row is the same world whether or not a thousand others sleep beside it.
-TEST(ManyBodies, MoveAsIfTheOthersWereNotThere) {
+// A row moves the same with or without a thousand sleeping others beside it.
+TEST(ManyBodies, MoveIndependentlyOfSleepingOthers) {
   Field alone(1, 4), among(250, 4);
   alone.begin(), among.begin();
-  alone.run(2500);  // as the others, it begins asleep
+  alone.run(2500);  // like the others, it begins asleep
   EXPECT_EQ(alone.awake(), 0);
   EXPECT_EQ(among.awake(), 0);
   const int row = 123;
@@ -105,14 +105,14 @@ TEST(ManyBodies, MoveAsIfTheOthersWereNotThere) {
       worst = std::max(worst, std::abs(alone.moved(k) - among.moved(among.first_of(row) + k)));
   }
   EXPECT_GT(alone.moved(1), 0.01);  // it was hit
-  EXPECT_LT(worst, 2e-6);           // the row alone has settled by a fraction of its rest depth
+  EXPECT_LT(worst, 2e-6);           // the single row has settled by a fraction of its rest depth
   EXPECT_LE(most, 4);
   EXPECT_EQ(among.awake(), 0);
   for (std::size_t i = 0; i < 1000; ++i) ASSERT_TRUE(i / 4 == row || among.moved(i) == 0.0) << i;
 }
 
-// A hand that shoves a cube along its row into the next one, and comes back over others.
-TEST(ManyBodies, AreFeltByAHandAsIfTheOthersWereNotThere) {
+// A hand that pushes a cube along its row into the next one, and returns over others.
+TEST(ManyBodies, FeelTheSameBesideSleepingOthers) {
   struct Felt {
     explicit Felt(Field& field) : world(field.begin_shared()) {
       SimulatedDeviceConfig config;
@@ -149,8 +149,8 @@ TEST(ManyBodies, AreFeltByAHandAsIfTheOthersWereNotThere) {
   for (std::size_t i = 3; i < 600; ++i) ASSERT_EQ(all.moved(i), 0.0) << i;
 }
 
-// Each in turn: slots pass from those that sleep again.
-TEST(ManyBodies, SlideOneAfterTheOtherAsFarAsFrictionSays) {
+// One after the other: slots pass on from bodies that sleep again.
+TEST(ManyBodies, SlideInTurnAsFarAsFrictionAllows) {
   Field field(test::tries(120, 300), 1);
   BodyWorld& world = field.begin();
   const double speed = 1.0;
@@ -166,8 +166,8 @@ TEST(ManyBodies, SlideOneAfterTheOtherAsFarAsFrictionSays) {
   EXPECT_EQ(field.awake(), 0);
 }
 
-// No more than have room; what did not wake is a wall, and it is told.
-TEST(ManyBodies, DoNotGiveWayWhereAsManyAsCanBeAreAwake) {
+// At most as many wake as there are slots; a body that did not wake is a wall, and is counted.
+TEST(ManyBodies, ActAsWallsWhenTheLimitIsReached) {
   Field field(100, 2);
   BodyWorld& world = field.begin();
   for (int row = 0; row < field.rows(); ++row) field.strike(field.first_of(row), 3.0);
@@ -178,7 +178,7 @@ TEST(ManyBodies, DoNotGiveWayWhereAsManyAsCanBeAreAwake) {
     for (int row = 0; row < field.rows(); ++row) {
       const Vector3d& first = world.states()[field.first_of(row)].position;
       const Vector3d& second = world.states()[field.first_of(row) + 1].position;
-      ASSERT_GT(second.x() - first.x(), kEdge - 3e-3) <<  // a step of its way
+      ASSERT_GT(second.x() - first.x(), kEdge - 3e-3) <<  // one step of its motion
           "row " << row << " step " << i;
     }
   }
@@ -186,7 +186,7 @@ TEST(ManyBodies, DoNotGiveWayWhereAsManyAsCanBeAreAwake) {
   EXPECT_GT(world.crowded(), 0u);
 }
 
-TEST(ManyBodies, StopABulletThoughTheySleep) {
+TEST(ManyBodies, StopABulletWhileAsleep) {
   for (const double speed : {10.0, 30.0, 100.0, 190.0}) {
     Field field(100, 1);
     SceneObject& plate = field.add({1.0, 0.0, 0.5});
@@ -205,8 +205,8 @@ TEST(ManyBodies, StopABulletThoughTheySleep) {
   }
 }
 
-// A copy that was not written for long gets what has moved meanwhile.
-TEST(ManyBodies, ArePublishedWholeHoweverSeldomTheyAreRead) {
+// A copy that was not written for a long time contains all motion since.
+TEST(ManyBodies, ArePublishedWholeAtAnyReadRate) {
   Field field(test::tries(240, 600), 1);
   BodyWorld& world = field.begin();
   const int sixth = field.rows() / 6;

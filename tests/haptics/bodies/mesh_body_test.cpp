@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes and solids that move when they are pushed: their inertia against formulas, at rest on all
-// that bodies meet, and in a hand as a box of the same size and mass is.
+// Moving meshes and solids: their inertia against formulas, at rest on everything that bodies meet,
+// and in a hand as a box of the same size and mass.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -68,7 +68,7 @@ SurfaceMesh as_drawn(const test::MeshData& data) {
   return SurfaceMesh::load(shape);
 }
 
-/// Objects of a scene, meshes among them, and their world.
+/// Objects of a scene, including meshes, and their world.
 class Bench {
  public:
   explicit Bench(const Vector3d& gravity = {0, 0, -9.81}) { scene.gravity = gravity; }
@@ -110,7 +110,7 @@ class Bench {
   test::ScratchFolder folder_;
 };
 
-TEST(SolidMoments, OfABoxAreThoseOfTheFormulaWhereverItIs) {
+TEST(SolidMoments, OfABoxMatchTheFormulaAnywhere) {
   const Vector3d size(0.1, 0.06, 0.03), at(0.4, -0.2, 0.7);
   const test::MeshData data = box_mesh(size, at, 3);
   const SolidMoments moments = moments_of(as_drawn(data));
@@ -128,13 +128,13 @@ TEST(SolidMoments, OfATetrahedronHaveItsProducts) {
   const SolidMoments moments = moments_of(as_drawn(data));
   EXPECT_NEAR(moments.volume, 1.0 / 6, 1e-12);
   EXPECT_LT((moments.middle - Vector3d::Constant(0.25)).norm(), 1e-12);
-  // Of a mass of 1: the integral of x^2 is 1/10, of x y 1/20, both about the corner.
+  // For a mass of 1: the integral of x^2 is 1/10, of x y 1/20, both about the corner.
   const double square = 0.1 - 1.0 / 16, product = 0.05 - 1.0 / 16;
   EXPECT_NEAR(moments.inertia(0, 0), 2 * square, 1e-12);
   EXPECT_NEAR(moments.inertia(0, 1), -product, 1e-12);
 }
 
-TEST(MeshBody, RestsOnAPlaneABoxAMeshAndAnother) {
+TEST(MeshBody, RestsOnPlaneBoxMeshAndAnotherBody) {
   Bench bench;
   bench.floor();
   bench.add("table", BoxShape{{0.2, 0.2, 0.1}}, {0.5, 0, 0.05}, 0.0);
@@ -155,7 +155,7 @@ TEST(MeshBody, RestsOnAPlaneABoxAMeshAndAnother) {
   EXPECT_EQ(world.states().size(), 5U);
 }
 
-TEST(SolidBody, RestsWhereItsFormulaSays) {
+TEST(SolidBody, RestsAtItsFormulasHeight) {
   Bench bench;
   bench.floor();
   const CylinderShape can{0.02, 0.06};
@@ -177,8 +177,8 @@ TEST(SolidBody, RestsWhereItsFormulaSays) {
   }
 }
 
-// Down a slope without slipping: two thirds of the acceleration of what slides.
-TEST(SolidBody, ACylinderRollsAsItsInertiaSays) {
+// Down a slope without slipping: two thirds of the acceleration of a sliding body.
+TEST(SolidBody, CylinderRollsAsItsInertiaRequires) {
   const double angle = 0.15;
   Bench bench(9.81 * Vector3d(std::sin(angle), 0, -std::cos(angle)));
   bench.floor();
@@ -193,7 +193,7 @@ TEST(SolidBody, ACylinderRollsAsItsInertiaSays) {
   EXPECT_NEAR(bench.state().position.x(), 0.5 * right, 0.03 * right);
 }
 
-TEST(SolidBody, IsRefusedByNameWhereItHasNoEndOrNoWalls) {
+TEST(SolidBody, IsRefusedIfInfiniteOrTooThin) {
   for (const auto& [size, word] :
        {std::pair{Vector3d(0.5, 0.5, 1e-4), "thicker"}, {Vector3d::Constant(0.05), ""}}) {
     Bench bench;
@@ -217,8 +217,8 @@ TEST(SolidBody, IsRefusedByNameWhereItHasNoEndOrNoWalls) {
   EXPECT_THROW(bench.begin(), std::invalid_argument);
 }
 
-// Its origin is not its middle of mass: it turns about that, and falls with it.
-TEST(MeshBody, TurnsAboutItsMiddleOfMassWhereverItsOriginIs) {
+// Its origin is not its centre of mass: it turns about the latter, and falls with it.
+TEST(MeshBody, TurnsAboutItsCentreOfMass) {
   const Vector3d middle(0.03, -0.01, 0.02);
   Bench bench(Vector3d::Zero());
   bench.mesh("bar", box_mesh({0.1, 0.03, 0.02}, middle), {0.2, 0, 0}, 0.2);
@@ -238,8 +238,8 @@ TEST(MeshBody, TurnsAboutItsMiddleOfMassWhereverItsOriginIs) {
       1e-9);
 }
 
-// Crossed bars of which no corner is in the other.
-TEST(MeshBody, LiesAcrossAnother) {
+// Crossed bars; no corner of either is in the other.
+TEST(MeshBody, RestsAcrossAnother) {
   Bench bench;
   bench.floor();
   bench.mesh("lower", box_mesh({0.2, 0.03, 0.03}), {0, 0, 0.0151}, 0.2);
@@ -251,7 +251,7 @@ TEST(MeshBody, LiesAcrossAnother) {
 }
 
 // Thrown into a heap: none is lost, none gains energy.
-TEST(MeshBody, AHeapNeverGainsEnergyAndLosesNone) {
+TEST(MeshBody, HeapNeverGainsEnergy) {
   Bench bench;
   bench.floor();
   std::mt19937 random(5);
@@ -275,8 +275,8 @@ TEST(MeshBody, AHeapNeverGainsEnergyAndLosesNone) {
   }
 }
 
-// Squeezed by two hands, beside a box of its size and mass.
-TEST(MeshBody, IsFeltAsABoxOfItsSizeAndMass) {
+// Squeezed by two hands, compared with a box of its size and mass.
+TEST(MeshBody, FeelsLikeABoxOfEqualMass) {
   std::vector<std::vector<double>> felt;
   for (const bool is_mesh : {false, true}) {
     Bench bench(Vector3d::Zero());
@@ -319,7 +319,7 @@ TEST(MeshBody, IsFeltAsABoxOfItsSizeAndMass) {
   EXPECT_LT(std::sqrt(error / size), 0.01);
 }
 
-TEST(MeshBody, IsRefusedByNameWhereItEnclosesNothing) {
+TEST(MeshBody, OpenMeshIsRefusedByName) {
   Bench bench;
   test::MeshData open = box_mesh(Vector3d::Constant(0.04));
   open.triangles.pop_back();

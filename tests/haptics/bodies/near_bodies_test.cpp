@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand is told of each body that it may meet, whatever came late, against a search of all.
+// A hand gets each body that it may meet, even after late steps; compared with an exhaustive
+// search.
 #include "reckon/haptics/bodies/near_bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +26,8 @@ using std::chrono::nanoseconds;
 constexpr double kRadius = 0.01;  // [m], of a ball
 constexpr double kRoom = 0.25;    // [m]
 constexpr double kPeriod = 1e-3;  // [s]
-constexpr double kAhead = 1e-4;   // [s], of a hand that steps too early, and again of one too late
-constexpr double kSoon = 3.0;     // periods, in which a hand looks for what it may meet
+constexpr double kAhead = 1e-4;   // [s], a hand may step so much too early, or too late
+constexpr double kSoon = 3.0;     // periods of the hand's look-ahead
 
 Scene of_bouncing_balls(std::size_t count, std::mt19937& random) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -44,7 +45,7 @@ Scene of_bouncing_balls(std::size_t count, std::mt19937& random) {
   return scene;
 }
 
-/// A hand that rests, and now and then dashes off.
+/// A hand that rests, and dashes off now and then.
 class Wanderer {
  public:
   HandReach move(double dt, std::mt19937& random) {
@@ -64,7 +65,7 @@ bool may_meet(const BodyState& body, const HandReach& hand) {
   return gap <= kSoon * kPeriod * (hand.speed + body.velocity.norm());
 }
 
-TEST(NearBodies, ListAllThatMayBeMetWhateverIsLate) {
+TEST(NearBodies, ListAllReachableBodiesDespiteLateSteps) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   const std::size_t scenes = test::tries<std::size_t>(8, 20);
@@ -100,7 +101,7 @@ TEST(NearBodies, ListAllThatMayBeMetWhateverIsLate) {
           const double fastest = std::max(state.velocity.norm(), past.velocity.norm());
           ASSERT_LE((state.position - past.position).norm(), fastest * (dt + kAhead) + 1e-12);
         }
-        // Someone else pushes one, after which what was foreseen is void.
+        // Another hand pushes a body, which invalidates the prediction.
         if (any(random) < 0.02)
           world.push(step % 24, world.states()[step % 24].position, 50.0 * Vector3d::UnitX());
         world.foresee(i, kPeriod);
@@ -109,11 +110,11 @@ TEST(NearBodies, ListAllThatMayBeMetWhateverIsLate) {
     }
   }
   EXPECT_GT(met, 250u * scenes);
-  EXPECT_LT(listed, steps * 24);  // of both hands: most are far
+  EXPECT_LT(listed, steps * 24);  // for both hands: most are far
 }
 
-// A body that acts without touch is always near.
-TEST(NearBodies, ListWhatActsFromAfar) {
+// A body with a force at a distance is always near.
+TEST(NearBodies, ListBodiesWithForcesAtADistance) {
   NearBodies near({0.01, std::numeric_limits<double>::infinity()});
   const std::size_t hand = near.add_hand();
   std::array<BodyState, 2> states;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A body between the hands of one peer: forces against the same play without sampling, energy by
-// the devices' own books. RECKON_SOAK=1 tries 1,000 seeds of late steps.
+// A body between the hands of one peer: forces against the same motion without sampling, energy by
+// the devices' own ledgers. RECKON_SOAK=1 tries 1,000 seeds of late steps.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -41,10 +41,10 @@ using squeezed::target;
 using std::chrono::nanoseconds;
 
 struct Play {
-  std::vector<std::array<double, 2>> forces;  // [N], on each hand, a row each millisecond
+  std::vector<std::array<double, 2>> forces;  // [N], on each hand, a row per millisecond
   double made = -1e9;                         // [J]
   double least_port = 0.0;
-  double loan = 0.0;  // [J], most that a port borrowed
+  double loan = 0.0;  // [J], largest loan of a port
 };
 
 /// In steps of 10 us, without servos.
@@ -101,7 +101,7 @@ Play served(double mass, double stiffness, double end, unsigned late_seed = 0) {
       const double depth = (step.scp - step.device).norm();
       const double shown = std::min(stiffness * depth, step.mesh_force.norm());
       stored += 0.5 * shown * depth;
-      // For the half step between its speed and its place.
+      // For the half step between its velocity and its position.
       lent += 0.5 * world->states()[0].step * shown * speed;
     }
     out.forces.push_back(force);
@@ -112,7 +112,7 @@ Play served(double mass, double stiffness, double end, unsigned late_seed = 0) {
   return out;
 }
 
-/// [1], rms of the difference over rms of the truth, both hands, but for the first 0.2 s.
+/// [1], rms of the difference over rms of the truth, both hands, without the first 0.2 s.
 double error_of(const Play& play, const Play& truth) {
   double error = 0, size = 0;
   for (std::size_t i = 200; i < std::min(play.forces.size(), truth.forces.size()); ++i) {
@@ -124,7 +124,7 @@ double error_of(const Play& play, const Play& truth) {
   return std::sqrt(error / size);
 }
 
-TEST(PushedBody, IsFeltBetweenTwoHandsAsWithoutSampling) {
+TEST(PushedBody, FeelsAsWithoutSamplingBetweenTwoHands) {
   test::Thinned thinned(3, 1);  // with the lightest body between the stiffest springs
   for (const double stiffness : {300.0, 500.0, 1000.0}) {
     for (const double mass : {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0}) {
@@ -141,8 +141,8 @@ TEST(PushedBody, IsFeltBetweenTwoHandsAsWithoutSampling) {
   }
 }
 
-// Late steps, whose force acts on: on the hand until its device lets go, on the body to the end.
-TEST(PushedBody, MakesNoEnergyWhereStepsAreLate) {
+// Late steps keep their force: on the hand until its device releases it, on the body to the end.
+TEST(PushedBody, MakesNoEnergyWithLateSteps) {
   double made = -1e9, loan = 0.0;
   const unsigned step = test::tries(3U, 1U);
   for (unsigned seed = 1; seed <= test::tries(40U, 1000U); seed += step) {
@@ -156,9 +156,9 @@ TEST(PushedBody, MakesNoEnergyWhereStepsAreLate) {
   std::printf("made at most %.3g J, lent at most %.3g J\n", made, loan);
 }
 
-// A handle that is not read for some samples: the body goes on, and the books go with it. What the
-// hand did meanwhile is not known, so that the force may fade in again, on a loan.
-TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
+// A handle without readings for some samples: the body continues, and so do the ledgers. The hand's
+// motion meanwhile is unknown, so the force may fade in again on a loan.
+TEST(PushedBody, KeepsItsLedgerWhileAReadingFails) {
   const Scene scene = cube_of(0.2, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
   for (const unsigned rate : {1000U, 40U}) {
@@ -187,11 +187,11 @@ TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
       made = std::max(made, world->energy() - taken - lent);
     }
     EXPECT_LE(made, loan + 1e-9) << rate;
-    EXPECT_GT(felt, 0.9);  // until the cube has passed the hand whose readings fail
+    EXPECT_GT(felt, 0.9);  // until the cube has passed the hand without readings
   }
 }
 
-// A hand squeezes the cube, lets it go and squeezes it again.
+// A hand squeezes the cube, releases it and squeezes it again.
 HandTarget squeezes(int side, double t) {
   HandTarget out = hand_at(side, std::min(t, 3.0));
   const double open = t > 1.5 ? 0.5 - 0.5 * std::cos(4 * (t - 1.5)) : 0.0;
@@ -199,7 +199,7 @@ HandTarget squeezes(int side, double t) {
   return out;
 }
 
-// A hand of another peer that lies about its place and gives nothing.
+// A hand of another peer that reports a false position and gives no energy.
 ContactSet lying_hand(std::mt19937& random, nanoseconds now, std::uint32_t version) {
   std::uniform_real_distribution<double> any(0.0, 1.0);
   ContactSet set;
@@ -220,13 +220,13 @@ ContactSet lying_hand(std::mt19937& random, nanoseconds now, std::uint32_t versi
   return set;
 }
 
-// What cuts the force also cuts what the body gets: little strength, readings that fail, a device
-// that lets go, steps that are late, and another peer's hand at the first one, which lies about its
-// place and gives nothing.
-TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
+// A limited force also limits the impulse of the body: little strength, failed readings, a device
+// that releases, late steps, and another peer's hand at the first one, which reports a false
+// position and gives no energy.
+TEST(PushedBody, MakesNoEnergyUnderForceLimits) {
   double worst = -1e9, cut = 0.0;
   int free = 0;
-  // In 364 the port of a light, fast body has nothing left for less than the force at the begin.
+  // In seed 364 the port of a light, fast body has no energy left for less than the initial force.
   std::vector<unsigned> seeds(test::tries(15, 1000));
   std::iota(seeds.begin(), seeds.end(), 1U);
   if (seeds.back() < 364) seeds.push_back(364);
@@ -280,8 +280,9 @@ TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
   EXPECT_GT(free, 1'250 * std::ssize(seeds)) << "they never let go";
 }
 
-// What is malloc'd by the engine below is counted nowhere here: a run with malloc replaced says 0.
-TEST(PushedBody, IsSteppedWithoutAllocation) {
+// Allocations by malloc in the physics engine are not counted here: a run with malloc replaced
+// finds 0.
+TEST(PushedBody, StepsWithoutAllocation) {
   Scene scene = cube_of(0.05, 400);
   scene.gravity = {0, 0, -9.81};
   scene.objects[0].pose.position.z() = kHalf;
@@ -315,7 +316,7 @@ TEST(PushedBody, IsSteppedWithoutAllocation) {
   EXPECT_GT(felt, 0.1);
 }
 
-TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
+TEST(PushedBody, TooLightOrWorldlessBodiesAreRefused) {
   const Scene scene = cube_of(0.0003, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
   const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);

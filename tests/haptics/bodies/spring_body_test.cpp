@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A mass at a spring with viscosity and its weight (thesis 5.1 to 5.3), over all that the thesis
-// names: as the closed form, or refused.
+// A mass on a spring with viscosity and its weight (thesis 5.1 to 5.3), over the whole range of the
+// thesis: equal to the closed form, or refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,12 +55,12 @@ double place_at(const Case& at, double speed, double t) {
 }
 
 struct Swing {
-  double error = 0.0;  // greatest, of the way
-  double way = 0.0;    // greatest [m]
-  double made = 0.0;   // of the greatest energy
+  double error = 0.0;  // greatest position error [m]
+  double way = 0.0;    // greatest displacement [m]
+  double made = 0.0;   // share of the greatest energy
 };
 
-// A hand that stands still holds the ball.
+// A resting hand holds the ball.
 Swing swing_of(const Case& at) {
   const Scene scene = ball_of(at.mass);
   const EffectPlan plan(scene);
@@ -78,7 +78,7 @@ Swing swing_of(const Case& at) {
   for (int i = 0; i < 3000; ++i) {
     const BodyState& body = world.states()[0];
     const double x = kDrop + body.position.z();
-    // The speed is that of half a step before the place, at the begin too.
+    // The velocity is half a step older than the position, also at the start.
     if (i == 1) speed = 0.5 * body.step * pull(kDrop, 0.0);
     const double v = body.velocity.z() + 0.5 * body.step * pull(x, body.velocity.z());
     const double energy =
@@ -119,8 +119,9 @@ bool is_refused(const Case& at) {
   return false;
 }
 
-// The place within 1 % of the way in the first two swings, the energy within 0.3 % for up to 900.
-TEST(SpringBody, SwingsAsTheClosedFormSaysOrIsRefused) {
+// Position within 1 % of the displacement in the first two swings, energy within 0.3 % for up to
+// 900.
+TEST(SpringBody, OscillatesAsTheClosedFormOrIsRefused) {
   int shown = 0;
   for (int k = 0; k <= 6; ++k) {
     for (int m = -3; m <= 3; ++m) {
@@ -131,7 +132,7 @@ TEST(SpringBody, SwingsAsTheClosedFormSaysOrIsRefused) {
       if (!fits) continue;
       ++shown;
       for (const double damped : {0.0, 0.02}) {
-        // In a gate one of both, in turn.
+        // In a gate only one of both, alternating.
         if (!test::soaks() && (damped > 0.0) != ((k + m) % 2 == 0)) continue;
         at.viscosity = damped * at.mass / kT;
         const Swing swing = swing_of(at);

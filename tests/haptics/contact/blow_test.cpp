@@ -19,7 +19,7 @@ void wait(Blow& blow, double seconds) {
   for (int i = 0; i < seconds / kDt; ++i) blow.pass(kDt);
 }
 
-TEST(Blow, LastsHalfASecondFromTheLastQuickApproach) {
+TEST(Blow, LastsHalfASecondAfterAQuickApproach) {
   Blow blow;
   blow.see(0.1, 0.1);
   EXPECT_FALSE(blow.is_on()) << "a press";
@@ -33,7 +33,7 @@ TEST(Blow, LastsHalfASecondFromTheLastQuickApproach) {
   EXPECT_FALSE(blow.is_on());
 }
 
-TEST(Blow, ShowsTheHandBehindUntilItIsOverAndComesBackSlowlyWhereItIsFelt) {
+TEST(Blow, DelaysTheHandAndReturnsSlowlyInContact) {
   Blow blow = late_blow();
   const double behind = blow.behind();
   EXPECT_GT(behind, 0.1);
@@ -48,7 +48,7 @@ TEST(Blow, ShowsTheHandBehindUntilItIsOverAndComesBackSlowlyWhereItIsFelt) {
   EXPECT_EQ(blow.move_on(kDt, false), kDt);
 }
 
-TEST(Blow, IsGuessedOnlyPastWhatItsOwnerSaid) {
+TEST(Blow, IsPredictedBeyondItsOwnersLastUpdateOnly) {
   const Blow blow = late_blow();
   EXPECT_FALSE(blow.is_guessed(0.9 * blow.behind()));
   EXPECT_TRUE(blow.is_guessed(1.1 * blow.behind()));
@@ -57,13 +57,13 @@ TEST(Blow, IsGuessedOnlyPastWhatItsOwnerSaid) {
   EXPECT_EQ(Blow::deepest_guess(0.002, 0.0, 0.0), 0.002);
 }
 
-TEST(Blow, GoesBackWithTheNewsAndAPressDoesNot) {
+TEST(Blow, ReleasesWithNewDataUnlikeAPress) {
   EXPECT_EQ(Blow().release(kDt), 0.0);
   EXPECT_NEAR(late_blow().release(kDt), 1.0 / 3.0, 1e-12);
   EXPECT_EQ(late_blow().release(1.0), 1.0);
 }
 
-TEST(Blow, GivesSomeAtOnceWhereOurHandStrikesAndTheRestByAndBy) {
+TEST(Blow, GivesEnergyPartlyAtOnceThenGradually) {
   Blow blow;
   blow.see(0.3, 0.2);
   EXPECT_EQ(blow.gift(0.001, 1.0, kDt), 0.0) << "near by, who is struck asks in time";
@@ -73,7 +73,7 @@ TEST(Blow, GivesSomeAtOnceWhereOurHandStrikesAndTheRestByAndBy) {
   EXPECT_NEAR(more, 0.01, 1e-12);
 }
 
-TEST(Blow, GivesAtMostHalfOfWhatCanBeSparedAndNothingWhereTheOtherHandStrikes) {
+TEST(Blow, GivesAtMostHalfOfTheSpareEnergy) {
   Blow blow;
   blow.see(0.3, 0.2);
   EXPECT_EQ(blow.gift(0.02, 0.002, kDt), 0.001);

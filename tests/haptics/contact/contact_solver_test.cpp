@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Many objects: what the tree leaves out is what looking at each one finds free.
+// Many objects: the objects skipped by the tree are free in a check of each one.
 #include "reckon/haptics/contact/contact_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -20,10 +20,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFar = 1e8;    // [m], of a lone object that spoils the tree's resolution
+constexpr double kFar = 1e8;    // [m], of a single far object that degrades the tree's resolution
 constexpr double kDeep = 0.02;  // [m]
 constexpr double kLeap = 0.05;  // [m]
-constexpr double kHall = 10.0;  // [m], beyond it all objects are on one way
+constexpr double kHall = 10.0;  // [m], beyond it all objects are along one path
 constexpr double kSame = 1e-7;  // [m], twice the clearance of the largest object
 
 class Dice {
@@ -41,7 +41,7 @@ class Dice {
   std::mt19937 random_;
 };
 
-// A tetrahedron, as a file that a scene names.
+// A tetrahedron, as a file named by a scene.
 std::filesystem::path mesh_file(const test::ScratchFolder& folder) {
   const std::filesystem::path path = folder.file("tetrahedron.obj");
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
@@ -62,7 +62,7 @@ Scene any_scene(Dice& dice, std::size_t count, const std::filesystem::path& mesh
     SceneObject object;
     object.name = "object";
     object.shape = any_shape(dice, mesh);
-    // Each in a cell of its own, so that what is alone in its scene feels the same.
+    // Each in a cell of its own, so that it feels the same as in a scene of its own.
     const auto cell = static_cast<int>(i);
     object.pose.position =
         0.25 * Vector3d(cell % 4, cell / 4 % 4, cell / 16) - Vector3d::Constant(0.4);
@@ -74,8 +74,8 @@ Scene any_scene(Dice& dice, std::size_t count, const std::filesystem::path& mesh
   return scene;
 }
 
-// A solver for each object alone: where there is one object there is nothing to leave out. Objects
-// lie apart from each other here.
+// A solver for each object: with one object there is nothing to skip. The objects are separate
+// here.
 class OneByOne {
  public:
   explicit OneByOne(const Scene& scene) {
@@ -85,9 +85,10 @@ class OneByOne {
     }
   }
 
-  /// @return false where one contact point is not the same as many: where several are touched or
-  /// on one way, or one so deeply that the way there tells on which side the contact point is, or
-  /// where the hand leapt off or round what it touched: one contact point sets out from there.
+  /// @return false if one contact point may differ from many: if several objects are touched or on
+  /// one path, if one is penetrated so deeply that the path there decides the side of the contact
+  /// point, or if the hand jumped off or around the touched object: the single contact point
+  /// continues from there.
   bool expect_same(const ContactResult& all, const Vector3d& device, bool reset) {
     std::vector<std::uint32_t> touched;
     bool inside = false;
@@ -136,7 +137,7 @@ class OneByOne {
   Vector3d last_ = Vector3d::Zero();
 };
 
-TEST(ContactSolver, AnswersAsIfItLookedAtEveryObjectInEveryStep) {
+TEST(ContactSolver, MatchesACheckOfEveryObject) {
   const test::ScratchFolder folder;
   const auto mesh = mesh_file(folder);
   std::size_t met = 0;
@@ -156,8 +157,8 @@ TEST(ContactSolver, AnswersAsIfItLookedAtEveryObjectInEveryStep) {
         goal = scene.objects[object].pose.position + dice.point(0.1);
       }
       device += dice.point(reach) + 0.1 * (goal - device);
-      if (dice.chance(0.02)) device = dice.point(0.6);         // a leap
-      if (dice.chance(0.004)) device = dice.point(1.0) * 5e8;  // out of any scene
+      if (dice.chance(0.02)) device = dice.point(0.6);         // a jump
+      if (dice.chance(0.004)) device = dice.point(1.0) * 5e8;  // outside of any scene
       const Vector3d bad = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
       if (dice.chance(0.01)) {
         EXPECT_FALSE(solver.step(bad).in_contact);
@@ -180,8 +181,8 @@ TEST(ContactSolver, AnswersAsIfItLookedAtEveryObjectInEveryStep) {
   EXPECT_GT(met, 1'000u) << "the hand has to touch things for this to tell anything";
 }
 
-// 40 thin plates in a row, all leapt over in one step: the first one stops the contact point.
-TEST(ContactSolver, MeetsTheFirstOfAllObjectsThatOneStepLeapsOver) {
+// 40 thin plates in a row, all crossed in one step: the first one stops the contact point.
+TEST(ContactSolver, StopsAtTheFirstObjectOfAJump) {
   Scene scene;
   for (int i = 0; i < 40; ++i) {
     SceneObject plate;
@@ -199,8 +200,8 @@ TEST(ContactSolver, MeetsTheFirstOfAllObjectsThatOneStepLeapsOver) {
   EXPECT_NEAR(result.scp.x(), -0.005, 1e-6);
 }
 
-// 40 balls in a row: the hand is in the first, leaps over all others, and is back.
-TEST(ContactSolver, LetsGoOfAnObjectThatWasLeftInOneLeap) {
+// 40 balls in a row: the hand is in the first, jumps over all others, and returns.
+TEST(ContactSolver, ReleasesAnObjectLeftInAJump) {
   Scene scene;
   for (int i = 0; i < 40; ++i) {
     SceneObject ball;

@@ -16,7 +16,7 @@ const Vector3d kUp(0, 0, 1);
 /// Turned from kUp towards x.
 Vector3d turned(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
-TEST(MeshStroke, IsAtTheContactPointWhileATriangleIsStroked) {
+TEST(MeshStroke, FollowsTheContactPointOnATriangle) {
   MeshStroke stroke;
   for (int i = 0; i < 10; ++i) {
     const Vector3d scp(1e-4 * i, 2e-4 * i, 0);
@@ -26,8 +26,8 @@ TEST(MeshStroke, IsAtTheContactPointWhileATriangleIsStroked) {
   }
 }
 
-// 0.1 mm and 0.05 rad at an edge, as the hand goes on by 10 microns a sample.
-TEST(MeshStroke, GoesOnAsTheHandDoesOverAnEdgeAndComesBack) {
+// 0.1 mm and 0.05 rad at an edge, while the hand moves by 10 microns a sample.
+TEST(MeshStroke, SmoothsAnEdgeAndConverges) {
   MeshStroke stroke;
   const auto step = [&](int i, double jump, double angle, std::uint32_t triangle) {
     const Vector3d at(1e-5 * i, 0, 0);
@@ -47,7 +47,7 @@ TEST(MeshStroke, GoesOnAsTheHandDoesOverAnEdgeAndComesBack) {
   EXPECT_LT((stroke.normal() - turned(0.05)).norm(), 1e-12);
 }
 
-TEST(MeshStroke, FollowsAnEdgeOfTheShapeItselfAtOnce) {
+TEST(MeshStroke, FollowsASharpEdgeAtOnce) {
   MeshStroke stroke;
   stroke.follow(Vector3d::Zero(), -0.001 * kUp, kUp, 1, true);
   stroke.follow(Vector3d(0.002, 0, -0.002), -0.001 * kUp, turned(1.5), 2, false);
@@ -55,7 +55,7 @@ TEST(MeshStroke, FollowsAnEdgeOfTheShapeItselfAtOnce) {
   EXPECT_EQ(stroke.normal(), turned(1.5));
 }
 
-TEST(MeshStroke, BeginsAnewWithEachContact) {
+TEST(MeshStroke, RestartsWithEachContact) {
   MeshStroke stroke;
   stroke.follow(Vector3d::Zero(), -0.001 * kUp, kUp, 1, true);
   stroke.follow(Vector3d(1e-4, 0, 0), -0.001 * kUp, turned(0.1), 2, false);

@@ -19,7 +19,7 @@ PairAccount opened(double total) {
   return account;
 }
 
-TEST(PairAccount, CreditsNothingThatWasGivenBeforeWeHeardOfIt) {
+TEST(PairAccount, CreditsNothingGivenBeforeTheFirstReport) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.5);
   account.claim(port);
@@ -28,12 +28,12 @@ TEST(PairAccount, CreditsNothingThatWasGivenBeforeWeHeardOfIt) {
   account.claim(port);
   EXPECT_NEAR(account.received, 0.002, 1e-12);
   EXPECT_NEAR(port.level(), 0.002, 1e-12);
-  account.hear(7, 0.501);  // overtaken
+  account.hear(7, 0.501);  // stale
   account.claim(port);
   EXPECT_NEAR(account.received, 0.002, 1e-12);
 }
 
-TEST(PairAccount, GoesOnWithAHandThatComesBackAndBeginsAnewForAnother) {
+TEST(PairAccount, ContinuesForReturningAndRestartsForOtherHand) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.0);
   account.hear(7, 0.002);
@@ -45,7 +45,7 @@ TEST(PairAccount, GoesOnWithAHandThatComesBackAndBeginsAnewForAnother) {
   EXPECT_EQ(account.received, 0.0);
 }
 
-TEST(PairAccount, LosesWhatANewLifeHadGivenBefore) {
+TEST(PairAccount, IgnoresEarlierTotalsOfANewEpoch) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.0);
   account.hear(8, 0.004);
@@ -57,7 +57,7 @@ TEST(PairAccount, LosesWhatANewLifeHadGivenBefore) {
   EXPECT_EQ(account.received, 0.0);
 }
 
-TEST(PairAccount, BelievesWhatItSawAndNoMoreThanATenthOfAJoule) {
+TEST(PairAccount, LimitsObservedEnergyToATenthJoule) {
   PairAccount account = opened(0.0);
   account.see(0.03);
   EXPECT_NEAR(account.believed, 0.03, 1e-12);
@@ -67,7 +67,7 @@ TEST(PairAccount, BelievesWhatItSawAndNoMoreThanATenthOfAJoule) {
   EXPECT_NEAR(account.believed, -0.1, 1e-12);
 }
 
-TEST(PairAccount, CountsWhatThePortLetsGo) {
+TEST(PairAccount, CountsTheEnergyReleasedByThePort) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.0);
   EXPECT_EQ(account.give(port, 0.01), 0.0) << "there is nothing";

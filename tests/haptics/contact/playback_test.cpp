@@ -19,11 +19,11 @@ deadreckon::KinematicState at(double x, double speed) {
   return state;
 }
 
-TEST(Playback, ShowsWhatWasSaidOfThatTime) {
+TEST(Playback, ShowsTheStateOfItsTime) {
   Playback playback;
   playback.hear(at(0, 1), milliseconds(1000));      // flies
   playback.hear(at(0.01, 0), milliseconds(1010));   // is stopped
-  playback.hear(at(0.01, -1), milliseconds(1100));  // goes
+  playback.hear(at(0.01, -1), milliseconds(1100));  // moves back
   const auto shown = [&](int now) { return playback.pose(milliseconds(now), 0.1).position.x(); };
   EXPECT_NEAR(shown(1105), 0.005, 1e-12);
   EXPECT_NEAR(shown(1150), 0.01, 1e-12);
@@ -32,17 +32,17 @@ TEST(Playback, ShowsWhatWasSaidOfThatTime) {
   EXPECT_NEAR(shown(1050), -0.05, 1e-12) << "before the first";
 }
 
-TEST(Playback, LeadsNoHandOnThatIsKnownToHaveStopped) {
+TEST(Playback, StopsAtALaterKnownStop) {
   Playback playback;
   playback.hear(at(0, 1), milliseconds(1000));     // flies
-  playback.hear(at(0.01, 0), milliseconds(1040));  // was stopped, the word of it lost
+  playback.hear(at(0.01, 0), milliseconds(1040));  // was stopped; that update was lost
   const auto shown = [&](int now) { return playback.pose(milliseconds(now), 0.1).position.x(); };
   EXPECT_NEAR(shown(1120), 0.005, 1e-12);
   EXPECT_NEAR(shown(1139), 0.00975, 1e-12);
   EXPECT_NEAR(shown(1150), 0.01, 1e-12);
 }
 
-TEST(Playback, IsOnlyBehindWhereABlowComesLate) {
+TEST(Playback, LagsOnlyAfterALateBlow) {
   Playback playback;
   playback.begin(0.005);
   EXPECT_EQ(playback.behind(), 0.0);
@@ -58,7 +58,7 @@ TEST(Playback, IsOnlyBehindWhereABlowComesLate) {
   EXPECT_EQ(playback.behind(), 0.0);
 }
 
-TEST(Playback, ABlowIsQuickOrLate) {
+TEST(Playback, BlowIsQuickOrLate) {
   EXPECT_TRUE(Playback::is_blow(0.2, 0.0));
   EXPECT_FALSE(Playback::is_blow(0.1, 0.0003));
   EXPECT_TRUE(Playback::is_blow(0.1, 0.2));
@@ -67,7 +67,7 @@ TEST(Playback, ABlowIsQuickOrLate) {
   EXPECT_FALSE(Playback::is_blow(std::numeric_limits<double>::quiet_NaN(), 0.2));
 }
 
-TEST(Playback, KeepsTheNewestAndForgetsAClockThatWasSetBack) {
+TEST(Playback, KeepsTheNewestAndForgetsAResetClock) {
   Playback playback;
   for (int i = 0; i < 100; ++i) playback.hear(at(i, 0), milliseconds(1000 + i));
   EXPECT_EQ(playback.pose(milliseconds(1090), 0.01).position.x(), 80.0);
@@ -77,14 +77,14 @@ TEST(Playback, KeepsTheNewestAndForgetsAClockThatWasSetBack) {
   EXPECT_EQ(playback.pose(milliseconds(1090), 0.01).position.x(), -1.0);
 }
 
-TEST(HandPose, StopsWhereAnOldAccelerationWouldBringItBack) {
+TEST(HandPose, StopsBeforeAnOldAccelerationReversesIt) {
   deadreckon::KinematicState state = at(0, -0.3);
   state.algorithm = pdu::DeadReckoningAlgorithm::fvw;
   state.acceleration.x() = 5;
   EXPECT_EQ(hand_pose(state, 0.05).position, deadreckon::extrapolate(state, 0.05).position);
   const double there = deadreckon::extrapolate(state, 0.07).position.x();
   EXPECT_EQ(hand_pose(state, 1.0).position.x(), there);
-  state.velocity.x() = -0.5;  // slower then, and on its way
+  state.velocity.x() = -0.5;  // slower then, and still in that direction
   EXPECT_LT(hand_pose(state, 1.0).position.x(), -0.1);
 }
 

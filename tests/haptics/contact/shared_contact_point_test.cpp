@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Where objects meet, one contact point stays outside all of them. Distances are computed here,
-// apart from the library.
+// independent of the library.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 constexpr double kOutside = 1e-6;  // [m]
 
-/// How far p is inside an object; below 0 outside.
+/// Depth of p inside an object; negative outside.
 using Depth = std::function<double(const Vector3d& p)>;
 
 struct World {
@@ -82,7 +82,7 @@ std::filesystem::path cube_file(const test::ScratchFolder& folder) {
   return path;
 }
 
-// A room's corner about the origin, open towards +x +y +z, of three kinds of objects each.
+// A room's corner about the origin, open towards +x +y +z, of three objects of each kind.
 std::vector<World> corners(const test::ScratchFolder& folder) {
   std::vector<World> all(6);
   const Vector3d slab(0.2, 0.2, 0.2);
@@ -103,14 +103,14 @@ std::vector<World> corners(const test::ScratchFolder& folder) {
   all[4].mesh(cube_file(folder), at({-0.05, 0.0, 0.0}));
   all[4].mesh(cube_file(folder), at({0.0, -0.05, 0.0}, 0.4, {1.0, 0.3, 0.2}));
   all[4].mesh(cube_file(folder), at({0.0, 0.0, -0.05}, 0.2));
-  // An acute wedge, and boxes whose faces lie flush.
+  // An acute wedge, and boxes with flush faces.
   all[5].plane({-0.9, 0.0, 1.0}, at(Vector3d::Zero()));
   all[5].box(slab, at({-0.1, 0.0, -0.1}));
   all[5].box(slab, at({0.1, 0.0, -0.1}));
   return all;
 }
 
-/// A hand that wanders about a place, in and out, as slowly as a hand does.
+/// A hand that moves about a place, in and out, at the speed of a hand.
 class Wander {
  public:
   Wander(unsigned seed, double reach) : random_(seed), reach_(reach) {}
@@ -128,7 +128,7 @@ class Wander {
   Vector3d place_ = Vector3d::Constant(0.01);
 };
 
-TEST(SharedContactPoint, StaysOutsideAllObjectsOfACornerAndRestsWhenTheHandDoes) {
+TEST(SharedContactPoint, StaysOutsideAllObjectsOfACorner) {
   const test::ScratchFolder folder;
   for (const bool rough : {false, true}) {
     std::size_t number = 0;
@@ -163,7 +163,7 @@ TEST(SharedContactPoint, StaysOutsideAllObjectsOfACornerAndRestsWhenTheHandDoes)
   }
 }
 
-TEST(SharedContactPoint, LiesInTheCornerOfThreeBoxesToTheirClearance) {
+TEST(SharedContactPoint, ReachesACornerOfBoxesWithinTheirClearance) {
   const test::ScratchFolder folder;
   const World world = corners(folder)[0];
   const EffectPlan plan(world.scene);
@@ -175,7 +175,7 @@ TEST(SharedContactPoint, LiesInTheCornerOfThreeBoxesToTheirClearance) {
   EXPECT_LT((result.force - 800.0 * Vector3d(0.004, 0.005, 0.006)).norm(), 1e-3);
 }
 
-// A floor of two boxes side by side: the wall between them is not there for a hand above it.
+// A floor of two boxes side by side: a hand above does not feel the wall between them.
 TEST(SharedContactPoint, SlidesOverASeamBetweenTwoBoxes) {
   World world;
   world.box({0.1, 0.1, 0.1}, at({-0.05, 0.0, -0.05}));
@@ -191,8 +191,8 @@ TEST(SharedContactPoint, SlidesOverASeamBetweenTwoBoxes) {
   }
 }
 
-// The inner box is out of reach: who presses on the outer one must not feel it.
-TEST(SharedContactPoint, DoesNotFeelWhatIsInsideAnotherObject) {
+// The inner box is out of reach: a hand that presses on the outer one must not feel it.
+TEST(SharedContactPoint, DoesNotFeelAnEnclosedObject) {
   World world;
   world.box({0.2, 0.2, 0.2}, at(Vector3d::Zero()));
   world.box({0.19, 0.19, 0.19}, at(Vector3d::Zero()));
@@ -205,7 +205,7 @@ TEST(SharedContactPoint, DoesNotFeelWhatIsInsideAnotherObject) {
   EXPECT_NEAR(result.force.z(), 8.0, 1e-3);
 }
 
-TEST(SharedContactPoint, KeepsEachObjectsStiffnessWhereTheyMeetAtARightAngle) {
+TEST(SharedContactPoint, KeepsEachStiffnessAtARightAngle) {
   World world;
   world.plane(Vector3d::UnitZ(), at(Vector3d::Zero())).effects.of<SpringDamper>().stiffness = 100.0;
   world.plane(Vector3d::UnitX(), at(Vector3d::Zero())).effects.of<SpringDamper>().stiffness = 900.0;
@@ -219,8 +219,8 @@ TEST(SharedContactPoint, KeepsEachObjectsStiffnessWhereTheyMeetAtARightAngle) {
   EXPECT_NEAR(result.stored_energy, 0.5 * 100.0 * 1e-4 + 0.5 * 900.0 * 1e-6, 1e-9);
 }
 
-// S(x + dx) <= S(x) - f.dx + K |dx|^2 / 2, what the port's books rest on.
-TEST(SharedContactPoint, StoresNoMoreThanTheSpringOfTheStiffestMay) {
+// S(x + dx) <= S(x) - f.dx + K |dx|^2 / 2, the assumption of the port's ledger.
+TEST(SharedContactPoint, StoresNoMoreThanTheStiffestSpring) {
   const test::ScratchFolder folder;
   for (const bool rough : {false, true}) {
     std::size_t number = 0;
@@ -245,8 +245,8 @@ TEST(SharedContactPoint, StoresNoMoreThanTheSpringOfTheStiffestMay) {
   }
 }
 
-// Walls of 200 and 800 N/m that lean on one another: what a change of the share costs is booked.
-TEST(SharedContactPoint, MakesNoEnergyWhereObjectsOfDifferentStiffnessMeet) {
+// Walls of 200 and 800 N/m in contact with each other: the cost of a changed share is booked.
+TEST(SharedContactPoint, DifferentStiffnessesMakeNoEnergy) {
   const test::ScratchFolder folder;
   constexpr double kPeriod = 1e-3;
   constexpr double kDamping = 1.0;
@@ -283,7 +283,7 @@ TEST(SharedContactPoint, MakesNoEnergyWhereObjectsOfDifferentStiffnessMeet) {
   }
 }
 
-TEST(SharedContactPoint, StartsOutsideAllObjectsThatTheHandIsIn) {
+TEST(SharedContactPoint, StartsOutsideAllObjectsAroundTheHand) {
   const test::ScratchFolder folder;
   std::size_t number = 0;
   for (const World& world : corners(folder)) {
@@ -321,7 +321,7 @@ TEST(ContactShares, AreAtRightAnglesAndAddUp) {
     ASSERT_LT((sum - way).norm(), 1e-12);
     ASSERT_NEAR(squares, way.squaredNorm(), 1e-9 * (1.0 + squares));
   }
-  // Pushes at right angles keep what is theirs.
+  // Orthogonal pushes keep their own parts.
   ContactShares right{{{0, 2.0 * Vector3d::UnitX(), {}}, {1, 3.0 * Vector3d::UnitZ(), {}}, {}}};
   share_way({2.0, 0.0, 3.0}, std::span(right).first(2));
   EXPECT_LT((right[0].way - 3.0 * Vector3d::UnitZ()).norm(), 1e-12);

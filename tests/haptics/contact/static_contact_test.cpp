@@ -25,7 +25,7 @@ Scene box(const Surface& surface) {
 }
 
 struct Outcome {
-  double least = 0.0;  // [J], of what the port took and the device's damping, summed from the start
+  double least = 0.0;  // [J], energy into port and device damping, summed from the start
   double extra = 0.0;  // [N], largest force of the effects
 };
 
@@ -38,8 +38,8 @@ Vector3d hold(StaticContact& contact, PointTool& tool, EnergyPort& port, const V
   return held.force;
 }
 
-// A hand that wanders about a corner of a box whose damper is told velocities that have nothing to
-// do with the motion: a force that belongs to nothing, and on the average feeds the hand.
+// A hand that moves about a corner of a box with a damper, which gets velocities unrelated to the
+// motion: an arbitrary force that feeds the hand on average.
 Outcome wander(unsigned seed) {
   const EffectPlan plan(box({900.0, 200.0}));
   EnergyPort port(kDamping);
@@ -62,7 +62,7 @@ Outcome wander(unsigned seed) {
       port.attenuate(0.5);
       force *= 0.5;
     }
-    // Half the time the motion that takes most out of the force, else any.
+    // Half the time the motion that takes most energy out of the force, otherwise any.
     Vector3d dx = 1e-4 * Vector3d(any(random), any(random), any(random));
     if (i % 2 == 0) dx = 0.5 * kPeriod / kDamping * force;
     dx += 0.01 * (Vector3d(0.02, 0.018, 0.018) - device);
@@ -76,7 +76,7 @@ Outcome wander(unsigned seed) {
   return outcome;
 }
 
-TEST(StaticContact, ShowsNoMoreOfAForceThatFeedsTheHandThanTheLedgerCovers) {
+TEST(StaticContact, LimitsAFeedingForceToTheLedger) {
   Outcome all;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Outcome one = wander(seed);
@@ -88,7 +88,7 @@ TEST(StaticContact, ShowsNoMoreOfAForceThatFeedsTheHandThanTheLedgerCovers) {
   std::printf("least energy %.2g J, largest force %.2g N\n", all.least, all.extra);
 }
 
-TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
+TEST(StaticContact, RendersAFullDamperWithAFullLedger) {
   const EffectPlan plan(box({500.0, 2.0}));
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
@@ -109,7 +109,7 @@ TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
   EXPECT_EQ(force.y(), 0.0) << "along the normal alone";
 }
 
-TEST(StaticContact, FeelsAWallAsFarAwayAsTheProbesRadius) {
+TEST(StaticContact, FeelsAWallAtTheProbesRadius) {
   const EffectPlan plan(box({800.0, 0.0}));
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod, 0.005);
@@ -128,9 +128,9 @@ TEST(StaticContact, FeelsAWallAsFarAwayAsTheProbesRadius) {
   EXPECT_NEAR(hold(contact, tool, port, dx / kPeriod).x(), 0.8, 1e-4) << "1 mm of 5 is pressed in";
 }
 
-TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
-  // An acute wedge, and a hand pressed into its tip: what the damper of one side pushes is a pull
-  // against both springs.
+TEST(StaticContact, NeverPullsAgainstTheSpringsOfAllObjects) {
+  // An acute wedge, and a hand pressed into its tip: the damper push of one side is a pull against
+  // both springs.
   Scene scene;
   scene.objects.resize(2);
   scene.objects[0].shape = PlaneShape{Vector3d(1.0, 0.0, 0.0)};

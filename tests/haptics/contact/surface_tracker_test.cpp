@@ -9,7 +9,7 @@ namespace {
 
 constexpr Following kPair{true, 500.0};
 
-// Of updates that are so old [s], come so often [s] and are off by so much [m].
+// For updates of this age [s], interval [s] and error [m].
 SurfaceTracker learnt(double age, double interval, double miss) {
   SurfaceTracker tracker;
   for (int i = 0; i < 100; ++i) tracker.learn(age, interval, miss);
@@ -22,13 +22,13 @@ TEST(SurfaceTracker, FollowsAPairCloselyOnAShortLine) {
   EXPECT_NEAR(tracker.time_constant({false, 500.0}), 2 * 0.005, 1e-9);
 }
 
-TEST(SurfaceTracker, FollowsCalmlyWhereDelayOutweighsWhatDamps) {
+TEST(SurfaceTracker, FollowsSlowlyIfDelayOutweighsDamping) {
   const SurfaceTracker tracker = learnt(0.006, 0.004, 3e-5);
   EXPECT_LT(tracker.time_constant({true, 700.0}), 0.012);
   EXPECT_NEAR(tracker.time_constant({true, 800.0}), 2 * 0.010, 1e-9);
 }
 
-TEST(SurfaceTracker, FollowsRowsCalmlyOverShortLines) {
+TEST(SurfaceTracker, FollowsRowsSlowlyOnShortLines) {
   Following row{false, 550.0};
   row.in_row = true;
   EXPECT_NEAR(learnt(0.0, 0.002, 3e-5).time_constant(row), 0.05, 1e-9);
@@ -37,9 +37,9 @@ TEST(SurfaceTracker, FollowsRowsCalmlyOverShortLines) {
   EXPECT_NEAR(learnt(0.0, 0.002, 3e-5).time_constant(row), 0.1, 1e-9);
 }
 
-TEST(SurfaceTracker, TakesUpCoarseUpdatesSlowly) {
+TEST(SurfaceTracker, FollowsCoarseUpdatesSlowly) {
   EXPECT_NEAR(learnt(0.001, 0.008, 1e-4).time_constant(kPair), 0.005, 1e-9);
-  // But never more slowly than a hand that is not alone.
+  // But never more slowly than for a hand in a row.
   EXPECT_NEAR(learnt(0.001, 0.008, 1e-2).time_constant(kPair), 2 * 0.009, 1e-9);
 }
 

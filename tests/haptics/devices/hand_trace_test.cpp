@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using namespace std::chrono_literals;
 
-TEST(HandTrace, IsSmoothAlsoWhereItStartsAgain) {
+TEST(HandTrace, IsSmoothAtItsRestart) {
   std::vector<double> t;
   std::vector<Vector3d> p;
   for (int i = 0; i < 40; ++i) {
@@ -29,7 +29,7 @@ TEST(HandTrace, IsSmoothAlsoWhereItStartsAgain) {
   EXPECT_LT((trace.at(end - 1e-9).velocity - trace.at(end + 1e-9).velocity).norm(), 1e-6);
 }
 
-TEST(HandTrace, FitsTheMotionIntoABoxWithoutDistortingIt) {
+TEST(HandTrace, FitsTheMotionIntoABoxUndistorted) {
   HandTraceOptions options;
   options.fit_to = Eigen::AlignedBox3d(Vector3d(-0.05, -0.05, 0), Vector3d(0.05, 0.05, 0.1));
   options.loop = false;

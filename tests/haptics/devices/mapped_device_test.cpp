@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 
 constexpr double kRoundOff = 1e-9;  // [J]
 
-// Tells what it is told to, and keeps what is written.
+// Returns the configured values and keeps the written ones.
 class Probe : public HapticDevice {
  public:
   [[nodiscard]] DeviceLimits limits() const noexcept override { return given; }
@@ -57,7 +57,7 @@ class Draws {
   std::mt19937 random_;
 };
 
-TEST(MappedDevice, HasThePowerOfItsDeviceAtAnyScaleMirroredOrNot) {
+TEST(MappedDevice, PreservesPowerAtAnyScaleAndMirror) {
   Draws draws(7);
   for (int i = 0; i < 2000; ++i) {
     HandMapping mapping;
@@ -78,8 +78,8 @@ TEST(MappedDevice, HasThePowerOfItsDeviceAtAnyScaleMirroredOrNot) {
   }
 }
 
-// The rate that is told is the one at which the orientation that is told turns.
-TEST(MappedDevice, DampingAndStepsOfAPoseAreScaledAsThoseOfTheLimits) {
+// The reported rate is the rate of the reported orientation.
+TEST(MappedDevice, ScalesDampingAndResolutionOfSamples) {
   Probe device;
   device.given.damping = 2.0;
   device.given.resolution = 1e-4;
@@ -96,7 +96,7 @@ TEST(MappedDevice, DampingAndStepsOfAPoseAreScaledAsThoseOfTheLimits) {
   EXPECT_EQ(sample.held, 0.5);
 }
 
-TEST(MappedDevice, AMirroredToolTurnsAtTheRateThatIsTold) {
+TEST(MappedDevice, MirroredToolTurnsAtTheReportedRate) {
   Draws draws(3);
   HandMapping mapping;
   mapping.mirrored = true;
@@ -121,8 +121,9 @@ TEST(MappedDevice, AMirroredToolTurnsAtTheRateThatIsTold) {
   }
 }
 
-// 0.95 x 2 b/T is 1900 N/m at 1 N s/m, walls get 3/4 of it; twice the way is a quarter of it in S.
-TEST(MappedDevice, AWallIsAsStiffAtTheHandleAsTheDeviceAllows) {
+// 0.95 x 2 b/T is 1900 N/m at 1 N s/m, walls get 3/4 of it; a scale of two gives a quarter of it in
+// S.
+TEST(MappedDevice, WallStiffnessAtTheHandleIsTheDevices) {
   for (const double scale : {0.5, 1.0, 2.0, 5.0}) {
     SimulatedDevice device((SimulatedDeviceConfig()));
     MappedDevice hand(device, {scale});
@@ -132,7 +133,7 @@ TEST(MappedDevice, AWallIsAsStiffAtTheHandleAsTheDeviceAllows) {
   }
 }
 
-TEST(MappedDevice, RefusesWhatIsNoScaleAndNoButton) {
+TEST(MappedDevice, RefusesInvalidScalesAndButtons) {
   SimulatedDevice device((SimulatedDeviceConfig()));
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(MappedDevice(device, {bad}), std::invalid_argument);
@@ -140,7 +141,7 @@ TEST(MappedDevice, RefusesWhatIsNoScaleAndNoButton) {
     EXPECT_THROW(MappedDevice(device, {1.0, false, bad}), std::invalid_argument);
 }
 
-TEST(MappedDevice, ItsWorkSpaceIsScaledAndMirrored) {
+TEST(MappedDevice, ScalesAndMirrorsItsWorkSpace) {
   DeviceLimits limits;
   limits.workspace_min = {-0.1, -0.2, -0.3};
   limits.workspace_max = {0.4, 0.5, 0.6};
@@ -149,8 +150,8 @@ TEST(MappedDevice, ItsWorkSpaceIsScaledAndMirrored) {
   EXPECT_EQ(there.workspace_max, Vector3d(0.2, 1.0, 1.2));
 }
 
-// 30 mm to the left, back by the clutch, and again: the hand is 60 mm to the left.
-TEST(MappedDevice, ByTheClutchAHandGetsFartherThanItsHandle) {
+// 30 mm to the left, back with the clutch, and again: the hand is 60 mm to the left.
+TEST(MappedDevice, ClutchExtendsTheReachOfTheHandle) {
   Probe device;
   device.sample.ok = true;
   MappedDevice hand(device, {1.0, false, 0});
@@ -172,8 +173,8 @@ TEST(MappedDevice, ByTheClutchAHandGetsFartherThanItsHandle) {
   go(0.02, 0.02, false, -0.06, -0.06);
 }
 
-// While forces are under way to the handle they work on its real way.
-TEST(MappedDevice, TheHandStandsStillWhenTheLastForceHasGone) {
+// Forces in transit to the handle work on its real motion.
+TEST(MappedDevice, HandStopsWhenTheLastForceHasArrived) {
   Probe device;
   device.sample.ok = true;
   device.given.delay_samples = 3;
@@ -187,9 +188,9 @@ TEST(MappedDevice, TheHandStandsStillWhenTheLastForceHasGone) {
   }
 }
 
-// A hand that presses, slides, clutches at random and has its forces late: by the device's books.
-TEST(MappedDevice, NoScaleMirrorOrClutchMakesEnergy) {
-  int felt = 0;  // the clutch may bring a hand out of reach of the floor
+// A hand that presses, slides, clutches at random and gets its forces late: by the device's ledger.
+TEST(MappedDevice, MakesNoEnergyAtAnyScaleOrClutch) {
+  int felt = 0;  // the clutch may move a hand out of reach of the floor
   for (unsigned seed = 1; seed <= 24; ++seed) {
     Draws draws(seed);
     SimulatedDeviceConfig config;
@@ -234,7 +235,7 @@ TEST(MappedDevice, NoScaleMirrorOrClutchMakesEnergy) {
   EXPECT_GE(felt, 16);
 }
 
-TEST(MappedDevice, AfterTheClutchTheForceComesBackBelowTheRisingLimit) {
+TEST(MappedDevice, ForceReturnsBelowTheRampAfterTheClutch) {
   SimulatedDeviceConfig config;
   config.start.z() = 0.01;
   SimulatedDevice device(config, [](double t) {

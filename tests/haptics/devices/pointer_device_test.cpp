@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device that a pointer holds: how it follows, how it lets go, and that no pointer makes energy.
+// A device driven by a pointer: how it follows, how it releases, and that no pointer makes energy.
 #include "reckon/haptics/devices/pointer_device.hpp"
 
 #include <gtest/gtest.h>
@@ -29,18 +29,18 @@ using namespace std::chrono_literals;
 
 constexpr double kReach = 0.5;        // [m]
 constexpr double kStiffness = 700;    // [N/m], of the floor
-constexpr nanoseconds kFrame = 16ms;  // of a page
+constexpr nanoseconds kFrame = 16ms;  // of a web page
 
 SimulatedDeviceConfig held_at(double z) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 300;
   config.hand_damping = 3;
-  config.hold = 1500us;  // as devices of scenes let go under a late step
+  config.hold = 1500us;  // like devices of scenes, which release during a late step
   config.start.z() = z;
   return config;
 }
 
-/// A servo over a floor at z = 0, on a device that a pointer holds.
+/// A servo over a floor at z = 0, on a device driven by a pointer.
 class Rig {
  public:
   explicit Rig(double z = 0.03)
@@ -58,7 +58,7 @@ class Rig {
     finite = finite && device.position().allFinite() && device.force().allFinite() &&
              snapshot().force.allFinite() && std::isfinite(snapshot().port_energy);
   }
-  /// A pointer lies still there for a while.
+  /// A pointer rests there for a while.
   void hold(const Vector3d& where, nanoseconds duration) {
     for (const nanoseconds end = now + duration; now < end; step()) {
       if (now % kFrame < 1ms) device.inbox().put({where, true});
@@ -77,7 +77,7 @@ class Rig {
   bool finite = true;
 };
 
-TEST(PointerDevice, RestsWhereItStartsUntilTheFirstSample) {
+TEST(PointerDevice, RestsAtItsStartUntilTheFirstSample) {
   Rig rig;
   rig.pass(2s);
   EXPECT_EQ(rig.device.position(), Vector3d(0, 0, 0.03));
@@ -85,7 +85,7 @@ TEST(PointerDevice, RestsWhereItStartsUntilTheFirstSample) {
   EXPECT_FALSE(rig.device.inbox().is_held());
 }
 
-TEST(PointerDevice, FollowsAPointerAndPressesAsSpringsInSeries) {
+TEST(PointerDevice, FollowsAPointerAndPressesInSeries) {
   Rig rig;
   rig.hold({0.1, -0.05, 0.08}, 1s);
   EXPECT_TRUE(rig.device.inbox().is_held());
@@ -95,7 +95,7 @@ TEST(PointerDevice, FollowsAPointerAndPressesAsSpringsInSeries) {
   EXPECT_NEAR(rig.snapshot().force.z(), 0.01 / (1 / 300.0 + 1 / kStiffness), 1e-3);
 }
 
-TEST(PointerDevice, PullsNoHarderThanItsWallHoldsHoweverDeepThePointerIs) {
+TEST(PointerDevice, LimitsItsPullForAnyPointerDepth) {
   Rig rig;
   rig.hold({0, 0, -50}, 2s);
   EXPECT_EQ(rig.device.most_pull(), 4.0) << "half of 2 m/s against 4 N s/m";
@@ -104,8 +104,8 @@ TEST(PointerDevice, PullsNoHarderThanItsWallHoldsHoweverDeepThePointerIs) {
   EXPECT_EQ(rig.snapshot().trips, 0U);
 }
 
-// From a press of 2 N, with and without a word; nothing is felt of it as a jolt.
-TEST(PointerDevice, LetsGoSmoothlyWithinThreeTenthsOfASecond) {
+// From a press of 2 N, with and without a release message; without a jolt.
+TEST(PointerDevice, ReleasesSmoothlyWithinThreeTenthsOfASecond) {
   for (const bool says_so : {true, false}) {
     Rig rig;
     rig.hold({0, 0, -0.01}, 1s);
@@ -128,7 +128,7 @@ TEST(PointerDevice, LetsGoSmoothlyWithinThreeTenthsOfASecond) {
   }
 }
 
-TEST(PointerDevice, LetsGoWithinThreeTenthsOfASecondOfTheLastGoodSampleOfEverySeed) {
+TEST(PointerDevice, ReleasesAfterTheLastGoodSample) {
   for (unsigned seed = 1; seed <= test::tries(50U, 200U); ++seed) {
     Rig rig;
     PointerPlay play(seed);
@@ -138,15 +138,15 @@ TEST(PointerDevice, LetsGoWithinThreeTenthsOfASecondOfTheLastGoodSampleOfEverySe
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (int ms = 0; ms < 300; ++ms) {
-      rig.device.inbox().put({{0, nan, 0}, true});  // keeps nothing held
+      rig.device.inbox().put({{0, nan, 0}, true});  // does not keep it held
       rig.step();
     }
     ASSERT_EQ(rig.device.grip(), 0.0) << seed;
   }
 }
 
-// Somebody else moves the hand meanwhile: the path waits where it is.
-TEST(PointerDevice, IsTakenAgainWhereItIs) {
+// The hand is moved by others meanwhile: the path waits at its position.
+TEST(PointerDevice, ResumesAtItsPosition) {
   Rig rig(0.2);
   rig.hold({0, 0, 0.2}, 100ms);
   rig.device.inbox().put({{}, false});
@@ -165,7 +165,7 @@ TEST(PointerDevice, IsTakenAgainWhereItIs) {
   EXPECT_LT(farthest, 2e-3);
 }
 
-TEST(PointerDevice, CountsWhatItRefusesAndLetsGoWhateverThePositionSays) {
+TEST(PointerDevice, CountsRefusedSamplesButAcceptsEveryRelease) {
   PointerDevice device(held_at(0), kReach);
   PointerInbox& inbox = device.inbox();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -186,7 +186,7 @@ TEST(PointerDevice, CountsWhatItRefusesAndLetsGoWhateverThePositionSays) {
   EXPECT_EQ(inbox.refused(), 18U);
 }
 
-TEST(PointerDevice, KeepsItsPathInTheWorkspaceThatItTells) {
+TEST(PointerDevice, KeepsItsPathInTheReportedWorkspace) {
   PointerDevice device(held_at(0.1), 0.2);
   EXPECT_EQ(device.limits().workspace_min, Vector3d(-0.2, -0.2, 0.1 - 0.2));
   EXPECT_EQ(device.limits().workspace_max, Vector3d(0.2, 0.2, 0.1 + 0.2));
@@ -198,7 +198,7 @@ TEST(PointerDevice, KeepsItsPathInTheWorkspaceThatItTells) {
   EXPECT_LE((device.position() - Vector3d(0.2, -0.2, 0.3)).norm(), 1e-5);
 }
 
-TEST(PointerDevice, RefusesAGripThatWouldSwingAndAReachThatIsNone) {
+TEST(PointerDevice, RefusesUnstableGripsAndInvalidReach) {
   SimulatedDeviceConfig config = held_at(0);
   EXPECT_THROW(PointerDevice(config, 0), std::invalid_argument);
   EXPECT_THROW(PointerDevice(config, std::numeric_limits<double>::quiet_NaN()),
@@ -207,7 +207,7 @@ TEST(PointerDevice, RefusesAGripThatWouldSwingAndAReachThatIsNone) {
   EXPECT_THROW(PointerDevice(config, kReach), std::invalid_argument);
 }
 
-TEST(PointerDevice, TakesSamplesOfAnotherThread) {
+TEST(PointerDevice, AcceptsSamplesFromAnotherThread) {
   PointerDevice device(held_at(0), kReach);
   std::thread page([&device] {
     for (int i = 0; i < 20000; ++i) device.inbox().put({Vector3d::Constant(1e-5 * i), i % 7 != 0});
@@ -223,14 +223,14 @@ TEST(PointerDevice, TakesSamplesOfAnotherThread) {
   EXPECT_LE((device.position() - Vector3d::Constant(0.1)).norm(), 1e-5);
 }
 
-// One step in twenty of every third seed is late, or comes twice at one instant.
+// In every third seed, one step in twenty is late, or repeated at one instant.
 nanoseconds period_of(unsigned seed, std::mt19937& random) {
   if (seed % 3 != 0 || random() % 20 != 0) return 1ms;
   if (random() % 4 == 0) return 0ms;
   return nanoseconds(1'000'000 + static_cast<int>(random() % 8'800'000));
 }
 
-TEST(PointerDevice, MakesNoEnergyAtAWallWhateverThePointerDoes) {
+TEST(PointerDevice, MakesNoEnergyAtAWall) {
   double least = 0, peak = 0, fastest = 0, meter = 0;
   std::uint64_t trips = 0, refused = 0;
   const unsigned seeds = test::tries(150U, 1000U);
@@ -246,7 +246,7 @@ TEST(PointerDevice, MakesNoEnergyAtAWallWhateverThePointerDoes) {
     ASSERT_LE(rig.peak, rig.device.limits().max_force + 1e-9) << "seed " << seed;
     ASSERT_TRUE(rig.finite) << "seed " << seed;
 
-    // It still works: it goes where it is led, and feels the wall.
+    // It still works: it follows, and feels the wall.
     rig.hold({0.02, 0, 0.05}, 1500ms);
     ASSERT_LE((rig.device.position() - Vector3d(0.02, 0, 0.05)).norm(), 1e-4) << "seed " << seed;
     rig.hold({0.02, 0, -0.01}, 800ms);
@@ -270,8 +270,8 @@ TEST(PointerDevice, MakesNoEnergyAtAWallWhateverThePointerDoes) {
   EXPECT_GT(refused, seeds);
 }
 
-// Round and round until somebody points, and again when nobody has for a while.
-TEST(PointerDevice, GoesItsCourseWhileNobodyPoints) {
+// Follows its course until a pointer takes it, and again after a time without samples.
+TEST(PointerDevice, FollowsItsCourseWithoutAPointer) {
   const auto course = [](double time) {
     HandTarget target;
     target.position = Vector3d(0.05 * std::sin(time), 0.0, 0.1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that a pointer moves, and another hand, over a network: two servos in simulated time.
+// A hand moved by a pointer, and another hand, over a network: two servos in simulated time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,10 +20,10 @@ using Eigen::Vector3d;
 
 constexpr double kPassive = -1e-9;  // [J]
 constexpr double kTouch = 0.04;     // [m], between two hands that touch
-constexpr double kOverlap = 0.02;   // [m], of what both want
+constexpr double kOverlap = 0.02;   // [m], of the goals of both
 
-/// The first hand is a pointer's; of every other seed the second one too, else it comes and
-/// presses.
+/// The first hand follows a pointer; in every other seed the second one does too, otherwise it
+/// approaches and presses.
 class PointerPair {
  public:
   explicit PointerPair(unsigned seed)
@@ -39,7 +39,7 @@ class PointerPair {
       step();
     }
   }
-  /// Pointers lie still, the second one where it starts.
+  /// Pointers rest, the second one at its start.
   void hold(const Vector3d& first, int ms) {
     for (int i = 0; i < ms; ++i) {
       if (i % 16 == 0) pointers_[0]->inbox().put({first, true});
@@ -52,7 +52,7 @@ class PointerPair {
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double peak() const { return peak_; }
   [[nodiscard]] bool finite() const { return finite_; }
-  /// Where the second one is at the end, if nobody presses it.
+  /// Final position of the second hand without contact.
   [[nodiscard]] Vector3d second_wants() const {
     return {kTouch - (pointers_[1] == nullptr ? kOverlap : 0.0), 0, 0};
   }
@@ -99,14 +99,14 @@ class PointerPair {
     least_ = std::min(least_, sum);
   }
 
-  std::array<PointerDevice*, 2> pointers_{};  // of row_, which makes them
+  std::array<PointerDevice*, 2> pointers_{};  // owned by row_
   HandsInARow row_;
   std::array<PointerPlay, 2> plays_;
   double least_ = 0, peak_ = 0;
   bool finite_ = true;
 };
 
-TEST(PointerPair, MakesNoEnergyBetweenTwoHandsWhateverThePointersDo) {
+TEST(PointerPair, MakesNoEnergyBetweenTwoHands) {
   double least = 0, peak = 0, least_felt = 1e9;
   for (unsigned seed = 1; seed <= test::tries(150U, 1000U); ++seed) {
     PointerPair pair(seed);
@@ -115,8 +115,8 @@ TEST(PointerPair, MakesNoEnergyBetweenTwoHandsWhateverThePointersDo) {
     ASSERT_LE(pair.peak(), 10.0 + 1e-9) << "seed " << seed;
     ASSERT_TRUE(pair.finite()) << "seed " << seed;
 
-    // It still works: it goes away from the other one; of every seventh seed it comes back and
-    // presses it, for as long as energy takes to get there and back over the worst of the lines.
+    // It still works: it moves away from the other hand. In every seventh seed it returns and
+    // presses, for the time that energy needs both ways on the worst line.
     const Vector3d other = pair.second_wants();
     const Vector3d away = (pair.row().device(0).position() - other).normalized();
     pair.hold(other + 0.15 * away, 1300);

@@ -26,7 +26,7 @@ AlignedBox3d box(double half) {
   return {Vector3d::Constant(-half), Vector3d(Vector3d::Constant(half))};
 }
 
-// What samples of one seed come to, every 0.25 ms.
+// The path of one seed's samples, every 0.25 ms.
 std::vector<Vector3d> played(unsigned seed, PointerPath& path) {
   constexpr int kPerMs = 4;
   PointerInbox inbox;
@@ -43,8 +43,8 @@ std::vector<Vector3d> played(unsigned seed, PointerPath& path) {
   return points;
 }
 
-// Of the positions alone: no second difference changes by more than the bound of the jerk allows.
-TEST(PointerPath, IsContinuousToTheSecondDerivativeWhateverThePointerDoes) {
+// From the positions only: no second difference changes by more than the bound of the jerk.
+TEST(PointerPath, IsContinuousToTheSecondDerivative) {
   constexpr double h = 0.25e-3;
   constexpr double kRounding = 1e-6;  // of second differences: 1e-16 / h^2
   double fastest = 0, most_acceleration = 0, most_jerk = 0;
@@ -71,7 +71,7 @@ TEST(PointerPath, IsContinuousToTheSecondDerivativeWhateverThePointerDoes) {
   EXPECT_GT(most_jerk, 0.5 * path.max_jerk());
 }
 
-TEST(PointerPath, StatesItsOwnDerivatives) {
+TEST(PointerPath, ReportsItsOwnDerivatives) {
   PointerPath path(box(1), Vector3d::Zero(), kSpeed);
   constexpr double h = 1e-4;
   for (int i = 0; i < 4000; ++i) {
@@ -80,7 +80,7 @@ TEST(PointerPath, StatesItsOwnDerivatives) {
     path.advance(h);
     const Vector3d jerk_of_it = (path.acceleration() - a) / h;
     ASSERT_LE(jerk_of_it.norm(), path.max_jerk() * (1 + 1e-9));
-    // Trapezia are off by h^2/12 of the jerk, and of its changes.
+    // The trapezoidal rule has an error of h^2/12 of the jerk, and of its changes.
     ASSERT_LE(((path.position() - p) / h - 0.5 * (v + path.velocity())).norm(),
               h * h / 12 * path.max_jerk() + 1e-10);
     ASSERT_LE(((path.velocity() - v) / h - 0.5 * (a + path.acceleration())).norm(),
@@ -88,18 +88,18 @@ TEST(PointerPath, StatesItsOwnDerivatives) {
   }
 }
 
-TEST(PointerPath, IsItsLagBehindWhatMovesSteadily) {
+TEST(PointerPath, LagsByItsTimeConstantBehindSteadyMotion) {
   PointerPath path(box(10), Vector3d::Zero(), kSpeed);
-  path.lead_to({10, 0, 0});  // the wanted point goes there at full speed
+  path.lead_to({10, 0, 0});  // the goal moves there at full speed
   for (int i = 0; i < 1000; ++i) path.advance(1e-3);
   EXPECT_NEAR(path.position().x(), kSpeed * (1.0 - PointerPath::kLag), 1e-12);
   EXPECT_NEAR(path.velocity().x(), kSpeed, 1e-12);
   EXPECT_NEAR(path.acceleration().x(), 0.0, 1e-9);
 }
 
-TEST(PointerPath, AnswersAJumpAsACriticallyDampedFilterOfThirdOrder) {
+TEST(PointerPath, AnswersAJumpAsAThirdOrderFilter) {
   constexpr double kJump = 1e-3;
-  PointerPath path(box(1), Vector3d::Zero(), 1e6);  // no limit of speed to speak of
+  PointerPath path(box(1), Vector3d::Zero(), 1e6);  // no effective speed limit
   path.lead_to({kJump, 0, 0});
   double t = 0, last = 0;
   for (int i = 0; i < 300; ++i) {
@@ -112,7 +112,7 @@ TEST(PointerPath, AnswersAJumpAsACriticallyDampedFilterOfThirdOrder) {
   }
 }
 
-TEST(PointerPath, IsTheSameHoweverFinelyItIsAdvanced) {
+TEST(PointerPath, IsIndependentOfTheStepLength) {
   PointerPath coarse(box(0.5), Vector3d::Zero(), kSpeed), fine = coarse;
   PointerPlay play(3), same(3);
   for (int ms = 0; ms < 2000; ++ms) {
@@ -127,7 +127,7 @@ TEST(PointerPath, IsTheSameHoweverFinelyItIsAdvanced) {
   }
 }
 
-TEST(PointerPath, ComesToRestWhereItIsToldTo) {
+TEST(PointerPath, ComesToRestAtItsGoal) {
   PointerPath path(box(1), Vector3d::Zero(), kSpeed);
   path.lead_to({1, 0, 0});
   for (int i = 0; i < 500; ++i) path.advance(1e-3);
@@ -137,7 +137,7 @@ TEST(PointerPath, ComesToRestWhereItIsToldTo) {
   EXPECT_NEAR(path.velocity().x(), 0.0, 1e-12);
 }
 
-TEST(PointerPath, RefusesABoxOrASpeedThatIsNone) {
+TEST(PointerPath, RefusesInvalidBoxesAndSpeeds) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(PointerPath({}, Vector3d::Zero(), 1), std::invalid_argument);
   EXPECT_THROW(PointerPath(box(1), Vector3d::Constant(nan), 1), std::invalid_argument);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using namespace std::chrono_literals;
 
-TEST(SimulatedDevice, BooksAllEnergyThatGoesThroughIt) {
+TEST(SimulatedDevice, BooksAllItsEnergy) {
   SimulatedDeviceConfig config;
   SimulatedDevice device(config, [](double t) {
     HandTarget hand;
@@ -33,11 +33,11 @@ TEST(SimulatedDevice, BooksAllEnergyThatGoesThroughIt) {
     const double t = 1e-9 * static_cast<double>(now.count());
     device.write({2 * std::sin(20 * t), std::cos(15 * t), -1}, now);
   }
-  // Semi-implicit Euler books 1/2 m |dv|^2 a substep too much going in: 1 % here.
+  // Semi-implicit Euler books 1/2 m |dv|^2 too much input per substep: 1 % here.
   EXPECT_LT(drift, 0.01 * device.damping_loss());
 }
 
-TEST(SimulatedDevice, LosesAtLeastTheDampingThatTheGateCounts) {
+TEST(SimulatedDevice, DissipatesAtLeastTheGatesDamping) {
   SimulatedDeviceConfig config;
   SimulatedDevice device(config, [](double t) {
     HandTarget hand;
@@ -56,8 +56,8 @@ TEST(SimulatedDevice, LosesAtLeastTheDampingThatTheGateCounts) {
   }
 }
 
-// 0.3 N of dry friction: 0.29 N move nothing, and from 0.5 m/s the handle of 0.1 kg slides for
-// v / (F / m) = 0.167 s and v^2 / (2 F / m) = 41.7 mm.
+// 0.3 N of dry friction: 0.29 N do not move it, and from 0.5 m/s the handle of 0.1 kg slides for v
+// / (F / m) = 0.167 s and v^2 / (2 F / m) = 41.7 mm.
 TEST(SimulatedDevice, StopsByItsDryFriction) {
   SimulatedDeviceConfig config;
   config.damping = 0.0;
@@ -79,7 +79,7 @@ TEST(SimulatedDevice, StopsByItsDryFriction) {
   EXPECT_NEAR(device.position().x(), 0.25 / 6.0, 1e-4);
 }
 
-TEST(SimulatedDevice, BeginsAnewElsewhereWithItsHandsPathGoingOn) {
+TEST(SimulatedDevice, RestartsElsewhereOnTheSameHandPath) {
   double asked = 0;
   SimulatedDeviceConfig config;
   config.delay_samples = 2;
@@ -99,13 +99,14 @@ TEST(SimulatedDevice, BeginsAnewElsewhereWithItsHandsPathGoingOn) {
   EXPECT_EQ(device.damping_loss(), 0);
   EXPECT_EQ(device.hand_work(), 0);
   device.write({5, 0, 0}, 5s);
-  EXPECT_EQ(device.force().norm(), 0);  // those under way are gone, this one is not there yet
+  EXPECT_EQ(device.force().norm(), 0);  // the pending forces are dropped, this one has not arrived
+                                        // yet
   const DeviceSample sample = device.read(5s + 1ms);
   EXPECT_FALSE(sample.watchdog);
   EXPECT_NEAR(asked, 5.0009, 1e-9);
 }
 
-TEST(SimulatedDevice, RestsWhereHandAndForceBalance) {
+TEST(SimulatedDevice, RestsAtTheBalanceOfHandAndForce) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 100;
   SimulatedDevice device(config);
@@ -116,7 +117,7 @@ TEST(SimulatedDevice, RestsWhereHandAndForceBalance) {
   EXPECT_NEAR(device.position().z(), 0.02, 1e-9);
 }
 
-TEST(SimulatedDevice, DropsTheForceTenMillisecondsAfterTheLastWrite) {
+TEST(SimulatedDevice, DropsTheForceTenMillisecondsAfterAWrite) {
   SimulatedDevice device(SimulatedDeviceConfig{});
   (void)device.read(0ns);
   device.write({1, 0, 0}, 0ns);
@@ -128,7 +129,7 @@ TEST(SimulatedDevice, DropsTheForceTenMillisecondsAfterTheLastWrite) {
   EXPECT_FALSE(device.read(12ms).watchdog);
 }
 
-TEST(SimulatedDevice, ShowsAForceSoManyWritesLate) {
+TEST(SimulatedDevice, AppliesAForceAfterItsDelayInWrites) {
   for (const int delay : {0, 1, 3, 1000}) {
     SimulatedDeviceConfig config;
     config.delay_samples = delay;
@@ -143,8 +144,8 @@ TEST(SimulatedDevice, ShowsAForceSoManyWritesLate) {
   }
 }
 
-// A held force F on a handle of mass m: x = F t^2 / 2m, from when it is there.
-TEST(SimulatedDevice, MovesItsHandleOnlyOnceTheForceIsThere) {
+// A held force F on a handle of mass m: x = F t^2 / 2m, from its arrival.
+TEST(SimulatedDevice, MovesItsHandleWhenTheForceArrives) {
   SimulatedDeviceConfig config;
   config.delay_samples = 5;
   config.damping = 0;
@@ -158,7 +159,7 @@ TEST(SimulatedDevice, MovesItsHandleOnlyOnceTheForceIsThere) {
   EXPECT_NEAR(device.position().x(), 0.1 * 0.01 * 0.01 / (2 * config.mass), 1e-6);
 }
 
-TEST(SimulatedDevice, DropsForcesUnderWayWithTheWatchdogAndTheCable) {
+TEST(SimulatedDevice, WatchdogAndCableDropPendingForces) {
   SimulatedDeviceConfig config;
   config.delay_samples = 4;
   for (const bool cable : {false, true}) {
@@ -187,7 +188,7 @@ TEST(SimulatedDevice, RefusesDelaysBeyondItsLimit) {
   }
 }
 
-TEST(SimulatedDevice, FailsReadsAndLetsGoWhileUnplugged) {
+TEST(SimulatedDevice, FailsReadsAndReleasesWhileUnplugged) {
   SimulatedDevice device(SimulatedDeviceConfig{});
   (void)device.read(0ns);
   device.write({1, 0, 0}, 0ns);
@@ -264,7 +265,7 @@ TEST(MotionFilter, IsSmoothOnAFortyOneMicrometreEncoder) {
   EXPECT_LT(std::sqrt(square_a / n), 0.12);
 }
 
-TEST(MotionFilter, IgnoresRepeatedTimesAndPositionsThatAreNotNumbers) {
+TEST(MotionFilter, IgnoresRepeatedTimesAndNonFinitePositions) {
   MotionFilter filter;
   for (int i = 0; i < 50; ++i) {
     filter.add({1e-3 * i, 0, 0}, 1e-3 * i);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An admittance device behind the servo: what it feels like, and what the hand gets out of it, by
-// the books of its own plant.
+// An admittance device behind the servo: its feel, and the hand's energy from it, by the ledger of
+// its own plant.
 #include "reckon/haptics/devices/virtual_handle.hpp"
 
 #include <gtest/gtest.h>
@@ -80,9 +80,9 @@ double motor_stiffness(const SimulatedMotionConfig& config) {
   return (config.loop == MotionLoop::position ? 1.0 : 0.25) * config.mass * fast * fast;
 }
 
-// The sum of the springs in a row that a hand presses together by 10 mm. An impedance device has
-// two of them, an admittance device its sensor and its motors beside.
-TEST(VirtualHandle, FeelsAWallAsAnImpedanceDeviceDoesButForItsSensorAndMotors) {
+// The series of springs that a hand compresses by 10 mm: two for an impedance device; an admittance
+// device adds its sensor and its motors.
+TEST(VirtualHandle, WallFeelsAsOnAnImpedanceDevice) {
   for (const MotionLoop loop : kLoops) {
     for (const double wall : {500.0, 2000.0}) {
       const Scene scene = bench::floor(wall, 0.0);
@@ -110,8 +110,8 @@ TEST(VirtualHandle, FeelsAWallAsAnImpedanceDeviceDoesButForItsSensorAndMotors) {
   }
 }
 
-// Where the hand says nothing of the place, the mass is a mass: m v' = f - b v, at any rate.
-TEST(VirtualHandle, GoesAsAMassWithDampingAtAnyRate) {
+// If the hand ignores the position, the mass obeys m v' = f - b v, at any rate.
+TEST(VirtualHandle, MovesAsADampedMassAtAnyRate) {
   class Pushed final : public MotionDevice {
    public:
     Vector3d at = Vector3d::Zero();
@@ -144,9 +144,9 @@ TEST(VirtualHandle, GoesAsAMassWithDampingAtAnyRate) {
   }
 }
 
-// Masses, grips, loops, walls, friction, delays: what the hand got beyond what was written off is
-// the loan, and what the device did by itself while the mass stood. RECKON_SOAK=1 draws 1,000.
-TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
+// Masses, grips, loops, walls, friction, delays: beyond the written-off energy the hand gets at
+// most the loan, and the device's own motion while the mass rests. RECKON_SOAK=1 draws 1,000.
+TEST(VirtualHandle, GivesAtMostALoanForAnyDevice) {
   const unsigned seeds = test::tries(24U, 1000U);
   unsigned heavier = 0;
   double lowest = 0.0;
@@ -192,8 +192,8 @@ TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
   EXPECT_LT(heavier, seeds);
 }
 
-// Walls, hands of others, effects, bodies.
-TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverThereIsToTouch) {
+// Walls, remote hands, effects, bodies.
+TEST(VirtualHandle, GivesAtMostALoanForAnyTouch) {
   for (const test::TouchKind kind : test::kTouchKinds) {
     double most = 0.0;
     for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -220,9 +220,9 @@ TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverThereIsToTouch) {
   }
 }
 
-// 200 g behind 30 Hz swing with a hand of 300 N/m: the plain loop diverges. It becomes heavier, and
-// the wall is right.
-TEST(VirtualHandle, BecomesHeavierWhereTheDeviceIsTooSlowForItsGripAndShowsTheWallAllTheSame) {
+// 200 g behind 30 Hz oscillate with a hand of 300 N/m: the plain loop diverges. The mass increases,
+// and the wall is correct.
+TEST(VirtualHandle, IncreasesItsMassOnTooSlowADevice) {
   for (const int delay : {0, 5}) {
     SimulatedMotionConfig config = device();
     config.delay_samples = delay;
@@ -247,8 +247,8 @@ TEST(VirtualHandle, BecomesHeavierWhereTheDeviceIsTooSlowForItsGripAndShowsTheWa
   }
 }
 
-// The mass of a device of defaults is what the scene says.
-TEST(VirtualHandle, StaysAsLightAsItIsWithUsualGrips) {
+// The mass of a device of defaults is the scene's.
+TEST(VirtualHandle, KeepsItsMassWithUsualGrips) {
   for (const MotionLoop loop : kLoops) {
     for (const double grip : {50.0, 200.0, 500.0}) {
       Stand stand(bench::floor(2000.0, 0.0), device(loop, grip), [](double t) {
@@ -264,7 +264,7 @@ TEST(VirtualHandle, StaysAsLightAsItIsWithUsualGrips) {
   }
 }
 
-// In free space a hand feels the damping, and the mass where it speeds up; nothing else.
+// In free space a hand feels the damping, and the mass while accelerating; nothing else.
 TEST(VirtualHandle, FeelsLikeItsDampingInFreeSpace) {
   SimulatedMotionConfig config = device();
   config.workspace = {Vector3d::Constant(-1), Vector3d::Constant(1)};
@@ -291,9 +291,9 @@ TEST(VirtualHandle, StaysInTheWorkSpaceOfItsDevice) {
   EXPECT_LT(stand.motion.velocity().norm(), 1e-3);
 }
 
-// Cable out and in, switch off and on, a step that comes much too late: the device stands, and goes
-// on from where it is.
-TEST(VirtualHandle, StandsWhereNobodyHoldsTheSwitchOrNoReadingComes) {
+// Cable out and in, switch off and on, a step that comes much too late: the device stops, and
+// continues from its position.
+TEST(VirtualHandle, StopsWithoutSwitchOrReading) {
   for (int what = 0; what < 3; ++what) {
     Stand stand(bench::floor(500.0, 0.0), device(), presses(0.01, 0.01));
     stand.run(3s);
@@ -313,7 +313,7 @@ TEST(VirtualHandle, StandsWhereNobodyHoldsTheSwitchOrNoReadingComes) {
   }
 }
 
-TEST(VirtualHandle, HasNoForceOfTheSceneLongerThanItIsHeld) {
+TEST(VirtualHandle, DropsTheSceneForceAfterItsHoldTime) {
   Stand stand({}, device(), {});
   static_cast<void>(stand.handle.read(0ms));
   stand.handle.write({0, 0, 5}, 0ms);
@@ -328,7 +328,7 @@ TEST(VirtualHandle, HasNoForceOfTheSceneLongerThanItIsHeld) {
   EXPECT_LE(stand.handle.read(8ms).velocity.z(), before) << "what is no number is no force";
 }
 
-TEST(VirtualHandle, RefusesWhatIsOutOfRange) {
+TEST(VirtualHandle, RefusesParametersOutOfRange) {
   SimulatedMotion motion(device());
   EXPECT_THROW(VirtualHandle(motion, {0.0}), std::invalid_argument);
   EXPECT_THROW(VirtualHandle(motion, {1.0, 0.0}), std::invalid_argument);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects that a program brings: they feel as those of the list do, and whatever their code answers
-// neither takes energy out of the device nor goes unseen.
+// Effects provided by a program: they feel like built-in effects; no result of their code takes
+// energy out of the device or remains unreported.
 #include "reckon/haptics/effects/effect_custom.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Level {
   double level = 1.0;
 };
 
-/// What all effects of this file have in common.
+/// Common parts of all effects of this file.
 template <class Effect>
 class OneLevel : public CountedEffect<Effect> {
  public:
@@ -83,7 +83,7 @@ class Sandpaper : public OneLevel<Sandpaper> {
   FrictionCone cone_;
 };
 
-/// A coefficient that is no number.
+/// A coefficient of NaN.
 class Lost : public OneLevel<Lost> {
  public:
   using OneLevel::OneLevel;
@@ -94,7 +94,7 @@ class Lost : public OneLevel<Lost> {
   FrictionCone cone_{0.5, 0.4};
 };
 
-/// A force that is no number, or far beyond any device.
+/// A force of NaN, or far beyond any device.
 class Wild : public OneLevel<Wild> {
  public:
   using OneLevel::OneLevel;
@@ -105,10 +105,10 @@ class Wild : public OneLevel<Wild> {
   [[nodiscard]] double damping() const noexcept { return 0.0; }
 };
 
-/// A spring of which force, energy and stiffness need not agree: by `level` 1 it states a tenth of
-/// its stiffness, 2 a tenth of its energy, 3 it pushes in, 4 it lets go after some steps, 5 it
-/// grows in time without a word, 6 it states a tenth of both its stiffness and its energy, 7 it
-/// pushes with 2 N that cost nothing and may bend as it likes.
+/// A spring with inconsistent force, energy and stiffness. `level` 1: states a tenth of its
+/// stiffness; 2: states a tenth of its energy; 3: pushes in; 4: ends its force after some steps; 5:
+/// grows in time without declaring it; 6: states a tenth of both its stiffness and its energy; 7:
+/// pushes with 2 N at no energy and any stiffness.
 class Liar : public OneLevel<Liar> {
  public:
   using OneLevel::OneLevel;
@@ -139,12 +139,12 @@ class Liar : public OneLevel<Liar> {
   int steps_ = 0;
 };
 
-/// Takes 2 ms for each answer.
+/// Takes 2 ms per call.
 class Sleeper : public OneLevel<Sleeper> {
  public:
   using OneLevel::OneLevel;
   [[nodiscard]] Vector3d force(const EffectContact& contact) const noexcept {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // what the guard is to measure
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // must be detected by the guard
     return contact.normal;
   }
   [[nodiscard]] double damping() const noexcept { return 0.0; }
@@ -155,7 +155,7 @@ DeclaredCustomEffect declare(double level) {
   return {std::make_shared<const CustomEffectOf<Effect>>(), {level}};
 }
 
-/// A turned box, with one custom effect at most.
+/// A turned box, with at most one custom effect.
 Scene box(std::vector<DeclaredCustomEffect> effects = {}) {
   Scene scene;
   SceneObject& object = scene.objects.emplace_back();
@@ -188,7 +188,7 @@ std::vector<Vector3d> stroke_with(const DeclaredCustomEffect& effect) {
   return stroke(EffectPlan(box({effect})));
 }
 
-TEST(CustomEffect, FeelsToTheBitAsTheSameEffectOfTheList) {
+TEST(CustomEffect, FeelsEqualToTheBuiltInEffect) {
   Scene drag = box(), skin = box(), friction = box();
   drag.objects[0].effects.declare<SurfaceDrag>() = {3.0};
   skin.objects[0].effects.declare<Skin>() = {250.0, 20.0};
@@ -199,7 +199,7 @@ TEST(CustomEffect, FeelsToTheBitAsTheSameEffectOfTheList) {
   EXPECT_NE(stroke(EffectPlan(drag)), stroke(EffectPlan(box())));
 }
 
-TEST(CustomEffect, CountsInThePlanAsTheSameEffectOfTheList) {
+TEST(CustomEffect, CountsInThePlanLikeBuiltInEffects) {
   Scene skin = box();
   skin.objects[0].effects.declare<Skin>() = {250.0, 20.0};
   const EffectPlan own(box({declare<Rubber>(250.0)})), listed(skin);
@@ -212,18 +212,18 @@ TEST(CustomEffect, CountsInThePlanAsTheSameEffectOfTheList) {
   EXPECT_FALSE(own.custom_effects()[0]->not_booked);
 }
 
-TEST(CustomEffect, HasAStateOfItsOwnInEachServo) {
+TEST(CustomEffect, HasItsOwnStateInEachServo) {
   const EffectPlan plan(box({declare<Liar>(5.0)}));
   EXPECT_EQ(stroke(plan), stroke(plan));
 }
 
-TEST(CustomEffect, RefusesASecondThatHoldsTheContactPoint) {
+TEST(CustomEffect, RefusesASecondHoldOfTheContactPoint) {
   EXPECT_THROW(EffectPlan(box({declare<Sandpaper>(0.4), declare<Sandpaper>(0.5)})),
                std::invalid_argument);
   EXPECT_THROW(EffectPlan(box({declare<Honey>(kNaN)})), std::invalid_argument);
 }
 
-TEST(CustomEffect, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
+TEST(CustomEffect, NonFiniteForcesAreDroppedAndReported) {
   for (const auto& [effect, strong] :
        {std::pair{declare<Wild>(1.0), false}, std::pair{declare<Wild>(2.0), true},
         std::pair{declare<Lost>(1.0), false}}) {
@@ -241,7 +241,7 @@ TEST(CustomEffect, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
   }
 }
 
-TEST(CustomEffect, ASpringThatIsNoneIsHeldInsteadOfBooked) {
+TEST(CustomEffect, InconsistentSpringIsHeldInsteadOfBooked) {
   for (const double lie : {1.0, 2.0, 3.0, 4.0, 6.0, 7.0}) {
     const EffectPlan plan(box({declare<Liar>(lie)}));
     const bool at_once = plan.custom_effects()[0]->not_booked;
@@ -254,7 +254,7 @@ TEST(CustomEffect, ASpringThatIsNoneIsHeldInsteadOfBooked) {
   }
 }
 
-TEST(CustomEffect, OneThatTakesTooLongIsSwitchedOff) {
+TEST(CustomEffect, SlowOneIsSwitchedOff) {
   const EffectPlan plan(box({declare<Sleeper>(1.0)}));
   const std::vector<Vector3d> with = stroke(plan, 330), without = stroke(EffectPlan(box()), 330);
   const GuardReport& report = *plan.custom_effects()[0];
@@ -266,8 +266,8 @@ TEST(CustomEffect, OneThatTakesTooLongIsSwitchedOff) {
   EXPECT_EQ(with.back(), without.back());
 }
 
-// 4 and 5 are springs until they change while they are pressed.
-TEST(CustomEffect, NoneGivesTheHandWhatItDidNotPutIn) {
+// 4 and 5 are springs until they change while pressed.
+TEST(CustomEffect, NoneGivesTheHandUnpaidEnergy) {
   std::vector<std::function<DeclaredCustomEffect()>> all = {
       [] { return declare<Honey>(3.0); },     [] { return declare<Honey>(300.0); },
       [] { return declare<Rubber>(250.0); },  [] { return declare<Rubber>(1e6); },
@@ -286,7 +286,7 @@ TEST(CustomEffect, NoneGivesTheHandWhatItDidNotPutIn) {
   }
 }
 
-TEST(CustomEffect, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
+TEST(CustomEffect, NoneGivesEnergyAfterALightPress) {
   for (double lie = 1.0; lie <= 7.0; lie += 1.0) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
       Random random(seed);
@@ -296,8 +296,8 @@ TEST(CustomEffect, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
   }
 }
 
-// 4 only lets go, which takes nothing.
-TEST(CustomEffect, WithoutTheGateTheSameEffectsGiveEnergy) {
+// 4 only ends its force, which takes no energy.
+TEST(CustomEffect, WithoutTheGateTheyGiveEnergy) {
   for (const double lie : {1.0, 2.0, 3.0, 5.0, 6.0, 7.0}) {
     double made = 0.0;
     for (unsigned seed = 1; seed <= 20; ++seed) {

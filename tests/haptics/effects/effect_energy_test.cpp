@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// No effect, and no two of them, lets a hand take energy out of the device that it did not put in:
-// an adversary moves half the time as takes most out of the held force, samples come late, and the
-// force is cut now and then. Without the gate the same hands take energy from every effect that can
-// give some.
+// No effect and no pair of effects lets a hand take energy out of the device that it did not put
+// in. Half of the time an adversary makes the move that takes most energy out of the held force.
+// Samples come late, and the force is cut now and then. Without the gate the same hands take energy
+// from every effect that can give some.
 //
 // RECKON_SOAK=1 tries 1,000 seeds of each pair, otherwise a few.
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ using adversary::made_open;
 using adversary::Random;
 using adversary::run_gated;
 
-/// Within the row's range, small values as likely as large ones.
+/// Within the row's range, with a logarithmic distribution.
 template <class Parameters>
 double drawn(Random& random, const EffectParameter<Parameters>& row) {
   if (!(row.maximum > 0.0)) return any(random, row.minimum, row.maximum);
@@ -39,7 +39,7 @@ double drawn(Random& random, const EffectParameter<Parameters>& row) {
   return negative ? share * row.minimum : std::max(row.minimum, share * row.maximum);
 }
 
-/// Values that the effect takes; some pairs of values it refuses.
+/// Values accepted by the effect, which refuses some combinations.
 template <class Effect>
 typename Effect::Parameters drawn_parameters(Random& random) {
   for (;;) {
@@ -59,7 +59,7 @@ typename Effect::Parameters drawn_parameters(Random& random) {
 /// A switch for each effect of both lists.
 struct Switch {
   std::string_view name;
-  bool holds;  ///< the contact point: one at a time
+  bool holds;  ///< the contact point: only one at a time
   void (*turn_on)(Random&, SceneObject&, SceneRegion&);
 };
 
@@ -101,7 +101,7 @@ Scene scene_of(Random& random, const std::vector<Switch>& switches) {
 
 int seeds() { return test::tries(3, 1000); }
 
-TEST(EffectEnergy, NoPairOfEffectsGivesTheHandWhatItDidNotPutIn) {
+TEST(EffectEnergy, NoPairGivesTheHandUnpaidEnergy) {
   const std::vector<Switch> all = all_switches();
   int runs = 0;
   for (std::size_t a = 0; a < all.size(); ++a) {
@@ -120,7 +120,7 @@ TEST(EffectEnergy, NoPairOfEffectsGivesTheHandWhatItDidNotPutIn) {
   fmt::print("[ energy   ] {} runs\n", runs);
 }
 
-TEST(EffectEnergy, NoEffectGivesEnergyToAHandThatPutsInNextToNothing) {
+TEST(EffectEnergy, NoEffectGivesEnergyAfterALightPress) {
   for (const Switch& one : all_switches()) {
     for (int seed = 1; seed <= 10 * seeds(); ++seed) {
       Random random(static_cast<unsigned>(seed));
@@ -133,7 +133,7 @@ TEST(EffectEnergy, NoEffectGivesEnergyToAHandThatPutsInNextToNothing) {
 }
 
 // Without the gate. Cones cannot fail beside a soft spring: they only hold the contact point back.
-TEST(EffectEnergy, WithoutTheGateEveryEffectThatCanGiveEnergyDoes) {
+TEST(EffectEnergy, WithoutTheGateActiveEffectsGiveEnergy) {
   const std::set<std::string_view> kCannot{"stick_slip_friction", "place_friction",
                                            "stribeck_friction", "snags"};
   for (const Switch& one : all_switches()) {
@@ -141,7 +141,7 @@ TEST(EffectEnergy, WithoutTheGateEveryEffectThatCanGiveEnergyDoes) {
     for (int seed = 1; seed <= 40; ++seed) {
       Random random(static_cast<unsigned>(seed));
       Scene scene = scene_of(random, {one});
-      // A soft surface, so that the spring alone does not give any.
+      // A soft surface, so that the spring itself gives no energy.
       if (one.name != "spring_damper") scene.objects[0].effects.of<SpringDamper>() = {100.0, 0.0};
       made = std::max(made, made_open(scene, random));
     }

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(EffectTypes, EveryRowHasADefaultInItsRangeThatTheStructAgreesWith) {
+TEST(EffectTypes, EveryDefaultIsInRangeAndStruct) {
   for_each_effect([]<class Effect>(std::type_identity<Effect>) {
     const typename Effect::Parameters defaults{};
     for (const auto& row : Effect::kParameters) {
@@ -29,8 +29,8 @@ TEST(EffectTypes, EveryRowHasADefaultInItsRangeThatTheStructAgreesWith) {
   });
 }
 
-TEST(EffectTypes, EveryEffectHasAHeaderAndEveryHeaderARow) {
-  // What serves all effects is called effect_*.hpp; each other header is the effect of its name.
+TEST(EffectTypes, EveryEffectHasAHeaderAndARow) {
+  // Shared code of effects is in effect_*.hpp; each other header is the effect of its name.
   std::set<std::string> headers;
   for (const auto& file :
        std::filesystem::directory_iterator(reckon::test::source_dir() + "/haptics/effects")) {
@@ -51,7 +51,7 @@ TEST(EffectTypes, NoTwoShareAKeyInSceneFiles) {
   });
 }
 
-// What an effect needs beside its hook.
+// The requirements of an effect beside its hook.
 struct Nothing {
   double value = 1.0;
 };
@@ -99,7 +99,7 @@ struct Undescribed : CountedEffect<Undescribed> {
   double damping() const noexcept { return 0.0; }
 };
 
-TEST(EffectHooks, AnEffectThatNobodyCouldRunIsNone) {
+TEST(EffectHooks, EffectWithoutACompleteHookIsRejected) {
   EXPECT_TRUE(DescribedEffect<Good> && HookedEffect<Good> && WholeHooks<Good>);
   EXPECT_TRUE(DescribedEffect<Misspelt>);
   EXPECT_FALSE(HookedEffect<Misspelt>);
@@ -109,8 +109,8 @@ TEST(EffectHooks, AnEffectThatNobodyCouldRunIsNone) {
   EXPECT_FALSE(DescribedEffect<Undescribed>);
 }
 
-// Such an effect is not asked where its object is not touched.
-TEST(EffectHooks, AnEffectInContactOnlyGivesNothingOutOfContact) {
+// Such an effect is not evaluated without contact of its object.
+TEST(EffectHooks, ContactOnlyEffectsGiveNothingWithoutContact) {
   for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
     if constexpr (GivesForce<Effect> && ActsInContactOnly<Effect>) {
       typename Effect::Parameters parameters;
@@ -124,7 +124,7 @@ TEST(EffectHooks, AnEffectInContactOnlyGivesNothingOutOfContact) {
   });
 }
 
-TEST(EffectSlots, HoldWhatIsDeclaredAndWhatIsAlwaysThere) {
+TEST(EffectSlots, HoldDeclaredAndPermanentEffects) {
   DeclaredEffects effects;
   EXPECT_EQ(effects.find<StickSlipFriction>(), nullptr);
   ASSERT_NE(effects.find<SpringDamper>(), nullptr) << "whatever can be touched has a surface";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects of regions that a program brings: they feel as those of the list do, and whatever their
-// code answers neither takes energy out of the device nor goes unseen.
+// Effects of regions provided by a program: they feel like built-in effects; no result of their
+// code takes energy out of the device or remains unreported.
 #include "reckon/haptics/regions/region_custom.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Strength {
   double level = 1.0;
 };
 
-/// What all effects of this file have in common.
+/// Common parts of all effects of this file.
 template <class Effect>
 class OneStrength : public CountedEffect<Effect> {
  public:
@@ -78,7 +78,7 @@ class Fence : public OneStrength<Fence> {
   [[nodiscard]] double stiffness() const noexcept { return level(); }
 };
 
-/// A force that is no number, or far beyond any device.
+/// A force of NaN, or far beyond any device.
 class Storm : public OneStrength<Storm> {
  public:
   using OneStrength::OneStrength;
@@ -88,23 +88,23 @@ class Storm : public OneStrength<Storm> {
   }
 };
 
-/// What a false potential does.
+/// Behaviour of a false potential.
 enum Lie : int {
   tenth_stiffness = 1,  ///< states a tenth of its stiffness
   tenth_energy,         ///< states a tenth of its energy
   tenth_both,           ///< both
   pushes_out,           ///< its force has the wrong sign
-  free_push,            ///< a constant force that states no energy, and the greatest stiffness
-  vortex,     ///< a force round the z axis, as strong as that of the energy that it states
-  late_push,  ///< honest at first, then a free push
-  grows,      ///< its stiffness and energy grow in time
-  sawtooth,   ///< a constant force whose energy jumps up every millimetre
-  no_number,  ///< NaN
-  drowns,     ///< so much energy that sums lose all other digits
+  free_push,            ///< a constant force with no stated energy and the greatest stiffness
+  vortex,               ///< a force round the z axis, as strong as the force of its stated energy
+  late_push,            ///< honest at first, then a free push
+  grows,                ///< its stiffness and energy grow in time
+  sawtooth,             ///< a constant force with an energy step every millimetre
+  no_number,            ///< NaN
+  drowns,               ///< an energy so large that sums lose all other digits
   kLies
 };
 
-/// A potential of which force, energy and stiffness need not agree.
+/// A potential with inconsistent force, energy and stiffness.
 class FalsePotential : public OneStrength<FalsePotential> {
  public:
   using OneStrength::OneStrength;
@@ -125,7 +125,7 @@ class FalsePotential : public OneStrength<FalsePotential> {
         return {0.0, Vector3d(2, 0, 0), kMost};
       case vortex:
         return {honest.energy, kK * Vector3d(-p.y(), p.x(), 0), kK};
-      // More calls than the guard makes when it tries the effect.
+      // More calls than the guard makes in its trial.
       case late_push:
         return calls_ > 1000 ? RegionPotential{0.0, {2, 0, 0}, kMost} : honest;
       case grows:
@@ -164,12 +164,12 @@ class FalsePotential : public OneStrength<FalsePotential> {
   int calls_ = 0;
 };
 
-/// Takes 2 ms for each answer.
+/// Takes 2 ms per call.
 class Sloth : public OneStrength<Sloth> {
  public:
   using OneStrength::OneStrength;
   [[nodiscard]] Vector3d force(const RegionPoint&) const noexcept {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // what the guard is to measure
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // must be detected by the guard
     return Vector3d::UnitX();
   }
 };
@@ -179,7 +179,7 @@ DeclaredCustomRegionEffect declared(double level) {
   return {std::make_shared<const CustomRegionEffectOf<Effect>>(), {level}};
 }
 
-/// A turned box of 100 mm without anything solid.
+/// A turned box of 100 mm without a solid part.
 Scene haze(std::vector<DeclaredCustomRegionEffect> effects = {}) {
   Scene scene;
   SceneRegion& region = scene.regions.emplace_back();
@@ -191,7 +191,7 @@ Scene haze(std::vector<DeclaredCustomRegionEffect> effects = {}) {
   return scene;
 }
 
-/// Forces on a way from outside through the box and out again.
+/// Forces on a path from outside through the box and out again.
 std::vector<Vector3d> wave(const EffectPlan& plan, int steps = 400) {
   StaticContact contact(plan, 1e9);
   PointTool tool;
@@ -219,7 +219,7 @@ std::vector<Vector3d> wave_with(const DeclaredCustomRegionEffect& effect) {
   return wave(EffectPlan(haze({effect})));
 }
 
-TEST(CustomRegion, FeelsToTheBitAsTheSameEffectOfTheList) {
+TEST(CustomRegion, FeelsEqualToTheBuiltInEffect) {
   Scene viscosity = haze(), spring = haze(), border = haze();
   viscosity.regions[0].effects.declare<Viscosity>() = {3.0, 0.0};
   spring.regions[0].effects.declare<PointSpring>() = {150.0, 0.0, 100.0};
@@ -231,7 +231,7 @@ TEST(CustomRegion, FeelsToTheBitAsTheSameEffectOfTheList) {
   EXPECT_NE(wave(EffectPlan(spring)), wave(EffectPlan(haze())));
 }
 
-TEST(CustomRegion, CountsInThePlanAndIsToldByName) {
+TEST(CustomRegion, CountsInThePlanAndIsNamed) {
   const EffectPlan plan(haze({declared<Tie>(150.0)}));
   EXPECT_EQ(plan.regions()[0].stiffness(), 150.0);
   EXPECT_EQ(plan.stages().back().name, "a region of the program");
@@ -244,19 +244,19 @@ TEST(CustomRegion, CountsInThePlanAndIsToldByName) {
   EXPECT_THROW(EffectPlan(haze({declared<Tie>(-1.0)})), std::invalid_argument);
 }
 
-TEST(CustomRegion, ActsFarOutsideUnlessItSaysThatItDoesNot) {
+TEST(CustomRegion, ActsFarOutsideUnlessDeclaredOtherwise) {
   const Vector3d far(3.0, 0.0, 0.0);
   EXPECT_FALSE(EffectPlan(haze({declared<Tie>(150.0)})).has_within(far, 0.2));
   EXPECT_TRUE(EffectPlan(haze({declared<Tie>(150.0)})).has_within({0.02, 0.01, 0.0}, 0.2));
   EXPECT_TRUE(EffectPlan(haze({declared<Fence>(150.0)})).has_within(far, 0.2));
 }
 
-TEST(CustomRegion, HasAStateOfItsOwnInEachServo) {
+TEST(CustomRegion, HasItsOwnStateInEachServo) {
   const EffectPlan plan(haze({declared<FalsePotential>(grows)}));
   EXPECT_EQ(wave(plan), wave(plan));
 }
 
-TEST(CustomRegion, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
+TEST(CustomRegion, NonFiniteForcesAreDroppedAndReported) {
   for (const double level : {1.0, 2.0}) {
     const EffectPlan plan(haze({declared<Storm>(level)}));
     for (const Vector3d& force : wave(plan)) {
@@ -268,7 +268,7 @@ TEST(CustomRegion, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
   }
 }
 
-TEST(CustomRegion, APotentialThatIsNoneIsHeldInsteadOfBooked) {
+TEST(CustomRegion, FalsePotentialIsHeldInsteadOfBooked) {
   for (int lie = tenth_stiffness; lie < kLies; ++lie) {
     const EffectPlan plan(haze({declared<FalsePotential>(lie)}));
     EXPECT_EQ(plan.custom_effects()[0]->not_booked, lie != late_push) << lie;
@@ -278,11 +278,11 @@ TEST(CustomRegion, APotentialThatIsNoneIsHeldInsteadOfBooked) {
     (void)wave(plan, 1500);
     EXPECT_TRUE(plan.custom_effects()[0]->not_booked) << lie;
   }
-  // Its force is felt all the same, as far as there is energy.
+  // Its force is still felt, as far as there is energy.
   EXPECT_GT(wave_with(declared<FalsePotential>(tenth_energy)).at(100).norm(), 1.0);
 }
 
-TEST(CustomRegion, OneThatTakesTooLongIsSwitchedOff) {
+TEST(CustomRegion, SlowOneIsSwitchedOff) {
   const EffectPlan plan(haze({declared<Sloth>(1.0)}));
   int felt = 0;
   for (const Vector3d& force : wave(plan, 100)) felt += force.isZero(0.0) ? 0 : 1;
@@ -299,7 +299,7 @@ std::vector<DeclaredCustomRegionEffect> all_effects() {
   return all;
 }
 
-TEST(CustomRegion, NoneGivesTheHandWhatItDidNotPutIn) {
+TEST(CustomRegion, NoneGivesTheHandUnpaidEnergy) {
   for (const DeclaredCustomRegionEffect& effect : all_effects()) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
       for (const double stray : {2e-4, 2e-5, 2e-6}) {
@@ -313,7 +313,7 @@ TEST(CustomRegion, NoneGivesTheHandWhatItDidNotPutIn) {
   }
 }
 
-TEST(CustomRegion, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
+TEST(CustomRegion, NoneGivesEnergyAfterALightMove) {
   for (const DeclaredCustomRegionEffect& effect : all_effects()) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
       Random random(seed);
@@ -326,8 +326,8 @@ TEST(CustomRegion, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
   }
 }
 
-// As what they are: without the gate they give energy.
-TEST(CustomRegion, WithoutTheGateTheSameEffectsGiveEnergy) {
+// Without the gate they do give energy.
+TEST(CustomRegion, WithoutTheGateTheyGiveEnergy) {
   for (const Lie lie : {tenth_energy, pushes_out, free_push, vortex, late_push, grows, sawtooth}) {
     double made = 0.0;
     for (unsigned seed = 1; seed <= 10; ++seed) {

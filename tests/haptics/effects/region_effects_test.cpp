@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kServoPeriod = 0.001;
 
-/// A region turned and moved in S, and one device in it that is rich enough for every force.
+/// A region turned and moved in S, and one device in it with enough energy for every force.
 class Place {
  public:
   explicit Place(std::optional<Shape> shape = BoxShape{{0.2, 0.2, 0.2}}) {
@@ -47,7 +47,7 @@ class Place {
     }
     return load(velocity);
   }
-  /// The same after one step, whatever has risen by then.
+  /// The same after one step, with gains as risen by then.
   Vector3d step(const Vector3d& place) {
     forces_->move(in_scene(place), port_);
     forces_->settle(kServoPeriod, port_);
@@ -71,7 +71,7 @@ class Place {
   std::optional<RegionForces> forces_;
 };
 
-TEST(RegionTypes, EveryEffectHasAHeaderAndEveryHeaderARow) {
+TEST(RegionTypes, EveryEffectHasAHeaderAndARow) {
   std::set<std::string> headers, rows, keys;
   for (const auto& file :
        std::filesystem::directory_iterator(reckon::test::source_dir() + "/haptics/regions")) {
@@ -98,14 +98,14 @@ struct MayThrow {
   [[nodiscard]] Vector3d force(const RegionPoint&) { return Vector3d::Zero(); }
 };
 
-TEST(RegionHooks, AHookByHalfOrOneThatMayThrowIsNone) {
+TEST(RegionHooks, IncompleteOrThrowingHooksAreRejected) {
   EXPECT_TRUE(HookedRegionEffect<HalfAPotential>) << "by its force";
   EXPECT_FALSE(WholeRegionHooks<HalfAPotential>);
   EXPECT_FALSE(WholeRegionHooks<MayThrow>);
   EXPECT_TRUE(WholeRegionHooks<Viscosity> && WholeRegionHooks<PointSpring>);
 }
 
-TEST(RegionEffects, ViscosityIsAgainstTheMotionInsideAlone) {
+TEST(RegionEffects, ViscosityOpposesMotionInsideOnly) {
   Place place;
   place.effects().declare<Viscosity>() = {4.0, 10.0};
   place.begin({0, 0, 0});
@@ -114,7 +114,7 @@ TEST(RegionEffects, ViscosityIsAgainstTheMotionInsideAlone) {
   EXPECT_EQ(place.move({0.11, 0, 0}, velocity), Vector3d::Zero());
 }
 
-// The same force at any speed, a hold at rest, and the loop of hysteresis between.
+// The same force at any speed, a hold at rest, and the hysteresis loop between.
 TEST(RegionEffects, DryFrictionHoldsAndYields) {
   Place place;
   place.effects().declare<DryFriction>() = {0.6, 300.0};
@@ -154,7 +154,7 @@ TEST(RegionEffects, ForcesOfPotentialsAreTheirGradients) {
   check(PointSpring({120.0, 0.0, 3.0}));
   check(Attraction({1.5, 0.06, 0, 0, 0}));
   check(Attraction({1.5, 0.06, 1, 0, 0}));
-  // As the border of a ball of which a tenth of each place is outside.
+  // As the border of a ball with a tenth of each position vector outside.
   RegionPoint out;
   out.inside = false;
   out.beyond = {0.002, 0, -0.001};
@@ -163,7 +163,7 @@ TEST(RegionEffects, ForcesOfPotentialsAreTheirGradients) {
   EXPECT_NEAR(border.energy, 0.5 * 250.0 * 5e-6, 1e-15);
 }
 
-TEST(RegionEffects, BorderIsTheWayBackFromEachShape) {
+TEST(RegionEffects, BorderForceIsTheWayBack) {
   for (const Shape& shape :
        {Shape(SphereShape{0.1}), Shape(BoxShape{{0.2, 0.2, 0.2}}), Shape(PlaneShape{{0, 0, 2}})}) {
     Place place(shape);
@@ -175,15 +175,15 @@ TEST(RegionEffects, BorderIsTheWayBackFromEachShape) {
   }
 }
 
-// What is lifted comes back, and the force is the same all the way.
-TEST(RegionEffects, ConstantForceStoresWhatIsLifted) {
+// A lifted load returns its energy; the force is constant on the whole path.
+TEST(RegionEffects, ConstantForceStoresTheLiftingWork) {
   Place place(std::nullopt);
   place.effects().declare<ConstantForce>() = {0, 0, -1.5};
   place.begin({0, 0, 0});
   for (const double height : {0.001, 0.004, 0.02, 0.1, 0.03, 0.002, 0.0, -0.05, -0.049}) {
     EXPECT_LT((place.move({0.01, 0, height}) - Vector3d(0, 0, -1.5)).norm(), 1e-9) << height;
   }
-  // The reference lies below the lowest place by the way over which the force grows.
+  // The energy reference is below the lowest position by the distance over which the force rises.
   const double rise = ConstantForce({0, 0, -1.5}).rise();
   place.move({0, 0, -0.05});
   EXPECT_NEAR(place.stored(), 1.5 * 0.5 * rise, 1e-9);
@@ -191,7 +191,7 @@ TEST(RegionEffects, ConstantForceStoresWhatIsLifted) {
   EXPECT_NEAR(place.stored(), 1.5 * (0.1 + 0.5 * rise), 1e-9);
 }
 
-TEST(RegionEffects, OscillationBeginsWhereTheDeviceEnters) {
+TEST(RegionEffects, OscillationBeginsAtTheEntry) {
   Place place;
   place.effects().declare<Oscillation>() = {0.0, 0.5, 0.2, 40.0};
   place.begin({0, 0, 0.3});
@@ -204,7 +204,7 @@ TEST(RegionEffects, OscillationBeginsWhereTheDeviceEnters) {
   }
 }
 
-TEST(RegionEffects, RefuseShapesThatTheyCannotHave) {
+TEST(RegionEffects, RefuseUnsupportedShapes) {
   Scene scene;
   SceneRegion& region = scene.regions.emplace_back();
   region.name = "hall";
@@ -225,7 +225,7 @@ TEST(RegionEffects, RefuseShapesThatTheyCannotHave) {
 }
 
 // Through the servo: a hand that rests in a work space of 100 mm and is led out of it.
-TEST(RegionEffects, AServoHoldsAHandInItsWorkSpace) {
+TEST(RegionEffects, ServoHoldsAHandInItsWorkSpace) {
   Scene scene;
   SceneRegion& region = scene.regions.emplace_back();
   region.name = "work space";
@@ -245,7 +245,7 @@ TEST(RegionEffects, AServoHoldsAHandInItsWorkSpace) {
 }
 
 // A weight of 1 N that a hand lifts by 100 mm and lowers again.
-TEST(RegionEffects, AServoShowsAWeightUpAndDown) {
+TEST(RegionEffects, ServoRendersAWeightUpAndDown) {
   Scene scene;
   SceneRegion& region = scene.regions.emplace_back();
   region.name = "weight";
@@ -268,9 +268,8 @@ TEST(RegionEffects, AServoShowsAWeightUpAndDown) {
   EXPECT_GE(bench.least, bench::kPassive);
 }
 
-// By sensors with steps a hand comes to rest exactly there, where a spring has a slope and no
-// energy.
-TEST(RegionEffects, AServoShowsASpringToAHandThatRestedAtItsVeryMiddle) {
+// With encoder steps a hand comes to rest exactly there, where a spring has a slope and no energy.
+TEST(RegionEffects, ServoRendersASpringFromItsMiddle) {
   Scene scene;
   SceneRegion& region = scene.regions.emplace_back();
   region.name = "tether";
@@ -285,7 +284,7 @@ TEST(RegionEffects, AServoShowsASpringToAHandThatRestedAtItsVeryMiddle) {
   ASSERT_EQ(bench.servo.snapshots().read().device.norm(), 0.0);
   bench.run(std::chrono::seconds(2));
   const ServoSnapshot& last = bench.servo.snapshots().read();
-  // Of what the device shows of walls, a third.
+  // A third of the device's wall stiffness.
   EXPECT_NEAR(last.force.z(), -bench.servo.static_stiffness_limit() / 3 * last.device.z(), 1e-3);
   EXPECT_LT(last.force.z(), -0.05);
   EXPECT_EQ(last.trips, 0U);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Textures from pictures, and what a hand feels of any texture on a mesh of many triangles.
+// Textures from pictures, and the feel of any texture on a mesh of many triangles.
 #include "reckon/haptics/effects/relief.hpp"
 
 #include <gmock/gmock.h>
@@ -53,7 +53,7 @@ HeightMap waves(std::size_t count) {
   return {count, count, std::move(heights)};
 }
 
-TEST(HeightMap, HasTheHeightsOfItsTableAndRepeatsThem) {
+TEST(HeightMap, RepeatsTheHeightsOfItsTable) {
   const HeightMap map(4, 5, {0, .1F, .2F, .3F, .4F, .5F, .6F, .7F, .8F, .9F,
                              1, .9F, .8F, .7F, .6F, .5F, .4F, .3F, .2F, .1F});
   for (int period = -3; period <= 3; ++period) {
@@ -71,7 +71,7 @@ TEST(HeightMap, FollowsWavesAndTheirSlope) {
   for (int i = 0; i < 1000; ++i) {
     const Vector2d place(any(random), any(random));
     const double phase = 2.0 * std::numbers::pi * (place.x() + 2.0 * place.y());
-    // A cubic through samples of a wave of 32 is right to some 1e-4 of its height.
+    // A cubic through 32 samples of a wave has an error of some 1e-4 of its height.
     EXPECT_NEAR(map.at(place), 0.5 + 0.5 * std::cos(phase), 1e-3);
     const Vector2d slope = -std::numbers::pi * std::sin(phase) * Vector2d(1.0, 2.0);
     EXPECT_LT((map.gradient(place) - slope).norm(), 0.02 * std::numbers::pi * std::sqrt(5.0));
@@ -79,7 +79,7 @@ TEST(HeightMap, FollowsWavesAndTheirSlope) {
   EXPECT_NEAR(map.wavelength({0.01, 0.01}), 0.01 / std::sqrt(5.0), 1e-2 * 0.0045);
 }
 
-TEST(HeightMap, ItsSlopeIsTheGradientOfItsHeight) {
+TEST(HeightMap, SlopeIsTheGradientOfTheHeight) {
   const HeightMap map = HeightMap::random(7);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-2.0, 2.0);
@@ -89,13 +89,13 @@ TEST(HeightMap, ItsSlopeIsTheGradientOfItsHeight) {
     const Vector2d x(kStep, 0), y(0, kStep);
     const Vector2d differences((map.at(place + x) - map.at(place - x)) / (2 * kStep),
                                (map.at(place + y) - map.at(place - y)) / (2 * kStep));
-    // The differences themselves are right to rounding / step = 1e-10, and to step x curvature at a
-    // border of pixels.
+    // The differences themselves have errors of rounding / step = 1e-10, and of step x curvature at
+    // a border of pixels.
     EXPECT_LT((map.gradient(place) - differences).norm(), 1e-6 * 64 * 64) << place.transpose();
   }
 }
 
-TEST(HeightMap, ARandomOneIsEqualForEqualSeedsAndCannotBeLost) {
+TEST(HeightMap, RandomMapIsReproducibleAndBounded) {
   EXPECT_EQ(HeightMap::random(3).at({0.3, 0.7}), HeightMap::random(3).at({0.3, 0.7}));
   EXPECT_NE(HeightMap::random(3).at({0.3, 0.7}), HeightMap::random(4).at({0.3, 0.7}));
   const HeightMap map = HeightMap::random(3);
@@ -131,7 +131,7 @@ TEST(ImageFile, ReadsGreyColourAndSixteenBits) {
   EXPECT_EQ(image.pixels[15], 1.0F);
 }
 
-TEST(ImageFile, RefusesWhatIsNoPictureWithTheRemedy) {
+TEST(ImageFile, RefusesInvalidPicturesWithTheRemedy) {
   const test::ScratchFolder folder;
   EXPECT_THAT(refusal(folder.file("none.png")), testing::HasSubstr("none.png"));
   EXPECT_THAT(refusal(folder.file("")), testing::HasSubstr("is no file; give the path"));
@@ -156,8 +156,8 @@ std::string refusal_of(std::string_view bytes) {
   }
 }
 
-TEST(ImageFile, ReadsGreyMapsOfNetpbmAsTextAndAsOctets) {
-  // A fifth, and white, at their places; by hand after pgm(5).
+TEST(ImageFile, ReadsGreyMapsAsTextAndBinary) {
+  // A fifth, and white, at their pixels; written by hand after pgm(5).
   const auto check = [](std::string_view bytes) {
     const GreyImage image = decode_image(bytes);
     ASSERT_EQ(image.width, 4U);
@@ -174,14 +174,14 @@ TEST(ImageFile, ReadsGreyMapsOfNetpbmAsTextAndAsOctets) {
   check(std::string("P5\n4 5\n1000\n\0\0\0\xc8\0\0\0\0\3\xe8", 22) + rest + rest);
   check(std::string("P5 4 5 5 \0\1\0\0\5", 14) + rest + "P5 and a second picture");
 
-  // Through the file of an effect, as a scene names it.
+  // Through the file of an effect, as named by a scene.
   const test::ScratchFolder folder;
   std::ofstream(folder.file("steps.pgm")) << "P2 4 4 1 1 0 1 0 0 1 0 1 1 0 1 0 0 1 0 1";
   EXPECT_NEAR(Relief({folder.file("steps.pgm"), 0.01, 1e-4, 1}).map().at({0.0, 0.0}), 0.0, 1e-6);
   EXPECT_NEAR(Relief({folder.file("steps.pgm"), 0.01, 1e-4, 1}).map().at({0.25, 0.0}), 1.0, 1e-6);
 }
 
-TEST(ImageFile, RefusesBrokenGreyMapsWithThePlaceAndTakesNoMemoryForMissingPixels) {
+TEST(ImageFile, RefusesBrokenGreyMapsWithoutLargeAllocations) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal_of("P5"), HasSubstr("gives no width in its head"));
   EXPECT_THAT(refusal_of("P2 4"), HasSubstr("gives no height"));
@@ -223,7 +223,7 @@ struct Printed {
     object.effects.declare<Relief>() = picture;
     return object;
   }
-  /// Of the effect where the top is pressed by 2 mm [N, the object's axes].
+  /// Force of the effect with the top pressed by 2 mm [N, the object's axes].
   Vector3d force_at(double x, double y, double speed = 0.0) {
     const auto at = [&](double z) -> Vector3d {
       return object.pose.orientation * Vector3d(x, y, z) + object.pose.position;
@@ -236,7 +236,7 @@ struct Printed {
   }
 };
 
-TEST(Relief, IsTheSlopeOfThePictureTimesTheNormalForce) {
+TEST(Relief, IsTheSlopeTimesTheNormalForce) {
   const test::ScratchFolder folder;
   const std::filesystem::path file = folder.file("wave.png");
   // One wave across, and twice as high as wide: the top row is far in +y.
@@ -254,12 +254,12 @@ TEST(Relief, IsTheSlopeOfThePictureTimesTheNormalForce) {
     const double x = any(random), y = any(random);
     const double kx = 2 * std::numbers::pi / 0.01, ky = 2 * std::numbers::pi / 0.02;
     const Vector3d slope(-1e-4 * kx * std::sin(kx * x), -1e-4 * ky * std::sin(ky * y), 0);
-    // 2 N; the cubics through 64 heights a wave and the rounding of 16 bits are right to 1 %.
+    // 2 N; the cubics through 64 heights a wave and the rounding of 16 bits are accurate to 1 %.
     EXPECT_LT((printed.force_at(x, y) + 2.0 * slope).norm(), 0.02 * 1e-4 * kx) << x << ", " << y;
   }
 }
 
-TEST(Relief, FadesWhereSamplesWouldShowNoiseAndIsNeverSteeperThanOne) {
+TEST(Relief, FadesAgainstAliasingAndLimitsItsSlope) {
   Printed fine({{}, 0.01, 1e-4, 5});
   const double wavelength = Relief({{}, 0.01, 1e-4, 5}).wavelength();
   EXPECT_GT(fine.force_at(0.0031, 0.0012).norm(), 1e-3);
@@ -271,14 +271,14 @@ TEST(Relief, FadesWhereSamplesWouldShowNoiseAndIsNeverSteeperThanOne) {
     EXPECT_LE(cliffs.force_at(x, 0.0).norm(), 2.0 * (1 + 1e-5));
 }
 
-TEST(Relief, TellsItsWavesAndTheSpeedUpToWhichTheyAreFelt) {
+TEST(Relief, GivesItsWavelengthAndTopSpeed) {
   const Printed printed({{}, 0.01, 1e-4, 5});
   const std::string told = printed.plan.stages().back().parameters;
   EXPECT_THAT(told, testing::StartsWith("no file, width 0.01 m"));
   EXPECT_THAT(told, testing::ContainsRegex("waves of 0\\.00[0-9]+ m, whole up to 0\\.[0-9]+ m/s"));
 }
 
-/// Writes a sphere of 40 mm: an icosahedron of which each face is cut into 19 x 19.
+/// Writes a sphere of 40 mm: an icosahedron with each face cut into 19 x 19.
 void write_sphere(const std::filesystem::path& file) {
   constexpr int kCuts = 19;
   const double g = 0.5 * (1 + std::sqrt(5.0));
@@ -315,7 +315,7 @@ void write_sphere(const std::filesystem::path& file) {
   out << "endsolid\n";
 }
 
-TEST(Texture, HasNoStepAtTheEdgesOfASphereOf7220Triangles) {
+TEST(Texture, IsContinuousAtTheEdgesOfAMesh) {
   const test::ScratchFolder folder;
   write_sphere(folder.file("sphere.stl"));
   SceneObject object;

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Slabs, SurfaceEffects, testing::Values(As::box, As::mes
 struct NoParameter {
   double none = 0.0;
 };
-/// Gives no force and keeps what effects see.
+/// Gives no force and keeps the contact data of effects.
 struct Witness : CountedEffect<Witness> {
   using Parameters = NoParameter;
   static constexpr bool kInContactOnly = true;
@@ -122,7 +122,7 @@ TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
     const Vector3d& place = Witness::place;
     const Vector3d here = slab.turned(-Witness::normal_force * slope(place.x(), place.y()));
     EXPECT_LT((force - here).norm(), 1e-6 * kNormalForce * 4e-5 * (kx + ky)) << i;
-    // The contact point is where the hand presses within a clearance, 1e-7 of the size.
+    // The contact point is below the hand within a clearance, 1e-7 of the size.
     EXPECT_LT((place - Vector3d(x, y, 0.02)).norm(), 2e-7) << i;
     EXPECT_LT((force - slab.turned(-kNormalForce * slope(x, y))).norm(),
               1e-6 + 1e-4 * slope(x, y).norm())
@@ -130,8 +130,8 @@ TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
   }
 }
 
-// Four samples in a wave show it whole, two or fewer nothing.
-TEST_P(SurfaceEffects, TextureFadesWhereSamplesWouldShowNoise) {
+// Four samples in a wave render it whole, two or fewer nothing.
+TEST_P(SurfaceEffects, TextureFadesAgainstAliasing) {
   Slab slab(GetParam());
   slab.effects().declare<Texture>() = {4e-5, 0.004, 0.0, 0.0};
   const EffectPlan plan = slab.plan();
@@ -149,7 +149,7 @@ TEST_P(SurfaceEffects, TextureFadesWhereSamplesWouldShowNoise) {
   EXPECT_EQ(size(50.0), 0.0);
 }
 
-TEST_P(SurfaceEffects, DragIsAgainstTheMotionAlongTheSurfaceAlone) {
+TEST_P(SurfaceEffects, DragOpposesMotionAlongTheSurfaceOnly) {
   Slab slab(GetParam());
   slab.effects().declare<SurfaceDrag>() = {3.0};
   const EffectPlan plan = slab.plan();
@@ -162,7 +162,7 @@ TEST_P(SurfaceEffects, DragIsAgainstTheMotionAlongTheSurfaceAlone) {
   EXPECT_EQ(plan.objects()[0].damping(), 3.0);
 }
 
-// Of what does not move it is there at once.
+// On a fixed object it is there at once.
 TEST(SurfaceEffectsOf, DragOfABodyGrowsAndFades) {
   SurfaceDrag drag({2.0});
   ContactedObject object;
@@ -191,7 +191,7 @@ TEST(SurfaceEffectsOf, DragOfABodyGrowsAndFades) {
   EXPECT_NEAR(drag.force(contact).x(), -0.2, 1e-9);
 }
 
-// Of each contact anew, by the speed at which it began.
+// For each contact again, by its initial speed.
 TEST_P(SurfaceEffects, TapRingsAndDecays) {
   Slab slab(GetParam());
   const Ringing wood{8.0, 100.0, 80.0};
@@ -204,7 +204,7 @@ TEST_P(SurfaceEffects, TapRingsAndDecays) {
     EXPECT_EQ(solver.effect_force(slab.turned({0, 0, -speed}), kPeriod), Vector3d::Zero());
     for (int i = 1; i <= 60; ++i) {
       solver.step(slab.in_scene(pressed(0, 0)));
-      const double velocity = i == 1 ? -speed : 0.01;  // what it does later does not count
+      const double velocity = i == 1 ? -speed : 0.01;  // later motion does not count
       const Vector3d force = solver.effect_force(slab.turned({0.3, 0, velocity}), kPeriod);
       const double t = kPeriod * i;
       const double expected = 8.0 * speed * std::exp(-80 * t) * std::sin(2 * kPi * 100 * t);
@@ -213,8 +213,8 @@ TEST_P(SurfaceEffects, TapRingsAndDecays) {
   }
 }
 
-/// Slides along x at `speed` until it is far from where it stuck, and says the tangential over the
-/// normal force.
+/// Slides along x at `speed` until it is far from where it stuck. @return tangential over normal
+/// force
 double sliding_ratio(ContactSolver& solver, const Slab& slab, double from, double speed,
                      int steps) {
   solver.step(slab.in_scene({from, 0, 0.03}), kPeriod);
@@ -225,8 +225,8 @@ double sliding_ratio(ContactSolver& solver, const Slab& slab, double from, doubl
   return along / result.force.dot(slab.turned({0, 0, 1}));
 }
 
-// Sticks up to the static coefficient, and slides with the kinetic one: of the place where it is.
-TEST_P(SurfaceEffects, GrainHoldsByTheCoefficientOfThePlace) {
+// Sticks up to the static coefficient, and slides with the kinetic one, both of the present place.
+TEST_P(SurfaceEffects, GrainUsesTheCoefficientOfThePlace) {
   Slab slab(GetParam());
   slab.effects().declare<PlaceFriction>() = {0.5, 0.5, 0.6, 0.02, 0.0, 0.0};
   const EffectPlan plan = slab.plan();
@@ -240,7 +240,7 @@ TEST_P(SurfaceEffects, GrainHoldsByTheCoefficientOfThePlace) {
     if (i < 100) continue;
     const Vector3d place = plan.objects()[0].place_of(result.scp);
     const double ratio = result.force.dot(slab.turned({-1, 0, 0})) / kNormalForce;
-    // The cone is that of the place one step before.
+    // The cone belongs to the place one step before.
     const double here = 0.5 * (1 + 0.6 * std::cos(2 * kPi * place.x() / 0.02));
     EXPECT_NEAR(ratio, here, 0.02) << i;
     least = std::min(least, ratio);
@@ -250,14 +250,14 @@ TEST_P(SurfaceEffects, GrainHoldsByTheCoefficientOfThePlace) {
   EXPECT_NEAR(most, 0.8, 0.01);
 }
 
-TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
+TEST_P(SurfaceEffects, StribeckFrictionFallsAndGrowsWithSpeed) {
   Slab slab(GetParam());
   const Lubrication oil{0.6, 0.3, 0.02, 0.5};
   slab.effects().declare<StribeckFriction>() = oil;
   const EffectPlan plan = slab.plan();
   ContactSolver solver(plan);
   solver.reset(slab.in_scene({0, 0, 0.03}));
-  // Below the speed at which it falls most, what is felt is stick-slip.
+  // Below the speed of its steepest fall the contact is stick-slip.
   for (const double speed : {0.05, 0.1, 0.3}) {
     const double expected = 0.3 + 0.3 * std::exp(-std::pow(speed / 0.02, 2)) + 0.5 * speed;
     const int steps = static_cast<int>(0.15 / (speed * kPeriod));
@@ -275,7 +275,7 @@ TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
   EXPECT_NEAR(broke, 0.6, 0.012);
 }
 
-// Deep in thick oil too, where a step of viscosity holds the contact point back by more than it
+// Also deep in thick oil, where a step of viscosity holds the contact point back by more than it
 // slides in a period.
 TEST_P(SurfaceEffects, ViscousStribeckSlidesWithoutChatter) {
   Slab slab(GetParam());
@@ -294,8 +294,8 @@ TEST_P(SurfaceEffects, ViscousStribeckSlidesWithoutChatter) {
   EXPECT_NEAR(before, (0.2 + 10.0 * 0.3) * kNormalForce, 0.01 * kNormalForce);
 }
 
-// Torn off at `force`, and caught again where the next place is.
-TEST_P(SurfaceEffects, SnagsCatchUntilTheForceTearsTheTipOff) {
+// Torn off at `force`, and caught again at the next place.
+TEST_P(SurfaceEffects, SnagsHoldUntilTornOff) {
   Slab slab(GetParam());
   const Snagging velcro{1e5, 1.2, 5e-4, 0.1, 7};
   slab.effects().declare<Snags>() = velcro;
@@ -320,12 +320,12 @@ TEST_P(SurfaceEffects, SnagsCatchUntilTheForceTearsTheTipOff) {
   }
   EXPECT_NEAR(most, 1.2, 0.024 + kStiffness * 2e-5);
   EXPECT_GT(caught, 5);
-  // What lies behind one that was torn off may be passed over.
+  // Snags just behind a torn-off one may be skipped.
   EXPECT_LE(caught, crossed);
   EXPECT_GE(2 * caught, crossed);
 }
 
-TEST(SurfaceEffectsOf, SnagsAreAsDenseAsTheyAreAsked) {
+TEST(SurfaceEffectsOf, SnagsHaveTheConfiguredDensity) {
   const Snags snags({2e4, 1.0, 5e-4, 0.1, 3});
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-5, 5);
@@ -337,8 +337,8 @@ TEST(SurfaceEffectsOf, SnagsAreAsDenseAsTheyAreAsked) {
   EXPECT_NEAR(hits, share * kTries, 5 * std::sqrt(share * kTries));
 }
 
-// Tight until it is pierced, soft then until the tip is out again.
-TEST_P(SurfaceEffects, SkinGivesWayAndHeals) {
+// Tight until pierced, then soft until the tip is out again.
+TEST_P(SurfaceEffects, SkinBreaksAndHeals) {
   Slab slab(GetParam());
   slab.effects().declare<Skin>() = {500.0, 1.0};
   const EffectPlan plan = slab.plan();
@@ -359,7 +359,7 @@ TEST_P(SurfaceEffects, SkinGivesWayAndHeals) {
   }
 }
 
-TEST(SurfaceEffectsOf, RefuseWhatContradictsItself) {
+TEST(SurfaceEffectsOf, RefuseContradictoryParameters) {
   EXPECT_THROW(Snags({1e6, 1.0, 5e-4, 0.1, 1}), std::invalid_argument);
   EXPECT_THROW(Snags({1e4, 1.0, 5e-4, 0.1, 1.5}), std::invalid_argument);
   EXPECT_THROW(Texture({1e-3, 0.005, 0, 0}), std::invalid_argument);

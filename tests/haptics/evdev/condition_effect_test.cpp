@@ -11,7 +11,7 @@ namespace {
 
 const EffectScale kScale{0.2, 20.0, 2000.0};
 
-TEST(ConditionEffect, AWallBelowIsALeftCoefficientAndNoneToTheRight) {
+TEST(ConditionEffect, LowerWallHasOnlyALeftCoefficient) {
   const ff_condition_effect told = condition_of({0.05, 1000.0, 10.0}, WallSide::below, kScale);
   EXPECT_EQ(told.center, 16383);  // half of 0x7FFF, rounded away from the handle
   EXPECT_EQ(told.left_coeff, 16383);
@@ -21,7 +21,7 @@ TEST(ConditionEffect, AWallBelowIsALeftCoefficientAndNoneToTheRight) {
   EXPECT_EQ(told.deadband, 0);
 }
 
-TEST(ConditionEffect, AWallAboveIsItsMirror) {
+TEST(ConditionEffect, UpperWallIsItsMirror) {
   const ff_condition_effect told = condition_of({-0.05, 1000.0, 10.0}, WallSide::above, kScale);
   EXPECT_EQ(told.center, -16383);
   EXPECT_EQ(told.right_coeff, 16383);
@@ -29,13 +29,13 @@ TEST(ConditionEffect, AWallAboveIsItsMirror) {
   EXPECT_EQ(told.right_saturation, 32767);
 }
 
-TEST(ConditionEffect, MoreThanTheDeviceShowsIsItsMost) {
+TEST(ConditionEffect, ExcessStiffnessIsTheDevicesMaximum) {
   const ff_condition_effect told = condition_of({0.0, 1e6, 1e6}, WallSide::above, kScale);
   EXPECT_EQ(told.right_coeff, 0x7FFF);
   EXPECT_EQ(told.right_saturation, 0xFFFF);
 }
 
-TEST(ConditionEffect, AWallBeyondTheEndOfTheAxisIsNone) {
+TEST(ConditionEffect, WallBeyondTheAxisIsEmpty) {
   for (const double at : {-0.11, 0.11, 1e30}) {
     const ff_condition_effect told = condition_of({at, 1000.0, 10.0}, WallSide::below, kScale);
     EXPECT_EQ(told.left_coeff, 0) << at;
@@ -43,7 +43,7 @@ TEST(ConditionEffect, AWallBeyondTheEndOfTheAxisIsNone) {
   }
 }
 
-TEST(ConditionEffect, WhatIsToldNeverStoresMoreThanTheWall) {
+TEST(ConditionEffect, UploadedConditionNeverStoresMoreThanTheWall) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> at(-0.1, 0.1), k(1.0, 2500.0), most(0.0, 25.0);
   double furthest = 0;
@@ -58,7 +58,7 @@ TEST(ConditionEffect, WhatIsToldNeverStoresMoreThanTheWall) {
   EXPECT_LE(furthest, 0.1 / 32767 * 1.001);  // one step
 }
 
-TEST(ConditionEffect, AReadingIsAPlaceFromTheMiddle) {
+TEST(ConditionEffect, ReadingIsAPositionFromTheMiddle) {
   const EventAxis axis{0, 1000};
   EXPECT_DOUBLE_EQ(place_of(0, axis, kScale), -0.1);
   EXPECT_DOUBLE_EQ(place_of(500, axis, kScale), 0.0);
@@ -67,7 +67,7 @@ TEST(ConditionEffect, AReadingIsAPlaceFromTheMiddle) {
   EXPECT_DOUBLE_EQ(place_of(0, {-2147483647, 2147483647}, kScale), 0.0);
 }
 
-TEST(ConditionEffect, AnEffectHasBothAxesItsNumberAndItsLength) {
+TEST(ConditionEffect, EffectHasBothAxesItsIdAndLength) {
   SpringModel model;
   model.wall(0, WallSide::above) = {0.05, 500.0, 5.0};
   model.wall(1, WallSide::above) = {-0.05, 1000.0, 5.0};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What springs that a device renders by itself give the hand, by the books of its model.
+// Energy of the hand from springs rendered by the device itself, by the ledger of its model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,10 +32,10 @@ ContactSet hand_at(const Vector3d& centre, std::uint32_t version = 1) {
 
 struct Told {
   double least = 0, greatest = 0, fastest = 0;
-  double lead = 0;  // [J], of the servo's meter before the device's own books, at the end
+  double lead = 0;  // [J], of the servo's meter over the device's own ledger, at the end
 };
 
-// Of a run of 4 s, and a rest.
+// From a run of 4 s, and a rest.
 Told roam(unsigned seed, microseconds report, microseconds latency, double stiffness_of_hand) {
   EvdevModelOptions options;
   options.seed = seed;
@@ -62,7 +62,7 @@ Told roam(unsigned seed, microseconds report, microseconds latency, double stiff
 }
 
 // RECKON_SOAK=1 draws 120 of each, a gate one or two.
-TEST(EvdevLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
+TEST(EvdevLoop, NeverGivesUnpaidEnergy) {
   const unsigned seeds = test::tries(6U, 120U);
   test::Thinned thinned(5);
   Told all;
@@ -84,14 +84,14 @@ TEST(EvdevLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
   EXPECT_GT(all.greatest, 3.0) << "no wall was ever pressed";
 }
 
-/// The changes of one step, and what was booked for them [J].
+/// The changes of one step, and the energy booked for them [J].
 struct BookedStep {
   int changes;
   double cost;
 };
 
-/// Expects that the device's own springs got no more by the changes of a step than was booked.
-/// @param rises [J], of each change
+/// Expects that the changes of a step gave the device's own springs no more than was booked. @param
+/// rises [J], of each change
 void expect_within_books(const std::vector<BookedStep>& steps, const std::vector<double>& rises) {
   std::size_t change = 0;
   for (const BookedStep& step : steps) {
@@ -101,9 +101,9 @@ void expect_within_books(const std::vector<BookedStep>& steps, const std::vector
   }
 }
 
-// Nearly always at the greatest speed that is stated, through walls and hands of others. Of the
-// changes of each step the device's own springs get no more than was booked.
-TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated) {
+// Nearly always at the greatest declared speed, through walls and remote hands. The changes of each
+// step give the device's own springs no more than was booked.
+TEST(EvdevLoop, ChangesCostAtMostTheirBookedEnergy) {
   const unsigned seeds = test::tries(4U, 120U);
   constexpr double kSpeed = 0.4;  // [m/s]
   const Hand brisk = [](double t) {

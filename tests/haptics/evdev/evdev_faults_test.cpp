@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What fails of a force feedback device of Linux, and what is in its way: what the hand and the
-// user notice. All time is the model's.
+// Faults of a force feedback device of Linux and obstacles in its way: the effects on hand and
+// user. All time is the model's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using ::testing::Not;
 using Plugged = test::PluggedWheel;
 using Hand = Plugged::Hand;
 
-TEST(EvdevLoop, UnpluggedItShowsNothingAndIsTakenUpByItself) {
+TEST(EvdevLoop, RecoversAfterAnUnplug) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   plugged.notices.clear();
@@ -44,11 +44,11 @@ TEST(EvdevLoop, UnpluggedItShowsNothingAndIsTakenUpByItself) {
   plugged.run(milliseconds(600));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
   plugged.run(milliseconds(1000));
-  // The hand was in the wall: it begins where the hand was.
+  // The hand was in the wall: it begins at the hand's position.
   EXPECT_GE(plugged.model.least_absorbed(), -1e-9);
 }
 
-TEST(EvdevLoop, ItIsSaidOnceThatItIsNotThere) {
+TEST(EvdevLoop, ReportsAMissingDeviceOnce) {
   Plugged plugged;
   plugged.model.plug(false);
   plugged.run(milliseconds(3000));
@@ -56,7 +56,7 @@ TEST(EvdevLoop, ItIsSaidOnceThatItIsNotThere) {
   EXPECT_THAT(plugged.notices[0], HasSubstr("no device with force feedback is attached"));
 }
 
-TEST(EvdevLoop, AServoThatIsSilentLeavesNoWalls) {
+TEST(EvdevLoop, SilentServoLeavesNoWalls) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   ASSERT_GT(plugged.model.force(0), 1);
@@ -65,7 +65,7 @@ TEST(EvdevLoop, AServoThatIsSilentLeavesNoWalls) {
   EXPECT_EQ(plugged.model.force(0), 0);
 }
 
-TEST(EvdevLoop, AProgramThatHangsLeavesNoWallsAfterTheLengthOfAnEffect) {
+TEST(EvdevLoop, HungProgramLeavesNoWalls) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   ASSERT_GT(plugged.model.force(0), 1);
@@ -75,7 +75,7 @@ TEST(EvdevLoop, AProgramThatHangsLeavesNoWallsAfterTheLengthOfAnEffect) {
   EXPECT_GE(plugged.model.least_absorbed(), -1e-9);
 }
 
-TEST(EvdevLoop, WhereItsThreadStandsStillNothingIsShownAfterTheLengthOfAnEffect) {
+TEST(EvdevLoop, StoppedThreadLeavesNoWalls) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   plugged.model.pass(milliseconds(12));
@@ -87,7 +87,7 @@ TEST(EvdevLoop, WhereItsThreadStandsStillNothingIsShownAfterTheLengthOfAnEffect)
   EXPECT_EQ(plugged.last().force, Vector3d::Zero());
 }
 
-TEST(EvdevLoop, AProgramThatEndsTakesItsEffectsWithIt) {
+TEST(EvdevLoop, EndingProgramRemovesItsEffects) {
   Plugged plugged;
   plugged.run(milliseconds(50));
   ASSERT_EQ(plugged.model.effects(), 2U);
@@ -97,7 +97,7 @@ TEST(EvdevLoop, AProgramThatEndsTakesItsEffectsWithIt) {
   EXPECT_EQ(plugged.model.open_files(), 0);
 }
 
-TEST(EvdevLoop, TheSoftwareStopTakesTheWallsOff) {
+TEST(EvdevLoop, SoftwareStopRemovesTheWalls) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   ASSERT_GT(plugged.model.force(0), 1);
@@ -107,7 +107,7 @@ TEST(EvdevLoop, TheSoftwareStopTakesTheWallsOff) {
   EXPECT_TRUE(plugged.last().stopped);
 }
 
-TEST(EvdevLoop, DroppedEventsAreAskedForAgain) {
+TEST(EvdevLoop, QueriesTheStateAfterDroppedEvents) {
   Plugged plugged;
   plugged.run(milliseconds(1500));
   for (int i = 0; i < 20; ++i) {
@@ -118,7 +118,7 @@ TEST(EvdevLoop, DroppedEventsAreAskedForAgain) {
   EXPECT_EQ(plugged.last().trips, 0U);
 }
 
-TEST(EvdevLoop, AHandThatIsFasterThanStatedFeelsNothing) {
+TEST(EvdevLoop, HandFasterThanDeclaredFeelsNothing) {
   EvdevModelOptions options;
   EvdevSettings settings = settings_for(options);
   settings.max_speed = 0.2;
@@ -128,7 +128,7 @@ TEST(EvdevLoop, AHandThatIsFasterThanStatedFeelsNothing) {
   EXPECT_GT(plugged.last().trips, 0U);
 }
 
-TEST(EvdevLoop, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
+TEST(EvdevLoop, ReportsARefusedEffectAndRetries) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   plugged.notices.clear();
@@ -142,7 +142,7 @@ TEST(EvdevLoop, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
 }
 
-TEST(EvdevLoop, AWriteThatHasToWaitIsMadeAgain) {
+TEST(EvdevLoop, RetriesAWriteThatWouldBlock) {
   Plugged plugged;
   plugged.run(milliseconds(1990));
   plugged.model.fail_writes(EAGAIN);
@@ -158,7 +158,7 @@ struct Way {
   std::function<void(EvdevModel&)> wrong;
 };
 
-TEST(EvdevLoop, WhatIsInTheWayIsSaidWithTheRemedy) {
+TEST(EvdevLoop, ReportsObstaclesWithTheRemedy) {
   const Way ways[] = {
       {"sudo usermod -aG input", [](EvdevModel& m) { m.opening = -EACCES; }},
       {"another program has it for itself", [](EvdevModel& m) { m.fail(EVIOCGRAB, EBUSY); }},
@@ -187,7 +187,7 @@ TEST(EvdevLoop, WhatIsInTheWayIsSaidWithTheRemedy) {
   }
 }
 
-TEST(EvdevLoop, AnAxisThatIsNotThereIsSaid) {
+TEST(EvdevLoop, ReportsAMissingAxis) {
   EvdevModelOptions options;
   options.axes = 1;
   EvdevSettings settings = settings_for(options);
@@ -197,7 +197,7 @@ TEST(EvdevLoop, AnAxisThatIsNotThereIsSaid) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ABS_Y: say event_axes = 1")));
 }
 
-TEST(EvdevLoop, ADeviceIsFoundByAPartOfItsNameOrItsPath) {
+TEST(EvdevLoop, FindsADeviceByNameOrPath) {
   for (const char* event : {"wheel", "Model", "/dev/input/event7"}) {
     EvdevSettings settings = settings_for({});
     settings.event = event;
@@ -213,7 +213,7 @@ TEST(EvdevLoop, ADeviceIsFoundByAPartOfItsNameOrItsPath) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("whose name has 'joystick'")));
 }
 
-TEST(EvdevLimits, WhatNoDeviceTellsIsAskedForByItsKey) {
+TEST(EvdevLimits, UnknownLimitsAreRequestedByTheirKeys) {
   const EvdevSettings good = settings_for({});
   EXPECT_NO_THROW(evdev_limits(good));
   const auto without = [&](const char* key, const std::function<void(EvdevSettings&)>& take) {
@@ -233,7 +233,7 @@ TEST(EvdevLimits, WhatNoDeviceTellsIsAskedForByItsKey) {
   without("'event_axes'", [](EvdevSettings& s) { s.axes = 3; });
 }
 
-TEST(EventDevices, AreThoseWithForceFeedbackAndThoseThatMayNotBeOpened) {
+TEST(EventDevices, ListForceFeedbackAndUnopenableDevices) {
   EvdevModel model({}, Plugged::pressing);
   model.others = {"/dev/input/event0"};
   auto seen = event_devices(model);

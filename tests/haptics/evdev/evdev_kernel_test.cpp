@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The calls themselves, as a program makes them of the kernel: a device of umockdev answers. Its
-// parts are looked at by their octets, as the kernel would.
+// The calls themselves, as a program makes them to the kernel; a device of umockdev answers. Its
+// parts are checked by their octets, as the kernel reads them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input.h>
@@ -27,7 +27,7 @@ using std::chrono::nanoseconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-/// What came over the calls.
+/// Data received by the calls.
 class Wheel : public test::MockedNode {
  public:
   Wheel() : MockedNode("input/event7", "input", "/devices/wheel/input/input7/event7") {}
@@ -101,7 +101,7 @@ class Wheel : public test::MockedNode {
   }
 };
 
-/// Grabbed, with two springs uploaded and running, at full gain and without one of its own.
+/// Grabbed, with two springs uploaded and running, at full gain and without autocentre.
 void expect_taken_over(const Wheel& wheel) {
   EXPECT_EQ(wheel.grabs, 1);
   ASSERT_EQ(wheel.uploads.size(), 2U);
@@ -126,7 +126,7 @@ input_event event(int type, int code, int value) {
   return out;
 }
 
-TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
+TEST(EvdevKernel, CallsCarryTheRightNumbers) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   Wheel wheel;
   EvdevSettings settings;
@@ -152,7 +152,7 @@ TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
                      event(EV_SYN, SYN_REPORT, 0)};
     SpringModel model;
     model.wall(0, WallSide::below) = {-0.05, 1000, 10};
-    now = milliseconds(25);  // it has what it was told at first
+    now = milliseconds(25);  // the initial uploads are done
     device.state(model, now);
     loop.step(milliseconds(0));
     sample = device.read(now);
@@ -174,7 +174,7 @@ TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
     loop.step(milliseconds(0));
     EXPECT_THAT(loop.take_notices(), Contains(HasSubstr("ready")));
   }
-  // The end of the program takes the effects off.
+  // The end of the program removes the effects.
   ASSERT_EQ(wheel.erased.size(), 2U);
   EXPECT_EQ(wheel.written.back().value, 0);
 }

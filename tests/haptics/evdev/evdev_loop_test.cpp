@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device of Linux with its thread and its servo, the kernel's calls answered by a
-// model: what the hand feels, and how late. All time is the model's.
+// A force feedback device of Linux with its thread and its servo; a model answers the kernel's
+// calls: the forces at the hand, and their delay. All time is the model's.
 #include "reckon/haptics/evdev/evdev_loop.hpp"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ using ::testing::HasSubstr;
 using Plugged = test::PluggedWheel;
 using Hand = Plugged::Hand;
 
-TEST(EvdevLoop, AWallIsFeltWhereItIsWithTheForceOfItsDepth) {
+TEST(EvdevLoop, WallHasTheForceOfItsDepth) {
   Plugged plugged;
   plugged.run(milliseconds(2000));
   const EvdevModel& model = plugged.model;
@@ -48,7 +48,7 @@ TEST(EvdevLoop, AWallIsFeltWhereItIsWithTheForceOfItsDepth) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("Model wheel: ready")));
 }
 
-TEST(EvdevLoop, AWallThatStandsIsToldOnceAndNotAgain) {
+TEST(EvdevLoop, RestingWallIsUploadedOnce) {
   Plugged plugged;
   plugged.run(milliseconds(500));
   const int uploads = plugged.model.uploads();
@@ -58,14 +58,14 @@ TEST(EvdevLoop, AWallThatStandsIsToldOnceAndNotAgain) {
   EXPECT_LT(uploads, 20);
 }
 
-TEST(EvdevLoop, TheGainIsFullAndNothingCentresTheHandle) {
+TEST(EvdevLoop, SetsFullGainAndNoAutocentre) {
   Plugged plugged;
   plugged.run(milliseconds(10));
   EXPECT_EQ(plugged.model.gain(), 0xFFFF);
   EXPECT_EQ(plugged.model.autocenter(), 0);
 }
 
-TEST(EvdevLoop, AWheelOfOneAxisFeelsTheWallsAlongIt) {
+TEST(EvdevLoop, WheelOfOneAxisFeelsWallsAlongIt) {
   EvdevModelOptions options;
   options.axes = 1;
   Plugged plugged(test::room_with_post(), Plugged::pressing, options);
@@ -73,7 +73,7 @@ TEST(EvdevLoop, AWheelOfOneAxisFeelsTheWallsAlongIt) {
   EXPECT_NEAR(plugged.model.force(0), 1000 * 0.01 * 300 / 1300, 0.05);
 }
 
-TEST(EvdevLoop, AStifferWallIsSoftenedToWhatTheDeviceShows) {
+TEST(EvdevLoop, StiffWallIsSoftenedToTheDevicesLimit) {
   EvdevModelOptions options;
   EvdevSettings settings = settings_for(options);
   settings.max_stiffness = 200;
@@ -102,13 +102,13 @@ ContactSet hand_at(const Vector3d& centre, std::uint32_t version = 1) {
   return bench::only(bench::sphere(centre, 500, version));
 }
 
-TEST(EvdevLoop, AHandOfAnotherIsFeltAlongBothAxesAtOnce) {
+TEST(EvdevLoop, RemoteHandIsFeltAlongBothAxes) {
   const Hand oblique = [](double t) {
     const double way = std::min(1.0, 0.5 * t);
     return EvdevModel::Places{-0.03 * way, -0.04 * way};
   };
   Plugged plugged({}, oblique);
-  // 50 mm from the middle, where the hand wants to be.
+  // 50 mm from the middle, the hand's goal.
   plugged.servo.contacts().write(hand_at({-0.03, -0.04, 0}));
   plugged.run(milliseconds(4000));
   const EvdevModel& model = plugged.model;
@@ -126,7 +126,7 @@ TEST(EvdevLoop, AHandOfAnotherIsFeltAlongBothAxesAtOnce) {
   EXPECT_GE(model.least_absorbed(), -1e-9);
 }
 
-TEST(EvdevLoop, AHandOfAnotherDoesNotPushAHandThatNeverPressed) {
+TEST(EvdevLoop, RemoteHandDoesNotPushAnUnpressedHand) {
   const Hand rests = [](double) { return EvdevModel::Places{0, 0}; };
   Plugged plugged({}, rests);
   plugged.run(milliseconds(500));
@@ -138,13 +138,14 @@ TEST(EvdevLoop, AHandOfAnotherDoesNotPushAHandThatNeverPressed) {
   EXPECT_GE(plugged.model.least_absorbed(), -1e-9);
 }
 
-// Walls far away on both sides of a hand that never rests; they rest for 40 ms of each 100. What
-// the device is told, and how late after the place that this follows from it does that at most.
+// Walls far away on both sides of a hand that never rests; they rest for 40 ms of each 100. Records
+// the uploads and their largest delay after the position that caused them.
 struct Line {
   nanoseconds slowest{0};
   int uploads = 0;
   std::vector<std::string> notices;
-  double below = 0, above = 0;  // how far the newest wall of each side is from what was asked [m]
+  double below = 0, above = 0;  // distance of the newest wall of each side from the requested one
+                                // [m]
 };
 
 Line line_of(const EvdevModelOptions& options, nanoseconds chain, bool tells_interval = true) {
@@ -169,7 +170,7 @@ Line line_of(const EvdevModelOptions& options, nanoseconds chain, bool tells_int
     device.state(asked, model.now());
     loop.step(milliseconds(1));
     for (std::string& notice : loop.take_notices()) line.notices.push_back(std::move(notice));
-    if (model.now() < milliseconds(100)) continue;  // it is set up
+    if (model.now() < milliseconds(100)) continue;  // during set-up
     static_cast<void>(device.read(model.now()));
     const SpringModel shown = device.shown().model;
     line.below = std::max(line.below, std::abs(shown.wall(0, WallSide::below).at -
@@ -182,7 +183,7 @@ Line line_of(const EvdevModelOptions& options, nanoseconds chain, bool tells_int
   return line;
 }
 
-TEST(EvdevLoop, AChangeIsThereWithinItsDelayHoweverOftenWallsChange) {
+TEST(EvdevLoop, ChangesArriveWithinTheirDelay) {
   for (const auto takes : {microseconds(125), microseconds(1000), microseconds(2000)}) {
     for (const auto report : {milliseconds(1), milliseconds(4)}) {
       for (const bool misses : {false, true}) {
@@ -194,7 +195,7 @@ TEST(EvdevLoop, AChangeIsThereWithinItsDelayHoweverOftenWallsChange) {
         const nanoseconds least = 2 * report + 4 * takes + WallEffects::kReaction;
         const Line line = line_of(options, least);
         EXPECT_LE(line.slowest, least);
-        // Each side is as new as the other: a wall goes 0.8 m/s at most.
+        // Both sides are equally recent: a wall moves at most 0.8 m/s.
         EXPECT_LT(line.below, 0.03);
         EXPECT_LT(line.above, 0.03);
         EXPECT_GT(line.uploads, 150);
@@ -203,13 +204,13 @@ TEST(EvdevLoop, AChangeIsThereWithinItsDelayHoweverOftenWallsChange) {
   }
 }
 
-TEST(EvdevLoop, WhatDoesNotTellHowOftenItTakesAReportHasAMillisecondForEach) {
+TEST(EvdevLoop, UnknownReportIntervalIsTakenAsAMillisecond) {
   EvdevModelOptions options;
   options.takes = milliseconds(1);
   const Line line = line_of(options, milliseconds(10), false);
   EXPECT_LE(line.slowest, milliseconds(10));
   EXPECT_GT(line.uploads, 150);
-  // Or what the stated delay leaves for each.
+  // Or the share of the declared delay for each.
   options.takes = microseconds(125);
   const Line quick = line_of(options, microseconds(2500), false);
   EXPECT_THAT(quick.notices, Contains(HasSubstr("ready")));
@@ -218,7 +219,7 @@ TEST(EvdevLoop, WhatDoesNotTellHowOftenItTakesAReportHasAMillisecondForEach) {
               ::testing::ElementsAre(HasSubstr("a delay of 2 ms or more")));
 }
 
-TEST(EvdevLoop, OneThatIsTooSlowForItsDelayIsRefusedWithTheDelayThatServes) {
+TEST(EvdevLoop, SlowDeviceIsRefusedWithASuitableDelay) {
   EvdevModelOptions options;
   options.takes = milliseconds(4);
   const Line refused = line_of(options, milliseconds(8));
@@ -238,7 +239,7 @@ TEST(EvdevLoop, OneThatIsTooSlowForItsDelayIsRefusedWithTheDelayThatServes) {
   EXPECT_LE(known_late.slowest, milliseconds(21));
 }
 
-TEST(EvdevLoop, AHandleThatTellsItsPlaceSeldomDoesNotMoveInSteps) {
+TEST(EvdevLoop, SeldomReportedHandleMovesWithoutSteps) {
   for (const auto report : {milliseconds(1), milliseconds(4), milliseconds(8)}) {
     EvdevModelOptions options;
     options.report = report;

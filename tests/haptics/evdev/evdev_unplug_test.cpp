@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device that renders springs and is pulled out before any of the calls that its session makes,
-// and at random instants.
+// A device that renders springs and is pulled out before each call of its session, and at random
+// instants.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ struct Evdev {
   using Model = test::EvdevModel;
   using Options = test::EvdevModelOptions;
   static constexpr const char* kName = "Evdev";
-  static constexpr unsigned kCalls = 60;  // those of the set-up, and some of its use
+  static constexpr unsigned kCalls = 60;  // calls of the set-up, and some of its use
   static constexpr milliseconds kGone{10}, kBack{10};
   static constexpr microseconds kTick{50};
   static void pull(Model& model) { model.pull(); }
@@ -59,7 +59,7 @@ class Plugged : public test::PluggedEvents<typename Kind::Model> {
             },
             test::one_wall(), test::settings_for(typename Kind::Options{}), Kind::kTick) {}
 
-  // Some ms after it was pulled out.
+  // Some ms after the unplug.
   void expect_nothing() {
     EXPECT_EQ(this->last().force, Vector3d::Zero());
     EXPECT_FALSE(this->last().enabled);
@@ -86,7 +86,7 @@ struct Names {
 using EventKinds = ::testing::Types<Evdev, Hid>;
 TYPED_TEST_SUITE(EventUnplug, EventKinds, Names);
 
-TYPED_TEST(EventUnplug, BeforeEachCallItIsSaidAndTakenUpAgain) {
+TYPED_TEST(EventUnplug, BeforeAnyCallIsReportedAndRecovered) {
   for (unsigned call = 0; call < TypeParam::kCalls; ++call) {
     SCOPED_TRACE(call);
     Plugged<TypeParam> plugged;
@@ -107,7 +107,7 @@ TYPED_TEST(EventUnplug, BeforeEachCallItIsSaidAndTakenUpAgain) {
   }
 }
 
-TEST(EvdevUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
+TEST(EvdevUnplug, AtRandomInstantsLeavesNoForce) {
   std::mt19937 random(11);
   Plugged<Evdev> plugged;
   double most = 0;
@@ -117,7 +117,7 @@ TEST(EvdevUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
     most = std::max(most, plugged.model.force(0));
     plugged.notices.clear();
     plugged.model.pull();
-    // It may be there again before anything was noticed.
+    // It may be back before anything was noticed.
     if (round % 4 == 0) plugged.model.plug(true);
     plugged.run(milliseconds(10));
     plugged.expect_nothing();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program itself at a wheel that the kernel drives: usbhid and hid-pidff on one side, the event
-// device on the other. One wheel and one boot serve all tests, in their order. Time is that of an
-// emulated machine, which is slow and uneven: what takes long is told, and judged by seconds alone.
+// The program itself with a wheel driven by the kernel: usbhid and hid-pidff on one side, the event
+// device on the other. One wheel and one boot serve all tests, in their order. An emulated machine
+// is slow and uneven: measured times are printed, and judged only by seconds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -30,7 +30,7 @@ class EvdevVm : public VmWheel {
   static void SetUpTestSuite() { plug_in({}); }
 };
 
-TEST_F(EvdevVm, TheKernelDrivesItAndReckonSaysHowItIsUsed) {
+TEST_F(EvdevVm, KernelDrivesItAndReckonListsIt) {
   ASSERT_TRUE(comes_true([] { return std::filesystem::exists("/dev/input/event0"); }));
   Program program({"devices"});
   EXPECT_EQ(program.wait(), 0);
@@ -40,7 +40,7 @@ TEST_F(EvdevVm, TheKernelDrivesItAndReckonSaysHowItIsUsed) {
   EXPECT_THAT(said, HasSubstr("renders walls by itself along an axis"));
 }
 
-TEST_F(EvdevVm, AWallIsRenderedWithItsStiffness) {
+TEST_F(EvdevVm, WallIsRenderedWithItsStiffness) {
   const auto program = start();
   for (int i = 0; i < 4; ++i) {
     press();
@@ -52,7 +52,7 @@ TEST_F(EvdevVm, AWallIsRenderedWithItsStiffness) {
   std::printf("%s", program->said().c_str());
 }
 
-TEST_F(EvdevVm, AProgramThatEndsTakesItsEffectsWithIt) {
+TEST_F(EvdevVm, EndingProgramRemovesItsEffects) {
   const auto program = start();
   press();
   program->send(SIGINT);
@@ -62,7 +62,7 @@ TEST_F(EvdevVm, AProgramThatEndsTakesItsEffectsWithIt) {
   retreat();
 }
 
-TEST_F(EvdevVm, OneThatIsKilledLeavesNoneEither) {
+TEST_F(EvdevVm, KilledProgramLeavesNoEffects) {
   const auto program = start();
   press();
   program->send(SIGKILL);
@@ -73,7 +73,7 @@ TEST_F(EvdevVm, OneThatIsKilledLeavesNoneEither) {
   retreat();
 }
 
-TEST_F(EvdevVm, OneThatHangsLeavesNoForceOnceItsEffectsEnd) {
+TEST_F(EvdevVm, HungProgramLeavesNoForce) {
   const auto program = start();
   press();
   program->send(SIGSTOP);
@@ -89,7 +89,7 @@ TEST_F(EvdevVm, OneThatHangsLeavesNoForceOnceItsEffectsEnd) {
   retreat();
 }
 
-TEST_F(EvdevVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
+TEST_F(EvdevVm, RecoversAfterAnUnplug) {
   const auto program = start();
   press();
   wheel->unplug();
@@ -107,7 +107,7 @@ TEST_F(EvdevVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   EXPECT_EQ(program->wait(), 0) << program->said();
 }
 
-TEST_F(EvdevVm, AHandPressesThoseOfOthersOnBothSides) {
+TEST_F(EvdevVm, HandPressesRemoteHandsOnBothSides) {
   const auto program = start({"demo", "/hands.toml", "--peers", "3", "--even-if-slow"});
   const int before = changes();
   double least = 0, most = 0;
@@ -130,8 +130,8 @@ TEST_F(EvdevVm, AHandPressesThoseOfOthersOnBothSides) {
   retreat();
 }
 
-// Walls on both sides that never rest, as far away as costs nothing.
-TEST_F(EvdevVm, AChangeComesWithinItsDelayHoweverManyThereAre) {
+// Walls on both sides that never rest, far enough to cost nothing.
+TEST_F(EvdevVm, ChangesArriveWithinTheirDelay) {
   go(0);
   haptics::EvdevExchange exchange;
   haptics::EvdevSettings settings;
@@ -165,10 +165,10 @@ TEST_F(EvdevVm, AChangeComesWithinItsDelayHoweverManyThereAre) {
   });
 }
 
-TEST_F(EvdevVm, TheWheelNeverGaveMoreEnergyThanTheHandPutIn) { expect_no_energy_from_the_wheel(); }
+TEST_F(EvdevVm, WheelNeverGaveUnpaidEnergy) { expect_no_energy_from_the_wheel(); }
 
 // Walls below along x and above along y.
-TEST_F(EvdevVm, AStickFeelsWallsAlongBothItsAxes) {
+TEST_F(EvdevVm, StickFeelsWallsAlongBothAxes) {
   constexpr double kCeiling = 0.007;
   PidWheelOptions options;
   options.axes = 2;

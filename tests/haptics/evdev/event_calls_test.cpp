@@ -24,7 +24,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(KernelEventCalls, TellTheEventDevicesInTheOrderOfTheirNumbers) {
+TEST(KernelEventCalls, ListEventDevicesInNumericOrder) {
   const test::ScratchFolder folder;
   for (const char* name : {"event10", "event2", "mouse0", "event", "event3x", "js1"})
     std::ofstream(folder.file(name)) << "";
@@ -33,7 +33,7 @@ TEST(KernelEventCalls, TellTheEventDevicesInTheOrderOfTheirNumbers) {
   EXPECT_THAT(kernel_event_calls("/no/such/folder")->paths(), IsEmpty());
 }
 
-TEST(KernelEventCalls, AClosedDeviceIsNamedIfItGivesForceFeedback) {
+TEST(KernelEventCalls, NameAClosedForceFeedbackDevice) {
   const test::ScratchFolder folder;
   const auto describe = [&](const std::string& event, const char* effects) {
     const std::filesystem::path device = folder.file(event + "/device");
@@ -51,10 +51,10 @@ TEST(KernelEventCalls, AClosedDeviceIsNamedIfItGivesForceFeedback) {
   EXPECT_EQ(calls->closed_name("/dev/input/event4"), "");
 }
 
-TEST(KernelEventCalls, HowOftenADeviceTakesAndSendsAReportIsReadFromItsEndpoints) {
+TEST(KernelEventCalls, ReadReportIntervalsFromEndpoints) {
   const test::ScratchFolder folder;
   namespace fs = std::filesystem;
-  // As /sys has it: an interface of USB, its device of HID, the input device of that.
+  // As in /sys: a USB interface, its HID device, and the input device of the latter.
   const fs::path usb = folder.file("usb"), input = usb / "hid" / "input";
   fs::create_directories(input);
   fs::create_directories(folder.file("event3"));
@@ -94,7 +94,7 @@ class KernelEventPipe : public ::testing::Test {
   int file_ = -1;
 };
 
-TEST_F(KernelEventPipe, WhatIsWrittenIsReadAgainEventByEvent) {
+TEST_F(KernelEventPipe, RestoresWrittenEvents) {
   EXPECT_EQ(calls_->read(file_, events_), -EAGAIN);
   input_event event{};
   event.type = EV_FF;
@@ -108,18 +108,18 @@ TEST_F(KernelEventPipe, WhatIsWrittenIsReadAgainEventByEvent) {
   EXPECT_EQ(calls_->read(file_, events_), -EAGAIN);
 }
 
-TEST_F(KernelEventPipe, APartOfAnEventIsNoEvent) {
+TEST_F(KernelEventPipe, PartialEventIsNoEvent) {
   const std::array<char, 30> octets{};
   ASSERT_EQ(::write(file_, octets.data(), octets.size()), 30);
   EXPECT_EQ(calls_->read(file_, events_), -EIO);
 }
 
-TEST_F(KernelEventPipe, WhatIsAskedOfNoEventDeviceIsRefused) {
+TEST_F(KernelEventPipe, RefusesCallsToANonEventDevice) {
   ff_effect effect{};
   EXPECT_EQ(calls_->control(file_, EVIOCSFF, &effect), -ENOTTY);
 }
 
-TEST(KernelEventCalls, AFileThatEndsIsGoneAndOneThatIsNotThereIsSaid) {
+TEST(KernelEventCalls, ReportEndedAndMissingFiles) {
   const test::ScratchFolder folder;
   const auto calls = kernel_event_calls();
   EXPECT_EQ(calls->open(folder.file("event0")), -ENOENT);

@@ -16,7 +16,7 @@ input_event event(std::uint16_t type, std::uint16_t code, std::int32_t value) {
 }
 const input_event kReport = event(EV_SYN, SYN_REPORT, 0);
 
-TEST(EventState, IsBelievedAtTheEndOfAFrame) {
+TEST(EventState, IsValidAtTheEndOfAFrame) {
   EventState state;
   state.take(event(EV_ABS, ABS_X, 5));
   state.take(event(EV_ABS, ABS_Y, -7));
@@ -48,7 +48,7 @@ TEST(EventState, ButtonsAreNumberedInTheirOrder) {
   EXPECT_EQ(state.buttons(), 1U);
 }
 
-TEST(EventState, NothingIsBelievedAfterDroppedEventsUntilItIsSetAnew) {
+TEST(EventState, IsInvalidAfterDroppedEventsUntilSet) {
   EventState state;
   state.take(event(EV_ABS, ABS_X, 5));
   state.take(kReport);
@@ -68,7 +68,7 @@ TEST(EventState, NothingIsBelievedAfterDroppedEventsUntilItIsSetAnew) {
   EXPECT_EQ(state.axis(1), 44);
 }
 
-TEST(EventState, MoreThanThirtyTwoButtonsAreNotSeen) {
+TEST(EventState, MoreThanThirtyTwoButtonsAreIgnored) {
   std::vector<std::uint16_t> codes;
   for (std::uint16_t i = 0; i < 40; ++i) codes.push_back(static_cast<std::uint16_t>(BTN_MISC + i));
   EventState state(codes);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The wheel of the virtual machine, told by the very octets that its descriptor states.
+// The wheel of the virtual machine, driven with the octets of its descriptor.
 #include "reckon/tests/haptics/support/pid_wheel.hpp"
 
 #include <gtest/gtest.h>
@@ -29,10 +29,10 @@ Octets with_words(Octets report, std::initializer_list<int> words) {
 
 class PidWheelTold : public ::testing::Test {
  protected:
-  // A wall below -12.5 mm, of 800 N/m and 7.5 N at most, for 60 ms from each start.
+  // A wall below -12.5 mm, of 800 N/m and at most 7.5 N, for 60 ms from each start.
   void SetUp() override {
     wheel_.run_until(milliseconds(1));
-    wheel_.take(Octets{6, 1});             // its actuators on
+    wheel_.take(Octets{6, 1});             // actuators on
     wheel_.take(with_words({9, 1}, {0}));  // a new spring
     ASSERT_EQ(wheel_.feature(10), (Octets{10, kEffect, 1, 0xE8, 3}));
     Octets effect = with_words({3, kEffect, 1}, {60, 0, 0, 0});
@@ -53,13 +53,13 @@ class PidWheelTold : public ::testing::Test {
   std::chrono::nanoseconds now_ = milliseconds(1);
 };
 
-TEST_F(PidWheelTold, ASpringPressesByItsDepthUpToItsMost) {
-  press(-0.0125 - 0.011);  // of which a hand of 300 N/m gets 3 in 11
+TEST_F(PidWheelTold, SpringPressesByDepthUpToItsMaximum) {
+  press(-0.0125 - 0.011);  // 11 mm deep; a hand of 300 N/m presses 3 mm
   EXPECT_NEAR(wheel_.place(0), -0.0125 - 0.003, 1e-6);
   EXPECT_NEAR(wheel_.force(0), 800 * 0.003, 1e-3);
   press(-0.1);
   EXPECT_NEAR(wheel_.force(0), 7.5, 1e-9);
-  // The hand has put in what the spring holds: its triangle, and what is beyond its most.
+  // The hand has put in the energy of the spring: its triangle, and the part beyond saturation.
   const double depth = -0.0125 - wheel_.place(0), knee = 7.5 / 800;
   EXPECT_NEAR(wheel_.absorbed(), 7.5 * knee / 2 + 7.5 * (depth - knee), 1e-9);
   press(0.02);
@@ -68,7 +68,7 @@ TEST_F(PidWheelTold, ASpringPressesByItsDepthUpToItsMost) {
   EXPECT_EQ(wheel_.strange(), 0);
 }
 
-TEST_F(PidWheelTold, AnEffectEndsAfterItsLengthAndByEachOrderThatTakesItOff) {
+TEST_F(PidWheelTold, EffectEndsByTimeAndByEachOrder) {
   press(-0.03);
   wheel_.run_until(now_ += milliseconds(49));
   EXPECT_GT(wheel_.force(0), 1);
@@ -85,9 +85,9 @@ TEST_F(PidWheelTold, AnEffectEndsAfterItsLengthAndByEachOrderThatTakesItOff) {
   }
 }
 
-TEST_F(PidWheelTold, WhatItDoesNotKnowIsCounted) {
+TEST_F(PidWheelTold, CountsUnknownOrders) {
   wheel_.take(Octets{4, 7, 1, 1});  // there is no effect 7
-  wheel_.take(Octets{8, kEffect});  // cut short
+  wheel_.take(Octets{8, kEffect});  // truncated
   wheel_.take(Octets{99, 0});
   EXPECT_EQ(wheel_.strange(), 3);
   EXPECT_EQ(wheel_.feature(8), std::nullopt);

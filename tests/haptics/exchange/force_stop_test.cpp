@@ -11,7 +11,7 @@
 namespace reckon::haptics {
 namespace {
 
-TEST(ForceStop, IsPressedAndReleasedAndSaysByWhom) {
+TEST(ForceStop, GivesItsStateAndCause) {
   ForceStop stop;
   EXPECT_FALSE(stop.is_pressed());
   EXPECT_EQ(stop.state().cause, StopCause::none);

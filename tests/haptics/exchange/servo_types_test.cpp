@@ -21,7 +21,7 @@ ContactSet set_of(std::size_t count, std::uint32_t version) {
   return set;
 }
 
-TEST(ContactSet, ACopyTakesTheHandsInUseAndLeavesTheOthersAlone) {
+TEST(ContactSet, CopyTakesOnlyTheHandsInUse) {
   ContactSet to = set_of(kMaxRemoteHands, 1);
   to = set_of(3, 2);
   EXPECT_EQ(to.count, 3u);
@@ -31,14 +31,14 @@ TEST(ContactSet, ACopyTakesTheHandsInUseAndLeavesTheOthersAlone) {
   for (std::size_t i = 3; i < kMaxRemoteHands; ++i) EXPECT_EQ(to.hands[i].version, 1u);
 }
 
-TEST(ContactSet, ACopyNeverReachesBeyondTheArray) {
+TEST(ContactSet, CopyNeverReachesBeyondTheArray) {
   ContactSet from = set_of(kMaxRemoteHands, 4);
   from.count = 1'000'000;
   const ContactSet to = from;
   EXPECT_EQ(to.hands.back().version, 4u);
 }
 
-TEST(ServoSnapshot, ACopyIsWholeInWhatItUses) {
+TEST(ServoSnapshot, CopyIsCompleteInItsUsedParts) {
   ServoSnapshot from;
   from.step = 9;
   from.count = 2;
@@ -56,7 +56,7 @@ TEST(ServoSnapshot, ACopyIsWholeInWhatItUses) {
   EXPECT_EQ(to.left_out, 3u);
 }
 
-TEST(TripleBuffer, HandsOverSetsThatGrowAndShrink) {
+TEST(TripleBuffer, TransfersSetsThatGrowAndShrink) {
   TripleBuffer<ContactSet> buffer;
   for (std::uint32_t round = 1; round < 200; ++round) {
     const std::size_t count = round * 7 % (kMaxRemoteHands + 1);

@@ -26,7 +26,7 @@ TEST(TripleBuffer, GivesTheNewestOfManyPublicationsOnce) {
   EXPECT_EQ(buffer.read(), 5);
 }
 
-TEST(TripleBuffer, KeepsTheShownValueWhileTheWriterGoesOn) {
+TEST(TripleBuffer, KeepsTheReadValueDuringLaterWrites) {
   TripleBuffer<int> buffer;
   buffer.write(1);
   buffer.update();
@@ -36,7 +36,7 @@ TEST(TripleBuffer, KeepsTheShownValueWhileTheWriterGoesOn) {
   }
 }
 
-TEST(TripleBuffer, NeverShowsATornOrOlderValueToAnotherThread) {
+TEST(TripleBuffer, NeverShowsATornOrOlderValue) {
   using Block = std::array<std::uint64_t, 64>;
   constexpr std::uint64_t kLast = 50000;
   TripleBuffer<Block> buffer(Block{});

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A Falcon on the USB of this kernel and the hand that holds it, for whoever has vhci_hcd, as root:
+// A Falcon on the USB of this kernel and the hand that holds it, as root, on a machine with
+// vhci_hcd:
 //
 //     falcon_behind_usb [FIRMWARE]      without its firmware, if a file is named
 //

@@ -29,9 +29,9 @@ Vector3d place(std::mt19937& random) {
   return {within(random), within(random), G::kMiddle + within(random)};
 }
 
-// The chain of each leg, joint by joint, as the makers of open drivers write it: what is left of
-// the three equations between the angles and a place, after the two inner angles are eliminated
-// from two of them. Measures in metres, written out once more.
+// The chain of each leg, joint by joint, as in open drivers: the residual of the three equations
+// between the angles and a position, after the two inner angles are eliminated from two of them.
+// Dimensions in metres, written out independently.
 Vector3d left_over(const Vector3d& angles, const Vector3d& p) {
   Vector3d left;
   for (int i = 0; i < 3; ++i) {
@@ -48,7 +48,7 @@ Vector3d left_over(const Vector3d& angles, const Vector3d& p) {
   return left;
 }
 
-TEST(FalconKinematics, ComesBackToThePlaceItWasAskedForOverTheWholeWorkSpace) {
+TEST(FalconKinematics, InverseAndForwardAgreeInTheWorkSpace) {
   std::mt19937 random(1);
   double most = 0;
   double open = 0;
@@ -78,8 +78,8 @@ TEST(FalconKinematics, ReachesTheCornersOfItsWorkSpace) {
   }
 }
 
-TEST(FalconKinematics, StandsOnItsAxisWhereTheThreeAnglesAreAlike) {
-  // By symmetry the handle's offset across the legs turns it about the axis only.
+TEST(FalconKinematics, EqualAnglesGiveAPositionOnTheAxis) {
+  // By symmetry the handle's offset across the legs turns it only about the axis.
   for (const double degrees : {0.0, 20.0, 35.0, 60.0}) {
     const auto pose = falcon_pose(Vector3d::Constant(degrees * std::numbers::pi / 180.0));
     ASSERT_TRUE(pose);
@@ -89,9 +89,9 @@ TEST(FalconKinematics, StandsOnItsAxisWhereTheThreeAnglesAreAlike) {
   }
 }
 
-TEST(FalconKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
+TEST(FalconKinematics, JacobianIsTheSlopeOfThePosition) {
   std::mt19937 random(2);
-  const double h = 1e-5;  // [rad]: rounding and third derivative are alike below 1e-9
+  const double h = 1e-5;  // [rad]: rounding and third derivative are both below 1e-9
   double most = 0;
   for (int i = 0; i < 2'000; ++i) {
     const auto angles = falcon_angles(place(random));
@@ -114,7 +114,7 @@ TEST(FalconKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
   EXPECT_LT(most, 1e-7) << "[m/rad]";
 }
 
-TEST(FalconKinematics, ItsLeverIsTheGreatestWayForATurnInTheMiddle) {
+TEST(FalconKinematics, LeverIsTheGreatestDisplacementInTheMiddle) {
   const auto angles = falcon_angles(Vector3d(0, 0, G::kMiddle));
   ASSERT_TRUE(angles);
   const auto pose = falcon_pose(*angles);
@@ -123,8 +123,8 @@ TEST(FalconKinematics, ItsLeverIsTheGreatestWayForATurnInTheMiddle) {
   EXPECT_NEAR(ways.singularValues()[0], G::kLever, 1e-6);
 }
 
-// A way of 1 m along an axis turns the joints, and their friction takes its power from each turn.
-TEST(FalconKinematics, ItsJointsHaveThatFrictionForEachOfTheHandleInTheMiddle) {
+// A displacement of 1 m along an axis turns the joints, and their friction dissipates at each turn.
+TEST(FalconKinematics, JointFrictionMatchesTheHandlesInTheMiddle) {
   const auto angles = falcon_angles(Vector3d(0, 0, G::kMiddle));
   ASSERT_TRUE(angles);
   double least = std::numeric_limits<double>::infinity();
@@ -154,7 +154,7 @@ TEST(FalconKinematics, TorquesHaveThePowerOfTheForce) {
   }
 }
 
-TEST(FalconKinematics, AnswersNothingWhereThereIsNoPlace) {
+TEST(FalconKinematics, GivesNothingWithoutAPosition) {
   EXPECT_FALSE(falcon_angles({0, 0, 0.19}));   // beyond the arms' reach
   EXPECT_FALSE(falcon_angles({0, 0, 0.055}));  // between the arms
   EXPECT_FALSE(falcon_angles({0.2, 0, 0.115}));
@@ -170,8 +170,8 @@ TEST(FalconKinematics, AnswersNothingWhereThereIsNoPlace) {
   }
 }
 
-// Whatever the counts: an answer that is a place of these very angles, or none.
-TEST(FalconKinematics, NeverAnswersAPlaceOfOtherAngles) {
+// For any counts: the result is a position of these angles, or none.
+TEST(FalconKinematics, NeverGivesAPositionOfOtherAngles) {
   std::mt19937 random(4);
   std::uniform_int_distribution<int> any(-4000, 4000);
   std::uint64_t answered = 0;
@@ -208,7 +208,7 @@ TEST(FalconKinematics, CountsAndAnglesAgree) {
   EXPECT_NEAR(falcon_count_step() * pose->jacobian.col(0).norm(), 41e-6, 6e-6);
 }
 
-TEST(FalconKinematics, FrameDIsThatOfADeviceXRightYAwayZUp) {
+TEST(FalconKinematics, DeviceFrameIsRightAwayUp) {
   EXPECT_EQ(device_place({0, 0, G::kMiddle}), Vector3d(0, 0, 0));
   EXPECT_EQ(device_axes({0, 0, 1}), Vector3d(0, -1, 0)) << "towards the operator";
   EXPECT_EQ(device_axes({0, 1, 0}), Vector3d(0, 0, 1)) << "up";
@@ -216,7 +216,7 @@ TEST(FalconKinematics, FrameDIsThatOfADeviceXRightYAwayZUp) {
   EXPECT_EQ(device_axes(falcon_axes(v)), v);
 }
 
-TEST(FalconKinematics, AFalconSolvesInTheWorkSpaceWithinItsStatedStep) {
+TEST(FalconKinematics, WorkSpaceStepsAreWithinTheResolution) {
   std::mt19937 random(5);
   double most = 0;
   for (int i = 0; i < 20'000; ++i) {

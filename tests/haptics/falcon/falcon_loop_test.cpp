@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A Falcon behind the real libusb, the kernel's calls answered by a model: what fails, and what the
-// servo, the user and the handle notice. All time is the model's.
+// A Falcon behind the real libusb; a model answers the kernel's calls: faults, and their effects on
+// the servo, the user and the handle. All time is the model's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ class Plugged : public test::PluggedDevice<FalconModel> {
       : PluggedDevice(options, std::move(hand), std::make_unique<FalconDriver>(std::move(firmware)),
                       usb_limits(falcon_facts(), chosen)) {}
 
-  // Until the force is there.
+  // Until the force has arrived.
   void press() {
     run(std::chrono::seconds(3));
     ASSERT_GT(model.force().z(), 0.5) << "no wall is felt";
@@ -58,7 +58,7 @@ class Plugged : public test::PluggedDevice<FalconModel> {
   }
 };
 
-TEST(FalconLoop, PositionsAndForcesHaveTheSignsOfTheAxes) {
+TEST(FalconLoop, PositionsAndForcesHaveTheAxesSigns) {
   for (int axis = 0; axis < 3; ++axis) {
     Plugged falcon({}, [axis](double) { return Vector3d(0.02 * Vector3d::Unit(axis)); });
     falcon.servo_runs = false;
@@ -78,8 +78,8 @@ TEST(FalconLoop, PositionsAndForcesHaveTheSignsOfTheAxes) {
   }
 }
 
-// The device's own books, over where the chip's timer stands in the frame, hands and walls.
-TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
+// The device's own ledger, for all phases of the chip's timer in the frame, hands and walls.
+TEST(FalconLoop, NeverGivesUnpaidEnergy) {
   double least = 0, meter = -1, most_allowance = 0;
   std::uint64_t trips = 0, failed = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -88,10 +88,10 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
     options.tick_at = 0.05 * seed - 0.025;
     options.mass = seed % 3 == 0 ? 0.5 : 0.1;
     options.hand_stiffness = 20 * seed;
-    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // most of what stops the handle is the device's
+    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // the device itself must stop the handle
     const double wave = 2 * std::numbers::pi * (0.5 + 0.3 * seed);
     Plugged falcon(options, [=](double t) {
-      const double turn = wave * std::min(t, 2.5);  // then it holds still
+      const double turn = wave * std::min(t, 2.5);  // then it rests
       return Vector3d(0.01 * std::sin(0.7 * turn), 0.01 * std::cos(turn),
                       0.015 * std::sin(turn) - 0.01);
     });
@@ -113,9 +113,9 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
       least, meter, most_allowance, static_cast<unsigned long long>(failed));
 }
 
-// Where the chip's timer is in time for the next frame, an exchange takes 1 ms: half of what is
-// allowed for. It says so, and a wall may be twice as stiff.
-TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
+// If the chip's timer is in time for the next frame, an exchange takes 1 ms: half of the allowed
+// time. It reports this, and a wall may be twice as stiff.
+TEST(FalconLoop, DeclaredQuickChainAllowsStifferWalls) {
   const double standard = [] { return Plugged().servo.static_stiffness_limit(); }();
   UsbSettings quick = settings();
   quick.chain = std::chrono::microseconds(3500);
@@ -128,8 +128,8 @@ TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
   EXPECT_GE(falcon.least_books, -1e-9);
 }
 
-// One that is too short is not believed: readings fail, forces stay away, no energy is made.
-TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
+// A delay declared too short: readings fail, forces are dropped, no energy is made.
+TEST(FalconLoop, ChainSlowerThanDeclaredFailsReadings) {
   UsbSettings quick = settings();
   quick.chain = milliseconds(2);
   FalconModelOptions slow;
@@ -140,11 +140,11 @@ TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
   EXPECT_GE(falcon.least_books, -1e-9);
 }
 
-TEST(FalconLoop, ReportsInPiecesAreFeltAsWholeOnes) {
+TEST(FalconLoop, SplitReportsAreReadAsWholeOnes) {
   Plugged falcon;
   falcon.model.split(true);
   falcon.run(std::chrono::seconds(3));
-  // Pieces take the chip's timer again and again: an exchange may be longer than 2 ms.
+  // Pieces wait for the chip's timer repeatedly: an exchange may take longer than 2 ms.
   EXPECT_GE(falcon.least_books, -1e-9);
   EXPECT_TRUE(falcon.loop->stage());
   falcon.model.split(false);
@@ -162,7 +162,7 @@ TEST(FalconLoop, DamagedReportsGiveNoReading) {
   EXPECT_GT(falcon.model.force().z(), 0.5);
 }
 
-TEST(FalconLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
+TEST(FalconLoop, WithoutHomingThereIsNoForce) {
   FalconModelOptions options;
   options.homed = false;
   Plugged falcon(options);
@@ -174,7 +174,7 @@ TEST(FalconLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
   EXPECT_GT(falcon.model.force().z(), 0.5);
 }
 
-TEST(FalconLoop, ALatencyTimerThatCannotBeSetIsRefused) {
+TEST(FalconLoop, RefusesALatencyTimerThatCannotBeSet) {
   FalconModelOptions options;
   options.latency_set = 16;
   Plugged falcon(options);
@@ -191,7 +191,7 @@ std::vector<std::uint8_t> program() {
   return octets;
 }
 
-TEST(FalconLoop, FirmwareIsLoadedFromTheFileThatTheUserNames) {
+TEST(FalconLoop, LoadsFirmwareFromTheNamedFile) {
   const std::string file = ::testing::TempDir() + "falcon_program.bin";
   const auto octets = program();
   std::ofstream(file, std::ios::binary)
@@ -207,7 +207,7 @@ TEST(FalconLoop, FirmwareIsLoadedFromTheFileThatTheUserNames) {
   EXPECT_GT(falcon.model.force().z(), 0.5);
 }
 
-TEST(FalconLoop, WithoutFirmwareItSaysWhereToNameOne) {
+TEST(FalconLoop, WithoutFirmwareNamesItsSetting) {
   FalconModelOptions options;
   options.has_firmware = false;
   Plugged falcon(options);
@@ -215,7 +215,7 @@ TEST(FalconLoop, WithoutFirmwareItSaysWhereToNameOne) {
   EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("firmware = \"FILE\"")));
 }
 
-TEST(FalconLoop, AnEchoThatDiffersStopsTheLoading) {
+TEST(FalconLoop, DifferentEchoStopsTheLoading) {
   FalconModelOptions options;
   options.has_firmware = false;
   options.firmware = program();
@@ -225,7 +225,7 @@ TEST(FalconLoop, AnEchoThatDiffersStopsTheLoading) {
   EXPECT_THAT(falcon.notices, Contains(HasSubstr("echoes is not the firmware")));
 }
 
-TEST(FalconLoop, AFileThatIsNoFirmwareIsRefusedWithItsName) {
+TEST(FalconLoop, RefusesAFileThatIsNoFirmware) {
   const std::string file = ::testing::TempDir() + "no_program.bin";
   std::ofstream(file) << "too short";
   for (const std::string& name : {file, std::string("/no/such/file")}) {
@@ -238,7 +238,7 @@ TEST(FalconLoop, AFileThatIsNoFirmwareIsRefusedWithItsName) {
   }
 }
 
-TEST(FalconDevice, TellsWhatItsChainIs) {
+TEST(FalconDevice, ReportsTheDelayOfItsChain) {
   UsbSettings settings;
   settings.damping = 1.0;
   settings.max_force = 100;

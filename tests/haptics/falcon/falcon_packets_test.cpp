@@ -28,17 +28,17 @@ std::string text_of(const FalconCommand& command) {
 }
 
 // Written by hand: 1 = BAAA, -1 = PPPP, 0x1234 = EDCB, and so on.
-TEST(FalconPackets, WritesACommandAsItsLettersSay) {
+TEST(FalconPackets, WritesACommandAsLetters) {
   EXPECT_EQ(text_of({}), "<AAAAAAAAAAAAAA>");
   EXPECT_EQ(text_of({{1, -1, 0x1234}, 0, false}), "<BAAAPPPPEDCBAA>");
   EXPECT_EQ(text_of({{-32768, 32767, 0}, 0, false}), "<AAAIPPPHAAAAAA>");
   EXPECT_EQ(text_of({{}, 0, true}), "<AAAAAAAAAAAABA>");
   EXPECT_EQ(text_of({{}, 2 + 4, false}), "<AAAAAAAAAAAAGA>");
   EXPECT_EQ(text_of({{}, 2 + 4 + 8, true}), "<AAAAAAAAAAAAPA>");
-  EXPECT_EQ(text_of({{}, 0xFF, false}), "<AAAAAAAAAAAAOA>");  // others are no lights
+  EXPECT_EQ(text_of({{}, 0xFF, false}), "<AAAAAAAAAAAAOA>");  // other bits are no lights
 }
 
-TEST(FalconPackets, ReadsAReportAsItsLettersSay) {
+TEST(FalconPackets, ReadsAReportFromLetters) {
   FalconReportParser parser;
   // Flags: 'A' + 16 * 7 homed + 5 buttons.
   const std::string text =
@@ -49,7 +49,7 @@ TEST(FalconPackets, ReadsAReportAsItsLettersSay) {
   EXPECT_EQ(parser.malformed(), 0U);
 }
 
-TEST(FalconPackets, PutsReportsTogetherFromAnyPieces) {
+TEST(FalconPackets, AssemblesReportsFromAnyPieces) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> word(-32768, 32767), flags(0, 0x7F), piece(1, 40);
   std::string all;
@@ -68,7 +68,7 @@ TEST(FalconPackets, PutsReportsTogetherFromAnyPieces) {
     all += text + static_cast<char>('A' + f) + "A>";
     wanted.push_back(report);
   }
-  // As an FTDI chip sends them: pieces of at most 62, two octets of status before each.
+  // As sent by an FTDI chip: pieces of at most 62 octets, each after two octets of status.
   FalconReportParser parser;
   std::vector<FalconReport> read;
   for (std::size_t at = 0; at < all.size();) {
@@ -76,7 +76,7 @@ TEST(FalconPackets, PutsReportsTogetherFromAnyPieces) {
     for (int packet = 0; packet < 2 && at < all.size(); ++packet) {
       const auto n = std::min<std::size_t>(
           packet == 0 ? 62 : static_cast<std::size_t>(piece(random)), all.size() - at);
-      transfer.insert(transfer.end(), {'<', '>'});  // status may look like anything
+      transfer.insert(transfer.end(), {'<', '>'});  // status may have any value
       transfer.insert(transfer.end(), all.begin() + static_cast<std::ptrdiff_t>(at),
                       all.begin() + static_cast<std::ptrdiff_t>(at + n));
       at += n;
@@ -90,20 +90,21 @@ TEST(FalconPackets, PutsReportsTogetherFromAnyPieces) {
   EXPECT_EQ(parser.malformed(), 0U);
 }
 
-TEST(FalconPackets, DropsWhatIsNoReportAndFindsTheNext) {
+TEST(FalconPackets, DropsDamagedReportsAndFindsTheNext) {
   const std::string good = "<AAAAAAAAAAAAAA>";
   FalconReportParser parser;
   EXPECT_EQ(reports_of(parser, "rubbish>" + good).size(), 1U);
-  EXPECT_EQ(parser.malformed(), 0U);                                     // nothing had begun
-  EXPECT_EQ(reports_of(parser, "<AAAA" + good).size(), 1U);              // cut
+  EXPECT_EQ(parser.malformed(), 0U);                                     // no report had begun
+  EXPECT_EQ(reports_of(parser, "<AAAA" + good).size(), 1U);              // truncated
   EXPECT_EQ(reports_of(parser, "<AAAAAAAAAAAAAAA>" + good).size(), 1U);  // too long
-  EXPECT_EQ(reports_of(parser, "<AAAAAQAAAAAAAA>" + good).size(), 1U);   // no letter of four bits
+  // not a letter of four bits
+  EXPECT_EQ(reports_of(parser, "<AAAAAQAAAAAAAA>" + good).size(), 1U);
   EXPECT_EQ(reports_of(parser,
                        "<AAAAAAAAAAAA\xC1"
                        "A>" +
                            good)
                 .size(),
-            1U);  // no such flags
+            1U);  // invalid flags
   EXPECT_EQ(parser.malformed(), 4U);
   EXPECT_EQ(reports_of(parser, "<AAAAAAA").size(), 0U);
   parser.restart();
@@ -111,7 +112,7 @@ TEST(FalconPackets, DropsWhatIsNoReportAndFindsTheNext) {
   EXPECT_EQ(parser.malformed(), 4U);
 }
 
-TEST(FalconPackets, AnEmptyOrShortTransferHasNothing) {
+TEST(FalconPackets, EmptyOrShortTransferHasNoReport) {
   const std::vector<std::uint8_t> status{0x01, 0x60};
   int count = 0;
   each_payload_octet(std::span(status).first(0), kFalconHeader, [&](std::uint8_t) { ++count; });

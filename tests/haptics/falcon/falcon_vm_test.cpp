@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program itself at a Falcon on the USB of a real kernel: from a device that this user may not
-// open to a wall that is felt. One Falcon serves all tests, in their order. Time is that of an
-// emulated machine, which is slow and uneven: what takes long is told, and judged by seconds alone.
+// The program itself with a Falcon on the USB of a real kernel: from a device without permission to
+// a wall that is felt. One Falcon serves all tests, in their order. An emulated machine is slow and
+// uneven: measured times are printed, and judged only by seconds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 
 constexpr uid_t kUser = 1000;
 constexpr const char* kFirmware = "/tmp/firmware.bin";
-// The hand above the floor at z = 0 of its scene, and where it wants to be when it presses.
+// The hand above the floor at z = 0 of its scene, and its goal when it presses.
 const Vector3d kAbove(0, 0, 0.02), kBelow(0, 0, -0.02);
 
 class FalconVm : public ::testing::Test {
@@ -67,7 +67,7 @@ class FalconVm : public ::testing::Test {
     return falcon->with(
         [](FalconModel& one) { return one.motors() == std::array<std::int16_t, 3>{}; });
   }
-  // What udev does where the rule is installed, for this machine has none.
+  // The effect of udev with the rule installed, for this machine has no udev.
   static void let_users_open_it() {
     for (const auto& node : std::filesystem::directory_iterator("/dev/bus/usb/001"))
       std::filesystem::permissions(node, static_cast<std::filesystem::perms>(0666));
@@ -84,7 +84,7 @@ class FalconVm : public ::testing::Test {
         std::vector<std::string>{"peer", "/floor.toml", "--iface", "lo", "--json", "--for", "600s"},
         kUser);
     const bool is_ready = comes_true([&] {
-      // What its user is asked to do.
+      // The action requested of its user.
       if (program->has_said("not homed")) falcon->with([](FalconModel& one) { one.home(); });
       return program->has_said("ready: forces are shown");
     });
@@ -96,7 +96,7 @@ class FalconVm : public ::testing::Test {
 
 std::unique_ptr<UsbipFalcon> FalconVm::falcon;
 
-TEST_F(FalconVm, WhoMayNotOpenItIsToldTheRule) {
+TEST_F(FalconVm, UserWithoutPermissionGetsTheRule) {
   std::string said;
   ASSERT_TRUE(comes_true([&] {
     said = list(kUser);
@@ -111,12 +111,12 @@ TEST_F(FalconVm, WhoMayNotOpenItIsToldTheRule) {
   EXPECT_THAT(install.said(), HasSubstr("is written; plug the device in again"));
 }
 
-TEST_F(FalconVm, WithoutItsFirmwareItSaysWhatItNeeds) {
+TEST_F(FalconVm, ReportsThatItNeedsFirmware) {
   let_users_open_it();
   EXPECT_THAT(list(kUser), HasSubstr("firmware"));
 }
 
-TEST_F(FalconVm, AFloorIsFeltOnceItIsHomed) {
+TEST_F(FalconVm, FloorIsFeltAfterHoming) {
   const auto program = start();
   ASSERT_NE(program, nullptr);
   for (int i = 0; i < 3; ++i) expect_the_floor();
@@ -129,7 +129,7 @@ TEST_F(FalconVm, AFloorIsFeltOnceItIsHomed) {
   falcon->go(kAbove);
 }
 
-TEST_F(FalconVm, OneThatIsKilledLeavesForceForATenthOfASecond) {
+TEST_F(FalconVm, KilledProgramLeavesForceForATenthSecond) {
   const auto program = start();
   ASSERT_NE(program, nullptr);
   falcon->go(kBelow);
@@ -140,7 +140,7 @@ TEST_F(FalconVm, OneThatIsKilledLeavesForceForATenthOfASecond) {
   falcon->go(kAbove);
 }
 
-TEST_F(FalconVm, UnpluggedItIsTakenUpAgain) {
+TEST_F(FalconVm, RecoversAfterAnUnplug) {
   const auto program = start();
   ASSERT_NE(program, nullptr);
   falcon->go(kBelow);
@@ -162,8 +162,8 @@ TEST_F(FalconVm, UnpluggedItIsTakenUpAgain) {
   std::printf("%s", program->said().c_str());
 }
 
-// All that was done to it.
-TEST_F(FalconVm, ItNeverGaveMoreEnergyThanTheHandPutIn) {
+// After all of the above.
+TEST_F(FalconVm, NeverGaveUnpaidEnergy) {
   falcon->with([](FalconModel& one) {
     std::printf("  the hand put in %.6f J\n", one.port_work() + one.damping_loss());
     EXPECT_GE(one.port_work() + one.damping_loss(), -1e-6);

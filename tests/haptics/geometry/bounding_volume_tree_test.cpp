@@ -41,7 +41,7 @@ bool meets(const Eigen::AlignedBox3d& box, const Vector3d& origin, const Vector3
   return enter <= leave;
 }
 
-TEST(BoundingVolumeTree, NeverMissesABoxOnTheWay) {
+TEST(BoundingVolumeTree, NeverMissesABoxOnAPath) {
   for (const double scale : {1e-3, 0.1, 10.0}) {
     const auto boxes = random_boxes(3000, scale, 1);
     const BoundingVolumeTree tree(boxes, 0.0);
@@ -64,7 +64,7 @@ TEST(BoundingVolumeTree, NeverMissesABoxOnTheWay) {
   }
 }
 
-TEST(BoundingVolumeTree, NeverMissesABoxThatMeetsABox) {
+TEST(BoundingVolumeTree, NeverMissesAnIntersectingBox) {
   for (const double scale : {1e-3, 0.1, 10.0, 1e6}) {
     const auto boxes = random_boxes(3000, scale, 1);
     const BoundingVolumeTree tree(boxes, 0.0);
@@ -94,7 +94,7 @@ TEST(BoundingVolumeTree, NeverMissesABoxThatMeetsABox) {
                                    [](std::uint32_t, std::uint32_t) { FAIL() << "it is empty"; });
 }
 
-TEST(BoundingVolumeTree, VisitsFewBoxesOnAShortWay) {
+TEST(BoundingVolumeTree, VisitsFewBoxesOnAShortPath) {
   const auto boxes = random_boxes(100000, 1.0, 3);
   const BoundingVolumeTree tree(boxes, 0.0);
   std::mt19937 random(4);
@@ -125,11 +125,11 @@ TEST(BoundingVolumeTree, FindsTheNearestBoxOfAll) {
   }
 }
 
-TEST(BoundingVolumeTree, StaysShallowWhereNothingCanBeSplit) {
+TEST(BoundingVolumeTree, StaysShallowWithoutASplit) {
   const std::vector<Eigen::AlignedBox3d> same(
       5000, Eigen::AlignedBox3d(Vector3d::Zero(), Vector3d::Ones()));
   EXPECT_LE(BoundingVolumeTree(same, 0.0).depth(), 14);
-  // Sizes and places over many powers of two: the worst for a surface-area split.
+  // Sizes and places over many powers of two: the worst case for a surface-area split.
   std::vector<Eigen::AlignedBox3d> wild;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d at = Vector3d::Constant(std::ldexp(1.0, -i));
@@ -147,7 +147,7 @@ TEST(BoundingVolumeTree, AnswersNothingWhenEmpty) {
   EXPECT_EQ(visits, 0);
 }
 
-// Which triangle a way meets first, asked of each one by one.
+// The first triangle on a path, compared with a check of each triangle.
 void expect_first_contact(const SurfaceMesh& mesh, const Vector3d& origin, const Vector3d& step,
                           double radius, int& hits) {
   const double stop = radius + mesh.sweep_radius();
@@ -167,7 +167,7 @@ void expect_first_contact(const SurfaceMesh& mesh, const Vector3d& origin, const
   hits += found && hit.t > 0.0 ? 1 : 0;
 }
 
-TEST(SurfaceMesh, FirstContactOfAPointAndOfABallEqualsBruteForce) {
+TEST(SurfaceMesh, FirstContactEqualsBruteForce) {
   for (const double size : {1e-3, 0.2, 200.0}) {
     const SurfaceMesh mesh = test::make_mesh(test::torus(40, 20), size);
     std::mt19937 random(7);

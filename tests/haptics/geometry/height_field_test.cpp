@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Solids whose upper side is a picture, against the closed form of what was drawn into it.
+// Solids with a picture as upper side, against the closed form of the drawn heights.
 #include "reckon/haptics/geometry/height_field.hpp"
 
 #include <gmock/gmock.h>
@@ -22,10 +22,10 @@ using testing::HasSubstr;
 constexpr int kColumns = 161, kRows = 81;
 constexpr double kWidth = 0.16, kLength = 0.08, kHeight = 0.02, kBase = 0.015;  // [m]
 constexpr double kPixel = 0.001;                                                // [m]
-constexpr double kStep = kHeight / 65535;  // [m], between two greys
+constexpr double kStep = kHeight / 65535;  // [m], between two grey levels
 constexpr double kStiffness = 800.0;
 
-/// Draws heights in [0, 1] over the rectangle, its middle the origin, as 16-bit PGM.
+/// Draws heights in [0, 1] over the rectangle about the origin, as 16-bit PGM.
 void draw(const std::string& file, const std::function<double(double x, double y)>& height) {
   std::ofstream out(file, std::ios::binary);
   out << "P5 " << kColumns << ' ' << kRows << " 65535\n";
@@ -52,7 +52,7 @@ class Land {
     plan_ = EffectPlan(Scene{"", {object}});
     solver_.emplace(plan_);
   }
-  /// Force on a hand that goes from `above` to `at`, in the object's axes [N].
+  /// Force on a hand that moves from `above` to `at`, in the object's axes [N].
   Vector3d press(const Vector3d& above, const Vector3d& at) {
     (void)solver_->reset(in_scene(above));
     ContactResult result;
@@ -81,7 +81,7 @@ class HeightField : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-TEST_F(HeightField, IsAClosedSolidOfItsVolumeWithNamedSides) {
+TEST_F(HeightField, IsAClosedSolidWithNamedSides) {
   const Land land(drawn([](double x, double) { return 0.5 + x / kWidth; }));
   const MeshReport& report = land.mesh().report();
   EXPECT_TRUE(report.closed);
@@ -102,8 +102,8 @@ TEST_F(HeightField, IsAClosedSolidOfItsVolumeWithNamedSides) {
   }
 }
 
-// Force and depth as on an inclined plane, within the steps of the greys. Up is y.
-TEST_F(HeightField, ASlopeIsFeltAsAPlane) {
+// Force and depth as on an inclined plane, within the grey levels. Up is y.
+TEST_F(HeightField, SlopeFeelsLikeAPlane) {
   const auto height = [](double x, double y) { return 0.5 + 0.3 * x / kWidth - 0.6 * y / kLength; };
   Land land(drawn(height));
   const Vector3d normal =
@@ -116,7 +116,7 @@ TEST_F(HeightField, ASlopeIsFeltAsAPlane) {
     const double top = kHeight * height(x, y);
     const Vector3d force = land.press({x, y, top + 0.01}, {x, y, top - below});
     const Vector3d plane = kStiffness * below * normal.z() * normal;
-    // Half a step of grey in depth; in direction a step over a pixel. The contact point rests
+    // Half a grey step in depth; in direction a step over a pixel. The contact point rests
     // kRelativeClearance of the size above the surface.
     const double depth_error = kStep + 2 * kRelativeClearance * land.mesh().size();
     EXPECT_LE((force - plane).norm(),
@@ -125,9 +125,9 @@ TEST_F(HeightField, ASlopeIsFeltAsAPlane) {
   }
 }
 
-// h = 1 - x² / a² - y² / b²: from a place d below a point of it along its normal, that point is the
-// nearest while d is less than the radius of curvature.
-TEST_F(HeightField, AParaboloidIsFeltAlongItsNormals) {
+// h = 1 - x² / a² - y² / b²: at a distance d below a surface point along its normal, that point is
+// the nearest while d is less than the radius of curvature.
+TEST_F(HeightField, ParaboloidIsFeltAlongItsNormals) {
   const double a = 0.5 * kWidth, b = 0.5 * kLength * std::sqrt(2.0);
   Land land(drawn(
       [&](double x, double y) { return std::max(0.0, 1.0 - x * x / (a * a) - y * y / (b * b)); }));
@@ -141,8 +141,8 @@ TEST_F(HeightField, AParaboloidIsFeltAlongItsNormals) {
     const Vector3d normal =
         Vector3d(2 * kHeight * x / (a * a), 2 * kHeight * y / (b * b), 1).normalized();
     const Vector3d force = land.press(point + 0.01 * normal, point - depth * normal);
-    // A facet of two pixels lies below the arc by bend pixel² / 4 and is turned by bend pixel;
-    // greys and the clearance as on the slope.
+    // A facet of two pixels is below the arc by bend pixel² / 4 and is turned by bend pixel; grey
+    // levels and clearance as on the slope.
     const double facet = 0.25 * bend * kPixel * kPixel + kStep;
     const double turned = std::sqrt(2.0) * (bend * kPixel + kStep / kPixel);
     const double most =
@@ -154,7 +154,7 @@ TEST_F(HeightField, AParaboloidIsFeltAlongItsNormals) {
   std::printf("[ height   ] largest error %.4f of the force\n", worst);
 }
 
-TEST_F(HeightField, ItsSidesAndItsBottomAreSolidAndItsPatchesFeelAsDeclared) {
+TEST_F(HeightField, SidesAndBottomAreSolidWithTheirPatches) {
   const HeightsShape shape = drawn([](double, double) { return 1.0; });
   Land land(shape);
   const auto felt = [&](const Vector3d& from, const Vector3d& way) -> Vector3d {
@@ -176,7 +176,7 @@ TEST_F(HeightField, ItsSidesAndItsBottomAreSolidAndItsPatchesFeelAsDeclared) {
   EXPECT_EQ(plan.objects()[0].patches->patches.at(1).triangles, 2U * (kColumns - 1) * (kRows - 1));
 }
 
-TEST_F(HeightField, ALengthOfItsOwnStretchesItAndWhatCannotBeIsRefused) {
+TEST_F(HeightField, LengthStretchesItAndInvalidShapesAreRefused) {
   HeightsShape shape = drawn([](double, double) { return 0.0; });
   shape.length = 0.3;
   EXPECT_NEAR(SurfaceMesh::load_heights(shape).bounds().sizes().y(), 0.3, 1e-12);

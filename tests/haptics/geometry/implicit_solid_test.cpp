@@ -37,7 +37,7 @@ struct Pokes {
   double deepest = 0.0, highest = 0.0;  // [m], of the SCP's f - radius
 };
 
-// From outside into the solid, through it, along it and out, in leaps of all lengths.
+// From outside into the solid, through it, along it and out, in jumps of all lengths.
 void poke(const ImplicitSolid& object, const ContactShape& shape, double radius, int rounds,
           Pokes& pokes) {
   std::mt19937 random(11);
@@ -63,7 +63,8 @@ void poke(const ImplicitSolid& object, const ContactShape& shape, double radius,
         continue;
       }
       ++pokes.touching;
-      if (above >= kTight) {  // a leap may take more than one update has: see kMostLandings
+      if (above >= kTight) {  // a jump may need more iterations than one update has: see
+                              // kMostLandings
         ++pokes.unfinished;
         point.update(shape, device, i % 2 == 0 ? nullptr : &friction);
       }
@@ -73,7 +74,7 @@ void poke(const ImplicitSolid& object, const ContactShape& shape, double radius,
   }
 }
 
-TEST(ImplicitSolid, NoPokeBringsTheContactPointInsideNorAwayFromTheSurface) {
+TEST(ImplicitSolid, NoPokeMovesThePointOffTheSurface) {
   Pokes all;
   for (const test::NamedSolid& named : test::implicit_solids()) {
     for (const double radius : {0.0, 3e-3}) {
@@ -105,7 +106,7 @@ SurfaceContactPoint pressed(const ContactShape& shape, const Vector3d& from, con
   return point;
 }
 
-TEST(ImplicitSolid, HoldsTheContactPointAtTheFootOfTheDevice) {
+TEST(ImplicitSolid, HoldsTheContactPointNearestToTheDevice) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const ContactShape cylinder = solid(CylinderShape{0.03, 0.2});
@@ -122,7 +123,7 @@ TEST(ImplicitSolid, HoldsTheContactPointAtTheFootOfTheDevice) {
       EXPECT_LT((wall.scp() - on_wall).norm(), kTight);
       EXPECT_LT((wall.normal() - out).norm(), 1e-7);
 
-      // Then on from there, round both of its curves.
+      // Then on from there, around both of its curves.
       const double lift = 6.28 * share(random);
       const Vector3d middle = 0.04 * out;
       const Vector3d steep = std::cos(lift) * out + std::sin(lift) * Vector3d::UnitZ();
@@ -140,7 +141,7 @@ TEST(ImplicitSolid, HoldsTheContactPointAtTheFootOfTheDevice) {
   }
 }
 
-TEST(ImplicitSolid, IsNeverCrossedHoweverThin) {
+TEST(ImplicitSolid, ThinSolidIsNeverCrossed) {
   using enum CsgOperation;
   for (const double thickness : {1e-3, 1e-5, 1e-7}) {
     const CsgShape shell{
@@ -163,8 +164,8 @@ TEST(ImplicitSolid, IsNeverCrossedHoweverThin) {
   }
 }
 
-// A hand that holds still in a concave edge, then in the corner of three blocks: where the planes
-// of both or all three meet, at once, and it stays there to the bit.
+// A hand at rest in a concave edge, then in the corner of three blocks: at once the SCP is at the
+// intersection of the two or three planes, and it stays there to the bit.
 TEST(ImplicitSolid, RestsInConcaveEdgesAndCorners) {
   using enum CsgOperation;
   const ContactShape edge = solid(test::step_shape(0.0));
@@ -193,7 +194,8 @@ TEST(ImplicitSolid, RestsInConcaveEdgesAndCorners) {
   }
 }
 
-// Round a fillet without a jump: a way of 10 um of the device moves the SCP by no more than a few.
+// Around a fillet without a jump: a motion of the device by 10 um moves the SCP by at most a few
+// times that.
 TEST(ImplicitSolid, FollowsAFilletWithoutAJump) {
   const auto step = solid(test::step_shape(0.01));
   const ContactShape shape = step;
@@ -213,7 +215,7 @@ TEST(ImplicitSolid, FollowsAFilletWithoutAJump) {
   }
 }
 
-TEST(ImplicitSolid, SticksWithoutDriftThenSlidesAtTheKineticShare) {
+TEST(ImplicitSolid, SticksWithoutDriftThenSlides) {
   const ContactShape cylinder = solid(CylinderShape{0.03, 0.2});
   FrictionCone friction(0.5, 0.35);
   SurfaceContactPoint point = pressed(cylinder, {0.05, 0.0, 0.0}, {0.028, 0.0, 0.0}, &friction);
@@ -233,7 +235,7 @@ TEST(ImplicitSolid, SticksWithoutDriftThenSlidesAtTheKineticShare) {
   }
 }
 
-// A ring that lies on a floor: the hand goes down beside it, into the concave edge all round.
+// A ring on a floor: the hand moves down beside it, into the concave edge all around.
 TEST(ImplicitSolid, SharesTheContactPointWithOtherObjects) {
   Scene scene;
   scene.objects.resize(2);
@@ -254,7 +256,7 @@ TEST(ImplicitSolid, SharesTheContactPointWithOtherObjects) {
   }
 }
 
-TEST(ImplicitSolid, StartsOutsideOfWhatItIsIn) {
+TEST(ImplicitSolid, StartsOutsideOfASolidAroundIt) {
   std::mt19937 random(5);
   for (const test::NamedSolid& named : test::implicit_solids()) {
     const ContactShape shape = named.solid;
@@ -268,7 +270,7 @@ TEST(ImplicitSolid, StartsOutsideOfWhatItIsIn) {
   }
 }
 
-TEST(ImplicitSolid, NeedsNoHeapAtAnUpdate) {
+TEST(ImplicitSolid, NeedsNoHeapInAnUpdate) {
   const ContactShape shape = solid(test::bracket_shape(0.004));
   SurfaceContactPoint point;
   point.reset(shape, {0.0, 0.0, 0.2});
@@ -278,7 +280,7 @@ TEST(ImplicitSolid, NeedsNoHeapAtAnUpdate) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
-TEST(ImplicitSolid, RefusesMeasuresThatMakeNoSolid) {
+TEST(ImplicitSolid, RefusesInvalidDimensions) {
   using enum CsgOperation;
   EXPECT_THROW(ImplicitSolid(CylinderShape{0.0, 0.1}), std::invalid_argument);
   EXPECT_THROW(ImplicitSolid(ConeShape{0.0, 0.0, 0.1}), std::invalid_argument);

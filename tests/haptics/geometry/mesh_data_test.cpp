@@ -56,7 +56,7 @@ StrokeQuality stroke(const std::shared_ptr<const SurfaceMesh>& mesh, double spee
 // RECKON_SOAK=1 strokes each mesh longer: 6 meshes x 2 speeds x 2 frictions make 1.2 million ticks.
 int stroke_ticks() { return test::tries(700, 50000); }
 
-TEST(MeshData, EveryMeshIsFeltWithoutPopThroughLagOrGap) {
+TEST(MeshData, EveryMeshIsFeltWithoutPopThrough) {
   RECKON_NEED_DATA("meshes");
   int meshes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::reference_data() / "meshes")) {
@@ -83,9 +83,9 @@ TEST(MeshData, EveryMeshIsFeltWithoutPopThroughLagOrGap) {
   EXPECT_GE(meshes, 6);
 }
 
-// A plate of 0.2 mm, a plate that faces inwards and a sheet of alternate windings, from above to
-// 30 mm below and back in 4 s. Bars: 800 N/m times the greatest speed, 47 mm/s, are 0.038 N in 1
-// ms.
+// A plate of 0.2 mm, a plate with inward faces and a sheet of alternating windings, from above to
+// 30 mm below and back in 4 s. Limits: 800 N/m times the greatest speed, 47 mm/s, gives 0.038 N in
+// 1 ms.
 TEST(MeshData, ThinTurnedAndMixedSurfacesPushUpwards) {
   RECKON_NEED_DATA("field/mesh");
   const std::pair<const char*, double> tops[]{

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What reading a mesh mends and what it leaves, on surfaces whose number of everything is known.
+// Repairs of the mesh reader and defects that it keeps, on surfaces with known counts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,9 +19,9 @@ using test::MeshData;
 
 const Vector3d kNational(4321012.3456, 678901.2345, 432.1);  // [m]
 
-/// Of radii 1 and 0.4 with u by v quads: each ring of the outline is an exact polygon, drawn round
-/// as a polygon again. By Pappus for polygons: sum over the outline's edges of the frustum's
-/// volume.
+/// A torus of radii 1 and 0.4 with u by v quads: each ring of the outline is an exact polygon,
+/// revolved as a polygon again. By Pappus for polygons: the sum of the frustum volumes over the
+/// outline's edges.
 double torus_volume(int nu, int nv) {
   const double round = 0.5 * nu * std::sin(2.0 * std::numbers::pi / nu);  // area of a u-gon, r = 1
   double volume = 0.0;
@@ -49,7 +49,7 @@ MeshData inverted(MeshData mesh) {
 
 SurfaceMesh mesh_of(const MeshData& data) { return {data.vertices, data.triangles}; }
 
-// The figure that single precision leaves 96 of 576 triangles of.
+// A figure of which single precision leaves only 96 of 576 triangles.
 TEST(MeshRepair, KeepsEveryTriangleOfAGeoreferencedFile) {
   MeshData torus = test::torus(24, 12);
   for (Vector3d& v : torus.vertices) v *= 0.04;
@@ -70,7 +70,7 @@ TEST(MeshRepair, KeepsEveryTriangleOfAGeoreferencedFile) {
   }
 }
 
-TEST(MeshRepair, LeavesAMeshNearItsOriginWhereItIs) {
+TEST(MeshRepair, LeavesAMeshNearItsOriginInPlace) {
   MeshData cube = test::cube();
   for (Vector3d& v : cube.vertices) v += Vector3d(30, 0, 0);
   const test::TemporaryMesh file(".obj", test::obj_text(cube));
@@ -108,7 +108,7 @@ TEST(MeshRepair, TurnsTheSmallerPartOfAnOpenSurface) {
   EXPECT_EQ(mesh.report().holes, 1u);
 }
 
-TEST(MeshRepair, TurnsOnePieceOfTwoAndKeepsACavity) {
+TEST(MeshRepair, TurnsOnePieceAndKeepsACavity) {
   MeshData apart = test::cube();
   add(apart, inverted(test::cube()), Vector3d(3, 0, 0));
   const SurfaceMesh two = mesh_of(apart);
@@ -127,7 +127,7 @@ TEST(MeshRepair, TurnsOnePieceOfTwoAndKeepsACavity) {
   }
 }
 
-TEST(MeshRepair, DropsTrianglesThatAreThereTwiceEitherWayRound) {
+TEST(MeshRepair, DropsDuplicateTrianglesInEitherDirection) {
   MeshData cube = test::cube();
   const auto first = cube.triangles[0], second = cube.triangles[7];
   cube.triangles.push_back({first[1], first[2], first[0]});
@@ -139,7 +139,7 @@ TEST(MeshRepair, DropsTrianglesThatAreThereTwiceEitherWayRound) {
   EXPECT_TRUE(mesh.report().closed);
 }
 
-TEST(MeshRepair, CountsWhatHangsTogetherByAnEdgeOrACorner) {
+TEST(MeshRepair, CountsPiecesJoinedByAnEdgeOrCorner) {
   MeshData by_edge = test::cube();
   add(by_edge, test::cube(), Vector3d(1, 1, 0));
   const SurfaceMesh edge = mesh_of(by_edge);
@@ -158,7 +158,7 @@ TEST(MeshRepair, CountsWhatHangsTogetherByAnEdgeOrACorner) {
   EXPECT_NEAR(corner.report().volume, 2.0, 1e-12);
 }
 
-TEST(MeshRepair, TellsASurfaceOfOneSide) {
+TEST(MeshRepair, DetectsAOneSidedSurface) {
   // A Moebius strip of n quads: its border is one loop.
   constexpr std::uint32_t n = 20;
   MeshData strip;
@@ -181,7 +181,7 @@ TEST(MeshRepair, TellsASurfaceOfOneSide) {
 
 TEST(MeshRepair, CountsHolesAsLoops) {
   MeshData torus = test::torus(24, 12);
-  // Two quads far from each other, and two neighbours that make one hole.
+  // Two separate quads, and two neighbours that form one hole.
   for (const std::size_t quad : {100u, 40u, 20u, 19u}) {
     const auto at = torus.triangles.begin() + static_cast<std::ptrdiff_t>(2 * quad);
     torus.triangles.erase(at, at + 2);
@@ -191,7 +191,7 @@ TEST(MeshRepair, CountsHolesAsLoops) {
   EXPECT_EQ(mesh.report().boundary_edges.count, 4u + 4u + 6u);
 }
 
-TEST(MeshRepair, NamesTheLineOfTheFirstFaceOfEachKind) {
+TEST(MeshRepair, NamesTheFirstFaceOfEachKind) {
   const test::TemporaryMesh file(".obj",
                                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\n"
                                  "f 1 2 2\nf 1 2 5\nf 3 1 2\nf 1 2\n");

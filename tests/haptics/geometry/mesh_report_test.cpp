@@ -23,12 +23,12 @@ MeshReport good() {
   return report;
 }
 
-TEST(MeshReport, SaysNothingOfAGoodMeshButItsSize) {
+TEST(MeshReport, GivesOnlyTheSizeOfAGoodMesh) {
   EXPECT_EQ(mesh_summary(good()), "200 x 150 x 80 mm, 5184 triangles, closed");
   EXPECT_THAT(mesh_notes(good()), IsEmpty());
 }
 
-TEST(MeshReport, SuspectsTheUnitOfWhatNoHandCanFeel) {
+TEST(MeshReport, SuspectsTheUnitOfExtremeSizes) {
   MeshReport report = good();
   report.extent = {100, 120, 74.8331477};  // diagonal 173.2
   EXPECT_THAT(mesh_notes(report), ElementsAre(AllOf(HasSubstr("is 173.2 m large"),
@@ -40,7 +40,7 @@ TEST(MeshReport, SuspectsTheUnitOfWhatNoHandCanFeel) {
   EXPECT_THAT(mesh_notes(report), IsEmpty());
 }
 
-TEST(MeshReport, TellsEachThingFoundWithPlaceAndWhatWasDone) {
+TEST(MeshReport, ListsEachFindingWithPlaceAndRepair) {
   MeshReport report = good();
   report.place_word = "line";
   report.closed = false;
@@ -75,7 +75,7 @@ TEST(MeshReport, TellsEachThingFoundWithPlaceAndWhatWasDone) {
           HasSubstr("has 8 corners where surfaces meet in a point only (first: line 22)")));
 }
 
-TEST(MeshReport, WritesLengthsInTheUnitThatFits) {
+TEST(MeshReport, WritesLengthsInASuitableUnit) {
   EXPECT_EQ(length_text(4031234.0), "4031 km");
   EXPECT_EQ(length_text(173.21), "173.2 m");
   EXPECT_EQ(length_text(0.0025), "2.5 mm");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sweep with a list of near triangles meets what one through the tree meets, to the last bit.
+// A sweep with a list of near triangles gives the same result as one through the tree, to the last
+// bit.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -21,8 +22,9 @@ struct Random {
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(engine); }
 };
 
-// Every way from where the last one ended, most of them short; some into the solid or across it,
-// now and then a leap. Starts above the surface, on it within the clearance, and within the solid.
+// Each path starts at the end of the last one. Most are short, some go into the solid or across it,
+// with a jump now and then. Starts are above the surface, on it within the clearance, and inside
+// the solid.
 void wander(const SurfaceMesh& mesh, double radius, int sweeps, int& met) {
   Random random;
   NearTriangles near;
@@ -53,7 +55,7 @@ void wander(const SurfaceMesh& mesh, double radius, int sweeps, int& met) {
   }
 }
 
-TEST(NearTriangles, MeetWhatTheTreeMeets) {
+TEST(NearTriangles, GiveTheResultOfTheTree) {
   int met = 0;
   for (const test::MeshData& data :
        {test::torus(48, 24), test::torus(132, 66), test::groove(), test::fin(0.02)}) {
@@ -69,7 +71,7 @@ TEST(NearTriangles, MeetWhatTheTreeMeets) {
   EXPECT_GT(met, 6'000);
 }
 
-// Strokes with leaps between them.
+// Strokes with jumps between them.
 TEST(NearTriangles, FindTheNearestPoint) {
   Random random;
   for (const double size : {1e-3, 0.2, 200.0}) {
@@ -88,7 +90,7 @@ TEST(NearTriangles, FindTheNearestPoint) {
   }
 }
 
-TEST(ClosestPoint, IsFartherByThePrecisionAtMost) {
+TEST(ClosestPoint, ErrorIsAtMostThePrecision) {
   Random random;
   const SurfaceMesh mesh = test::make_mesh(test::torus(132, 66), 0.2);
   int rough = 0;
@@ -105,10 +107,10 @@ TEST(ClosestPoint, IsFartherByThePrecisionAtMost) {
     rough += near.distance > exact.distance ? 1 : 0;
     ASSERT_TRUE(mesh.closest_from(p, 0, near, precision));
     ASSERT_LE(near.distance, exact.distance + precision * (1.0 + 1e-9)) << "point " << i;
-    // What lies within the limit is found whatever the precision.
+    // A point within the limit is found at any precision.
     ASSERT_TRUE(mesh.closest(p, exact.distance * (1.0 + 1e-9), near, precision));
   }
-  EXPECT_GT(rough, 500);  // it makes use of it
+  EXPECT_GT(rough, 500);  // the precision is used
 }
 
 }  // namespace

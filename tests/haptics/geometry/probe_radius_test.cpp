@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A probe with a radius: its centre keeps that distance from everything it touches.
-// RECKON_SOAK=1 pokes a million times, meshes of up to a million triangles: some ten minutes of one
-// core.
+// A probe with a radius: its centre keeps that distance from everything that it touches.
+// RECKON_SOAK=1 pokes a million times, with meshes of up to a million triangles: some ten minutes
+// on one core.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -39,12 +39,12 @@ std::vector<Subject> subjects() {
   return {{"torus", test::torus(40, 20)}, {"cube", test::cube()}, {"groove", test::groove()}};
 }
 
-// Whether p is inside, by a way that shares no code with the library where that is affordable.
+// Whether p is inside, if affordable by a method that shares no code with the library.
 bool inside(const SurfaceMesh& mesh, const Vector3d& p) {
   return test::soaks() ? mesh.contains(p) : test::winding_number(mesh, p) > 0.5;
 }
 
-// From outside into the solid and out on another side, in a few leaps.
+// From outside into the solid and out on another side, in a few jumps.
 int pokes_that_pop(const MeshPointer& mesh, double radius, int pokes) {
   const ContactShape shape = mesh;
   std::mt19937 random(17);
@@ -70,14 +70,14 @@ int pokes_that_pop(const MeshPointer& mesh, double radius, int pokes) {
   return popped;
 }
 
-// A ball as large as a fine mesh rolls over thousands of its triangles in each leap, in
-// milliseconds to seconds: such rows get as many pokes as take a few minutes.
+// A ball as large as a fine mesh rolls over thousands of its triangles in each jump, in
+// milliseconds to seconds: such rows get as many pokes as fit into a few minutes.
 int soak_pokes(std::size_t triangles, double size, double radius) {
   if (radius < size) return 66'000;
   return triangles < 10'000 ? 20'000 : triangles < 100'000 ? 1'500 : 60;
 }
 
-TEST(ProbeRadius, NoPokePopsThroughAMeshOfAnySize) {
+TEST(ProbeRadius, NoPokePopsThroughAnyMesh) {
   long pokes = 0;
   for (const Subject& subject : subjects()) {
     for (const double size : {1e-3, 0.2, 200.0}) {
@@ -93,7 +93,7 @@ TEST(ProbeRadius, NoPokePopsThroughAMeshOfAnySize) {
   std::printf("%ld pokes\n", pokes);
 }
 
-TEST(ProbeRadius, CentreKeepsTheRadiusFromEveryTriangleWhileStroking) {
+TEST(ProbeRadius, CentreKeepsItsRadiusWhileStroking) {
   for (const test::MeshData& data : {test::torus(48, 24), test::groove()}) {
     for (const double radius : {1e-3, 5e-3}) {
       for (const bool rough : {false, true}) {
@@ -129,8 +129,8 @@ TEST(ProbeRadius, CentreKeepsTheRadiusFromEveryTriangleWhileStroking) {
   }
 }
 
-// A ball of 5 mm over the edges of a cube of mesh and over a box: the offset surface is rounded.
-TEST(ProbeRadius, FindsTheRoundedOffsetOfABoxAndOfItsMesh) {
+// A ball of 5 mm over the edges of a cube mesh and over a box: the offset surface is rounded.
+TEST(ProbeRadius, FindsTheRoundedOffsetOfBoxAndMesh) {
   constexpr double kRadius = 5e-3;
   const auto mesh = std::make_shared<const SurfaceMesh>(test::make_mesh(test::cube(), 0.2));
   const Vector3d half = 0.5 * mesh->bounds().sizes();
@@ -156,7 +156,7 @@ TEST(ProbeRadius, FindsTheRoundedOffsetOfABoxAndOfItsMesh) {
   }
 }
 
-TEST(ProbeRadius, LiftsPlanesAndGrowsBalls) {
+TEST(ProbeRadius, LiftsPlanesAndEnlargesBalls) {
   SurfaceContactPoint point(2e-3);
   const ContactShape plane = HalfSpace({Vector3d::UnitZ()});
   point.reset(plane, {0.0, 0.0, 0.01});
@@ -169,7 +169,7 @@ TEST(ProbeRadius, LiftsPlanesAndGrowsBalls) {
   EXPECT_NEAR(point.scp().cross(Vector3d(0.0, 0.01, 0.03)).norm(), 0.0, 1e-15);
 }
 
-TEST(ProbeRadius, StartsClearOfWhatItOverlaps) {
+TEST(ProbeRadius, StartsClearOfAnOverlappingMesh) {
   const auto mesh = std::make_shared<const SurfaceMesh>(test::make_mesh(test::groove(), 0.2));
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-0.6, 0.6);

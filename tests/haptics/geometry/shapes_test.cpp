@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using test::random_point;
 
-// A path that wanders about the origin in small steps and now and then leaps.
+// A path about the origin in small steps, with a jump now and then.
 class Wander {
  public:
   Wander(double reach, std::uint32_t seed) : reach_(reach), random_(seed) {}
@@ -32,7 +32,7 @@ class Wander {
   int count_ = 0;
 };
 
-// Follows a wander; every update must not raise the distance, and the SCP must not be inside.
+// Follows a path; no update may increase the distance, and the SCP must not be inside.
 template <class Solid>
 void expect_invariants(const Solid& solid, double reach, FrictionCone* friction) {
   Wander wander(reach, 5);
@@ -50,7 +50,7 @@ void expect_invariants(const Solid& solid, double reach, FrictionCone* friction)
   EXPECT_GT(contacts, 1000);
 }
 
-TEST(HalfSpace, PutsTheContactPointAtTheFootOfTheDevice) {
+TEST(HalfSpace, PutsTheContactPointNearestToTheDevice) {
   const HalfSpace plane(PlaneShape{Vector3d(0.0, 3.0, 4.0)});
   const Vector3d n(0.0, 0.6, 0.8);
   std::mt19937 random(1);
@@ -64,7 +64,7 @@ TEST(HalfSpace, PutsTheContactPointAtTheFootOfTheDevice) {
   }
 }
 
-TEST(HalfSpace, SticksWithoutDriftThenSlidesAtTheKineticShare) {
+TEST(HalfSpace, SticksWithoutDriftThenSlides) {
   const HalfSpace plane(PlaneShape{});
   FrictionCone friction(0.5, 0.35);
   Vector3d scp = plane.settle({0.0, 0.0, 1.0}, {0.0, 0.0, -0.002}, &friction).scp;
@@ -82,7 +82,8 @@ TEST(HalfSpace, SticksWithoutDriftThenSlidesAtTheKineticShare) {
     scp = plane.settle(scp, {x, 0.0, -0.002}, &friction).scp;
     ASSERT_NEAR(x - scp.x(), 0.35 * 0.002, 1e-15) << "sliding goes on at the kinetic share";
   }
-  scp = plane.settle(scp, {x, 0.0, -0.002}, &friction).scp;  // a still hand: it rests again
+  scp = plane.settle(scp, {x, 0.0, -0.002}, &friction).scp;  // a resting hand: the point rests
+                                                             // again
   const Vector3d second = scp;
   scp = plane.settle(scp, {x + 0.0002, 0.0, -0.002}, &friction).scp;
   EXPECT_EQ(scp, second) << "0.9 mm is below the static share again";
@@ -97,7 +98,7 @@ TEST(HalfSpace, GivesNoFrictionWithoutNormalForce) {
   EXPECT_FALSE(point.in_contact);
 }
 
-TEST(Ball, PutsTheContactPointOnTheRadiusOfTheDevice) {
+TEST(Ball, PutsTheContactPointOnTheDevicesRadius) {
   const Ball ball(SphereShape{0.05});
   Wander wander(0.08, 2);
   Vector3d scp(0.0, 0.0, 0.2);
@@ -112,7 +113,7 @@ TEST(Ball, PutsTheContactPointOnTheRadiusOfTheDevice) {
   }
 }
 
-TEST(Ball, SlidesUntilTangentialIsTheKineticShareOfNormal) {
+TEST(Ball, SlidesToTheKineticShareOfNormalForce) {
   const Ball ball(SphereShape{0.05});
   std::mt19937 random(3);
   int slides = 0;
@@ -135,7 +136,7 @@ TEST(Ball, SlidesUntilTangentialIsTheKineticShareOfNormal) {
   EXPECT_GT(slides, 500);
 }
 
-TEST(Block, PutsTheContactPointOnTheFaceItCameThrough) {
+TEST(Block, PutsTheContactPointOnTheEntryFace) {
   const Block block(BoxShape{Vector3d(0.1, 0.2, 0.3)});
   const double clearance = kRelativeClearance * Vector3d(0.1, 0.2, 0.3).norm();
   const Vector3d from(0.2, 0.02, 0.01);
@@ -145,17 +146,17 @@ TEST(Block, PutsTheContactPointOnTheFaceItCameThrough) {
   EXPECT_EQ(point.normal, Vector3d::UnitX());
 }
 
-TEST(Block, HoldsADeviceThatWentRightThrough) {
+TEST(Block, HoldsADeviceThatPassedThrough) {
   const Block block(BoxShape{Vector3d(0.001, 0.2, 0.2)});
   const SettledPoint point = block.settle({0.01, 0.0, 0.0}, {-0.01, 0.03, 0.0}, nullptr);
   EXPECT_TRUE(point.in_contact);
   EXPECT_NEAR(point.scp.x(), 0.0005, 1e-7);
-  // Past its border it is free again, on the other side.
+  // Beyond its border the device is free again, on the other side.
   const SettledPoint around = block.settle(point.scp, {-0.01, 0.11, 0.0}, nullptr);
   EXPECT_FALSE(around.in_contact);
 }
 
-TEST(Shapes, NeverRaiseTheDistanceNorLetThePointInside) {
+TEST(Shapes, NeverIncreaseDistanceOrEnterTheSolid) {
   for (const bool rough : {false, true}) {
     FrictionCone friction(0.8, 0.3);
     FrictionCone* used = rough ? &friction : nullptr;
@@ -164,7 +165,7 @@ TEST(Shapes, NeverRaiseTheDistanceNorLetThePointInside) {
   }
 }
 
-TEST(Shapes, RefuseMeasuresThatMakeNoSolid) {
+TEST(Shapes, RefuseInvalidDimensions) {
   EXPECT_THROW(HalfSpace(PlaneShape{Vector3d::Zero()}), std::invalid_argument);
   EXPECT_THROW(Ball(SphereShape{0.0}), std::invalid_argument);
   EXPECT_THROW(Ball(SphereShape{std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-// How far its corners are from the surface, and the middles of its triangles [m].
+// Distance of its corners, and of the middles of its triangles, from the surface [m].
 struct Off {
   double corners = 0.0, middles = 0.0;
 };
@@ -45,7 +45,7 @@ void expect_solid(const ImplicitSolid& solid, double volume, double curvature, d
   EXPECT_LT(off.middles, 0.5 * edge * edge * curvature + 1e-9) << solid.what();
 }
 
-TEST(SolidMesh, IsClosedAndHasTheVolumeOfTheFormula) {
+TEST(SolidMesh, IsClosedAndHasItsFormulasVolume) {
   expect_solid(ImplicitSolid(CylinderShape{0.03, 0.08}), kPi * 0.03 * 0.03 * 0.08, 1 / 0.03, 0.004);
   expect_solid(ImplicitSolid(TorusShape{0.04, 0.01}), 2 * kPi * kPi * 0.04 * 1e-4, 1 / 0.01, 0.02);
   expect_solid(ImplicitSolid(EllipsoidShape{{0.03, 0.03, 0.03}}), 4 * kPi / 3 * 2.7e-5, 1 / 0.03,
@@ -54,8 +54,8 @@ TEST(SolidMesh, IsClosedAndHasTheVolumeOfTheFormula) {
                1 / 0.02, 0.004);
 }
 
-// A block with a bore: its edges are sharp wherever the grid lies, and so its moments exact but
-// for the bore.
+// A block with a bore: its edges are sharp for any grid, so its moments are exact except for the
+// bore.
 TEST(SolidMesh, KeepsEdgesSharp) {
   CsgShape shape;
   CsgPart block;
@@ -74,7 +74,7 @@ TEST(SolidMesh, KeepsEdgesSharp) {
   }
 }
 
-TEST(SolidMesh, SaysWhatItCannotBeMadeOf) {
+TEST(SolidMesh, RefusesSolidsThatItCannotTriangulate) {
   CsgShape plate;
   CsgPart part;
   part.shape = BoxShape{{0.5, 0.5, 0.0005}};

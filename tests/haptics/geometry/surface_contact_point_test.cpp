@@ -38,7 +38,7 @@ std::vector<NamedMesh> hard_meshes() {
           {"blade", test::fin(1e-4)}};
 }
 
-// What must hold after every update, whatever the device does.
+// Invariants after every update, for any motion of the device.
 void expect_outside(const SurfaceMesh& mesh, const SurfaceContactPoint& point) {
   ASSERT_LT(test::winding_number(mesh, point.scp()), 0.5) << "popped through";
   ClosestPoint nearest;
@@ -48,7 +48,7 @@ void expect_outside(const SurfaceMesh& mesh, const SurfaceContactPoint& point) {
   ASSERT_LE(nearest.distance, 5e-7 * mesh.size()) << "gap, 0.1 um on 0.2 m";
 }
 
-TEST(SurfaceContactPoint, StaysOutsideAndSettledOnStrokesAtEveryScale) {
+TEST(SurfaceContactPoint, StaysOutsideAndSettledAtEveryScale) {
   for (const NamedMesh& named : hard_meshes()) {
     for (const double size : {1e-3, 0.2, 10.0}) {
       for (const bool rough : {false, true}) {
@@ -77,7 +77,7 @@ TEST(SurfaceContactPoint, StaysOutsideAndSettledOnStrokesAtEveryScale) {
   }
 }
 
-TEST(SurfaceContactPoint, KeepsItsInvariantsWhenTheDeviceLeapsAnywhere) {
+TEST(SurfaceContactPoint, KeepsItsInvariantsWhenTheDeviceJumps) {
   std::mt19937 random(21);
   for (const NamedMesh& named : hard_meshes()) {
     SCOPED_TRACE(named.name);
@@ -101,7 +101,7 @@ TEST(SurfaceContactPoint, KeepsItsInvariantsWhenTheDeviceLeapsAnywhere) {
 }
 
 TEST(SurfaceContactPoint, NeverPassesThroughAThinBlade) {
-  // The blade's whole thickness is a few clearances; the device goes far beyond it.
+  // The blade's whole thickness is a few clearances; the device moves far beyond it.
   for (const double thickness : {1e-2, 1e-4, 3e-6}) {
     const ContactShape shape = shared(test::fin(thickness), 0.2);
     SurfaceContactPoint point;
@@ -127,14 +127,14 @@ TEST(SurfaceContactPoint, HoldsOnBothSidesOfAnOpenSheet) {
     EXPECT_TRUE(point.in_contact());
     EXPECT_NEAR(point.scp().z(), side * mesh_of(shape).clearance(), 1e-12);
     EXPECT_GT(point.normal().z() * side, 0.999);
-    // Round the border it gets to the device.
+    // Around the border it reaches the device.
     point.update(shape, Vector3d(0.2, 0.0, -0.02 * side), nullptr);
     EXPECT_FALSE(point.in_contact());
   }
 }
 
-TEST(SurfaceContactPoint, SettlesInCornersOfTwoAndThreePlanesWithinATick) {
-  // From within a hollow cube the allowed points are a box: the nearest one is a clamp.
+TEST(SurfaceContactPoint, SettlesInCornersWithinATick) {
+  // Inside a hollow cube the allowed points are a box: the nearest one is a clamp.
   const ContactShape shape = shared(test::cube(), 0.2);
   const double half = 0.5 * mesh_of(shape).bounds().sizes().x() - mesh_of(shape).clearance();
   std::mt19937 random(4);
@@ -151,7 +151,7 @@ TEST(SurfaceContactPoint, SettlesInCornersOfTwoAndThreePlanesWithinATick) {
   EXPECT_GT(corners, 1000);
 }
 
-TEST(SurfaceContactPoint, OnAMeshOfABoxAgreesWithTheClosedForm) {
+TEST(SurfaceContactPoint, OnABoxMeshMatchesTheClosedForm) {
   const ContactShape mesh = shared(test::cube(), 0.2);
   const Vector3d sizes = mesh_of(mesh).bounds().sizes();
   const ContactShape block = Block(BoxShape{sizes});
@@ -215,7 +215,7 @@ TEST(ConstraintPlanes, SolutionEqualsAnIndependentMethod) {
   for (const int seen : by_active) EXPECT_GT(seen, 2) << "each number of active planes occurs";
 }
 
-TEST(SurfaceContactPoint, SticksWithoutDriftAndBreaksLooseAtTheStaticShare) {
+TEST(SurfaceContactPoint, SticksWithoutDriftUpToTheStaticShare) {
   const ContactShape shape = shared(test::cube(), 0.2);
   const double top = mesh_of(shape).bounds().max().z() + mesh_of(shape).clearance();
   FrictionCone friction(0.5, 0.35);
@@ -223,7 +223,7 @@ TEST(SurfaceContactPoint, SticksWithoutDriftAndBreaksLooseAtTheStaticShare) {
   point.reset(shape, Vector3d(0.003, 0.002, top + 0.01));
   point.update(shape, Vector3d(0.003, 0.002, top - 0.002), &friction);
   const Vector3d rest = point.scp();
-  for (int i = 0; i < 100000; ++i) {  // 0.99 mm to all sides, for 100 s
+  for (int i = 0; i < 100000; ++i) {  // 0.99 mm in all directions, for 100 s
     const double angle = 1e-3 * i;
     const Vector3d lateral(0.00099 * std::cos(angle), 0.00099 * std::sin(angle), 0.0);
     point.update(shape, Vector3d(0.003, 0.002, top - 0.002) + lateral, &friction);
@@ -253,7 +253,7 @@ TEST(SurfaceContactPoint, ForceStaysInTheFrictionConeWhileStroking) {
   }
 }
 
-TEST(SurfaceContactPoint, StartsAtTheNearestOutsidePointWhenTheDeviceIsInside) {
+TEST(SurfaceContactPoint, StartsAtTheNearestOutsidePoint) {
   std::mt19937 random(6);
   for (const NamedMesh& named : hard_meshes()) {
     SCOPED_TRACE(named.name);

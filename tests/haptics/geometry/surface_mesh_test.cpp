@@ -77,7 +77,7 @@ TEST(SurfaceMesh, ScalesToADiagonalAndCentres) {
   EXPECT_LT(mesh.bounds().center().norm(), 1e-12);
 }
 
-TEST(SurfaceMesh, TurnsAClosedSurfaceThatFacesInwards) {
+TEST(SurfaceMesh, TurnsAnInwardClosedSurface) {
   test::MeshData cube = test::cube();
   for (auto& t : cube.triangles) std::swap(t[0], t[1]);
   const SurfaceMesh mesh(cube.vertices, cube.triangles);
@@ -97,7 +97,7 @@ TEST(SurfaceMesh, DropsDegenerateTrianglesAndCountsThem) {
   EXPECT_EQ(mesh.report().triangles, 12u);
 }
 
-TEST(SurfaceMesh, TakesAnOpenSurfaceAsAShellWithoutInside) {
+TEST(SurfaceMesh, TakesAnOpenSurfaceAsAShell) {
   test::MeshData cube = test::cube();
   cube.triangles.resize(10);
   const SurfaceMesh mesh(cube.vertices, cube.triangles);
@@ -106,8 +106,8 @@ TEST(SurfaceMesh, TakesAnOpenSurfaceAsAShellWithoutInside) {
   EXPECT_FALSE(mesh.contains({0.5, 0.5, 0.5}));
 }
 
-TEST(SurfaceMesh, ReadsANonManifoldFileWhole) {
-  // Three triangles on one edge: a half-edge structure would have to leave one out.
+TEST(SurfaceMesh, ReadsANonManifoldFileCompletely) {
+  // Three triangles on one edge: a half-edge structure would have to omit one.
   const test::TemporaryMesh file(
       ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
   const SurfaceMesh mesh = SurfaceMesh::load(shape_of(file));
@@ -132,7 +132,7 @@ TEST(SurfaceMesh, InsideTestAgreesWithTheWindingNumber) {
   }
 }
 
-TEST(SurfaceMesh, SaysWhatIsWrongWithAFileAndWhatToDo) {
+TEST(SurfaceMesh, NamesAFilesFaultAndRemedy) {
   const auto message = [](const MeshShape& shape) {
     try {
       (void)SurfaceMesh::load(shape);

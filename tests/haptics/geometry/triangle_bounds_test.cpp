@@ -26,7 +26,7 @@ struct Random {
 
   double share() { return unit(engine); }
   Vector3d vector() { return {gauss(engine), gauss(engine), gauss(engine)}; }
-  // Within a box of diagonal 1 about `centre`; every other one a sliver.
+  // Within a box of diagonal 1 about `centre`; every other one is a sliver.
   Triangle triangle(const Vector3d& centre, double size, int i) {
     const Vector3d a = 0.1 * vector();
     const Vector3d b = a + 0.1 * share() * vector();
@@ -36,9 +36,9 @@ struct Random {
   }
 };
 
-// Any point of a triangle is at least as far as the nearest, so that none may be nearer than what
-// the bound vouches for.
-TEST(TriangleBounds, NeverPutATriangleBeyondOneOfItsPoints) {
+// Any point of a triangle is at least as far as the nearest one, so none may be nearer than the
+// bound.
+TEST(TriangleBounds, NeverExceedTheDistanceOfAnyPoint) {
   Random random;
   int beyond = 0;
   int beside = 0;
@@ -57,7 +57,7 @@ TEST(TriangleBounds, NeverPutATriangleBeyondOneOfItsPoints) {
         const auto place = bounds.place(p);
         ASSERT_FALSE(bounds.beyond(0, place, (p - on).norm() * (1.0 + 1e-9)))
             << "size " << size << ", triangle " << i;
-        // From a point off the triangle over one within `away` of it to somewhere.
+        // From a point off the triangle, past one within `away` of it, to another point.
         const double away = (p - on).norm();
         const Vector3d from = p + size * random.vector();
         const Vector3d to = p + random.share() * (p - from);
@@ -69,14 +69,14 @@ TEST(TriangleBounds, NeverPutATriangleBeyondOneOfItsPoints) {
       }
     }
   }
-  EXPECT_GT(beyond, 20'000);  // of 120,000: it tells something
+  EXPECT_GT(beyond, 20'000);  // of 120,000: the test is not trivial
   EXPECT_GT(beside, 20'000);
 }
 
-TEST(TriangleBounds, TellWhatLiesOffThePlaneAndAcrossTheSides) {
+TEST(TriangleBounds, BoundDistancesOffPlaneAndAcrossSides) {
   const std::vector<Triangle> one{make({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
   const TriangleBounds bounds(one, {0.5, 0.5, 0.0}, std::sqrt(2.0));
-  // 0.3 above and 0.4 across a side, on each side: 0.5 away.
+  // 0.3 above and 0.4 beyond a side, for each side: 0.5 away.
   for (const double z : {0.3, -0.3}) {
     for (const Vector3d& p :
          {Vector3d(0.4, -0.4, z), Vector3d(-0.4, 0.4, z),
@@ -89,7 +89,7 @@ TEST(TriangleBounds, TellWhatLiesOffThePlaneAndAcrossTheSides) {
   }
 }
 
-TEST(TriangleBounds, PutNothingBeyondAnInfiniteLimitNorBeyondZeroWhereItTouches) {
+TEST(TriangleBounds, BoundNothingBeyondInfinityOrZeroDistance) {
   const std::vector<Triangle> one{make({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
   const TriangleBounds bounds(one, {0.5, 0.5, 0.0}, std::sqrt(2.0));
   constexpr double kNone = std::numeric_limits<double>::infinity();

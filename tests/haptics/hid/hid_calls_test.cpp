@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is read of the folders of the kernel, and the calls where plain files serve. For the others
+// Data read from folders of the kernel, and the calls for which plain files suffice. For the others
 // see hid_kernel_test.cpp.
 #include "reckon/haptics/hid/hid_calls.hpp"
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(KernelHidCalls, TellTheDevicesInTheOrderOfTheirNumbers) {
+TEST(KernelHidCalls, ListDevicesInNumericOrder) {
   const test::ScratchFolder folder;
   for (const char* name : {"hidraw10", "hidraw2", "hidraw", "event3"})
     std::ofstream(folder.file(name)) << "";
@@ -33,7 +33,7 @@ TEST(KernelHidCalls, TellTheDevicesInTheOrderOfTheirNumbers) {
   EXPECT_THAT(kernel_hid_calls("/no/such/folder")->paths(), IsEmpty());
 }
 
-// As /sys has it: an interface of USB, its device of HID, and that as a device of raw reports.
+// As in /sys: a USB interface, its HID device, and the latter as a raw device.
 class Facts : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -51,7 +51,7 @@ class Facts : public ::testing::Test {
   std::unique_ptr<HidCalls> calls = kernel_hid_calls("/dev", folder.file("."));
 };
 
-TEST_F(Facts, ADeviceHasItsNameItsNumbersAndItsDescriptor) {
+TEST_F(Facts, DeviceHasItsNameNumbersAndDescriptor) {
   std::ofstream(hid / "uevent") << "DRIVER=hid-generic\nHID_ID=0003:00001209:0000FFB0\n"
                                    "HID_NAME=OpenFFBoard FFBoard\nHID_PHYS=usb-1\n";
   std::ofstream(hid / "report_descriptor", std::ios::binary) << '\x05' << '\0' << '\x0F';
@@ -67,7 +67,7 @@ TEST_F(Facts, ADeviceHasItsNameItsNumbersAndItsDescriptor) {
 }
 
 // FF_SPRING is bit 83, FF_GAIN 96, FF_CONSTANT 82.
-TEST_F(Facts, TheKernelDrivesOneWhoseEventDeviceRendersSprings) {
+TEST_F(Facts, KernelDrivesADeviceWithSpringEffects) {
   const auto has_springs = [&] { return calls->look("/dev/hidraw3").kernel_has_springs; };
   for (const char* bits : {"0", "100000000 0", "100040000 0", "80000"}) {
     effects("input7", bits);
@@ -79,7 +79,7 @@ TEST_F(Facts, TheKernelDrivesOneWhoseEventDeviceRendersSprings) {
   EXPECT_TRUE(has_springs());
 }
 
-TEST_F(Facts, HowOftenItTakesAReportIsReadFromItsEndpoint) {
+TEST_F(Facts, ReportIntervalIsReadFromTheEndpoint) {
   EXPECT_EQ(calls->report_intervals("/dev/hidraw3").takes.count(), 0);
   fs::create_directories(usb / "ep_01");
   std::ofstream(usb / "ep_01" / "direction") << "out\n";
@@ -87,7 +87,7 @@ TEST_F(Facts, HowOftenItTakesAReportIsReadFromItsEndpoint) {
   EXPECT_EQ(calls->report_intervals("/dev/hidraw3").takes.count(), 2000);
 }
 
-TEST(KernelHidCalls, AFileThatAnotherProgramHasTakenIsRefused) {
+TEST(KernelHidCalls, RefuseAFileTakenByAnotherProgram) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("hidraw3");
   std::ofstream(path) << "ab";

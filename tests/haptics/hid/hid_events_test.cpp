@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A wheel or stick that the kernel does not drive, with its thread and its servo: what the hand
-// feels, what fails, and the wheel's own books. All time is the wheel's; a report takes some of it.
+// A wheel or stick that the kernel does not drive, with its thread and its servo: the forces at the
+// hand, faults, and the wheel's own ledger. All time is the wheel's; a report takes some of it.
 #include "reckon/haptics/hid/hid_events.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Hand = test::PluggedEvents<HidWheel>::Hand;
 
-// Pushes into two walls and stays 10 mm behind each, once they stand.
+// Pushes into two walls and stays 10 mm behind each, after their set-up.
 HidWheel::Places pressing(double t) {
   const double share = std::clamp(2 * t - 1, 0.0, 1.0);
   return {-0.03 * share, 0.03 * share};
@@ -49,7 +49,7 @@ class Plugged : public test::PluggedEvents<HidWheel> {
                       microseconds(100)) {}
 };
 
-TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
+TEST(HidEvents, WallsAreFeltAlongBothAxes) {
   Plugged plugged;
   plugged.run(milliseconds(300));
   static_cast<void>(plugged.steps_without());
@@ -59,8 +59,8 @@ TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
     const double depth = std::abs(plugged.model.wheel.place(axis)) - 0.02;
     EXPECT_NEAR(depth, 0.01 * 300 / 1300, 1e-4);
     const double sign = axis == 0 ? 1 : -1;
-    // A step of the place (12.5 um) and of the coefficient (0.2 N/m) of the device, and of the
-    // event device's numbers.
+    // One step of the device's position (12.5 um) and coefficient (0.2 N/m), and of the event
+    // device's numbers.
     const double within = 1'000 * 17e-6 + 0.3 * depth;
     EXPECT_NEAR(plugged.model.wheel.force(axis), sign * 1'000 * depth, within);
     EXPECT_NEAR(plugged.last().force[static_cast<Eigen::Index>(axis)],
@@ -70,7 +70,7 @@ TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
   EXPECT_EQ(plugged.steps_without(), 0) << "its own reports keep the readings from ageing";
 }
 
-TEST(HidEvents, AWheelOfOneAxisFeelsTheWallsAlongIt) {
+TEST(HidEvents, WheelOfOneAxisFeelsWallsAlongIt) {
   HidWheelOptions options;
   options.wheel.axes = 1;
   Plugged plugged(options);
@@ -78,7 +78,7 @@ TEST(HidEvents, AWheelOfOneAxisFeelsTheWallsAlongIt) {
   EXPECT_NEAR(plugged.model.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
 }
 
-TEST(HidEvents, AWallThatStandsIsToldOnceAndOnlyTheAxisThatChanges) {
+TEST(HidEvents, RestingWallsAreUploadedOnce) {
   const Hand rests = [](double) { return HidWheel::Places{0, 0}; };
   Plugged plugged({}, rests);
   plugged.run(milliseconds(1000));
@@ -87,7 +87,7 @@ TEST(HidEvents, AWallThatStandsIsToldOnceAndOnlyTheAxisThatChanges) {
   EXPECT_EQ(plugged.model.wheel.changes(), before);
 }
 
-TEST(HidEvents, WhatTheKernelDrivesIsLeftToItButByItsPath) {
+TEST(HidEvents, LeavesKernelDrivenDevicesToTheKernel) {
   HidWheelOptions options;
   HidWheel wheel(options, pressing);
   wheel.seen.kernel_has_springs = true;
@@ -98,7 +98,7 @@ TEST(HidEvents, WhatTheKernelDrivesIsLeftToItButByItsPath) {
   EXPECT_THAT(test::calls_of(wheel)->paths(), IsEmpty());
 }
 
-TEST(HidEvents, AProgramThatEndsTakesItsEffectsWithIt) {
+TEST(HidEvents, EndingProgramRemovesItsEffects) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
   EXPECT_EQ(plugged.model.wheel.effects(), 2U);
@@ -107,8 +107,8 @@ TEST(HidEvents, AProgramThatEndsTakesItsEffectsWithIt) {
   EXPECT_EQ(plugged.model.open_files(), 0);
 }
 
-// Nothing of the host is done any more: the device ends them, and the next program frees them.
-TEST(HidEvents, OneThatIsKilledLeavesNoForceOnceItsEffectsEndAndTheNextBeginsAnew) {
+// The host does nothing more: the device ends the effects, and the next program frees them.
+TEST(HidEvents, KilledProgramLeavesNoForceAndNextRestarts) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
   ASSERT_GT(plugged.model.wheel.force(0), 1);
@@ -123,7 +123,7 @@ TEST(HidEvents, OneThatIsKilledLeavesNoForceOnceItsEffectsEndAndTheNextBeginsAne
   EXPECT_EQ(plugged.model.wheel.effects(), 2U) << "its own";
 }
 
-TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
+TEST(HidEvents, ReadingsContinueDuringUploads) {
   const Hand quick = [](double t) { return HidWheel::Places{0.03 * std::sin(12 * t), 0.02}; };
   for (const auto takes : {microseconds(1000), microseconds(2000), microseconds(4000)}) {
     SCOPED_TRACE(takes.count());
@@ -135,7 +135,7 @@ TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
     double most = 0;
     const int before = plugged.model.wheel.changes();
     for (std::uint32_t i = 0; i < 300; ++i) {
-      const double way = 0.02 * std::sin(0.1 * i);  // a hand of another that never rests
+      const double way = 0.02 * std::sin(0.1 * i);  // a remote hand that never rests
       plugged.servo.contacts().write(bench::only(bench::sphere({way, -0.045, 0}, 500, i + 1)));
       plugged.run(milliseconds(10));
       most = std::max(most, std::abs(plugged.model.wheel.force(0)));
@@ -147,9 +147,9 @@ TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
   }
 }
 
-// Strokes that press every wall, stops, hands of others and stands of the program. RECKON_SOAK=1
-// draws 200 of each.
-TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
+// Strokes that press every wall, stops, remote hands and stalls of the program. RECKON_SOAK=1 draws
+// 200 of each.
+TEST(HidEvents, NeverGivesUnpaidEnergy) {
   const unsigned seeds = test::tries(4U, 200U);
   double least = 0, lead = 0, greatest = 0;
   for (const auto takes : {microseconds(100), microseconds(1000), microseconds(2000)}) {
@@ -184,7 +184,7 @@ TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
   EXPECT_GT(greatest, 3.0) << "no wall was ever pressed";
 }
 
-TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
+TEST(HidEvents, ReportsObstaclesWithTheRemedy) {
   const auto said = [](const std::function<void(HidWheel&)>& spoil, HidWheelOptions options = {}) {
     Plugged plugged(options);
     spoil(plugged.model);
@@ -219,7 +219,7 @@ TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
               HasSubstr("it has no room for two effects"));
 }
 
-TEST(HidEvents, OneThatIsMeantByItsPathIsToldWhyItIsNotUsed) {
+TEST(HidEvents, DeviceRefusedByPathGetsAReason) {
   const auto said = [](std::vector<std::uint8_t> descriptor) {
     Plugged plugged;
     plugged.model.seen.descriptor = std::move(descriptor);
@@ -235,7 +235,7 @@ TEST(HidEvents, OneThatIsMeantByItsPathIsToldWhyItIsNotUsed) {
               HasSubstr(path + " gives no force feedback"));
 }
 
-TEST(HidEvents, WhatIsLeftOutThatNothingDependsOnIsNotMissed) {
+TEST(HidEvents, MissingOptionalUsagesAreTolerated) {
   HidWheelOptions options;
   options.wheel.without = {0x65, 0x51, 0x53, 0x54, 0xA7, 0x83, 0xA9, 0xAC};
   Plugged plugged(options);
@@ -243,7 +243,7 @@ TEST(HidEvents, WhatIsLeftOutThatNothingDependsOnIsNotMissed) {
   EXPECT_NEAR(plugged.model.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
 }
 
-TEST(HidEvents, OneThatDoesNotAnswerWhereItIsIsAskedToMove) {
+TEST(HidEvents, AsksToMoveADeviceWithoutAPosition) {
   HidWheelOptions options;
   options.says_where = false;
   bool moves = false;
@@ -257,7 +257,7 @@ TEST(HidEvents, OneThatDoesNotAnswerWhereItIsIsAskedToMove) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
 }
 
-TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
+TEST(HidEvents, ReportsARefusedEffectAndRetries) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
   plugged.notices.clear();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The calls themselves, as a program makes them of the kernel: a wheel behind a device of umockdev
-// answers them by the octets that the kernel would hand on.
+// The calls themselves, as a program makes them to the kernel: a wheel behind a device of umockdev
+// answers them with the octets that the kernel would pass on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/hidraw.h>
@@ -62,7 +62,7 @@ class MockedWheel : public test::MockedNode {
   Octets sent_;
 };
 
-TEST(HidKernel, TheCallsCarryTheReports) {
+TEST(HidKernel, CallsCarryTheReports) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   MockedWheel mock;
   const test::ScratchFolder facts;

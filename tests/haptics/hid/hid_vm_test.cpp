@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program itself at a wheel whose springs the kernel does not drive, for its descriptor has no
-// dead band, through hidraw. One wheel and one boot serve all tests, in their order. Time is that
-// of an emulated machine: what takes long is told, and judged by seconds alone.
+// The program itself with a wheel whose springs the kernel does not drive, because its descriptor
+// has no dead band, through hidraw. One wheel and one boot serve all tests, in their order.
+// Measured times of the emulated machine are printed, and judged only by seconds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -32,7 +32,7 @@ class HidVm : public VmWheel {
   }
 };
 
-TEST_F(HidVm, TheKernelDoesNotDriveItsSpringsAndReckonSaysHowItIsUsed) {
+TEST_F(HidVm, KernelDrivesNoSpringsAndReckonListsIt) {
   ASSERT_TRUE(comes_true([] { return std::filesystem::exists("/dev/hidraw0"); }));
   Program program({"devices"});
   EXPECT_EQ(program.wait(), 0);
@@ -42,7 +42,7 @@ TEST_F(HidVm, TheKernelDoesNotDriveItsSpringsAndReckonSaysHowItIsUsed) {
   EXPECT_THAT(program.said(), Not(HasSubstr("/dev/input/event")));
 }
 
-TEST_F(HidVm, WhoMayNotOpenItIsToldTheRuleThatNamesIt) {
+TEST_F(HidVm, UserWithoutPermissionGetsTheRule) {
   Program program({"devices"}, kSomebody);
   EXPECT_EQ(program.wait(), 1);
   EXPECT_THAT(program.said(), HasSubstr("this user may not open it"));
@@ -56,7 +56,7 @@ TEST_F(HidVm, WhoMayNotOpenItIsToldTheRuleThatNamesIt) {
                                     "ATTRS{idProduct}==\"ffb0\""));
 }
 
-TEST_F(HidVm, AWallIsRenderedWithItsStiffness) {
+TEST_F(HidVm, WallIsRenderedWithItsStiffness) {
   const auto program = start();
   for (int i = 0; i < 4; ++i) {
     press();
@@ -69,7 +69,7 @@ TEST_F(HidVm, AWallIsRenderedWithItsStiffness) {
   EXPECT_TRUE(comes_true([] { return effects() == 0; }));
 }
 
-TEST_F(HidVm, OneThatIsKilledLeavesNoForceAndTheNextBeginsAnew) {
+TEST_F(HidVm, KilledProgramLeavesNoForceAndNextRestarts) {
   auto program = start();
   press();
   expect_the_wall();
@@ -86,7 +86,7 @@ TEST_F(HidVm, OneThatIsKilledLeavesNoForceAndTheNextBeginsAnew) {
   retreat();
 }
 
-TEST_F(HidVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
+TEST_F(HidVm, RecoversAfterAnUnplug) {
   const auto program = start();
   press();
   expect_the_wall();
@@ -105,7 +105,7 @@ TEST_F(HidVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   EXPECT_EQ(program->wait(), 0) << program->said();
 }
 
-TEST_F(HidVm, TheWheelNeverGaveMoreEnergyThanTheHandPutIn) { expect_no_energy_from_the_wheel(); }
+TEST_F(HidVm, WheelNeverGaveUnpaidEnergy) { expect_no_energy_from_the_wheel(); }
 
 }  // namespace
 }  // namespace reckon::test

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A wheel that reads reports by its own layout is told springs by what its descriptor says.
+// A wheel with its own report layout gets springs as its descriptor defines.
 #include "reckon/haptics/hid/pid_reports.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ class Told : public ::testing::Test {
   void tell(std::size_t axis, const SpringWall& wall, WallSide side) {
     wheel.take(reports.set_condition(block, axis, condition_of(wall, side, kWheelScale)).span());
   }
-  // The hand holds the handle there, as well as 300 N/m do.
+  // The hand holds the handle there, as far as 300 N/m permit.
   void press(std::size_t axis, double place) {
     wheel.want(axis, place);
     for (int i = 0; i < 300; ++i) {
@@ -66,7 +66,7 @@ class Told : public ::testing::Test {
   std::chrono::nanoseconds now = milliseconds(1);
 };
 
-TEST_F(Told, AWallStandsWhereItIsToldWithItsStiffnessAndItsMost) {
+TEST_F(Told, WallHasItsPositionStiffnessAndMaximum) {
   tell(0, {-0.0125, 700, 7.5}, WallSide::below);
   tell(1, {0.02, 400, 5}, WallSide::above);
   press(0, -0.0225);
@@ -79,7 +79,7 @@ TEST_F(Told, AWallStandsWhereItIsToldWithItsStiffnessAndItsMost) {
   EXPECT_EQ(wheel.strange(), 0);
 }
 
-TEST_F(Told, AnEffectEndsByItselfAndIsStoppedAndFreed) {
+TEST_F(Told, EffectEndsAndIsStoppedAndFreed) {
   tell(0, {0.02, 700, 7.5}, WallSide::below);
   press(0, 0);
   EXPECT_GT(wheel.force(0), 1);
@@ -96,12 +96,12 @@ TEST_F(Told, AnEffectEndsByItselfAndIsStoppedAndFreed) {
   EXPECT_EQ(wheel.strange(), 0);
 }
 
-// What it reads of a report by its own layout, in its steps.
+// A word of a report by the wheel's own layout, in its steps.
 int word(const HidReport& report, std::size_t at) {
   return static_cast<std::int16_t>(report.span()[at] | report.span()[at + 1] << 8);
 }
 
-TEST_F(Told, NoWallIsNearerStifferOrStrongerThanItIsMeant) {
+TEST_F(Told, NoWallIsNearerStifferOrStronger) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 20'000; ++i) {
@@ -126,7 +126,7 @@ TEST_F(Told, NoWallIsNearerStifferOrStrongerThanItIsMeant) {
   }
 }
 
-TEST_F(Told, WhereItIsAndWhatIsDown) {
+TEST_F(Told, ReadsPositionsAndButtons) {
   HidPlaces places{{5, 5}, {}, 3};
   press(0, 0.0625);
   press(1, -0.025);
@@ -146,7 +146,7 @@ TEST_F(Told, WhereItIsAndWhatIsDown) {
   EXPECT_EQ(places.axes, before.axes);
 }
 
-TEST_F(Told, NothingOfItTakesHeap) {
+TEST_F(Told, UsesNoHeap) {
   const test::AllocationGuard guard;
   HidPlaces places;
   const auto condition = condition_of({0.01, 700, 7}, WallSide::below, kWheelScale);
@@ -158,7 +158,7 @@ TEST_F(Told, NothingOfItTakesHeap) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST_F(Told, WhatBecameOfAnEffectIsReadAsTheDeviceSaysIt) {
+TEST_F(Told, LoadOutcomeIsReadFromTheDevicesReport) {
   const auto outcome = [&](std::vector<std::uint8_t> report) {
     return reports.read_load(report).outcome;
   };
@@ -172,13 +172,12 @@ TEST_F(Told, WhatBecameOfAnEffectIsReadAsTheDeviceSaysIt) {
   EXPECT_EQ(outcome({}), PidLoad::Outcome::none);
 }
 
-TEST(PidReports, WhatADescriptorLacksIsSaidIfWallsDependOnIt) {
+TEST(PidReports, ReportRequiredUsagesThatAreMissing) {
   const auto fault = [](std::vector<int> without) {
     return reports_of({.axes = 2, .without = std::move(without)}).fault();
   };
   EXPECT_THAT(fault({}), IsEmpty());
-  // Dead band, sample period, trigger, delay, gain, direction, loops, pool: nothing depends on
-  // them.
+  // Dead band, sample period, trigger, delay, gain, direction, loops, pool: all are optional.
   EXPECT_THAT(fault({0x65, 0x51, 0x53, 0x54, 0xA7, 0x52, 0x56, 0x7C, 0x83, 0xA9, 0x7E, 0xAC}),
               IsEmpty());
   EXPECT_THAT(fault({0x50}), HasSubstr("Duration"));
@@ -197,7 +196,7 @@ TEST(PidReports, WhatADescriptorLacksIsSaidIfWallsDependOnIt) {
   EXPECT_FALSE(one.axes()[1]) << "which nothing names in a condition";
 }
 
-TEST(PidReports, WhatIsNoSuchDeviceGivesNoForces) {
+TEST(PidReports, MouseGivesNoForces) {
   // The boot mouse of the class definition.
   const std::vector<std::uint8_t> mouse{0x05, 0x01, 0x09, 0x02, 0xA1, 0x01, 0x09, 0x01, 0xA1, 0x00,
                                         0x05, 0x09, 0x19, 0x01, 0x29, 0x03, 0x15, 0x00, 0x25, 0x01,
@@ -210,11 +209,11 @@ TEST(PidReports, WhatIsNoSuchDeviceGivesNoForces) {
 }
 
 // X in report 1, Y in report 2.
-TEST(PidReports, AnAxisIsKnownOnceItsReportHasCome) {
+TEST(PidReports, AxisIsKnownAfterItsReport) {
   const std::vector<std::uint8_t> descriptor{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x15, 0x00, 0x26,
                                              0xFF, 0x03, 0x75, 0x10, 0x95, 0x01, 0x85, 0x01, 0x09,
                                              0x30, 0x81, 0x02, 0x85, 0x02, 0x09, 0x31, 0x81, 0x02,
-                                             // A condition that names its axis.
+                                             // A condition with a field for its axis.
                                              0x05, 0x0F, 0x09, 0x5F, 0xA1, 0x02, 0x85, 0x03, 0x09,
                                              0x23, 0x25, 0x01, 0x75, 0x08, 0x91, 0x02, 0xC0, 0xC0};
   const auto read = hid_reports(descriptor);
@@ -232,8 +231,8 @@ TEST(PidReports, AnAxisIsKnownOnceItsReportHasCome) {
   EXPECT_EQ(places.axes[0], 0x234);
 }
 
-// A length is in the unit of its field: 60 ms are 600 of a tenth of a millisecond.
-TEST(PidReports, ALengthIsSaidInTheUnitOfItsField) {
+// A length is in the unit of its field: 60 ms are 600 tenths of a millisecond.
+TEST(PidReports, LengthUsesTheUnitOfItsField) {
   std::vector<std::uint8_t> descriptor = PidWheel({}).descriptor();
   const std::vector<std::uint8_t> duration{0x09, 0x50, 0x15, 0x00, 0x26, 0xFF, 0x7F};
   const auto at =

@@ -21,7 +21,7 @@ const Octets kMouse{0x05, 0x01, 0x09, 0x02, 0xA1, 0x01, 0x09, 0x01, 0xA1, 0x00, 
                     0x95, 0x01, 0x75, 0x05, 0x81, 0x01, 0x05, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15,
                     0x81, 0x25, 0x7F, 0x75, 0x08, 0x95, 0x02, 0x81, 0x06, 0xC0, 0xC0};
 
-TEST(ReportDescriptor, TheMouseOfTheClassDefinitionHasItsFields) {
+TEST(ReportDescriptor, MouseOfTheClassDefinitionHasItsFields) {
   const auto reports = hid_reports(kMouse);
   ASSERT_TRUE(reports);
   ASSERT_EQ(reports->fields.size(), 5U);
@@ -41,7 +41,7 @@ TEST(ReportDescriptor, TheMouseOfTheClassDefinitionHasItsFields) {
   EXPECT_FALSE(reports->is_within(reports->fields[0].collection, hid_usage(1, 0x04)));
 }
 
-TEST(ReportDescriptor, ARangeHasItsSignIfItBeginsBelowZeroAndAUsageItsOwnPage) {
+TEST(ReportDescriptor, RangeIsSignedIfItBeginsBelowZero) {
   const Octets descriptor{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x0B, 0x22, 0x00, 0x0F, 0x00,
                           0x15, 0x00, 0x26, 0xFF, 0xFF, 0x75, 0x10, 0x95, 0x01, 0x91, 0x02,
                           0x09, 0x30, 0x16, 0x00, 0x80, 0x26, 0xFF, 0x7F, 0x91, 0x02, 0xC0};
@@ -62,7 +62,7 @@ TEST(ReportDescriptor, ARangeHasItsSignIfItBeginsBelowZeroAndAUsageItsOwnPage) {
   EXPECT_EQ(number_in(report, reports->fields[1]), 32767) << "beside it";
 }
 
-TEST(ReportDescriptor, NumbersOfAnyBitsStandBesideEachOther) {
+TEST(ReportDescriptor, NumbersOfAnyWidthAreAdjacent) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 2000; ++i) {
     Octets report(16, static_cast<std::uint8_t>(random()));
@@ -89,7 +89,7 @@ TEST(ReportDescriptor, NumbersOfAnyBitsStandBesideEachOther) {
   EXPECT_EQ(report, Octets(16));
 }
 
-TEST(ReportDescriptor, WhatIsPushedComesBack) {
+TEST(ReportDescriptor, RestoresAPushedState) {
   const Octets descriptor{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x15, 0x00, 0x25, 0x07,
                           0x75, 0x03, 0x95, 0x01, 0xA4, 0x25, 0x01, 0x75, 0x01, 0x09,
                           0x30, 0x81, 0x02, 0xB4, 0x09, 0x31, 0x81, 0x02, 0xC0};
@@ -101,11 +101,11 @@ TEST(ReportDescriptor, WhatIsPushedComesBack) {
   EXPECT_EQ(reports->fields[1].most, 7);
 }
 
-TEST(ReportDescriptor, WhatBreaksTheRulesIsNone) {
+TEST(ReportDescriptor, RefusesInvalidDescriptors) {
   const Octets end{0xC0}, pop{0xB4}, open{0xA1, 0x01}, bare{0x75, 0x08, 0x95, 0x01, 0x81, 0x02};
   const Octets wide{0xA1, 0x01, 0x77, 0xFF, 0xFF, 0xFF, 0xFF, 0xC0};
   const Octets many{0xA1, 0x01, 0x75, 0x20, 0x96, 0xFF, 0xFF, 0x81, 0x02, 0xC0};
-  const Octets numbered{0x85, 0x00, 0xA1, 0x01, 0xC0};  // a report of the number 0
+  const Octets numbered{0x85, 0x00, 0xA1, 0x01, 0xC0};  // a report of number 0
   const Octets backwards{0x19, 0x05, 0x29, 0x04};
   const Octets all{0x1B, 0x00, 0x00, 0x00, 0x00, 0x2B, 0xFF, 0xFF, 0xFF, 0xFF};
   const Octets short_long{0xFE, 0x05, 0x00, 0x00};
@@ -114,11 +114,11 @@ TEST(ReportDescriptor, WhatBreaksTheRulesIsNone) {
     EXPECT_FALSE(hid_reports(descriptor));
   EXPECT_FALSE(hid_reports(Octets(HidReports::kMostOctets + 1, 0xC0)));
   Octets mouse = kMouse;
-  mouse.insert(mouse.begin(), {0xFE, 0x02, 0xF0, 0x11, 0x22});  // a long item says nothing
+  mouse.insert(mouse.begin(), {0xFE, 0x02, 0xF0, 0x11, 0x22});  // a long item has no meaning
   EXPECT_TRUE(hid_reports(mouse));
 }
 
-TEST(ReportDescriptor, OneThatIsCutShortIsNone) {
+TEST(ReportDescriptor, RefusesATruncatedDescriptor) {
   const Octets whole = test::PidWheel({}).descriptor();
   ASSERT_TRUE(hid_reports(whole));
   EXPECT_GT(hid_reports(whole)->fields.size(), 50U);

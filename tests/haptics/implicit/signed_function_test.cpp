@@ -22,7 +22,7 @@ using test::random_point;
 
 double rho(const Vector3d& p) { return std::hypot(p.x(), p.y()); }
 
-// A primitive beside its equations: below 0 inside, and 0 on the surface, of no dimension.
+// A primitive with its equations: negative inside and 0 on the surface, dimensionless.
 struct Subject {
   const char* name;
   Primitive primitive;
@@ -62,8 +62,8 @@ std::vector<Subject> subjects() {
   };
 }
 
-// f changes by at most the way (below), so it is never more than the distance; and its foot lies on
-// the surface at just that distance, so it is no less.
+// f changes by at most the displacement (below), so it is never more than the distance. Its foot
+// point is on the surface at just that distance, so it is no less.
 TEST(Primitives, AreSignedDistancesByTheirEquations) {
   for (const Subject& subject : subjects()) {
     SCOPED_TRACE(subject.name);
@@ -80,8 +80,8 @@ TEST(Primitives, AreSignedDistancesByTheirEquations) {
   }
 }
 
-// Central differences of 1 um: their own error is h^2 f''' / 6 + 1e-17 / h, below 1e-8 where the
-// surfaces of these solids are 1 mm away from an edge of f.
+// Central differences of 1 um. Their own error is h^2 f''' / 6 + 1e-17 / h: below 1e-8 on surfaces
+// that are 1 mm away from an edge of f.
 double gradient_error(const std::function<SignedSample(const Vector3d&)>& sample, const Vector3d& p,
                       bool& smooth) {
   constexpr double kStep = 1e-6;
@@ -93,7 +93,7 @@ double gradient_error(const std::function<SignedSample(const Vector3d&)>& sample
     const SignedSample after = sample(p + away);
     const SignedSample before = sample(p - away);
     difference[i] = (after.value - before.value) / (2.0 * kStep);
-    // Over an edge of f the gradient itself jumps, or bends by as much as 1 in a millimetre.
+    // At an edge of f the gradient itself jumps, or bends by up to 1 per millimetre.
     smooth &= (after.gradient - here.gradient).norm() < 2e-3 &&
               (here.gradient - before.gradient).norm() < 2e-3 &&
               std::abs(after.value - 2.0 * here.value + before.value) < 1e-3 * kStep;
@@ -123,7 +123,7 @@ TEST(SignedFunctions, HaveTheGradientOfTheirValue) {
   std::printf("gradients: worst error %.2g\n", worst);
 }
 
-TEST(SignedFunctions, ChangeByNoMoreThanTheWay) {
+TEST(SignedFunctions, ChangeByAtMostTheDisplacement) {
   for (const test::NamedSolid& named : test::implicit_solids()) {
     SCOPED_TRACE(named.name);
     std::mt19937 random(5);
@@ -137,7 +137,7 @@ TEST(SignedFunctions, ChangeByNoMoreThanTheWay) {
   }
 }
 
-TEST(SignedFunctions, AreTheBooleanOfTheirPartsByTheirEquations) {
+TEST(SignedFunctions, EqualTheBooleanOfTheirParts) {
   const auto all = subjects();
   const auto inside = [&](std::size_t i, const Vector3d& p) { return all[i].equation(p) < 0.0; };
   const SignedFunction box(all[2].primitive);
@@ -160,7 +160,7 @@ TEST(SignedFunctions, AreTheBooleanOfTheirPartsByTheirEquations) {
 
 // Two half spaces at a right angle: the fillet meets each at `radius` from the edge, and in the
 // middle sqrt(x) + sqrt(y) = sqrt(radius).
-TEST(SignedFunctions, RoundAnEdgeByTheParabolaOfItsRadius) {
+TEST(SignedFunctions, RoundAnEdgeByAParabola) {
   constexpr double kRadius = 0.008;
   const SignedFunction floor(HalfSpaceFunction{Vector3d::UnitZ()});
   const SignedFunction wall(HalfSpaceFunction{Vector3d::UnitX()});
@@ -171,7 +171,7 @@ TEST(SignedFunctions, RoundAnEdgeByTheParabolaOfItsRadius) {
   }
   EXPECT_EQ(f.sample({kRadius, 0.0, 0.0}).value, 0.0);
   EXPECT_EQ(f.sample({2.0 * kRadius, 0.0, 1e-3}).value, 1e-3);
-  // Of a convex edge the same is taken away.
+  // At a convex edge the same amount is removed.
   const SignedFunction edge = intersect(floor, wall, kRadius);
   EXPECT_NEAR(edge.sample({-0.25 * kRadius, 0.0, -0.25 * kRadius}).value, 0.0, 1e-16);
   const SignedFunction cut =
@@ -179,7 +179,7 @@ TEST(SignedFunctions, RoundAnEdgeByTheParabolaOfItsRadius) {
   EXPECT_NEAR(cut.sample({-0.25 * kRadius, 0.0, -0.25 * kRadius}).value, 0.0, 1e-16);
 }
 
-TEST(SignedFunctions, AdvanceNeverBeyondTheLevel) {
+TEST(SignedFunctions, NeverAdvanceBeyondTheLevel) {
   for (const test::NamedSolid& named : test::implicit_solids()) {
     SCOPED_TRACE(named.name);
     const SignedFunction& f = named.solid->function();
@@ -206,7 +206,7 @@ TEST(SignedFunctions, AdvanceNeverBeyondTheLevel) {
   }
 }
 
-TEST(SignedFunctions, RefuseWhatCannotBeEvaluated) {
+TEST(SignedFunctions, RefuseInvalidCombinations) {
   const SignedFunction ball(SphereFunction{0.01});
   EXPECT_THROW(unite(ball, ball, -1e-3), std::invalid_argument);
   SignedFunction many = ball;

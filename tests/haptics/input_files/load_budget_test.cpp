@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Files that a scene names: what is opened, what they may cost together, what is reported.
+// Files named by a scene: which are opened, their total cost, and the reports.
 #include "reckon/haptics/input_files/load_budget.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ std::string refusal(const std::filesystem::path& file, std::size_t most = 100) {
   }
 }
 
-TEST(InputFile, ReadsRegularFilesAlone) {
+TEST(InputFile, ReadsOnlyRegularFiles) {
   const test::ScratchFolder folder;
   std::ofstream(folder.file("text")) << "a b\n";
   EXPECT_EQ(read_input_file(folder.file("text"), 4), "a b\n");
@@ -44,7 +44,7 @@ TEST(InputFile, ReadsRegularFilesAlone) {
   EXPECT_THAT(refusal(folder.file("none")), HasSubstr("No such file"));
 }
 
-TEST(InputFile, EndsWhereItsSizeSays) {
+TEST(InputFile, EndsAtItsReportedSize) {
   InputFile file("/proc/self/status", 1 << 20);
   std::array<char, 16> room{};
   EXPECT_EQ(file.read(room), 0u) << "of size 0, with content";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a device is like is found by small pushes, and a surprise ends them.
+// The properties of a device are found by small pushes; an unexpected event ends them.
 #include "reckon/haptics/measurement/device_measurement.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ SimulatedDeviceConfig config_of(const Modelled& one) {
 
 using Spoil = std::function<void(int, DeviceSample&)>;
 
-// How late the host calls step k.
+// Delay of the host's call of step k.
 using Lateness = std::function<std::chrono::nanoseconds(int)>;
 
 struct Outcome {
@@ -50,7 +50,7 @@ struct Outcome {
   double most_push;  // [N]
 };
 
-// Runs to the end. @param spoil what becomes of a reading
+// Runs to the end. @param spoil changes a reading
 Outcome measure(HapticDevice& device, const Spoil& spoil = nullptr,
                 const Lateness& late = nullptr) {
   DeviceMeasurement run(device.limits(), 1ms);
@@ -68,7 +68,7 @@ Outcome measure(HapticDevice& device, const Spoil& spoil = nullptr,
   return {run.problem(), run.result(), run.most_push()};
 }
 
-TEST(DeviceMeasurement, FindsDampingAndDelayOfSevenDevicesWithinTenPerCent) {
+TEST(DeviceMeasurement, FindsDampingAndDelayWithinTenPerCent) {
   const Modelled devices[] = {
       {"like a Falcon", 0.25, 0.3, 0.3, 90e-6, 6, 8.0},
       {"like a Polhem", 0.28, 0.5, 0.5, 70e-6, 2, 5.0},
@@ -99,7 +99,7 @@ TEST(DeviceMeasurement, FindsDampingAndDelayOfSevenDevicesWithinTenPerCent) {
   }
 }
 
-// Gives energy to whoever moves it.
+// Gives energy to a hand that moves it.
 class ActiveDevice : public SimulatedDevice {
  public:
   ActiveDevice(const SimulatedDeviceConfig& config, double gives)
@@ -112,7 +112,7 @@ class ActiveDevice : public SimulatedDevice {
   double gives_;  // [N s/m]
 };
 
-TEST(DeviceMeasurement, RefusesADeviceThatGainsEnergyByItself) {
+TEST(DeviceMeasurement, RefusesADeviceThatGeneratesEnergy) {
   for (const double gives : {1.3, 1.6, 3.0}) {
     const Modelled one{"", 0.2, 1.0, 0.0, 20e-6, 0, 10.0};
     ActiveDevice device(config_of(one), gives);
@@ -127,14 +127,14 @@ TEST(DeviceMeasurement, RefusesADeviceThatGainsEnergyByItself) {
 
 const Modelled kGood{"good", 0.2, 1.0, 0.1, 20e-6, 1, 10.0};
 
-TEST(DeviceMeasurement, RefusesADeviceWhoseReadingsFail) {
+TEST(DeviceMeasurement, RefusesADeviceWithFailingReadings) {
   SimulatedDevice device(config_of(kGood));
   const Outcome run =
       measure(device, [](int k, DeviceSample& sample) { sample.ok = k < 2000 || k > 2003; });
   EXPECT_EQ(run.problem, MeasurementProblem::readings);
 }
 
-TEST(DeviceMeasurement, AFewFailedReadingsCostTimeAndNoAccuracy) {
+TEST(DeviceMeasurement, FewFailedReadingsCostNoAccuracy) {
   SimulatedDevice device(config_of(kGood));
   const Outcome run =
       measure(device, [](int k, DeviceSample& sample) { sample.ok = k % 1700 != 1000; });
@@ -142,7 +142,7 @@ TEST(DeviceMeasurement, AFewFailedReadingsCostTimeAndNoAccuracy) {
   EXPECT_NEAR(run.result->damping, 1.0, 0.1);
 }
 
-TEST(DeviceMeasurement, RefusesADelayThatIsTooLong) {
+TEST(DeviceMeasurement, RefusesTooLongADelay) {
   Modelled late = kGood;
   for (const int delay : {60, 80, 100}) {
     late.delay = delay;
@@ -151,7 +151,7 @@ TEST(DeviceMeasurement, RefusesADelayThatIsTooLong) {
   }
 }
 
-TEST(DeviceMeasurement, RefusesAHandleThatIsHeldOrDoesNotMove) {
+TEST(DeviceMeasurement, RefusesAHeldOrStuckHandle) {
   SimulatedDeviceConfig held = config_of(kGood);
   held.hand_stiffness = 300;
   held.hand_damping = 3;
@@ -166,7 +166,7 @@ TEST(DeviceMeasurement, RefusesAHandleThatIsHeldOrDoesNotMove) {
   EXPECT_EQ(measure(rusty).problem, MeasurementProblem::stuck);
 }
 
-TEST(DeviceMeasurement, EndsAtOnceAtEachSurprise) {
+TEST(DeviceMeasurement, EndsAtOnceAtEachUnexpectedEvent) {
   SimulatedDevice device(config_of(kGood));
   EXPECT_EQ(measure(device, [](int k, DeviceSample& sample) { sample.enabled = k < 700; }).problem,
             MeasurementProblem::switch_off);
@@ -183,12 +183,12 @@ TEST(DeviceMeasurement, EndsAtOnceAtEachSurprise) {
       MeasurementProblem::restless);
 }
 
-// Every so often a step comes so late; the next one is in time again.
+// At intervals one step is late by this time; the next one is on time again.
 Lateness each(int steps, std::chrono::nanoseconds late) {
   return [=](int k) { return k % steps == 0 ? late : 0ns; };
 }
 
-TEST(DeviceMeasurement, StepsThatComeLateNowAndThenDoNotSpoilIt) {
+TEST(DeviceMeasurement, OccasionalLateStepsDoNoHarm) {
   Modelled one = kGood;
   for (const int delay : {0, 6}) {
     one.delay = delay;
@@ -202,22 +202,22 @@ TEST(DeviceMeasurement, StepsThatComeLateNowAndThenDoNotSpoilIt) {
   }
 }
 
-TEST(DeviceMeasurement, AHostThatIsTooBusyIsRefused) {
-  // More than one step of fifty.
+TEST(DeviceMeasurement, RefusesATooBusyHost) {
+  // More than one step in fifty.
   SimulatedDevice device(config_of(kGood));
   EXPECT_EQ(measure(device, nullptr, each(45, 700us)).problem, MeasurementProblem::busy);
-  // One that is very late in a push.
+  // One step that is very late in a push.
   SimulatedDevice other(config_of(kGood));
   const Lateness once = [](int k) { return k > 500 && k < 506 ? 1ms * (506 - k) : 0ns; };
   EXPECT_EQ(measure(other, nullptr, once).problem, MeasurementProblem::busy);
 }
 
-// Its own clock tells how long ways took, which nothing else does.
-TEST(DeviceMeasurement, WhatADeviceTellsOfTimeIsUsed) {
+// Only the device's own clock gives the duration of a displacement.
+TEST(DeviceMeasurement, UsesTheDevicesOwnClock) {
   class Clocked : public SimulatedDevice {
    public:
     using SimulatedDevice::SimulatedDevice;
-    // Reads every second step only, and then both ways at once.
+    // Reads only every second step, and then both displacements at once.
     DeviceSample read(std::chrono::nanoseconds now) noexcept override {
       const bool is_new = !last_ || now - at_ > 1'900us;
       if (is_new) {
@@ -245,7 +245,7 @@ TEST(DeviceMeasurement, WhatADeviceTellsOfTimeIsUsed) {
 }
 
 // A board of one axis or two: the others never move.
-TEST(DeviceMeasurement, AnAxisThatIsNotThereIsNotPushed) {
+TEST(DeviceMeasurement, PushesOnlyExistingAxes) {
   for (const DeviceMeasurement::Axes axes :
        {DeviceMeasurement::Axes{true, false, false}, DeviceMeasurement::Axes{false, true, true}}) {
     SimulatedDevice device(config_of(kGood));
@@ -265,7 +265,7 @@ TEST(DeviceMeasurement, AnAxisThatIsNotThereIsNotPushed) {
   }
 }
 
-TEST(DeviceMeasurement, WhileAnAxisIsJudgedThereIsNoForce) {
+TEST(DeviceMeasurement, GivesNoForceWhileAnAxisIsJudged) {
   SimulatedDevice device(config_of(kGood));
   DeviceMeasurement run(device.limits(), 1ms);
   int k = 0;

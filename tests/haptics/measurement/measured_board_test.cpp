@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Serial boards are measured through their line: its damping and delay are found by the board's own
+// Serial boards are measured through their line: damping and delay are found by the board's own
 // clock. All time is the board's.
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class Measured : public test::WiredBoard {
 };
 
 // RECKON_SOAK=1 measures each seed at each period, and both lags below.
-TEST(MeasuredBoard, DampingAndDelayAreFoundWithinTenPerCent) {
+TEST(MeasuredBoard, FindsDampingAndDelayWithinTenPerCent) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     for (const int period : {1'000, 2'000}) {
       if (!test::soaks() && (seed == 1) != (period == 1'000)) continue;
@@ -84,8 +84,8 @@ TEST(MeasuredBoard, DampingAndDelayAreFoundWithinTenPerCent) {
   }
 }
 
-// The motors pull later than the board reports: nothing but a push can tell.
-TEST(MeasuredBoard, WhatMotorsLagBehindTheirReportsIsFound) {
+// The motors pull later than the board reports: only a push shows it.
+TEST(MeasuredBoard, FindsTheLagOfMotorsBehindReports) {
   for (const int lag : {2, 5}) {
     if (!test::soaks() && lag != 5) continue;
     SerialBoardOptions options;
@@ -100,7 +100,7 @@ TEST(MeasuredBoard, WhatMotorsLagBehindTheirReportsIsFound) {
   }
 }
 
-TEST(MeasuredBoard, ABoardOfFewerAxesIsMeasuredAlongThese) {
+TEST(MeasuredBoard, MeasuresTheAxesOfASmallBoard) {
   SerialBoardOptions options;
   options.axes = 1;
   Measured wired(options);
@@ -110,7 +110,7 @@ TEST(MeasuredBoard, ABoardOfFewerAxesIsMeasuredAlongThese) {
   EXPECT_NEAR(wired.measuring.run()->result()->damping, 2.0, 0.2);
 }
 
-TEST(MeasuredBoard, ABoardThatHangsTakesTheRunToItsEnd) {
+TEST(MeasuredBoard, HungBoardEndsTheRun) {
   Measured wired({});
   wired.begin();
   wired.push();

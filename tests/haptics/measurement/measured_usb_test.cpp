@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices on USB are measured through the real libusb, the kernel's calls answered by a model: its
-// damping and the chain's delay are found, and what goes wrong takes the force off. All time is the
-// model's.
+// Devices on USB are measured through the real libusb; a model answers the kernel's calls: damping
+// and the chain's delay are found, and each fault removes the force. All time is the model's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +52,7 @@ DeviceLimits limits_of(int delay) {
   return usb_limits(Kind::facts(), settings);
 }
 
-/// Plugged in, with the servo that measures in the place of its own.
+/// Plugged in, with the measuring servo instead of its own.
 template <class Kind>
 class Measured : public test::PluggedDevice<typename Kind::Model> {
  public:
@@ -71,10 +70,10 @@ class Measured : public test::PluggedDevice<typename Kind::Model> {
     });
   }
 
-  // Its loop tells it a zero still, which takes time.
+  // Its loop sends a last zero force, which takes time.
   ~Measured() { this->model.beside(nullptr); }
 
-  /// @return whether it came to this stage
+  /// @return whether it reached this stage
   bool reach(MeasuringStage stage, nanoseconds longest = seconds(20)) {
     const nanoseconds end = this->model.now() + longest;
     while (measuring.stage() != stage && this->model.now() < end) this->run(milliseconds(20));
@@ -130,7 +129,7 @@ typename Kind::Options options_of(unsigned seed, double damping) {
   return options;
 }
 
-// How many readings fail in three seconds at a delay that is stated.
+// Number of failed readings in three seconds at a declared delay.
 template <class Kind>
 int failures(const typename Kind::Options& options, int delay) {
   Measured<Kind> device(options, delay);
@@ -149,7 +148,7 @@ int failures(const typename Kind::Options& options, int delay) {
 }
 
 // RECKON_SOAK=1 measures four.
-TYPED_TEST(MeasuredUsbTest, DampingAndDelayAreFoundWithinTenPerCent) {
+TYPED_TEST(MeasuredUsbTest, FindsDampingAndDelayWithinTenPerCent) {
   const unsigned seeds = test::tries(1U, 4U);
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const double damping = seed <= 2 ? 0.4 : 2.0;
@@ -165,12 +164,12 @@ TYPED_TEST(MeasuredUsbTest, DampingAndDelayAreFoundWithinTenPerCent) {
                 1e3 * run.result()->delay, device.device.needed_delay());
     EXPECT_NEAR(run.result()->damping, damping, 0.1 * damping) << seed;
     EXPECT_NEAR(run.result()->mass, options.mass, 0.1 * options.mass) << seed;
-    // By the ledger's contract a force counts as many writes later as is stated.
+    // By the ledger's contract a force counts after the declared number of writes.
     EXPECT_NEAR(1e3 * run.result()->delay, 6.0, 0.6) << seed;
   }
 }
 
-TYPED_TEST(MeasuredUsbTest, TheDelayThatIsNeededIsEnoughAndOneLessIsNot) {
+TYPED_TEST(MeasuredUsbTest, NeededDelaySufficesButNotOneLess) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const auto options = options_of<TypeParam>(seed, 1.0);
     int needed = 0;
@@ -186,7 +185,7 @@ TYPED_TEST(MeasuredUsbTest, TheDelayThatIsNeededIsEnoughAndOneLessIsNot) {
   }
 }
 
-TYPED_TEST(MeasuredUsbTest, NothingMovesBeforeSomebodySaysSo) {
+TYPED_TEST(MeasuredUsbTest, MovesNothingBeforeTheStart) {
   Measured<TypeParam> device({});
   ASSERT_TRUE(device.reach(MeasuringStage::ready));
   device.run(seconds(1));
@@ -194,7 +193,7 @@ TYPED_TEST(MeasuredUsbTest, NothingMovesBeforeSomebodySaysSo) {
   EXPECT_FALSE(device.measuring.judge());
 }
 
-TYPED_TEST(MeasuredUsbTest, AHandThatHoldsItIsRefused) {
+TYPED_TEST(MeasuredUsbTest, RefusesAHeldHandle) {
   Measured<TypeParam> device({});
   ASSERT_TRUE(device.reach(MeasuringStage::ready));
   device.run(seconds(1));
@@ -207,7 +206,7 @@ TYPED_TEST(MeasuredUsbTest, AHandThatHoldsItIsRefused) {
   device.expect_no_force_within(milliseconds(10));
 }
 
-TYPED_TEST(MeasuredUsbTest, ADeviceThatGainsEnergyIsStopped) {
+TYPED_TEST(MeasuredUsbTest, StopsADeviceThatGeneratesEnergy) {
   Measured<TypeParam> device({});
   device.begin();
   device.push();
@@ -220,7 +219,7 @@ TYPED_TEST(MeasuredUsbTest, ADeviceThatGainsEnergyIsStopped) {
   device.expect_no_force_within(milliseconds(10));
 }
 
-TYPED_TEST(MeasuredUsbTest, UnpluggedInTheMiddleItEndsByItsReadings) {
+TYPED_TEST(MeasuredUsbTest, UnplugEndsTheRunByFailedReadings) {
   Measured<TypeParam> device({});
   device.begin();
   device.push();
@@ -228,12 +227,12 @@ TYPED_TEST(MeasuredUsbTest, UnpluggedInTheMiddleItEndsByItsReadings) {
   device.finish();
   EXPECT_EQ(device.measuring.run()->problem(), MeasurementProblem::readings);
   EXPECT_THAT(device.notices, Contains(HasSubstr("was unplugged")));
-  // It comes back, and is not pushed on.
+  // It comes back, and is not pushed again.
   device.shim.plug();
   device.expect_no_force_within(milliseconds(300));
 }
 
-TYPED_TEST(MeasuredUsbTest, AServoThatIsLateLeavesNoForceAndIsTheReason) {
+TYPED_TEST(MeasuredUsbTest, LateServoEndsTheRunWithoutForce) {
   Measured<TypeParam> device({});
   device.begin();
   device.push();
@@ -247,7 +246,7 @@ TYPED_TEST(MeasuredUsbTest, AServoThatIsLateLeavesNoForceAndIsTheReason) {
   device.expect_no_force_within(milliseconds(10));
 }
 
-TYPED_TEST(MeasuredUsbTest, ThePersonAndTheSoftwareStopTakeTheForceOffForGood) {
+TYPED_TEST(MeasuredUsbTest, UserOrSoftwareStopRemovesTheForce) {
   for (const bool by_stop : {false, true}) {
     Measured<TypeParam> device({});
     device.begin();

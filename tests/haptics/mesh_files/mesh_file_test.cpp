@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using test::TemporaryMesh;
 using testing::HasSubstr;
 
-// Millimetres at national coordinates: 0.4 um is the last digit that a double holds there.
+// Millimetres at national coordinates: 0.4 um is the last digit of a double there.
 constexpr const char* kFarVertices[] = {"4321012.3451 678901.2342 432.1003",
                                         "4321012.3462 678901.2342 432.1003",
                                         "4321012.3451 678901.2353 432.1003"};
@@ -43,8 +43,7 @@ void append(std::string& out, T value, bool big_endian = false) {
   out.append(bytes, sizeof bytes);
 }
 
-/// Three vertices of doubles and a triangle, with properties before and behind that are none of
-/// ours.
+/// Three vertices of doubles and a triangle, with irrelevant properties before and after them.
 std::string binary_ply(bool big_endian) {
   std::string out = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                     "_endian 1.0\ncomment made by hand\nelement material 1\n"
@@ -71,7 +70,7 @@ void expect_far_triangle(const std::string& ending, const std::string& text) {
   const TemporaryMesh written(ending, text);
   const MeshFile file = read_mesh_file(written.path());
   ASSERT_EQ(file.vertices.size(), 3u);
-  // The literals above and the text are rounded to double once each: equal to the bit.
+  // The literals above and the text are each rounded to double once: equal to the bit.
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(file.vertices[i], kFar[i]);
   ASSERT_EQ(file.faces.size(), 1u);
   EXPECT_THAT(file.corners_of(file.faces[0]), testing::ElementsAre(0u, 1u, 2u));
@@ -102,16 +101,16 @@ std::string binary_stl(std::string bytes) {
   return bytes;
 }
 
-TEST(MeshFile, ReadsABinaryStlThatBeginsLikeAText) {
+TEST(MeshFile, ReadsABinaryStlWithATextHeader) {
   const TemporaryMesh written(".stl", binary_stl("solid but binary"));
   const MeshFile file = read_mesh_file(written.path());
   ASSERT_EQ(file.faces.size(), 2u);
   ASSERT_EQ(file.vertices.size(), 6u);
-  EXPECT_EQ(file.vertices[4], Vector3d(18, 19, 20));  // behind the second normal, 12 to 14
+  EXPECT_EQ(file.vertices[4], Vector3d(18, 19, 20));  // after the second normal, 12 to 14
   EXPECT_EQ(file.place_word, "face");
 }
 
-TEST(MeshFile, CountsOctetsBehindTheFacesOfAnStl) {
+TEST(MeshFile, CountsOctetsAfterTheFacesOfAnStl) {
   for (const char* begin : {"solid but binary", "binary"}) {
     for (const std::size_t behind : {0U, 2U, 50U}) {
       const TemporaryMesh written(".stl", binary_stl(begin) + std::string(behind, 'x'));
@@ -135,7 +134,7 @@ TEST(MeshFile, TakesObjIndicesOfEveryKind) {
   EXPECT_EQ(file.faces[1].place, 12u);
 }
 
-TEST(MeshFile, TellsMaterialAndGroupOfEachFace) {
+TEST(MeshFile, GivesMaterialAndGroupOfEachFace) {
   const TemporaryMesh obj(".obj",
                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng lid side\nusemtl felt\nf 1 2 3\n"
                           "usemtl steel\nf 1 2 3\nusemtl felt\no lid\nf 1 2 3\ng\nf 1 2 3\n");
@@ -210,7 +209,7 @@ TEST(MeshFile, NamesTheFaceOfABinaryFile) {
               testing::ThrowsMessage<std::runtime_error>(HasSubstr(": face 1 names vertex 5")));
 }
 
-/// True where the file is read, false where it is refused with a sentence.
+/// True if the file is read, false if it is refused with a message.
 bool is_read(const std::string& ending, const std::string& text) {
   const TemporaryMesh written(ending, text);
   try {
@@ -223,7 +222,7 @@ bool is_read(const std::string& ending, const std::string& text) {
   }
 }
 
-TEST(MeshFile, TakesOrRefusesWhateverIsCutOffOrDamaged) {
+TEST(MeshFile, AcceptsOrRefusesAnyDamagedFile) {
   const std::pair<std::string, std::string> files[] = {
       {".obj", far_lines("v ") + "f 1/2/3 2 \\\n -1\n"},
       {".off", "OFF\n3 1 0\n" + far_lines("") + "3 0 1 2\n"},
@@ -247,9 +246,9 @@ double area(const std::vector<Vector3d>& p, const std::array<std::uint32_t, 3>& 
   return 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).z();
 }
 
-// An L, a comb and a square with a point on its edge: every triangle winds as the outline does, and
-// together they have its area (by hand).
-TEST(MeshFile, CutsPolygonsThatAreNotConvexWithoutOverlap) {
+// An L, a comb and a square with a point on its edge: every triangle has the winding of the
+// outline, and their total area is the outline's (by hand).
+TEST(MeshFile, CutsConcavePolygonsWithoutOverlap) {
   const std::pair<std::vector<Vector3d>, double> outlines[] = {
       {{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, 3.0},
       {{{0, 0, 0},
@@ -267,7 +266,7 @@ TEST(MeshFile, CutsPolygonsThatAreNotConvexWithoutOverlap) {
        11.0},
       {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, 4.0}};
   for (const auto& [outline, whole] : outlines) {
-    // From every corner on: which one is first must not matter.
+    // From every corner on: the choice of the first one must not matter.
     for (std::size_t first = 0; first < outline.size(); ++first) {
       std::vector<std::uint32_t> corners(outline.size());
       std::iota(corners.begin(), corners.end(), 0u);
@@ -294,7 +293,7 @@ std::vector<Vector3d> star(std::size_t points) {
   return outline;
 }
 
-// Three turns of a strip: most ears appear only where others were cut.
+// Three turns of a strip: most ears appear only after others were cut.
 TEST(MeshFile, CutsSpiralsWithoutOverlap) {
   constexpr int kPoints = 150;
   std::vector<Vector3d> outline;
@@ -316,7 +315,7 @@ TEST(MeshFile, CutsSpiralsWithoutOverlap) {
   EXPECT_NEAR(sum, std::abs(whole), 1e-9);
 }
 
-TEST(MeshFile, CutsPolygonsThatCrossThemselves) {
+TEST(MeshFile, CutsSelfCrossingPolygons) {
   std::vector<Vector3d> outline;
   for (std::size_t i = 0; i < 2000; ++i)
     outline.emplace_back(static_cast<double>(i * 7919 % 10007), static_cast<double>(i * i % 10009),
@@ -328,7 +327,7 @@ TEST(MeshFile, CutsPolygonsThatCrossThemselves) {
   EXPECT_EQ(triangles.size(), outline.size() - 2);
 }
 
-TEST(MeshFile, BoundsTheCornersOfFacesThatAreNotConvex) {
+TEST(MeshFile, BoundsTheCornersOfConcaveFaces) {
   const auto cut = [](std::size_t points) {
     const std::vector<Vector3d> outline = star(points);
     std::vector<std::uint32_t> corners(outline.size());

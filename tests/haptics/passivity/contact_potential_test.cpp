@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Kind = pdu::ForceModelKind;
 
-TEST(BoundedSpring, EnergyIsTheIntegralOfForceInEveryRange) {
+TEST(BoundedSpring, EnergyIsTheIntegralOfForce) {
   struct Case {
     double k1, k3, slope, limit;
   };
@@ -68,7 +68,7 @@ TEST(ContactPotential, GeometryAgreesWithThePredictorsForEveryKind) {
   }
 }
 
-// S(x + dx) <= S(x) - f.dx + slope/2 |dx|^2: the inequality that the proof rests on.
+// S(x + dx) <= S(x) - f.dx + slope/2 |dx|^2: the inequality used by the proof.
 TEST(ContactPotential, CurvatureFromAboveIsBoundedForEveryKind) {
   std::mt19937 rng(11);
   std::uniform_real_distribution<double> u(-1, 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The spring of one contact: its friction, its curvature, and what it does with bad parameters.
+// The spring of one contact: its friction, its curvature, and its response to bad parameters.
 #include "reckon/haptics/passivity/contact_spring.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 using test::plane;
 using Kind = pdu::ForceModelKind;
 
-TEST(ContactSpring, LeavesParametersAloneThatAreNotNumbers) {
+TEST(ContactSpring, IgnoresNonFiniteParameters) {
   ContactSpring spring;
   spring.reset(Vector3d::Zero());
   spring.move(plane(500, 0.01, 950));
@@ -56,9 +56,9 @@ TEST(ContactSpring, FrictionSticksThenSlidesAtTheKineticCoefficient) {
   EXPECT_TRUE(spring.slipping());
 }
 
-// S(x + dx) <= S(x) - F.dx + dx.H dx / 2 for any dx, with what the bristle does on the way: the one
-// line that the proof rests on.
-TEST(ContactSpring, ItsCurvatureIsBoundedByItsSlopeForMotionsOfAnyLength) {
+// S(x + dx) <= S(x) - F.dx + dx.H dx / 2 for any dx, including the motion of the bristle: the one
+// inequality used by the proof.
+TEST(ContactSpring, CurvatureIsBoundedForAnyMotion) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   const auto any = [&] { return Vector3d(u(random) - .5, u(random) - .5, u(random) - .5); };

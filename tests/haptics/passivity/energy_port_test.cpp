@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The port's promise: work + device damping + received - given >= 0 whatever the contacts show.
+// The port's guarantee: work + device damping + received - given >= 0 for any contacts.
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ Attack read(const nlohmann::json& v) {
           v["K2"],      v["x01"],       v["x02"],          v["steps"]};
 }
 
-TEST(EnergyPort, StaysPassiveOnEveryUpdateAttackThatDefeatsRawUpdates) {
+TEST(EnergyPort, StaysPassiveUnderEveryUpdateAttack) {
   RECKON_NEED_DATA("oracles/update_attacks.json");
   std::ifstream file(test::reference_data() / "oracles/update_attacks.json");
   const nlohmann::json oracle = nlohmann::json::parse(file);
@@ -115,7 +115,7 @@ TEST(EnergyPort, StaysPassiveOnEveryUpdateAttackThatDefeatsRawUpdates) {
   }
 }
 
-TEST(EnergyPort, DoesNotTouchABenignSceneBelowTheCap) {
+TEST(EnergyPort, LeavesABenignSceneUnchanged) {
   Touch touch(1.0, Vector3d::Zero());
   double worst = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -128,8 +128,8 @@ TEST(EnergyPort, DoesNotTouchABenignSceneBelowTheCap) {
   EXPECT_LE(worst, 1e-12);
 }
 
-// A quarter of S is enough for the whole force of K = b/(2 T): the rest is held, not booked.
-TEST(EnergyPort, ShowsTheWholeForceOfASurfaceThatCameWithAQuarterOfItsEnergy) {
+// A quarter of S is sufficient for the whole force of K = b/(2 T): the rest is held, not booked.
+TEST(EnergyPort, QuarterOfTheEnergyGivesTheWholeForce) {
   Touch touch(1.0, Vector3d::Zero());
   const double stored = 0.5 * 500 * 0.004 * 0.004;
   touch.port.credit(0.2501 * stored);
@@ -141,7 +141,7 @@ TEST(EnergyPort, ShowsTheWholeForceOfASurfaceThatCameWithAQuarterOfItsEnergy) {
   EXPECT_NEAR(poorer.hold().norm(), 1.0, 0.01) << "half the force for a quarter of the energy";
 }
 
-TEST(EnergyPort, ForcesThatCancelCostNothing) {
+TEST(EnergyPort, CancellingForcesCostNothing) {
   EnergyPort port(1.0);
   PortLoad load;
   load.springs = Vector3d(1e-14, 0, 0);  // 5 N from the left, 5 N from the right
@@ -162,7 +162,7 @@ TEST(EnergyPort, NeverDampsBeyondItsEnergy) {
   EXPECT_GE(touch.meter.surplus, kPassive);
 }
 
-TEST(EnergyPort, WhatIsOwedStaysOwedUntilItIsPaid) {
+TEST(EnergyPort, DebtRemainsUntilItIsPaid) {
   EnergyPort port(1.0);
   port.borrow(0.004);
   EXPECT_EQ(port.level(), 0.004);
@@ -177,8 +177,8 @@ TEST(EnergyPort, WhatIsOwedStaysOwedUntilItIsPaid) {
   EXPECT_NEAR(port.level(), 0.007, 1e-15);
 }
 
-// A hand of 1 N s/m that comes 2 mm in a millisecond: 4 mJ. What is left of it is unknown.
-TEST(EnergyPort, WhatIsDiscardedWasNotAbsorbed) {
+// A hand of 1 N s/m that moves 2 mm in a millisecond: 4 mJ. The remainder is unknown.
+TEST(EnergyPort, DiscardedEnergyIsNotAbsorbed) {
   EnergyPort port(1.0);
   static_cast<void>(port.hold({}, kT));
   port.settle(Vector3d(0.002, 0, 0), kT);
@@ -187,7 +187,7 @@ TEST(EnergyPort, WhatIsDiscardedWasNotAbsorbed) {
   EXPECT_NEAR(port.absorbed(), 0.0, 1e-12);
 }
 
-// A surface that was fed for long and goes away: 50 mJ were in its spring.
+// A surface that received energy for a long time and disappears: 50 mJ were in its spring.
 EnergyPort fed_by_others() {
   EnergyPort port(2.0);
   port.limit_received_power(0.2);
@@ -204,12 +204,12 @@ EnergyPort fed_by_others() {
   return port;
 }
 
-TEST(EnergyPort, WhatOthersGaveIsKeptNoMoreThanTheyMayGiveAtOnce) {
+TEST(EnergyPort, KeepsReceivedEnergyWithinTheBurstLimit) {
   EnergyPort port = fed_by_others();
   EXPECT_NEAR(port.level(), EnergyPort::kReceivedAtOnce, 1e-12);
   EXPECT_EQ(port.receivable(), 0.0);
 
-  // It goes into the hand, and as much may come again.
+  // It goes into the hand, and the same amount may be received again.
   PortLoad push;
   push.springs = Vector3d(1.0, 0.0, 0.0);
   for (int i = 0; i < 50; ++i) {
@@ -221,7 +221,7 @@ TEST(EnergyPort, WhatOthersGaveIsKeptNoMoreThanTheyMayGiveAtOnce) {
   EXPECT_NEAR(port.receivable(), 0.004, 1e-9) << "5 mJ of work, of which the damping took 1";
 }
 
-TEST(EnergyPort, WhatTheHandTakesBackFromOthersIsNoWorkOfItsOwn) {
+TEST(EnergyPort, ReturnedEnergyIsNoWorkOfTheHand) {
   EnergyPort port = fed_by_others();
   const auto swing = [&](double force, double dx, int steps) {
     PortLoad load;
@@ -243,9 +243,8 @@ TEST(EnergyPort, WhatTheHandTakesBackFromOthersIsNoWorkOfItsOwn) {
   EXPECT_GT(port.level(), 2 * EnergyPort::kReceivedAtOnce) << "pushed of its own";
 }
 
-// A handle of 1 N s/m that goes 1 mm in 2 ms loses half a millijoule, in however many samples that
-// is told.
-TEST(EnergyPort, DampingTakesWhatTheDevicesOwnTimeSays) {
+// A handle of 1 N s/m that moves 1 mm in 2 ms loses half a millijoule, for any number of samples.
+TEST(EnergyPort, DampingUsesTheDevicesOwnTime) {
   const auto absorbed = [](double resolution, std::initializer_list<std::array<double, 2>> ways) {
     EnergyPort port(1.0, 0, resolution);
     for (const auto& [way, took] : ways) port.settle(Vector3d(way, 0, 0), kT, took);
@@ -258,7 +257,7 @@ TEST(EnergyPort, DampingTakesWhatTheDevicesOwnTimeSays) {
   EXPECT_GT(absorbed(1e-6, {{0, 0}, {1e-3, 2e-3}}), 0.49e-3);
 }
 
-TEST(EnergyPort, AForceIsPaidForWithTheLeastDampingOfThosePosesThatItWasChosenIn) {
+TEST(EnergyPort, ForceIsPaidWithTheLeastRecentDamping) {
   constexpr int kDelay = 2;
   EnergyPort port(2.0, kDelay);
   port.pose(0.5, 0.0);
@@ -271,7 +270,7 @@ TEST(EnergyPort, AForceIsPaidForWithTheLeastDampingOfThosePosesThatItWasChosenIn
   EXPECT_EQ(port.damping(), 2.0);
 }
 
-TEST(EnergyPort, WhatDampingTakesOfAWayIsThatOfItsWorsePose) {
+TEST(EnergyPort, DampingOfAMotionUsesItsWorsePose) {
   EnergyPort port(2.0);
   const Vector3d dx(1e-3, 0, 0);
   const auto loss = [&](double damping) {
@@ -286,7 +285,7 @@ TEST(EnergyPort, WhatDampingTakesOfAWayIsThatOfItsWorsePose) {
   EXPECT_NEAR(loss(2.0), 2e-3, 1e-15);
 }
 
-TEST(EnergyPort, WhatDampingTakesOfAWayWithoutReadingsIsThatOfItsWorseEnd) {
+TEST(EnergyPort, DampingWithoutReadingsUsesTheWorseEnd) {
   EnergyPort port(2.0);
   port.pose(0.5, 0.0);
   port.settle(Vector3d::Zero(), kT);
@@ -296,7 +295,7 @@ TEST(EnergyPort, WhatDampingTakesOfAWayWithoutReadingsIsThatOfItsWorseEnd) {
   EXPECT_NEAR(port.absorbed(), 0.5 * 1e-6 / (2 * kT), 1e-15);
 }
 
-TEST(EnergyPort, AnErrorOfTheEncodersIsThatOfThePoseInWhichTheForceChanged) {
+TEST(EnergyPort, EncoderErrorUsesTheForcesPose) {
   EnergyPort port(1.0, 0, 1e-4);
   PortLoad load;
   load.extra = Vector3d(1, 0, 0);
@@ -304,17 +303,17 @@ TEST(EnergyPort, AnErrorOfTheEncodersIsThatOfThePoseInWhichTheForceChanged) {
   static_cast<void>(port.hold(load, kT));
   port.pose(1.0, 3e-4);
   port.settle(Vector3d::Zero(), kT);
-  // Half the diagonal of a step, as the force came and as it may go.
+  // Half the diagonal of a step, at the start of the force and at its possible end.
   EXPECT_NEAR(port.encoder_allowance(), 2 * 0.5 * std::sqrt(3) * 3e-4, 1e-12);
 }
 
-TEST(EnergyPort, OfAForceThatWasHeldInPartTheHandPutInThatPartAndGotAllOfIt) {
+TEST(EnergyPort, PartlyHeldForceIsBookedInPart) {
   for (const double way : {-1e-3, 1e-3}) {
     EnergyPort port(1.0);
     PortLoad load;
     load.walls = Vector3d(2, 0, 0);
     ASSERT_EQ(port.hold(load, kT).force.x(), 2.0);
-    const double no_time = 0.0;  // in which damping takes something
+    const double no_time = 0.0;  // with no time for dissipation
     port.settle(Vector3d(way, 0, 0), kT, no_time, 0.25);
     EXPECT_NEAR(port.absorbed(), way < 0 ? 0.25 * 2e-3 : -2e-3, 1e-15);
   }

@@ -81,7 +81,7 @@ class PortFuzz {
     if (unit() < 0.02) older_ = goal_;
     if (unit() < 0.02) goal_ = surface();
     if (unit() < 0.005) goal_.point += direction();  // jumps 1 m
-    if (unit() < 0.005) std::swap(goal_, older_);    // comes out of order
+    if (unit() < 0.005) std::swap(goal_, older_);    // arrives out of order
     goal_.point += 2e-4 * direction();
     spring.move(unit() < 0.02 ? poisoned(goal_) : goal_);
   }
@@ -114,7 +114,7 @@ class PortFuzz {
     velocity_ += 0.02 * direction() - 0.5 * x_ * kT * 400;
     if (unit() < 0.01) velocity_ = 0.4 * unit() * direction();
     Vector3d dx = velocity_ * kT;
-    // Now and then the motion that takes the most out of a force held still.
+    // Now and then the motion that takes most energy out of a held force.
     if (unit() < 0.2) dx = force / (2 * b_ / kT);
     meter.move(force, dx, b_);
     x_ += dx;
@@ -133,7 +133,7 @@ class PortFuzz {
   Vector3d x_ = Vector3d::Zero(), velocity_ = Vector3d::Zero();
 };
 
-TEST(EnergyPort, StaysPassiveInThreeDimensionsUnderRandomHostileUpdates) {
+TEST(EnergyPort, StaysPassiveUnderRandomHostileUpdates) {
   double least = 0, surplus = 0, peak = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     PortFuzz fuzz(seed);

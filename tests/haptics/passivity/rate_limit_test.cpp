@@ -18,7 +18,7 @@ double nearest_fall(const Vector3d& held, const Vector3d& wanted) {
   return least;
 }
 
-TEST(RateLimit, BindsGrowthAndTurningAndNeverAFall) {
+TEST(RateLimit, LimitsGrowthAndTurningButNotAFall) {
   const Vector3d held(2, 0, 0);
   EXPECT_EQ(nearest_in_reach(held, Vector3d(0.1, 0, 0), 0.5), Vector3d(0.1, 0, 0));
   const Vector3d none = Vector3d::Zero();
@@ -31,7 +31,7 @@ TEST(RateLimit, BindsGrowthAndTurningAndNeverAFall) {
   EXPECT_NEAR(part_in_reach(held, Vector3d(0, 4, 0), 0.5), 0.125, 1e-8);
 }
 
-TEST(RateLimit, IsTheDefinitionForRandomForces) {
+TEST(RateLimit, EqualsTheDefinitionForRandomForces) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto force = [&] { return Vector3d(3 * unit(random), 3 * unit(random), 3 * unit(random)); };
@@ -39,7 +39,7 @@ TEST(RateLimit, IsTheDefinitionForRandomForces) {
     const Vector3d held = force(), wanted = force();
     const double most = 0.5 + 0.5 * unit(random);
     const Vector3d near_by = nearest_in_reach(held, wanted, most);
-    // The grid of falls is 3 mN fine at most.
+    // The grid of falls has steps of at most 3 mN.
     EXPECT_LE(nearest_fall(held, near_by), most + 3e-3);
     EXPECT_EQ(within_reach(held, wanted, most), near_by == wanted);
     if (nearest_fall(held, wanted) > most + 3e-3) {

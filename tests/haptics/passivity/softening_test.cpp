@@ -13,15 +13,15 @@ void run(Softening& softening, double seconds, double held, bool to_spare, bool 
   for (double t = 0; t < seconds; t += kStep) softening.learn(held, to_spare, touching, kStep);
 }
 
-TEST(Softening, PassesOverWhatDoesNotLast) {
+TEST(Softening, IgnoresShortShortages) {
   Softening softening;
   run(softening, 0.01, 0.5, false);
   EXPECT_GT(softening.share(), 0.999);
-  run(softening, 1.0, 0.99, false);  // not felt
+  run(softening, 1.0, 0.99, false);  // not noticeable
   EXPECT_GT(softening.share(), 0.98);
 }
 
-TEST(Softening, FallsWhileForceIsHeldBackAndNoLowerThanItsLeast) {
+TEST(Softening, FallsToItsLeastWhileForceIsLimited) {
   Softening softening;
   run(softening, 0.5, 0.8, false);
   EXPECT_LT(softening.share(), 0.85);
@@ -30,7 +30,7 @@ TEST(Softening, FallsWhileForceIsHeldBackAndNoLowerThanItsLeast) {
   EXPECT_EQ(softening.share(), Softening::kLeast);
 }
 
-TEST(Softening, RisesWithEnergyToSpareAndAtOnceWhenLetGo) {
+TEST(Softening, RisesWithSpareEnergyAndOnRelease) {
   Softening softening;
   run(softening, 10.0, 0.0, false);
   run(softening, 0.5, 1.0, false);

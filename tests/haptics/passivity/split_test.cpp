@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How much of the springs' potential is booked, and the strongest force where not all can be had.
+// The booked share of the springs' potential, and the strongest force if not all can be rendered.
 #include "reckon/haptics/passivity/split.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What a split costs, by its definition.
+// The cost of a split, by its definition.
 double cost(const SplitBound& b, const Vector3d& wanted, double w) {
   const double rest = (wanted - w * b.springs).squaredNorm();
   return w * b.stored + (rest > 0 ? rest / (4 * (b.spare - w * b.half_slope)) : 0.0);
@@ -55,7 +55,7 @@ TEST(Split, BooksTheMostThatTheEnergyAllows) {
   EXPECT_GT(std::min({whole, part, none}), 1000) << whole << " " << part << " " << none;
 }
 
-TEST(Split, ShowsTheMostWhereNotAllCanBeHad) {
+TEST(Split, RendersTheMaximumWhenEnergyIsShort) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> u(0, 1);
   for (int i = 0; i < 5'000; ++i) {

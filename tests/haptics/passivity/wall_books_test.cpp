@@ -27,7 +27,7 @@ class Walls {
   std::mt19937 random_;
 };
 
-TEST(SpringWall, ItsForceIsTheSlopeOfWhatItStores) {
+TEST(SpringWall, ForceIsTheSlopeOfStoredEnergy) {
   Walls walls(1);
   constexpr double kStep = 1e-7;
   for (int i = 0; i < 5000; ++i) {
@@ -41,7 +41,7 @@ TEST(SpringWall, ItsForceIsTheSlopeOfWhatItStores) {
   }
 }
 
-TEST(SpringWall, TheWorstRiseIsTheGreatestOfAllPlaces) {
+TEST(SpringWall, WorstRiseIsTheGreatestOfAllPositions) {
   Walls walls(2);
   for (int i = 0; i < 2000; ++i) {
     const SpringWall old = walls.any(), next = walls.any();
@@ -54,29 +54,30 @@ TEST(SpringWall, TheWorstRiseIsTheGreatestOfAllPlaces) {
       found = std::max(found, stored_in(next, side, x) - stored_in(old, side, x));
     }
     EXPECT_GE(worst, found - 1e-12);
-    EXPECT_LE(worst, found + 2e-4);  // 40 N over half of a step of 0.25 mm is 5 mJ at most at kinks
+    EXPECT_LE(worst, found + 2e-4);  // 40 N over half a step of 0.25 mm: at most 5 mJ at kinks
   }
 }
 
-// A change that reached the device later than was relied on cost more than there was.
-TEST(WallBooks, WhereMoreIsOwedThanIsThereWhatCostsNothingIsShownAsWanted) {
+// A change that arrived later than assumed cost more than there was.
+TEST(WallBooks, InDebtOnlyFreeChangesAreGranted) {
   WallBooks books;
   const SpringWall wall{0.0, 1000, 10};
   books.book(0, WallSide::below, wall, {-0.002, 0.01});
   const double owed = 0.5 * 1000 * 0.002 * 0.002;
   EXPECT_NEAR(books.energy(), -owed, 1e-12);
-  // In front of the hand a stiffer one costs nothing; where the hand may be it begins deeper.
+  // In front of the hand a stiffer one costs nothing; at a possible position of the hand it begins
+  // deeper.
   const SpringWall stiffer{0.0, 2000, 10};
   EXPECT_EQ(books.payable(0, WallSide::below, stiffer, {0.001, 0.01}).at, 0.0);
   EXPECT_NEAR(books.payable(0, WallSide::below, stiffer, {-0.003, 0.01}).at,
               0.003 / std::sqrt(2.0) - 0.003, 1e-9);
-  // Taken away while the hand is surely in it, it pays back what it stored.
+  // Removed while the hand is certainly inside, it pays back its stored energy.
   books.book(0, WallSide::below, {}, {-0.004, -0.003});
   EXPECT_NEAR(books.energy(), 0.5 * 1000 * 0.003 * 0.003 - owed, 1e-12);
 }
 
-// The handle jumps, so that every change finds it where it likes within the places.
-TEST(WallBooks, WhatIsBookedIsNeverMoreThanWhatTheHandPutIn) {
+// The handle jumps, so each change finds it at the worst of its possible positions.
+TEST(WallBooks, BooksAtMostTheHandsInput) {
   double most_paid = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
     Walls walls(seed);
@@ -95,7 +96,7 @@ TEST(WallBooks, WhatIsBookedIsNeverMoreThanWhatTheHandPutIn) {
       const PlaceRange places{x - 0.01, x + 0.01};
       const SpringWall wall = books.payable(0, side, walls.any(), places);
       books.book(0, side, wall, places);
-      move(x + walls.within(-0.01, 0.01));  // until the device has it
+      move(x + walls.within(-0.01, 0.01));  // until the change has arrived at the device
       shown.wall(0, side) = wall;
       double stored = 0;
       for (const WallSide one : {WallSide::below, WallSide::above})
@@ -109,21 +110,21 @@ TEST(WallBooks, WhatIsBookedIsNeverMoreThanWhatTheHandPutIn) {
   EXPECT_GT(most_paid, 0.01) << "no wall was ever pressed";
 }
 
-TEST(WallBooks, AWallThatCostsNothingIsShownAsWanted) {
+TEST(WallBooks, FreeWallIsRenderedAsRequested) {
   const WallBooks books;
   const SpringWall wall{-0.05, 1000, 10};
   EXPECT_EQ(books.payable(0, WallSide::below, wall, {-0.02, 0.02}), wall);
   EXPECT_EQ(books.payable(0, WallSide::below, wall, {-0.05, 0.02}), wall);
 }
 
-TEST(WallBooks, AWallAroundTheHandBeginsWhereTheHandCannotBe) {
+TEST(WallBooks, WallAroundTheHandBeginsOutsideItsRange) {
   const WallBooks books;
   const SpringWall shown = books.payable(0, WallSide::below, {0.05, 1000, 10}, {-0.02, 0.02});
   EXPECT_NEAR(shown.at, -0.02, 1e-9);
   EXPECT_LE(shown.at, -0.02 + 1e-12);
 }
 
-TEST(WallBooks, WhatAPressedWallGaveUpPaysForTheNext) {
+TEST(WallBooks, ReleasedEnergyPaysForTheNextWall) {
   WallBooks books;
   const SpringWall wall{0.0, 1000, 100};
   books.book(0, WallSide::below, wall, {0.01, 0.02});
@@ -133,7 +134,7 @@ TEST(WallBooks, WhatAPressedWallGaveUpPaysForTheNext) {
   EXPECT_GT(books.payable(1, WallSide::above, {0.0, 1000, 100}, {-1, 0.0051}).at, 0.0);
 }
 
-TEST(WallBooks, WhatMayHaveEndedIsPaidForAgain) {
+TEST(WallBooks, PossiblyEndedEffectsArePaidAgain) {
   WallBooks books;
   const SpringWall wall{0.0, 1000, 100};
   books.book(0, WallSide::below, wall, {0.01, 0.02});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A tool of several probes at a device of six axes: what one port allows to hold, against the worst
-// motion of a hand within a sample, by the kinematics of rigid bodies.
+// A tool of several probes on a device of six axes: the wrench that one port may hold, against the
+// worst motion of a hand within a sample, by the kinematics of rigid bodies.
 #include "reckon/haptics/passivity/wrench.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class Random {
   double any(double from, double to) {
     return std::uniform_real_distribution<double>(from, to)(numbers_);
   }
-  /// Small values as likely as large ones.
+  /// With a logarithmic distribution.
   double log(double from, double to) { return from * std::pow(to / from, any(0, 1)); }
   Vector3d way() {
     std::normal_distribution<double> normal;
@@ -43,14 +43,14 @@ class Random {
   std::mt19937 numbers_;
 };
 
-/// A place of a tool on a spring: a plane, or a point.
+/// A probe of a tool on a spring: a plane, or a point.
 struct Probe {
   Vector3d place = Vector3d::Zero();   // from the handle
   Vector3d anchor = Vector3d::Zero();  // where the spring has no force
   Matrix3d stiffness = Matrix3d::Zero();
 
   [[nodiscard]] Vector3d force() const { return -stiffness * (place - anchor); }
-  /// Where the tool has moved, by its rotation, not by a first order of it.
+  /// Stored energy after a motion of the tool, by its rotation, not by a first-order approximation.
   [[nodiscard]] double stored(const Wrench& motion) const {
     const Vector3d turn = motion.tail<3>();
     const double angle = turn.norm();
@@ -82,7 +82,7 @@ struct Tool {
     rest = random.log(1e-3, 5) * random.wrench();
     rest.tail<3>() *= random.log(1e-3, 0.1);
   }
-  /// Of all springs together.
+  /// Sum of all springs.
   struct Pressed {
     Wrench force = Wrench::Zero();
     WrenchCurvature curvature = WrenchCurvature::Zero();
@@ -112,7 +112,7 @@ PortLoadOf<6> load_of(const Tool& tool, const DampedAxes& axes) {
   return load;
 }
 
-TEST(Wrench, TorqueOfATwoPointToolIsTheSumOfLeversTimesForces) {
+TEST(Wrench, TorqueIsTheSumOfLeversTimesForces) {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d r1 = 0.1 * random.way(), r2 = 0.1 * random.way();
@@ -124,7 +124,7 @@ TEST(Wrench, TorqueOfATwoPointToolIsTheSumOfLeversTimesForces) {
     };
     EXPECT_LT((both.tail<3>() - torque(r1, f1) - torque(r2, f2)).norm(), 1e-9);
     EXPECT_LT((both.head<3>() - f1 - f2).norm(), 1e-9);
-    // A virtual motion does the work that the forces do at the probes.
+    // A virtual motion does the same work as the forces at the probes.
     const Wrench motion = 1e-3 * random.wrench();
     const Vector3d turn = motion.tail<3>();
     const double work =
@@ -133,7 +133,7 @@ TEST(Wrench, TorqueOfATwoPointToolIsTheSumOfLeversTimesForces) {
   }
 }
 
-TEST(Wrench, CurvatureBoundsWhatAPotentialGainsOnAnyWay) {
+TEST(Wrench, CurvatureBoundsTheGainOfAPotential) {
   Random random(2);
   for (int i = 0; i < 20'000; ++i) {
     const Tool tool(random);
@@ -160,9 +160,9 @@ TEST(Wrench, DampedAxesKeepWorkAndLoss) {
   }
 }
 
-// Any energy, any tool: what the port holds leaves enough for the worst motion, and no more than
-// that where it cuts.
-TEST(SixAxes, APortAnswersForTheWorstMotionOfAnyTool) {
+// Any energy, any tool: the wrench held by the port leaves enough for the worst motion, and when it
+// cuts, no more than that.
+TEST(SixAxes, PortCoversTheWorstMotionOfAnyTool) {
   Random random(4);
   double tightest = 0;
   const int tools = test::tries(40'000, 100'000);
@@ -179,7 +179,7 @@ TEST(SixAxes, APortAnswersForTheWorstMotionOfAnyTool) {
     ASSERT_TRUE(held.force.allFinite());
     (held.extra < 1 || held.springs < 1 ? cut : whole) += 1;
 
-    // The worst motion of the part that is not booked, and some beside it.
+    // The worst motion of the part that is not booked, and some others.
     const Wrench rest = axes.force(held.force) - held.weight * springs;
     WrenchCurvature pays = WrenchCurvature(tool.damping.asDiagonal()) / kSample;
     pays -= 0.5 * held.weight * curvature;
@@ -204,8 +204,8 @@ TEST(SixAxes, APortAnswersForTheWorstMotionOfAnyTool) {
   EXPECT_GE(tightest, 0.9);
 }
 
-// Through the books: an adversary takes all it can over many samples, on tools that slide.
-TEST(SixAxes, NoHandTakesEnergyOutOfAToolOfSeveralProbes) {
+// Through the ledger: an adversary takes all it can over many samples, on sliding tools.
+TEST(SixAxes, MultiProbeToolGivesNoHandEnergy) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     Tool tool(random);

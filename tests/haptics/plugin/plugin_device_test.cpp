@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Drivers that are loaded: the example against a simulated device of the same numbers, and what is
-// done with drivers that are wrong.
+// Loaded drivers: the example against a simulated device with the same numbers, and the treatment
+// of faulty drivers.
 #include "reckon/haptics/plugin/plugin_device.hpp"
 
 #include <dlfcn.h>
@@ -28,7 +28,7 @@ using std::chrono::nanoseconds;
 const std::filesystem::path kDrivers = RECKON_TEST_DRIVERS;
 std::filesystem::path driver(const std::string& name) { return kDrivers / (name + ".so"); }
 
-/// What it says of a driver that it refuses; empty: it takes it.
+/// The message for a refused driver; empty: it is accepted.
 std::string refusal(const std::filesystem::path& file, const std::string& options = "") {
   try {
     const PluginDevice device(file, options);
@@ -47,8 +47,8 @@ Scene wall() {
   return scene;
 }
 
-// The same plant, which others have written: the force at the wall is the same.
-TEST(PluginDevice, TheExampleIsFeltAsASimulatedDeviceOfItsNumbers) {
+// The same plant in an independent implementation: the force at the wall is the same.
+TEST(PluginDevice, ExampleFeelsLikeItsSimulatedDevice) {
   const auto plan = std::make_shared<const EffectPlan>(wall());
   PluginDevice loaded(driver("dummy_device"), "0 0 -0.01");
   SimulatedDeviceConfig config;
@@ -74,7 +74,7 @@ TEST(PluginDevice, TheExampleIsFeltAsASimulatedDeviceOfItsNumbers) {
   EXPECT_TRUE(loaded.take_notices().empty());
 }
 
-TEST(PluginDevice, TheExampleLetsGoWhereNobodyWrites) {
+TEST(PluginDevice, ExampleReleasesWithoutWrites) {
   PluginDevice device(driver("dummy_device"), "");
   static_cast<void>(device.read(nanoseconds(0)));
   device.write({0, 0, 3}, nanoseconds(0));
@@ -96,7 +96,7 @@ TEST(PluginDevice, IsReadAndWrittenWithoutAllocation) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST(PluginDevice, WhatIsNoDriverIsRefusedWithTheFileAndTheRemedy) {
+TEST(PluginDevice, InvalidDriversAreRefusedWithTheRemedy) {
   const test::ScratchFolder folder;
   const auto says = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -111,8 +111,8 @@ TEST(PluginDevice, WhatIsNoDriverIsRefusedWithTheFileAndTheRemedy) {
   EXPECT_TRUE(refusal(driver("faulty_device"), "").empty());
 }
 
-// A device that was opened is closed, whatever becomes of it.
-TEST(PluginDevice, ImpossibleLimitsAreRefusedByNameAndTheDeviceClosed) {
+// A device that was opened is closed in every case.
+TEST(PluginDevice, ImpossibleLimitsCloseAndRefuseTheDevice) {
   void* const library = dlopen(driver("faulty_device").c_str(), RTLD_NOW);
   ASSERT_NE(library, nullptr);
   const auto left_open = reinterpret_cast<int (*)()>(dlsym(library, "left_open"));
@@ -131,7 +131,7 @@ TEST(PluginDevice, ImpossibleLimitsAreRefusedByNameAndTheDeviceClosed) {
   dlclose(library);
 }
 
-TEST(PluginDevice, ReadingsThatAreNoneFailAndAreToldOnce) {
+TEST(PluginDevice, InvalidReadingsFailAndAreReportedOnce) {
   for (const char* fault : {"place", "speeds", "turned"}) {
     PluginDevice device(driver("faulty_device"), fault);
     EXPECT_FALSE(device.read(nanoseconds(1)).ok) << fault;
@@ -150,7 +150,7 @@ TEST(PluginDevice, ReadingsThatAreNoneFailAndAreToldOnce) {
   good.write({nan, 0, 0}, nanoseconds(2));
 }
 
-TEST(PluginDevice, ADriverThatKeepsTheServoWaitingIsTold) {
+TEST(PluginDevice, ReportsADriverThatBlocksTheServo) {
   PluginDevice device(driver("faulty_device"), "slow");
   static_cast<void>(device.read(nanoseconds(1)));
   EXPECT_TRUE(device.take_notices().empty()) << "once may be the host's doing";

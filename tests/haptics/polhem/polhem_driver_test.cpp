@@ -44,7 +44,7 @@ TEST(PolhemDriver, AllocatesNothingOnceItIsSetUp) {
   EXPECT_LT((reading.position - PolhemModel::start()).norm(), 5e-3);
 }
 
-TEST(PolhemDriver, AsksForLessOfAForceWhoseTorquesAreNotPaidForAndTellsSo) {
+TEST(PolhemDriver, ReducesAForceWithUnpaidTorques) {
   PolhemDriver driver;
   std::array<std::uint8_t, 14> octets{0, 0, 0, 0, 0x78, 0xEC};
   UsbReading reading;
@@ -74,7 +74,7 @@ TEST(PolhemDriver, AsksForLessOfAForceWhoseTorquesAreNotPaidForAndTellsSo) {
   EXPECT_NEAR(part.norm(), 0.05 * force.force.norm(), 2e-3) << "of whole milliamperes";
   EXPECT_NEAR((part - driver.share() * whole).norm(), 0.0, 2e-3) << "direction kept";
   force.lever = std::numeric_limits<double>::infinity();
-  force.force *= 100;  // more than its motors can
+  force.force *= 100;  // more than its motors can give
   const Vector3d most = asked(force);
   EXPECT_NEAR((most - 100 * driver.share() * whole).norm(), 0.0, 0.1);
   EXPECT_LT(driver.share(), 0.1);

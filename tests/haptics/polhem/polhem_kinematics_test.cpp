@@ -44,24 +44,24 @@ Vector3d chained(const Vector3d& angles) {
                                  Eigen::Isometry3d::Identity();
   const Eigen::Isometry3d upper =
       base * AngleAxisd(angles[1], Vector3d::UnitY()) * Eigen::Translation3d(0, 0, 0.174);
-  // Told against the upright axis: the upper link's turn is taken back.
+  // Given relative to the upright axis: the upper link's turn is subtracted.
   return upper * AngleAxisd(-angles[1], Vector3d::UnitY()) *
          AngleAxisd(kPi - angles[2], Vector3d::UnitY()) * Vector3d(0, 0, 0.133);
 }
 
-TEST(PolhemKinematics, InTheStartPoseTheUpperLinkIsUprightAndTheForeLinkLevel) {
+TEST(PolhemKinematics, StartPoseHasLevelForeLink) {
   const auto& home = polhem_1().home_counts;
   const Vector3d angles = polhem_angles_at(polhem_1(), {home[0], home[1], home[2]});
   EXPECT_LT((angles - Vector3d(0, 0, kPi / 2)).norm(), 1e-12);
   const auto pose = polhem_pose(polhem_1(), angles);
   ASSERT_TRUE(pose);
   EXPECT_LT((pose->position - Vector3d(0.133, 0, 0.058 + 0.174)).norm(), 1e-12);
-  // Seen by the operator, that is towards him, on the axis.
+  // As seen by the operator, that is towards him, on the axis.
   EXPECT_LT(polhem_to_device(pose->position).y(), 0);
   EXPECT_EQ(device_to_polhem(polhem_to_device(pose->position)), pose->position);
 }
 
-TEST(PolhemKinematics, ComesBackToThePlaceItWasAskedForOverTheWholeWorkSpace) {
+TEST(PolhemKinematics, InverseAndForwardAgreeInTheWorkSpace) {
   std::mt19937 random(1);
   double most = 0, open = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -77,9 +77,9 @@ TEST(PolhemKinematics, ComesBackToThePlaceItWasAskedForOverTheWholeWorkSpace) {
   EXPECT_LT(open, 1e-12) << "[m], of the chain of links";
 }
 
-TEST(PolhemKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
+TEST(PolhemKinematics, JacobianIsTheSlopeOfThePosition) {
   std::mt19937 random(2);
-  const double h = 1e-4;  // [rad]: rounding and fifth derivative are alike below 1e-11
+  const double h = 1e-4;  // [rad]: rounding and fifth derivative are both below 1e-11
   double most = 0;
   for (int i = 0; i < 2'000; ++i) {
     const Vector3d angles = angles_in_the_work_space(random);
@@ -96,7 +96,7 @@ TEST(PolhemKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
   EXPECT_LT(most, 1e-7);
 }
 
-TEST(PolhemKinematics, TheLeverOfItsFactsIsTheGreatestWayForATurnInTheMiddle) {
+TEST(PolhemKinematics, LeverIsTheGreatestDisplacementInTheMiddle) {
   const auto angles = polhem_angles(polhem_1(), polhem_1().middle);
   ASSERT_TRUE(angles);
   const auto pose = polhem_pose(polhem_1(), *angles);
@@ -105,8 +105,8 @@ TEST(PolhemKinematics, TheLeverOfItsFactsIsTheGreatestWayForATurnInTheMiddle) {
   EXPECT_NEAR(ways.singularValues()[0], polhem_facts().lever, 1e-6);
 }
 
-// A way of 1 m along an axis turns the joints, and their friction takes its power from each turn.
-TEST(PolhemKinematics, ItsJointsHaveThatFrictionForEachOfTheHandleInTheMiddle) {
+// A displacement of 1 m along an axis turns the joints, and their friction dissipates at each turn.
+TEST(PolhemKinematics, JointFrictionMatchesTheHandlesInTheMiddle) {
   double least = std::numeric_limits<double>::infinity();
   constexpr double kWay = 1e-5;
   for (int axis = 0; axis < 3; ++axis) {
@@ -129,7 +129,7 @@ TEST(PolhemKinematics, MotorsHaveThePowerOfTheForce) {
     const Vector3d force = 5 * Vector3d(within(random), within(random), within(random));
     const Vector3d turn(within(random), within(random), within(random));  // [rad/s]
     const Vector3d currents = polhem_currents(polhem_1(), polhem_torques(pose->jacobian, force));
-    // By the motors themselves: 0.0538 N m/A, at eighteen or ten times the speed of their joints.
+    // From the motors themselves: 0.0538 N m/A, at eighteen or ten times the speed of their joints.
     const double power = -0.0538 * (18 * currents[0] * turn[0] + 10 * currents[1] * turn[1] +
                                     10 * currents[2] * turn[2]);
     most = std::max(most, std::abs(power - force.dot(pose->jacobian * turn)));
@@ -140,8 +140,8 @@ TEST(PolhemKinematics, MotorsHaveThePowerOfTheForce) {
   EXPECT_LT(most, 1e-12) << "[W]";
 }
 
-// Three more joints behind the links, and the whole as products of turns written out.
-TEST(PolhemKinematics, TheGimbalTurnsTheTool) {
+// Three more joints after the links, and the whole as products of rotations written out.
+TEST(PolhemKinematics, GimbalTurnsTheTool) {
   const Vector3d level(0, 0, kPi / 2);
   const auto turned = [&](const Vector3d& angles, std::array<std::int16_t, 3> gimbal) {
     return polhem_orientation(polhem_1(), angles, gimbal);
@@ -155,16 +155,16 @@ TEST(PolhemKinematics, TheGimbalTurnsTheTool) {
   EXPECT_TRUE(is_turn(turned(level, {256, 0, 0}), -kPi / 2, -Vector3d::UnitY()));
   EXPECT_TRUE(is_turn(turned(level, {0, 256, 0}), kPi / 2, Vector3d::UnitX()));
   EXPECT_TRUE(is_turn(turned(level, {0, 0, 256}), -kPi / 2, -Vector3d::UnitY()));
-  // The base turns the tool about z, and a fore link that is lowered lowers its nose.
+  // The base turns the tool about z, and a lowered fore link lowers its nose.
   EXPECT_TRUE(is_turn(turned({0.3, 0, kPi / 2}, {0, 0, 0}), 0.3, Vector3d::UnitZ()));
   EXPECT_TRUE(is_turn(turned({0, 0, kPi / 2 - 0.3}, {0, 0, 0}), 0.3, Vector3d::UnitX()));
-  // The order: the outermost turn goes along the tool as the others have turned it.
+  // The order: the outermost turn is about the tool as turned by the others.
   const Eigen::Quaterniond both = turned(level, {0, 256, 256});
   const Vector3d nose = both * -Vector3d::UnitY();
   EXPECT_LT((nose - turned(level, {0, 256, 0}) * -Vector3d::UnitY()).norm(), 1e-12);
 }
 
-TEST(PolhemKinematics, WhatHoldsTheLinksUpMakesNoEnergyOnAnyWay) {
+TEST(PolhemKinematics, LinkSupportMakesNoEnergyOnAnyLoop) {
   const PolhemWeights weights{0.12, 0.05};
   std::mt19937 random(4);
   std::uniform_real_distribution<double> within(-0.3, 0.3);
@@ -182,7 +182,8 @@ TEST(PolhemKinematics, WhatHoldsTheLinksUpMakesNoEnergyOnAnyWay) {
     }
     EXPECT_LT(std::abs(work), 1e-8);
   }
-  // Of two masses on the links: what holds them is the slope of their height times their weight.
+  // For two masses on the links: the supporting torque is the slope of their height times their
+  // weight.
   const double h = 1e-5;
   const auto energy = [&](const Vector3d& q) {
     return weights.upper * std::cos(q[1]) - weights.fore * std::cos(q[2]);
@@ -197,11 +198,11 @@ TEST(PolhemKinematics, WhatHoldsTheLinksUpMakesNoEnergyOnAnyWay) {
   }
 }
 
-TEST(PolhemKinematics, GivesNoPoseNearASingularOneNorOfOtherAssemblies) {
+TEST(PolhemKinematics, RefusesSingularPosesAndOtherAssemblies) {
   EXPECT_FALSE(polhem_pose(polhem_1(), {0, 1.0, kPi - 1.0}));   // stretched
   EXPECT_FALSE(polhem_pose(polhem_1(), {0, 1.0, -1.0 + 0.1}));  // folded
-  EXPECT_FALSE(polhem_pose(polhem_1(), {0, -0.5, kPi / 4}));    // over its own axis
-  EXPECT_FALSE(polhem_pose(polhem_1(), {0, 1.0, kPi - 0.5}));   // the elbow the other way
+  EXPECT_FALSE(polhem_pose(polhem_1(), {0, -0.5, kPi / 4}));    // across its own axis
+  EXPECT_FALSE(polhem_pose(polhem_1(), {0, 1.0, kPi - 0.5}));   // the elbow in the other direction
   EXPECT_FALSE(polhem_pose(polhem_1(), {kNaN, 0, kPi / 2}));
   EXPECT_FALSE(polhem_pose(polhem_1(), {0, kNaN, kPi / 2}));
   EXPECT_FALSE(polhem_pose(polhem_1(), {0, 0, std::numeric_limits<double>::infinity()}));
@@ -210,7 +211,7 @@ TEST(PolhemKinematics, GivesNoPoseNearASingularOneNorOfOtherAssemblies) {
   EXPECT_FALSE(polhem_angles(polhem_1(), {kNaN, 0, 0.1}));
 }
 
-TEST(PolhemKinematics, CountsAndAnglesGoThereAndBackBeyondSixteenBits) {
+TEST(PolhemKinematics, CountsAndAnglesConvertBeyondSixteenBits) {
   std::mt19937 random(5);
   std::uniform_int_distribution<std::int32_t> any(-100'000, 100'000);
   for (int i = 0; i < 1'000; ++i) {
@@ -221,8 +222,8 @@ TEST(PolhemKinematics, CountsAndAnglesGoThereAndBackBeyondSixteenBits) {
             -std::numeric_limits<std::int32_t>::max());
 }
 
-// What a servo is told of the arm holds over its work space.
-TEST(PolhemKinematics, TheWorkSpaceHasTheStepsAndTheForcesThatAreTold) {
+// The limits of the arm that a servo gets hold over its work space.
+TEST(PolhemKinematics, WorkSpaceMatchesTheReportedLimits) {
   const UsbFacts& facts = polhem_facts();
   double step = 0, least = 1, current = 0;
   for (int i = 0; i < 11 * 11 * 11; ++i) {

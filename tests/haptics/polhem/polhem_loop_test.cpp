@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A Polhem behind the real libusb, the kernel's calls answered by a model. All time is the model's.
-// What it has in common with other devices is in usb_loop_test.cpp.
+// A Polhem behind the real libusb; a model answers the kernel's calls. All time is the model's.
+// Behaviour common with other devices is tested in usb_loop_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ class Plugged : public test::PluggedDevice<PolhemModel> {
       : PluggedDevice(options, std::move(hand), std::make_unique<PolhemDriver>(weights),
                       limits(weights)) {}
 
-  // Until it is homed and the force is there.
+  // Until it is homed and the force has arrived.
   void press() {
     run(seconds(5));
     ASSERT_GT(model.force().z(), 0.5) << "no wall is felt";
@@ -63,7 +63,7 @@ class Plugged : public test::PluggedDevice<PolhemModel> {
   }
 };
 
-TEST(PolhemLoop, PositionsForcesAndTurnsHaveTheSignsOfTheAxes) {
+TEST(PolhemLoop, PositionsForcesAndTurnsHaveTheAxesSigns) {
   for (int axis = 0; axis < 3; ++axis) {
     Plugged polhem({}, [axis](double) { return Vector3d(0.02 * Vector3d::Unit(axis)); });
     polhem.servo_runs = false;
@@ -76,7 +76,7 @@ TEST(PolhemLoop, PositionsForcesAndTurnsHaveTheSignsOfTheAxes) {
       polhem.device.write(2.0 * Vector3d::Unit(axis), now);
     });
     polhem.run(seconds(3));
-    // A quarter turn of the middle one of its gimbal, and its button.
+    // A quarter turn of the middle axis of its gimbal, and its button.
     polhem.model.turn_gimbal({0, 256, 0});
     polhem.model.hold_button(true);
     polhem.run(seconds(1));
@@ -94,8 +94,9 @@ TEST(PolhemLoop, PositionsForcesAndTurnsHaveTheSignsOfTheAxes) {
   EXPECT_EQ(limits().axes, 3) << "it shows no torque";
 }
 
-// The device's own books, over where it is asked and told in a frame, hands and weights.
-TEST(PolhemLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
+// The device's own ledger, for all phases of its requests and answers in a frame, hands and
+// weights.
+TEST(PolhemLoop, NeverGivesUnpaidEnergy) {
   double least = 0, meter = -1, most_allowance = 0;
   std::uint64_t failed = 0;
   unsigned runs = 0;
@@ -106,7 +107,7 @@ TEST(PolhemLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
     options.in_at = 0.05 * (seed * 3 % 20);
     options.mass = seed % 3 == 0 ? 0.5 : 0.1;
     options.hand_stiffness = 20 * seed;
-    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // most of what stops the handle is the device's
+    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // the device itself must stop the handle
     PolhemWeights weights;
     if (seed % 4 == 0) weights = {0.17, 0.055};
     options.upper_weight = weights.upper;
@@ -115,12 +116,12 @@ TEST(PolhemLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
     Plugged polhem(
         options,
         [=](double t) {
-          const double turn = wave * std::min(t, 6.0);  // then it holds still
+          const double turn = wave * std::min(t, 6.0);  // then it rests
           return Vector3d(0.01 * std::sin(0.7 * turn), 0.01 * std::cos(turn),
                           0.015 * std::sin(turn) - 0.01);
         },
         weights);
-    // In its start pose, when its links are held up.
+    // In its start pose, when its links are supported.
     polhem.run(milliseconds(900));
     polhem.begin_books();
     polhem.run(seconds(7));
@@ -141,8 +142,8 @@ TEST(PolhemLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
       least, meter, most_allowance, static_cast<unsigned long long>(failed), 8 * runs);
 }
 
-// Where its links have a weight, a hand carries it; where their weight is held up, it does not.
-TEST(PolhemLoop, ItsLinksAreHeldUpByTheWeightsThatAreStated) {
+// A hand carries the weight of the links unless the motors support it.
+TEST(PolhemLoop, LinksAreSupportedByTheDeclaredWeights) {
   PolhemModelOptions options;
   options.upper_weight = 0.17;
   options.fore_weight = 0.055;
@@ -154,7 +155,7 @@ TEST(PolhemLoop, ItsLinksAreHeldUpByTheWeightsThatAreStated) {
   };
   EXPECT_GT(sag({}), 2e-3);
   EXPECT_LT(sag({0.17, 0.055}), 5e-5);
-  // It is the device's own: the servo's force is what it was.
+  // The support is the device's own: the servo's force is unchanged.
   Plugged pressed(options, pressing, {0.17, 0.055});
   pressed.run(seconds(5));
   const double wall = pressed.servo.static_stiffness_limit();
@@ -164,8 +165,8 @@ TEST(PolhemLoop, ItsLinksAreHeldUpByTheWeightsThatAreStated) {
   EXPECT_THROW(PolhemDriver({0, std::nan("")}), std::invalid_argument);
 }
 
-// In the air, where the servo shows nothing: what the motors make, beside lifting the links.
-TEST(PolhemLoop, HoldingTheLinksUpMakesLessThanTheDampingThatItCosts) {
+// In the air, where the servo renders nothing: the energy of the motors beyond lifting the links.
+TEST(PolhemLoop, LinkSupportMakesLessThanItsDampingCosts) {
   const PolhemWeights weights{0.17, 0.055};
   double most = -1;
   for (unsigned seed = 1; seed <= 10; seed += test::tries(3U, 1U)) {
@@ -196,8 +197,8 @@ TEST(PolhemLoop, HoldingTheLinksUpMakesLessThanTheDampingThatItCosts) {
               polhem_spent_damping(weights));
 }
 
-// Once and a half about its base: a counter of 16 bits comes round on the way.
-TEST(PolhemLoop, ACounterComesRoundWhileItMoves) {
+// One and a half turns about its base: a counter of 16 bits wraps on the way.
+TEST(PolhemLoop, CounterWrapsDuringMotion) {
   Plugged polhem({}, [](double t) {
     const double turn = 3 * std::numbers::pi * std::clamp((t - 4) / 6, 0.0, 1.0);
     return Vector3d(0.2 * std::sin(turn), 0.14 - 0.2 * std::cos(turn), 0.03);
@@ -214,7 +215,7 @@ TEST(PolhemLoop, ACounterComesRoundWhileItMoves) {
   EXPECT_THAT(polhem.notices, Not(Contains(HasSubstr("end of its reach"))));
 }
 
-TEST(PolhemLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
+TEST(PolhemLoop, WithoutHomingThereIsNoForce) {
   Plugged polhem;
   polhem.model.leave_alone();
   polhem.run(seconds(2));
@@ -223,20 +224,20 @@ TEST(PolhemLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
   EXPECT_TRUE(polhem.last.force.isZero(0));
 }
 
-TEST(PolhemLoop, WhenItsCalibrationButtonIsPressedTheForceIsZeroWithin10Ms) {
+TEST(PolhemLoop, CalibrationButtonZeroesTheForceWithin10Ms) {
   Plugged polhem;
   polhem.press();
   polhem.model.leave_alone();
   polhem.model.press();
   polhem.run(milliseconds(5));
   EXPECT_TRUE(polhem.motors_rest());
-  // What it says then is of the start pose, where it is not: a reading that no motion gives.
+  // Its reports are then relative to the start pose, where it is not: an impossible reading.
   polhem.run(milliseconds(5));
   EXPECT_TRUE(polhem.last.force.isZero(0));
   EXPECT_GE(polhem.least_books, -1e-9);
 }
 
-TEST(PolhemLoop, ASingleReportThatAsksToBeHomedSetsNoCounts) {
+TEST(PolhemLoop, SingleHomingRequestSetsNoCounts) {
   Plugged polhem;
   polhem.press();
   polhem.model.leave_alone();
@@ -247,7 +248,7 @@ TEST(PolhemLoop, ASingleReportThatAsksToBeHomedSetsNoCounts) {
   EXPECT_GE(polhem.least_books, -1e-9);
 }
 
-TEST(PolhemLoop, UnpluggedItHasToBeHomedAnew) {
+TEST(PolhemLoop, UnpluggedItMustBeHomedAgain) {
   Plugged polhem;
   polhem.press();
   polhem.model.leave_alone();
@@ -261,7 +262,7 @@ TEST(PolhemLoop, UnpluggedItHasToBeHomedAnew) {
   EXPECT_TRUE(polhem.motors_rest());
 }
 
-TEST(PolhemLoop, AfterAStallItIsHomedStill) {
+TEST(PolhemLoop, AfterAStallItIsStillHomed) {
   Plugged polhem;
   polhem.press();
   polhem.model.stall();
@@ -270,7 +271,7 @@ TEST(PolhemLoop, AfterAStallItIsHomedStill) {
   EXPECT_GT(polhem.model.force().z(), 0.5);
 }
 
-TEST(PolhemLoop, CountersThatJumpAreNotBelieved) {
+TEST(PolhemLoop, JumpingCountersAreRefused) {
   for (const int jump : {3'000, -3'000, 32'768, 40'000}) {
     Plugged polhem;
     polhem.press();
@@ -299,7 +300,7 @@ TEST(PolhemLoop, DamagedReportsGiveNoEnergy) {
   }
 }
 
-TEST(PolhemLoop, ReportsInPiecesOrMergedGiveNoReading) {
+TEST(PolhemLoop, SplitOrMergedReportsGiveNoReading) {
   for (const bool merged : {false, true}) {
     Plugged polhem;
     polhem.press();
@@ -319,7 +320,7 @@ TEST(PolhemLoop, ReportsInPiecesOrMergedGiveNoReading) {
   }
 }
 
-TEST(PolhemLoop, TheOlderReportsAreRefusedWithTheRemedy) {
+TEST(PolhemLoop, OlderReportsAreRefusedWithTheRemedy) {
   PolhemModelOptions options;
   options.report = 8;
   Plugged polhem(options);
@@ -337,7 +338,7 @@ TEST(PolhemLoop, ReportsOfAnotherLengthAreRefused) {
   EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("12 octets where 14 are known")));
 }
 
-TEST(PolhemLoop, AnotherDeviceUnderItsNumberIsLeftAlone) {
+TEST(PolhemLoop, LeavesAnotherDeviceWithTheSameIdAlone) {
   PolhemModelOptions options;
   options.is_hid = false;
   Plugged polhem(options);

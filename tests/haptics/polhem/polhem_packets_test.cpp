@@ -21,7 +21,7 @@ TEST(PolhemPackets, ReadsAReportOfFourteenOctets) {
   EXPECT_EQ(*report, (PolhemReport{{1, -1, 0x1234}, {-7, 6, 5}, 1, false}));
 }
 
-TEST(PolhemPackets, ReadsTheButtonOffTheOutermostCount) {
+TEST(PolhemPackets, ReadsTheButtonFromTheOutermostCount) {
   const auto pressed = [](std::int16_t told) {
     Octets octets(14, 0);
     octets[6] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(told) & 0xFF);
@@ -52,12 +52,12 @@ TEST(PolhemPackets, WritesCurrentsAndCounts) {
   EXPECT_EQ(octets_of(PolhemCommand{}), (std::array<std::uint8_t, 14>{}));
   EXPECT_EQ(octets_of(PolhemCommand{{1, -1, 0x1234}, {}}),
             (std::array<std::uint8_t, 14>{1, 0, 0xFF, 0xFF, 0x34, 0x12}));
-  // Currents are not told where counts are: the words of the gimbal stand in their place.
+  // With counts there are no currents: the words of the gimbal take their place.
   EXPECT_EQ(octets_of(PolhemCommand{{9, 9, 9}, std::array<std::int16_t, 6>{1, 2, -5000, 4, 5, 6}}),
             (std::array<std::uint8_t, 14>{4, 0, 5, 0, 6, 0, 1, 0, 1, 0, 2, 0, 0x78, 0xEC}));
 }
 
-TEST(PolhemPackets, ReadsBackWhatADeviceWrites) {
+TEST(PolhemPackets, RestoresTheReportsOfADevice) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> any(-32768, 32767), gimbal(-1024, 1024);
   for (int i = 0; i < 1'000; ++i) {

@@ -48,7 +48,7 @@ TEST(BoxPair, OverlapsByTheProjectionsOfTheCorners) {
     ASSERT_EQ(m.depth.least, m.depth.most);
     ASSERT_NEAR(m.depth.most, -gap, 1e-12) << i;
     if (i % 16 != 0) continue;
-    // The direction parts them, and by no more than need be.
+    // The direction separates them, by no more than necessary.
     OracleBox moved = b;
     moved.at.position += m.depth.most * m.direction;
     ASSERT_NEAR(projected_gap(a, moved), 0.0, 1e-12) << i;
@@ -58,9 +58,9 @@ TEST(BoxPair, OverlapsByTheProjectionsOfTheCorners) {
   RecordProperty("worst_depth_error_m", std::to_string(worst));
 }
 
-// The least violated axis of boxes along the axes (thesis 5.3): on a raster of 1/64 m every sum is
-// exact, and many pairs have two or three axes that are violated alike.
-TEST(BoxPair, PartsAlignedBoxesAlongTheLeastViolatedAxisAndTheFirstOfEqualOnes) {
+// The least violated axis of axis-aligned boxes (thesis 5.3): on a raster of 1/64 m every sum is
+// exact, and many pairs have two or three equally violated axes.
+TEST(BoxPair, SeparatesAlignedBoxesAlongTheLeastViolatedAxis) {
   std::mt19937_64 random(2);
   const auto raster = [&](int least, int most) {
     return std::uniform_int_distribution<int>(least, most)(random) / 64.0;
@@ -112,7 +112,7 @@ void expect_distance(const OracleBox& a, const OracleBox& b, double tolerance) {
   ASSERT_LT(b.distance_of(m.on_b), tolerance + 4e-16 * a.at.position.norm());
 }
 
-TEST(BoxPair, IsAsFarApartAsItsNearestFeatures) {
+TEST(BoxPair, DistanceIsThatOfTheNearestFeatures) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 20'000; ++i) {
     const OracleBox a{drawn_placement(random, 1.0), drawn_half(random)};
@@ -134,7 +134,7 @@ TEST(BoxPair, IsExactForNeedlesPlatesAndPoints) {
   }
 }
 
-TEST(BoxPair, IsExactForParallelTouchingAndNearlyParallelBoxes) {
+TEST(BoxPair, IsExactForParallelAndTouchingBoxes) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 20'000; ++i) {
     OracleBox a{drawn_placement(random, 1.0), drawn_half(random)};
@@ -162,7 +162,7 @@ TEST(BoxPair, IsExactFarFromTheOrigin) {
     b.at.position += far;
     const PairMeasure m =
         measure_pair(QueryShape::box(2 * a.half), a.at, QueryShape::box(2 * b.half), b.at);
-    a.at.position -= far;  // exact: the rounding was that of the sums above
+    a.at.position -= far;  // exact: the rounding came from the sums above
     b.at.position -= far;
     const double gap = projected_gap(a, b);
     if (std::abs(gap) < 1e-12) continue;
@@ -171,7 +171,7 @@ TEST(BoxPair, IsExactFarFromTheOrigin) {
   }
 }
 
-TEST(BoxPair, StartsWhereTheLastQueryEndedAndFindsTheSame) {
+TEST(BoxPair, WarmStartGivesTheSameResult) {
   std::mt19937_64 random(7);
   const QueryShape a = QueryShape::box({0.2, 0.3, 0.1});
   const QueryShape b = QueryShape::box({0.1, 0.5, 0.2});

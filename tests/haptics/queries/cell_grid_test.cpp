@@ -34,7 +34,8 @@ std::vector<BoxPair> sorted(std::span<const BoxPair> pairs) {
   return all;
 }
 
-/// Every pair compared, in the order of their lower x so that ten thousand take no minute.
+/// Every pair compared, in the order of their lower x, so that ten thousand take less than a
+/// minute.
 std::vector<BoxPair> every_pair(const std::vector<AlignedBox3d>& boxes) {
   std::vector<std::uint32_t> order(boxes.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -95,7 +96,7 @@ TEST(CellGrid, FindsThePairsOfTenThousandMovingBoxes) {
   EXPECT_GT(all, 500u * static_cast<unsigned>(steps));
 }
 
-TEST(CellGrid, FindsThePairsOfBoxesOneToAThousandInSize) {
+TEST(CellGrid, FindsPairsOfVeryDifferentSizes) {
   std::mt19937_64 random(2);
   std::vector<AlignedBox3d> boxes = drawn_boxes(random, 1'000, 10.0, 0.01, 10.0);
   boxes.emplace_back(Vector3d::Constant(-1e9), Vector3d::Constant(1e9));
@@ -116,7 +117,7 @@ TEST(CellGrid, FindsThePairsOfBoxesOneToAThousandInSize) {
   }
 }
 
-TEST(CellGrid, FindsBoxesThatTouchOnAndAcrossTheBordersOfCells) {
+TEST(CellGrid, FindsTouchingBoxesAtCellBorders) {
   std::mt19937_64 random(3);
   const auto raster = [&](int most) {
     return std::uniform_int_distribution<int>(0, most)(random) / 4.0;
@@ -131,7 +132,7 @@ TEST(CellGrid, FindsBoxesThatTouchOnAndAcrossTheBordersOfCells) {
   EXPECT_EQ(sorted(grid.overlaps()), every_pair(boxes));
 }
 
-TEST(CellGrid, FindsBoxesFarFromTheOriginAndAllAtOnePlace) {
+TEST(CellGrid, FindsBoxesFarFromTheOrigin) {
   std::mt19937_64 random(4);
   std::vector<AlignedBox3d> boxes = drawn_boxes(random, 500, 1.0, 0.01, 0.3);
   for (AlignedBox3d& box : boxes) box.translate(Vector3d(6.4e6, -6.4e6, 6.4e6));
@@ -145,7 +146,7 @@ TEST(CellGrid, FindsBoxesFarFromTheOriginAndAllAtOnePlace) {
   EXPECT_EQ(sorted(heap.overlaps()), every_pair(boxes));
 }
 
-TEST(CellGrid, ForgetsWhatIsRemovedAndWhatIsNoBox) {
+TEST(CellGrid, ForgetsRemovedAndInvalidBoxes) {
   CellGrid grid;
   const AlignedBox3d box(Vector3d::Zero(), Vector3d::Ones());
   grid.place(3, box);
@@ -167,8 +168,8 @@ TEST(CellGrid, ForgetsWhatIsRemovedAndWhatIsNoBox) {
   EXPECT_EQ(grid.size(), 1u);
 }
 
-// As a search of all boxes finds them, for boxes small and large, near and far.
-TEST(CellGrid, VisitsTheBoxesThatABoxMeets) {
+// Against a search of all boxes, for small and large boxes, near and far.
+TEST(CellGrid, VisitsTheIntersectingBoxes) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   const auto drawn = [&](double room) {

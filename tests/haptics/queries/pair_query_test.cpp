@@ -52,7 +52,7 @@ std::vector<QueryShape> all_kinds() {
           query_solid(bored_plate())};
 }
 
-TEST(PairQuery, SpheresAreApartByTheirMiddlesLessTheirRadii) {
+TEST(PairQuery, SphereDistanceIsItsClosedForm) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 10'000; ++i) {
     const Placement a = drawn_placement(random, 1.0), b = drawn_placement(random, 1.0);
@@ -66,14 +66,14 @@ TEST(PairQuery, SpheresAreApartByTheirMiddlesLessTheirRadii) {
   }
 }
 
-TEST(PairQuery, ConcentricSpheresPartByBothRadii) {
+TEST(PairQuery, ConcentricSpheresSeparateByBothRadii) {
   const PairMeasure m = measure_pair(QueryShape::sphere(0.1), {}, QueryShape::sphere(0.05), {});
   EXPECT_EQ(m.overlap, Overlap::yes);
   EXPECT_NEAR(m.depth.most, 0.15, 1e-16);
   EXPECT_NEAR(m.direction.norm(), 1.0, 1e-16);
 }
 
-TEST(PairQuery, CapsulesAreApartByTheirSegmentsLessTheirRadii) {
+TEST(PairQuery, CapsuleDistanceIsItsSegmentsLessRadii) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 20'000; ++i) {
     const double length = i % 5 == 0 ? 0.0 : uniform(random, 0.0, 1.0);
@@ -92,7 +92,7 @@ TEST(PairQuery, CapsulesAreApartByTheirSegmentsLessTheirRadii) {
   }
 }
 
-TEST(PairQuery, CrossingCapsulesPartAcrossBoth) {
+TEST(PairQuery, CrossingCapsulesSeparateAcrossBoth) {
   Placement b;
   b.orientation = Eigen::AngleAxisd(0.5, Vector3d::UnitX()).toRotationMatrix();
   const PairMeasure m =
@@ -102,8 +102,8 @@ TEST(PairQuery, CrossingCapsulesPartAcrossBoth) {
   EXPECT_NEAR(std::abs(m.direction.x()), 1.0, 1e-15);
 }
 
-// Outside: of the clamped middle. Inside: to the nearest face.
-TEST(PairQuery, BoxesAndSpheresHaveTheirClosedForm) {
+// Outside: distance from the clamped middle. Inside: to the nearest face.
+TEST(PairQuery, BoxesAndSpheresMatchTheirClosedForm) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 20'000; ++i) {
     const Vector3d half(uniform(random, 0.01, 0.5), uniform(random, 1e-6, 1e-5),
@@ -118,7 +118,7 @@ TEST(PairQuery, BoxesAndSpheresHaveTheirClosedForm) {
   }
 }
 
-TEST(PairQuery, APlaneIsAsFarAsTheLowestPoint) {
+TEST(PairQuery, PlaneDistanceIsToTheLowestPoint) {
   std::mt19937_64 random(4);
   const QueryShape plane = QueryShape::below_plane({0, 0, 3});
   const QueryShape mesh = query_mesh(test::torus(24, 12), 0.3);
@@ -142,7 +142,7 @@ TEST(PairQuery, APlaneIsAsFarAsTheLowestPoint) {
   }
 }
 
-TEST(PairQuery, MeshesAreAsFarApartAsTheirNearestTriangles) {
+TEST(PairQuery, MeshDistanceIsThatOfTheNearestTriangles) {
   std::mt19937_64 random(5);
   const QueryShape a = query_mesh(test::torus(16, 8), 0.3);
   const QueryShape b = query_mesh(test::groove(), 0.2);
@@ -167,14 +167,14 @@ TEST(PairQuery, MeshesAreAsFarApartAsTheirNearestTriangles) {
   EXPECT_LT(apart, 180);
 }
 
-TEST(PairQuery, MeshesAreAsFarFromBoxesAndCapsulesAsTheirNearestTriangle) {
+TEST(PairQuery, MeshDistanceToShapesUsesTheNearestTriangle) {
   std::mt19937_64 random(6);
   const QueryShape mesh = query_mesh(test::torus(16, 8), 0.3);
   const QueryShape cube_mesh = query_mesh(test::cube(), std::sqrt(3.0));  // edges of 1 m
   const double radius = 0.01;
   for (int i = 0; i < 1'000; ++i) {
     const Placement at = drawn_placement(random, 0.25), other = drawn_placement(random, 0.25);
-    // As a needle whose triangle has no area it has the distance of a segment.
+    // A needle triangle without area has the distance of a segment.
     const std::vector<test::Corners> needle{
         {other.to_scene({0, 0, -0.1}), other.to_scene({0, 0, 0.1}), other.to_scene({0, 0, -0.1})}};
     double distance = 1e300;
@@ -198,7 +198,7 @@ TEST(PairQuery, MeshesAreAsFarFromBoxesAndCapsulesAsTheirNearestTriangle) {
       ASSERT_TRUE(distance < radius || mesh_of(mesh).contains(at.to_shape(other.position))) << i;
     }
 
-    // A mesh of a cube is as far as the cube.
+    // A mesh of a cube has the distance of the cube.
     Placement far = other;
     far.position += 1.2 * far.position.normalized();
     const PairMeasure surface =
@@ -212,7 +212,7 @@ TEST(PairQuery, MeshesAreAsFarFromBoxesAndCapsulesAsTheirNearestTriangle) {
   }
 }
 
-TEST(PairQuery, WhatIsWithinAClosedMeshOverlapsIt) {
+TEST(PairQuery, ShapesInsideAClosedMeshOverlapIt) {
   const QueryShape mesh = query_mesh(test::cube(), std::sqrt(3.0));
   for (const QueryShape& small :
        {QueryShape::box({0.1, 0.1, 0.1}), QueryShape::sphere(0.05),
@@ -232,7 +232,7 @@ TEST(PairQuery, WhatIsWithinAClosedMeshOverlapsIt) {
   EXPECT_NEAR(ball.direction.x(), 1.0, 1e-9);
 }
 
-TEST(PairQuery, BoundsOfASolidHoldTheTruth) {
+TEST(PairQuery, BoundsOfASolidContainTheTruth) {
   std::mt19937_64 random(7);
   // The same box as a solid and as a box; a ball likewise.
   const QueryShape solid_box = query_solid([] {
@@ -273,7 +273,7 @@ TEST(PairQuery, BoundsOfASolidHoldTheTruth) {
   EXPECT_LT(widest, 0.01);
 }
 
-TEST(PairQuery, TheBoundsOfConvexSolidsAreClose) {
+TEST(PairQuery, BoundsOfConvexSolidsAreClose) {
   std::mt19937_64 random(12);
   const QueryShape one = query_solid(CylinderShape{0.06, 0.12});
   const QueryShape other = query_solid(EllipsoidShape{{0.1, 0.05, 0.03}});
@@ -289,7 +289,7 @@ TEST(PairQuery, TheBoundsOfConvexSolidsAreClose) {
   EXPECT_LT(widths[widths.size() * 95 / 100], 1e-6);
 }
 
-TEST(PairQuery, ExchangedShapesHaveTheSameResultToTheBit) {
+TEST(PairQuery, ExchangedShapesGiveTheSameResult) {
   std::mt19937_64 random(8);
   const std::vector<QueryShape> kinds = all_kinds();
   for (const QueryShape& a : kinds) {
@@ -311,8 +311,8 @@ TEST(PairQuery, ExchangedShapesHaveTheSameResultToTheBit) {
   }
 }
 
-// Of 1 m; at 6400 km a coordinate is rounded to 1 nm.
-TEST(PairQuery, ARigidMotionOfBothChangesNothingButRounding) {
+// Shapes of about 1 m; at 6400 km a coordinate is rounded to 1 nm.
+TEST(PairQuery, CommonRigidMotionChangesOnlyRounding) {
   std::mt19937_64 random(9);
   const std::vector<QueryShape> kinds = all_kinds();
   for (const double reach : {1.0, 6.4e6}) {
@@ -328,7 +328,7 @@ TEST(PairQuery, ARigidMotionOfBothChangesNothingButRounding) {
           };
           const PairMeasure one = measure_pair(a, at, b, other);
           const PairMeasure two = measure_pair(a, moved(at), b, moved(other));
-          // The bounds of a solid may move, but not apart.
+          // The bounds of a solid may move, but must still overlap.
           SCOPED_TRACE("kinds " + std::to_string(&a - kinds.data()) + " and " +
                        std::to_string(&b - kinds.data()));
           ASSERT_LE(one.distance.least, two.distance.most + tolerance);
@@ -341,7 +341,7 @@ TEST(PairQuery, ARigidMotionOfBothChangesNothingButRounding) {
   }
 }
 
-TEST(PairQuery, ADepthPartsTheShapes) {
+TEST(PairQuery, DepthSeparatesTheShapes) {
   std::mt19937_64 random(10);
   const std::vector<QueryShape> kinds = all_kinds();
   int overlaps = 0;
@@ -384,7 +384,7 @@ TEST(PairQuery, AllocatesNothingForAnyPair) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
-TEST(PairQuery, RefusesExtentsThatAreNone) {
+TEST(PairQuery, RefusesInvalidExtents) {
   EXPECT_THROW(QueryShape::box({1.0, -0.1, 1.0}), std::invalid_argument);
   EXPECT_THROW(QueryShape::sphere(std::nan("")), std::invalid_argument);
   EXPECT_THROW(QueryShape::capsule(0.1, -1.0), std::invalid_argument);

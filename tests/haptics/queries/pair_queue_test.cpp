@@ -63,9 +63,8 @@ int missed(std::span<const BoxPair> due, const std::vector<Roamer>& balls) {
   return count;
 }
 
-// 150 balls in a cube of 60 m, each with another velocity every two seconds or so, which it
-// reports.
-TEST(PairQueue, MissesNothingOfASparseSceneWithATenthOfTheTests) {
+// 150 balls in a cube of 60 m; each changes its velocity about every two seconds, and reports it.
+TEST(PairQueue, MissesNothingWithATenthOfTheTests) {
   std::mt19937_64 random(1);
   std::vector<Roamer> balls = drawn_roamers(random, 150, 30.0);
   PairQueue queue(balls.size());
@@ -92,8 +91,8 @@ TEST(PairQueue, MissesNothingOfASparseSceneWithATenthOfTheTests) {
   RecordProperty("times_fewer", std::to_string(sweep / static_cast<double>(queue.tests())));
 }
 
-// Nothing is reported but the start: the bounds of acceleration and speed hold all the time.
-TEST(PairQueue, MissesNothingOfBodiesThatKeepToTheirBounds) {
+// Only the start is reported: the bounds of acceleration and speed hold all the time.
+TEST(PairQueue, MissesNothingOfBodiesWithinTheirBounds) {
   std::mt19937_64 random(2);
   for (const double most_speed : {2.0, 1e9}) {
     std::vector<Roamer> balls = drawn_roamers(random, 60, 8.0);
@@ -108,7 +107,7 @@ TEST(PairQueue, MissesNothingOfBodiesThatKeepToTheirBounds) {
     std::size_t overlaps = 0;
     for (int tick = 1; tick <= 1'000; ++tick) {
       for (Roamer& ball : balls) {
-        // Towards the middle, so that there is something to meet.
+        // Towards the middle, so that bodies meet.
         const Vector3d push = 0.5 * -ball.position.normalized();
         ball.position += kQueueTick * ball.velocity + 0.5 * kQueueTick * kQueueTick * push;
         ball.velocity += kQueueTick * push;
@@ -122,7 +121,7 @@ TEST(PairQueue, MissesNothingOfBodiesThatKeepToTheirBounds) {
   }
 }
 
-TEST(PairQueue, KnowsTheTimeOfAStraightMeeting) {
+TEST(PairQueue, GivesTheTimeOfAStraightMeeting) {
   BodyMotion a, b;
   a.radius = b.radius = 0.5;
   b.position = {11.0, 0.0, 0.0};
@@ -140,7 +139,7 @@ TEST(PairQueue, KnowsTheTimeOfAStraightMeeting) {
   EXPECT_NEAR(earliest_contact(a, b, 0.0), 10.0, 1e-9);
 }
 
-TEST(PairQueue, ATimeIsNeverLaterThanTheMeeting) {
+TEST(PairQueue, DueTimeIsNeverAfterTheMeeting) {
   std::mt19937_64 random(3);
   int met = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -166,7 +165,7 @@ TEST(PairQueue, ATimeIsNeverLaterThanTheMeeting) {
   EXPECT_GT(met, 1'000);
 }
 
-TEST(PairQueue, ReturnsAPairAsLongAsItIsDueAndNoBodyThatIsNotThere) {
+TEST(PairQueue, ReturnsExistingPairsWhileTheyAreDue) {
   PairQueue queue(3);
   BodyMotion a;
   a.radius = 1.0;

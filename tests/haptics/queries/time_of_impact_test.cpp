@@ -31,7 +31,7 @@ Motion moving(const Placement& start, const Vector3d& velocity,
   return {start, velocity, turn_rate};
 }
 
-TEST(TimeOfImpact, OfABallThatFallsOnAPlaneIsTheClosedForm) {
+TEST(TimeOfImpact, FallingBallMatchesTheClosedForm) {
   for (const double speed : {1e-3, 1.0, 300.0}) {
     const Placement above{{3.0, 2.0, 1.25}, Matrix3d::Identity()};
     const ImpactTime found = time_of_impact(
@@ -43,8 +43,9 @@ TEST(TimeOfImpact, OfABallThatFallsOnAPlaneIsTheClosedForm) {
   }
 }
 
-// Of boxes along the axes: each axis overlaps for a stretch of time, and they meet where all do.
-TEST(TimeOfImpact, OfAlignedBoxesIsTheClosedForm) {
+// For axis-aligned boxes: each axis overlaps for an interval of time; they meet when all intervals
+// overlap.
+TEST(TimeOfImpact, AlignedBoxesMatchTheClosedForm) {
   std::mt19937_64 random(1);
   int hits = 0, unknown = 0;
   for (int i = 0; i < 3'000; ++i) {
@@ -74,8 +75,8 @@ TEST(TimeOfImpact, OfAlignedBoxesIsTheClosedForm) {
   EXPECT_EQ(unknown, 0);
 }
 
-// The exact distance of turning boxes, in steps so fine that it cannot jump across a contact.
-TEST(TimeOfImpact, OfTurningBoxesIsNeverLaterThanTheContactAndNear) {
+// The exact distance of turning boxes, in steps fine enough not to jump across a contact.
+TEST(TimeOfImpact, TurningBoxesMeetNoEarlierThanFound) {
   std::mt19937_64 random(2);
   constexpr int kSteps = 4'000;
   const int pairs = test::tries(120, 400);
@@ -125,7 +126,7 @@ TEST(TimeOfImpact, OfTurningBoxesIsNeverLaterThanTheContactAndNear) {
   EXPECT_LE(unknown, pairs / 120);
 }
 
-TEST(TimeOfImpact, OfAnyPairIsNeverLaterThanTheContact) {
+TEST(TimeOfImpact, AnyPairMeetsNoEarlierThanFound) {
   std::mt19937_64 random(3);
   const std::vector<QueryShape> shapes{
       QueryShape::box({0.2, 0.1, 0.15}),   QueryShape::sphere(0.1),
@@ -171,7 +172,7 @@ TEST(TimeOfImpact, MissesNoBulletThroughAThinPlate) {
   }
 }
 
-TEST(TimeOfImpact, IsZeroForShapesThatOverlapAndNeverForThoseThatPart) {
+TEST(TimeOfImpact, IsZeroForOverlapOnly) {
   const QueryShape ball = QueryShape::sphere(0.1);
   const Placement near{{0.15, 0, 0}, Matrix3d::Identity()};
   const Placement far{{0.25, 0, 0}, Matrix3d::Identity()};
@@ -182,7 +183,7 @@ TEST(TimeOfImpact, IsZeroForShapesThatOverlapAndNeverForThoseThatPart) {
   EXPECT_EQ(time_of_impact(ball, {}, ball, moving(far, {0, 0, 0}), 1e9).outcome, Impact::none);
 }
 
-TEST(TimeOfImpact, SaysThatItDoesNotKnow) {
+TEST(TimeOfImpact, ReportsAnUnknownTime) {
   const QueryShape ball = QueryShape::sphere(0.1);
   const Placement far{{0, 0, 2}, Matrix3d::Identity()};
   const ImpactTime turning =

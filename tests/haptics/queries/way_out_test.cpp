@@ -19,14 +19,14 @@ using test::query_mesh;
 
 Placement unturned(const Vector3d& position) { return {position, Matrix3d::Identity()}; }
 
-TEST(WayOut, IsTheLeastTranslationOfABoxOutOfABox) {
+TEST(WayOut, IsTheLeastTranslationOutOfABox) {
   const WayOut way = way_out(QueryShape::box({1, 1, 1}), {}, QueryShape::box({0.2, 0.2, 0.2}),
                              unturned({0.1, 0.45, -0.2}));
   EXPECT_NEAR(way.way, 0.15, 1e-15);
   EXPECT_EQ(way.direction, Vector3d::UnitY());
 }
 
-TEST(WayOut, LeadsABoxOutOfTheMeshOfACubeAsOutOfTheCube) {
+TEST(WayOut, CubeMeshEqualsTheCube) {
   const QueryShape cube = query_mesh(test::cube(), std::sqrt(3.0));
   const QueryShape box = QueryShape::box({0.2, 0.2, 0.2});
   for (const Vector3d& place : {Vector3d(0.1, 0.45, -0.2), Vector3d(0.05, 0.2, -0.59999)}) {
@@ -37,13 +37,13 @@ TEST(WayOut, LeadsABoxOutOfTheMeshOfACubeAsOutOfTheCube) {
   }
 }
 
-TEST(WayOut, OfABoxThatRestsOnAMeshIsWithinTheTolerance) {
+TEST(WayOut, RestingBoxIsWithinTheTolerance) {
   const WayOut way = way_out(query_mesh(test::cube(), std::sqrt(3.0)), {},
                              QueryShape::box({0.2, 0.2, 0.2}), unturned({0.1, 0.2, 0.6}));
   EXPECT_LE(way.way, 2e-6);
 }
 
-// At the inner side of its tube the hole is near, and the border of its bounds is not.
+// At the inner side of its tube the hole is near, the border of its bounding box is not.
 TEST(WayOut, LeadsIntoTheHoleOfARing) {
   const test::MeshData data = test::torus(48, 24);
   const QueryShape ring = query_mesh(data, 1.0);
@@ -58,7 +58,7 @@ TEST(WayOut, LeadsIntoTheHoleOfARing) {
   EXPECT_GT(bounds.depth.most, 1.5 * way.way);
 }
 
-TEST(WayOut, PartsWhateverOverlaps) {
+TEST(WayOut, SeparatesAllOverlappingShapes) {
   std::mt19937_64 random(1);
   const QueryShape a = query_mesh(test::groove(), 0.3);
   const QueryShape b = query_mesh(test::torus(16, 8), 0.3);
@@ -75,7 +75,7 @@ TEST(WayOut, PartsWhateverOverlaps) {
   EXPECT_GT(overlaps, 5);
 }
 
-TEST(WayOut, IsZeroForShapesThatAreApart) {
+TEST(WayOut, IsZeroForSeparateShapes) {
   EXPECT_EQ(way_out(QueryShape::sphere(0.1), {}, QueryShape::sphere(0.1), unturned({1, 0, 0})).way,
             0.0);
 }

@@ -45,7 +45,7 @@ std::string message_of(F&& f) {
   return {};
 }
 
-TEST(EffectPlan, SharesMeshesThatAreTheSame) {
+TEST(EffectPlan, SharesEqualMeshes) {
   const test::TemporaryMesh file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   Scene scene;
   for (const double size : {0.1, 0.1, 0.2})
@@ -57,7 +57,7 @@ TEST(EffectPlan, SharesMeshesThatAreTheSame) {
   EXPECT_NE(mesh(0), mesh(2));
 }
 
-TEST(EffectPlan, NeverConstructsNorCallsAnEffectThatNoObjectDeclares) {
+TEST(EffectPlan, UndeclaredEffectsAreNeverConstructedOrCalled) {
   for_each_effect([]<class Effect>(std::type_identity<Effect>) {
     if constexpr (AlwaysThere<Effect>) return;
     const std::uint64_t before = CountedEffect<Effect>::constructed();
@@ -70,7 +70,7 @@ TEST(EffectPlan, NeverConstructsNorCallsAnEffectThatNoObjectDeclares) {
   });
 }
 
-TEST(EffectPlan, CallsFrictionOnlyWhereItIsDeclared) {
+TEST(EffectPlan, CallsFrictionOnlyIfDeclared) {
   Scene scene = walls();
   scene.objects[0].effects.of<StickSlipFriction>() = Friction{0.5, 0.4};
   const EffectPlan plan(scene);
@@ -112,7 +112,7 @@ TEST(EffectPlan, NamesTheObjectTheValueAndTheRemedy) {
 }
 
 // Twenty boxes, so that a tree of bounds is searched; each turned about its middle.
-TEST(EffectPlan, FindsWhatIsWithinReachWhateverTheWay) {
+TEST(EffectPlan, FindsObjectsWithinReachInAnyDirection) {
   Scene scene;
   for (int i = 0; i < 20; ++i) {
     scene.objects.push_back(object("box " + std::to_string(i), BoxShape{Vector3d(0.1, 0.1, 0.1)}));
@@ -134,7 +134,7 @@ TEST(EffectPlan, FindsWhatIsWithinReachWhateverTheWay) {
   }
 }
 
-TEST(ContactSolver, SumsTheForcesOfAllObjectsTouched) {
+TEST(ContactSolver, SumsTheForcesOfAllTouchedObjects) {
   const EffectPlan plan(walls());
   ContactSolver solver(plan);
   solver.step(Vector3d(0.1, 0.0, 0.1));
@@ -147,7 +147,7 @@ TEST(ContactSolver, SumsTheForcesOfAllObjectsTouched) {
   EXPECT_EQ(result.normal, Vector3d::UnitX());
 }
 
-TEST(ContactSolver, DamperOnlyTakesEnergyAndNeverPulls) {
+TEST(ContactSolver, DamperOnlyDissipatesAndNeverPulls) {
   const EffectPlan plan(walls());
   ContactSolver solver(plan);
   solver.step(Vector3d(0.1, 0.0, 0.1));
@@ -161,8 +161,8 @@ TEST(ContactSolver, DamperOnlyTakesEnergyAndNeverPulls) {
   }
 }
 
-TEST(ContactSolver, WorksTheSameInAnyPlaceAndTurn) {
-  // A box turned and moved gives the force of the box at home, turned.
+TEST(ContactSolver, IsIndependentOfPlaceAndOrientation) {
+  // A box turned and moved gives the force of the original box, turned.
   Scene home;
   home.objects.push_back(object("box", BoxShape{Vector3d(0.1, 0.2, 0.3)}));
   Scene away = home;
@@ -187,7 +187,7 @@ TEST(ContactSolver, WorksTheSameInAnyPlaceAndTurn) {
   EXPECT_GT(contacts, 100);
 }
 
-TEST(ContactSolver, StartsInsideWithTheNearestPointAndSaysSoUntilItWasLeft) {
+TEST(ContactSolver, ReportsAnInsideStartUntilItIsLeft) {
   Scene scene;
   scene.objects.push_back(object("ball", SphereShape{0.05}));
   const EffectPlan plan(scene);
@@ -205,7 +205,7 @@ TEST(ContactSolver, StartsInsideWithTheNearestPointAndSaysSoUntilItWasLeft) {
   EXPECT_TRUE(solver.reset(Vector3d(0.0, 0.04, 0.0)).started_inside);
 }
 
-TEST(ContactSolver, CatchesADeviceThatLeapsPastAFarObject) {
+TEST(ContactSolver, CatchesADeviceThatJumpsPastAnObject) {
   Scene scene;
   scene.objects.push_back(
       object("box", BoxShape{Vector3d(0.01, 1.0, 1.0)}, Vector3d(5.0, 0.0, 0.0)));
@@ -218,7 +218,7 @@ TEST(ContactSolver, CatchesADeviceThatLeapsPastAFarObject) {
   EXPECT_NEAR(result.scp.x(), 4.995, 1e-6);
 }
 
-TEST(ContactSolver, HasAStateOfItsOwnOnASharedPlan) {
+TEST(ContactSolver, HasItsOwnStateOnASharedPlan) {
   Scene scene = walls();
   scene.objects[0].effects.of<StickSlipFriction>() = Friction{0.5, 0.1};
   const EffectPlan plan(scene);
@@ -233,7 +233,7 @@ TEST(ContactSolver, HasAStateOfItsOwnOnASharedPlan) {
   EXPECT_GT(sliding.step(Vector3d(1.014, 0.0, -0.01)).scp.x(), 1.012) << "slides on";
 }
 
-TEST(ContactSolver, IgnoresAPositionThatIsNoNumber) {
+TEST(ContactSolver, IgnoresANonFinitePosition) {
   const EffectPlan plan(walls());
   ContactSolver solver(plan);
   solver.step(Vector3d(0.1, 0.0, 0.1));
@@ -261,7 +261,7 @@ TEST(ContactSolver, AllocatesNothingInAStepOrReset) {
 }
 
 // A cube of 0.1 m, drawn at national coordinates and turned; its position brings it back.
-TEST(EffectPlan, PlacesAMeshThatIsDrawnFarFromItsOrigin) {
+TEST(EffectPlan, PlacesAMeshDrawnFarFromItsOrigin) {
   const Vector3d drawn(4321012.5, 678901.25, 432.0);
   test::MeshData cube = test::cube();
   for (Vector3d& v : cube.vertices) v *= 0.1;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How little of a body resists at its surface, against closed forms.
+// Least effective mass of a body at its surface, against closed forms.
 #include "reckon/haptics/scene/least_mass.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ TEST(LeastMass, MatchesClosedFormOfBallAndCube) {
   EXPECT_NEAR(body_of(BoxShape{Vector3d::Constant(0.04)}, 1.1).least_mass, 0.2, 1e-12);
 }
 
-// Of a rod 1 + 3 + 3: it turns about its middle and about itself. Of a cylinder, at its rim
-// 1 + (h/2)^2 / (r^2/4 + h^2/12) + r^2 / (r^2/2).
+// For a rod 1 + 3 + 3: it turns about its middle and about itself. For a cylinder, at its rim 1 +
+// (h/2)^2 / (r^2/4 + h^2/12) + r^2 / (r^2/2).
 TEST(LeastMass, IsLeastAtEndsOfRodAndCylinder) {
   EXPECT_NEAR(body_of(BoxShape{Vector3d(1.0, 1e-4, 1e-4)}, 1.0).least_mass, 1.0 / 7, 1e-6);
   EXPECT_NEAR(body_of(CylinderShape{0.02, 0.1}, 1.0).least_mass, 1.0 / 5.68, 0.005);
@@ -44,7 +44,7 @@ TEST(LeastMass, BoundsOnlySpeedDependentEffects) {
   EXPECT_TRUE(std::isinf(body_of(SphereShape{0.02}, 0.0).least_mass));
 }
 
-// Along the normal a damper turns a light body around as drag does along the surface.
+// A damper reverses a light body along the normal, as drag does along the surface.
 TEST(LeastMass, BoundsTheDamperOfASurface) {
   Scene scene;
   SceneObject& ball = scene.objects.emplace_back();

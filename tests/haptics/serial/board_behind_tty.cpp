@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial board that nobody holds, behind a real tty, on the clock of this host:
+// A serial board without a hand, behind a real tty, on the clock of this host:
 //
 //     board_behind_tty DAMPING AXES        prints the tty's name, and runs until it is ended
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sketch that comes with Reckon, on stand-ins of Arduino's calls.
+// The sketch that is shipped with Reckon, on substitutes for Arduino's calls.
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace {
 
-// What the sketch sees of its board.
+// The sketch's view of its board.
 struct Board {
   std::deque<std::uint8_t> to_sketch;
   std::vector<std::uint8_t> from_sketch;
   std::map<int, int> levels, duties;
   void (*on_edge)() = nullptr;
-  unsigned long now = 0xFFFFFFFF;  // [us], comes round at once
+  unsigned long now = 0xFFFFFFFF;  // [us], wraps at once
   unsigned long baud = 0;
 };
 Board board;
@@ -58,7 +58,7 @@ void tell(const SerialFrame& frame) {
   board.to_sketch.insert(board.to_sketch.end(), frame.span().begin(), frame.span().end());
 }
 
-// What it sends in a millisecond, frame by frame.
+// Its output of a millisecond, frame by frame.
 std::vector<std::vector<std::uint8_t>> tick() {
   board.now += 1'000;
   board.from_sketch.clear();
@@ -84,7 +84,7 @@ void turn(int steps) {
   }
 }
 
-TEST(Paddle, TheSketchGreetsReportsAndHoldsWhatItIsTold) {
+TEST(Paddle, SketchGreetsReportsAndHoldsItsForce) {
   setup();
   EXPECT_EQ(board.baud, 1'000'000U);
   EXPECT_TRUE(tick().empty()) << "nobody asked";
@@ -124,7 +124,7 @@ TEST(Paddle, TheSketchGreetsReportsAndHoldsWhatItIsTold) {
   EXPECT_TRUE(board.levels[kBackward]);
 }
 
-TEST(Paddle, WithoutFramesItLetsGoAfter10MsAndIsSilentAfterASecond) {
+TEST(Paddle, ReleasesAfter10MsAndGoesSilent) {
   setup();
   tell(ask_frame(1));
   tick();

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A real tty, whose other end is a board that runs the example's program. Octets pass through the
-// kernel, which takes its time: tests wait for what comes, as long as it takes, and assert no
-// times.
+// A real tty with a board on its other end that runs the example's program. Octets pass through the
+// kernel, which takes its time: tests wait for events without limit, and assert no times.
 #include "reckon/haptics/serial/serial_loop.hpp"
 
 #include <fcntl.h>
@@ -53,8 +52,8 @@ DeviceLimits limits() {
   return usb_limits(serial_facts(), settings);
 }
 
-/// A board behind a tty that is always found under the same name, its loop, and what a servo does.
-/// The loop's clock is the board's: it passes while somebody waits for something.
+/// A board behind a tty that is always found under the same name, its loop, and the servo's part.
+/// The loop's clock is the board's: it advances while a test waits.
 class Plugged {
  public:
   explicit Plugged(const SerialBoardOptions& options = {})
@@ -75,7 +74,7 @@ class Plugged {
     static_cast<void>(std::remove(port().c_str()));
   }
 
-  /// @return whether it came about
+  /// @return whether it became true
   [[nodiscard]] bool wait_for(const std::function<bool()>& what) {
     const auto end = std::chrono::steady_clock::now() + kLongest;
     for (;;) {
@@ -101,7 +100,7 @@ class Plugged {
   Vector3d force{1, 2, -3};
 
  private:
-  // The kernel brings octets when it likes: half a millisecond of the board's time for a look.
+  // The kernel delivers octets at any time: each poll takes half a millisecond of the board's time.
   void step() {
     for (int i = 0; i < 10; ++i) {
       for (const std::vector<std::uint8_t>& frame : board.pass()) {
@@ -125,7 +124,7 @@ class Plugged {
   nanoseconds next_step_{0};
 };
 
-TEST(SerialLoop, OverARealTtyForcesAndPlacesPass) {
+TEST(SerialLoop, ForcesAndPositionsPassARealTty) {
   Plugged serial;
   serial.plug();
   ASSERT_TRUE(serial.wait_for([&] { return serial.sample.ok; }));
@@ -136,7 +135,7 @@ TEST(SerialLoop, OverARealTtyForcesAndPlacesPass) {
   EXPECT_THAT(serial.notices, Contains(serial.port() + ": Board is ready: forces are shown"));
 }
 
-TEST(SerialLoop, UnpluggedItIsTakenUpAgainByItself) {
+TEST(SerialLoop, RecoversAfterAnUnplug) {
   Plugged serial;
   ASSERT_TRUE(serial.is_told("there is no"));
   EXPECT_THAT(serial.notices, ElementsAre(HasSubstr("plug it in"))) << "once";
@@ -153,7 +152,7 @@ TEST(SerialLoop, UnpluggedItIsTakenUpAgainByItself) {
   }
 }
 
-TEST(SerialLoop, ABoardThatWasResetIsAskedAgain) {
+TEST(SerialLoop, ResetBoardIsAskedAgain) {
   Plugged serial;
   serial.plug();
   ASSERT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
@@ -162,10 +161,10 @@ TEST(SerialLoop, ABoardThatWasResetIsAskedAgain) {
   EXPECT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
 }
 
-TEST(SerialLoop, ALineThatTakesNoOctetsIsOpenedAnew) {
+TEST(SerialLoop, BlockedLineIsReopened) {
   Plugged serial;
   serial.plug();
-  // Before it is opened for one program alone.
+  // Before it is opened exclusively.
   const int line = open(serial.far->name().c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
   ASSERT_GE(line, 0);
   ASSERT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
@@ -176,12 +175,12 @@ TEST(SerialLoop, ALineThatTakesNoOctetsIsOpenedAnew) {
   close(line);
 }
 
-TEST(SerialLoop, AtTheEndOfTheProgramTheBoardIsToldAZero) {
+TEST(SerialLoop, EndOfTheProgramSendsAZero) {
   Plugged serial;
   serial.plug();
   ASSERT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
   serial.loop.reset();
-  // The watchdog's time does not pass: what lets go is a frame.
+  // The watchdog's time does not pass: only a frame can release the force.
   bool is_zero = false;
   const auto end = std::chrono::steady_clock::now() + kLongest;
   while (!is_zero && std::chrono::steady_clock::now() < end) {
@@ -191,7 +190,7 @@ TEST(SerialLoop, AtTheEndOfTheProgramTheBoardIsToldAZero) {
   EXPECT_TRUE(is_zero);
 }
 
-TEST(SerialLoop, ARefusedBoardIsNamedWithTheReason) {
+TEST(SerialLoop, RefusedBoardIsNamedWithTheReason) {
   SerialBoardOptions options;
   options.watchdog = 50;
   Plugged serial(options);
@@ -200,7 +199,7 @@ TEST(SerialLoop, ARefusedBoardIsNamedWithTheReason) {
   EXPECT_TRUE(serial.board.force().isZero(0));
 }
 
-TEST(SerialPort, WhatCannotBeOpenedIsToldWithTheRemedy) {
+TEST(SerialPort, ReportsUnopenableLinesWithTheRemedy) {
   const test::ScratchFolder folder;
   EXPECT_THAT(SerialPort::open(folder.file("none"), 115'200).problem, HasSubstr("there is no"));
   const SerialOpening file = SerialPort::open("/dev/null", 115'200);
@@ -208,7 +207,7 @@ TEST(SerialPort, WhatCannotBeOpenedIsToldWithTheRemedy) {
   EXPECT_FALSE(file.port);
 }
 
-TEST(SerialPort, IsOpenedForOneProgramAlone) {
+TEST(SerialPort, IsOpenedExclusively) {
   const FarEnd far;
   SerialOpening first = SerialPort::open(far.name(), 1'000'000);
   ASSERT_TRUE(first.port) << first.problem;
@@ -219,8 +218,8 @@ TEST(SerialPort, IsOpenedForOneProgramAlone) {
   EXPECT_TRUE(SerialPort::open(far.name(), 1'000'000).port);
 }
 
-// Also zeros, carriage returns, and what would end a program or stop the line.
-TEST(SerialPort, EachOctetPassesAsItIsBothWays) {
+// Including zeros, carriage returns, and octets that would end a program or stop the line.
+TEST(SerialPort, EachOctetPassesUnchangedInBothDirections) {
   const FarEnd far;
   const SerialOpening opening = SerialPort::open(far.name(), 250'000);
   ASSERT_TRUE(opening.port) << opening.problem;
@@ -247,7 +246,7 @@ TEST(SerialPort, EachOctetPassesAsItIsBothWays) {
   EXPECT_FALSE(opening.port->is_gone());
 }
 
-TEST(SerialPort, WhoseOtherEndIsClosedIsGone) {
+TEST(SerialPort, IsGoneWhenItsOtherEndIsClosed) {
   std::optional<FarEnd> far(std::in_place);
   const SerialOpening opening = SerialPort::open(far->name(), 1'000'000);
   ASSERT_TRUE(opening.port) << opening.problem;

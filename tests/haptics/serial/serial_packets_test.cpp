@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets worked out by hand, or by rules of COBS and of the CRC that are written down elsewhere.
+// Octets worked out by hand, or by independently published rules of COBS and of the CRC.
 #include "reckon/haptics/serial/serial_packets.hpp"
 
 #include <gmock/gmock.h>
@@ -39,20 +39,20 @@ std::vector<Octets> frames_in(SerialFrameParser& parser, const Octets& line) {
 }
 
 // The check value of the catalogue of parametrised CRC algorithms.
-TEST(SerialFrames, TheCrcIsThatOfTheCatalogue) {
+TEST(SerialFrames, CrcMatchesTheCatalogue) {
   const std::string_view check = "123456789";
   EXPECT_EQ(serial_crc({reinterpret_cast<const std::uint8_t*>(check.data()), check.size()}),
             0x29B1);
 }
 
 // CRCs by Python's binascii.crc_hqx(octets, 0xFFFF), low octet first; COBS by hand.
-TEST(SerialFrames, AFrameIsWhatTheRulesSay) {
+TEST(SerialFrames, FollowTheRulesOfCobsAndCrc) {
   EXPECT_THAT(frame_octets({0x11, 0x22}), ElementsAre(0, 5, 0x11, 0x22, 0x6D, 0x29, 0));
   EXPECT_THAT(frame_octets({0x11, 0x00, 0x22}), ElementsAre(0, 2, 0x11, 4, 0x22, 0xEF, 0xBC, 0));
   EXPECT_THAT(frame_octets({0x00}), ElementsAre(0, 1, 3, 0xF0, 0xE1, 0));
 }
 
-TEST(SerialFrames, AreReadFromAnyPiecesAndAnyContents) {
+TEST(SerialFrames, AreReadFromAnyPiecesAndContents) {
   std::mt19937 random(3);
   SerialFrameParser parser;
   for (int i = 0; i < 5'000; ++i) {
@@ -63,7 +63,7 @@ TEST(SerialFrames, AreReadFromAnyPiecesAndAnyContents) {
   EXPECT_EQ(parser.damaged(), 0U);
 }
 
-TEST(SerialFrames, ADamagedOctetCostsItsFrameAndTheNextAtMost) {
+TEST(SerialFrames, DamagedOctetCostsAtMostTwoFrames) {
   std::mt19937 random(4);
   const Octets carried{0x82, 1, 0, 0, 7, 0x55};
   Octets line;
@@ -86,7 +86,7 @@ TEST(SerialFrames, ADamagedOctetCostsItsFrameAndTheNextAtMost) {
   }
 }
 
-TEST(SerialFrames, WhatIsTooLongIsDroppedAndTheNextIsRead) {
+TEST(SerialFrames, OverlongFrameIsDroppedAndTheNextRead) {
   SerialFrameParser parser;
   Octets line(10'000, 0x41);
   const Octets frame = frame_octets({1, 2, 3});
@@ -99,7 +99,7 @@ TEST(SerialFrames, WhatIsTooLongIsDroppedAndTheNextIsRead) {
 const Octets kReport{0x82, 0x34, 0x12, 0x15, 0xCD, 0x5B, 0x07, 0x02, 0x01, 0x03, 0x01, 0x03, 0x09,
                      0x01, 0x00, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0xFF, 0x00, 0x00, 0x00, 0x80};
 
-TEST(SerialPackets, AReportIsWhatItsOctetsSay) {
+TEST(SerialPackets, ReportIsReadFromItsOctets) {
   const auto report = serial_report(kReport, 3);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->sequence, 0x1234);
@@ -118,7 +118,7 @@ TEST(SerialPackets, AReportIsWhatItsOctetsSay) {
   EXPECT_EQ(serial_report(none, 3)->let_go, 9);
 }
 
-TEST(SerialPackets, OfAnotherLengthKindOrFlagIsNoReport) {
+TEST(SerialPackets, OtherLengthKindOrFlagIsNoReport) {
   for (std::size_t length = 0; length <= kReport.size() + 1; ++length) {
     Octets cut = kReport;
     cut.resize(length);
@@ -133,7 +133,7 @@ TEST(SerialPackets, OfAnotherLengthKindOrFlagIsNoReport) {
   EXPECT_FALSE(serial_report(other, 3)) << "a flag of a later version";
 }
 
-TEST(SerialPackets, AForceAndAQuestionAreWhatTheirFramesSay) {
+TEST(SerialPackets, WritesForceAndQuestionFrames) {
   SerialFrameParser parser;
   const auto carried_by = [&](const SerialFrame& frame) {
     return frames_in(parser, {frame.span().begin(), frame.span().end()}).at(0);
@@ -148,8 +148,8 @@ TEST(SerialPackets, AForceAndAQuestionAreWhatTheirFramesSay) {
 const Octets kPaddle{0x81, 1, 0x34, 0x12, 1,   10,  0xE8, 0x03, 0,   0x6C, 0x39,
                      0,    0, 0xB8, 0x0B, 'H', 'a', 'p',  'k',  'i', 't'};
 
-// The frames of docs/devices.md, made by a script of Python from its words alone.
-TEST(SerialPackets, TheFramesOfThePageAreThese) {
+// The frames of docs/devices.md, made by a Python script from the text alone.
+TEST(SerialPackets, FramesMatchTheDocumentation) {
   const auto octets = [](const SerialFrame& frame) {
     return Octets(frame.span().begin(), frame.span().end());
   };
@@ -175,7 +175,7 @@ TEST(SerialPackets, TheFramesOfThePageAreThese) {
   EXPECT_EQ(report->counts[0], -7);
 }
 
-TEST(SerialPackets, AGreetingIsWhatItsOctetsSay) {
+TEST(SerialPackets, GreetingIsReadFromItsOctets) {
   const auto greeting = serial_greeting(kPaddle);
   ASSERT_TRUE(greeting);
   EXPECT_EQ(greeting->answers, 0x1234);
@@ -187,7 +187,7 @@ TEST(SerialPackets, AGreetingIsWhatItsOctetsSay) {
   EXPECT_THAT(refusal_of(*greeting, 3.0, 14.7e-6), IsEmpty());
 }
 
-TEST(SerialPackets, OfAnotherVersionOrWithoutANameIsNoGreeting) {
+TEST(SerialPackets, OtherVersionOrNoNameIsNoGreeting) {
   for (std::size_t length = 0; length < kPaddle.size(); ++length) {
     Octets cut = kPaddle;
     cut.resize(length);
@@ -206,7 +206,7 @@ TEST(SerialPackets, OfAnotherVersionOrWithoutANameIsNoGreeting) {
   EXPECT_FALSE(serial_greeting(other)) << "a name of 33 letters";
 }
 
-TEST(SerialPackets, ABoardThatCannotBeDrivenIsRefusedByItsReason) {
+TEST(SerialPackets, UnsuitableBoardIsRefusedWithTheReason) {
   const SerialGreeting good = *serial_greeting(kPaddle);
   const auto refusal = [&](auto change) {
     SerialGreeting other = good;

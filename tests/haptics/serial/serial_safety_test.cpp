@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When a serial board shows no force: silence on either side, no place, a board that is refused.
+// Cases in which a serial board has no force: silence on either side, no position, a refused board.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using test::SerialBoardOptions;
 using ::testing::HasSubstr;
 using Wired = test::PressingBoard;
 
-TEST(SerialSession, ABoardThatIsSilentIsZeroWithin10Ms) {
+TEST(SerialSession, SilentBoardHasZeroForceWithin10Ms) {
   Wired wired;
   wired.press();
   wired.in_is_cut = true;
@@ -35,7 +35,7 @@ TEST(SerialSession, ABoardThatIsSilentIsZeroWithin10Ms) {
   EXPECT_GE(wired.least_books, -1e-9);
 }
 
-TEST(SerialSession, ABoardThatHearsNothingLetsGoAndTheServoIsTold) {
+TEST(SerialSession, BoardWithoutInputReleasesAndTheServoKnows) {
   Wired wired;
   wired.press();
   const auto let_go = wired.last.tally.let_go;
@@ -49,7 +49,7 @@ TEST(SerialSession, ABoardThatHearsNothingLetsGoAndTheServoIsTold) {
   EXPECT_EQ(wired.session->stage(), SerialStage::running);
 }
 
-TEST(SerialSession, AServoThatIsSilentLeavesNoForceAfter10Ms) {
+TEST(SerialSession, SilentServoLeavesNoForceAfter10Ms) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SerialBoardOptions options;
     options.seed = seed;
@@ -61,7 +61,7 @@ TEST(SerialSession, AServoThatIsSilentLeavesNoForceAfter10Ms) {
     EXPECT_TRUE(wired.board.force().isZero(0)) << "seed " << seed;
     wired.run(seconds(1));
     EXPECT_TRUE(wired.board.force().isZero(0));
-    // It comes back: what the contacts hold is written off, and they fade in.
+    // It comes back: the energy of the contacts is written off, and they fade in.
     const auto trips = wired.last.trips;
     wired.servo_runs = true;
     wired.run(milliseconds(20));
@@ -72,7 +72,7 @@ TEST(SerialSession, AServoThatIsSilentLeavesNoForceAfter10Ms) {
   }
 }
 
-TEST(SerialSession, ABoardThatHangsIsLostAndTheServoAsksForNoForce) {
+TEST(SerialSession, HungBoardIsLostAndForceRequestsStop) {
   Wired wired;
   wired.press();
   wired.board.hang(true);
@@ -83,7 +83,7 @@ TEST(SerialSession, ABoardThatHangsIsLostAndTheServoAsksForNoForce) {
   EXPECT_TRUE(wired.session->is_lost(wired.board.now()));
 }
 
-TEST(SerialSession, ABoardThatWasResetIsLostUntilItIsAskedAnew) {
+TEST(SerialSession, ResetBoardIsLostUntilAskedAgain) {
   Wired wired;
   wired.press();
   wired.board.forget();
@@ -98,7 +98,7 @@ TEST(SerialSession, ABoardThatWasResetIsLostUntilItIsAskedAnew) {
   EXPECT_GE(wired.least_books, -1e-9);
 }
 
-TEST(SerialSession, WithoutPlacesThereIsNoForce) {
+TEST(SerialSession, WithoutPositionsThereIsNoForce) {
   Wired wired;
   wired.board.lose_place(true);
   wired.run(seconds(2));
@@ -114,7 +114,7 @@ TEST(SerialSession, WithoutPlacesThereIsNoForce) {
   EXPECT_TRUE(wired.last.force.isZero(0));
 }
 
-TEST(SerialSession, ABoardWhoseClockIsOffIsRefused) {
+TEST(SerialSession, BoardWithAWrongClockIsRefused) {
   Wired wired;
   wired.board.run_clock_at(0.5);  // its damping would count twice
   wired.run(seconds(5));
@@ -124,7 +124,7 @@ TEST(SerialSession, ABoardWhoseClockIsOffIsRefused) {
   EXPECT_TRUE(wired.last.force.isZero(0));
 }
 
-TEST(SerialSession, ABoardThatHoldsLessThanIsAskedOfItIsRefusedAndToldNoForce) {
+TEST(SerialSession, BoardWithLessForceThanConfiguredIsRefused) {
   SerialBoardOptions options;
   options.most_force = 4'900;
   Wired wired(options);
@@ -134,7 +134,7 @@ TEST(SerialSession, ABoardThatHoldsLessThanIsAskedOfItIsRefusedAndToldNoForce) {
   EXPECT_TRUE(wired.board.force().isZero(0));
 }
 
-// A greeting by hand, of the version and in answer to the question that are asked for.
+// A greeting by hand, of this version, in answer to this question.
 SerialFrame greeting(std::uint8_t version, std::uint16_t question) {
   const std::array<std::uint8_t, 16> octets{0x81,
                                             version,
@@ -155,7 +155,7 @@ SerialFrame greeting(std::uint8_t version, std::uint16_t question) {
   return serial_frame(octets);
 }
 
-TEST(SerialSession, ABoardOfAnotherVersionIsRefused) {
+TEST(SerialSession, BoardOfAnotherVersionIsRefused) {
   UsbExchange exchange;
   SerialSession session(exchange, test::board_limits(), 1, 100, nanoseconds(0));
   ASSERT_TRUE(session.next(nanoseconds(0)));
@@ -165,7 +165,7 @@ TEST(SerialSession, ABoardOfAnotherVersionIsRefused) {
   EXPECT_FALSE(session.next(seconds(1))) << "it is left alone";
 }
 
-TEST(SerialSession, OnlyAnAnswerToItsOwnQuestionsIsTaken) {
+TEST(SerialSession, AcceptsOnlyAnswersToItsOwnQuestions) {
   UsbExchange exchange;
   SerialSession session(exchange, test::board_limits(), 1, 65'535, nanoseconds(0));
   ASSERT_TRUE(session.next(nanoseconds(0)));
@@ -179,7 +179,7 @@ TEST(SerialSession, OnlyAnAnswerToItsOwnQuestionsIsTaken) {
   EXPECT_EQ(session.stage(), SerialStage::greeted);
 }
 
-TEST(SerialSession, WhatDoesNotAnswerAndWhatIsNoFrameIsTold) {
+TEST(SerialSession, DetectsMissingAnswersAndNoise) {
   UsbExchange exchange;
   SerialSession session(exchange, test::board_limits(), 1, 1, nanoseconds(0));
   EXPECT_FALSE(session.is_unanswered(seconds(4)));

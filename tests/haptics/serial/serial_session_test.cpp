@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The talk with a board that runs the example's program, over a line that delays, loses and changes
-// octets. All time is the board's.
+// The exchange with a board that runs the example's program, over a line that delays, loses and
+// changes octets. All time is the board's.
 #include "reckon/haptics/serial/serial_session.hpp"
 
 #include <gmock/gmock.h>
@@ -35,11 +35,11 @@ using test::SerialBoardOptions;
 using test::wall_of;
 using Wired = test::PressingBoard;
 
-TEST(SerialSession, AWallIsFeltThroughTheExamplesProgram) {
+TEST(SerialSession, WallIsFeltThroughTheExamplesProgram) {
   Wired wired;
   wired.run(seconds(3));
   EXPECT_EQ(wired.session->stage(), SerialStage::running);
-  // A spring K of the wall against the hand's of 200 N/m, 20 mm behind it.
+  // A wall spring K against the hand's of 200 N/m, 20 mm behind it.
   const double wall = wired.servo.static_stiffness_limit();
   const double force = 200 * wall / (200 + wall) * 0.02;
   EXPECT_NEAR(wired.board.force().z(), force, 0.03);
@@ -48,7 +48,7 @@ TEST(SerialSession, AWallIsFeltThroughTheExamplesProgram) {
   EXPECT_EQ(wired.session->lost() + wired.session->damaged(), 0U);
 }
 
-TEST(SerialSession, PositionsAndForcesHaveTheSignsOfTheAxes) {
+TEST(SerialSession, PositionsAndForcesHaveTheAxesSigns) {
   for (int axes = 1; axes <= 3; ++axes) {
     SerialBoardOptions options;
     options.axes = axes;
@@ -69,9 +69,9 @@ TEST(SerialSession, PositionsAndForcesHaveTheSignsOfTheAxes) {
   }
 }
 
-// What the board did in truth on each way between two readings that join: it held forces of just
-// those writes that they name, in their order, and nothing else. The handle goes steadily along x,
-// so that its count tells the tick.
+// The board's true forces on each displacement between two consecutive readings: exactly the writes
+// that the readings name, in their order. The handle moves steadily along x, so its count
+// identifies the tick.
 class Witness {
  public:
   explicit Witness(unsigned seed)
@@ -104,7 +104,7 @@ class Witness {
   static Vector3d hand(double t) { return {0.5 * t, 0.05 * std::sin(t), 0}; }
   [[nodiscard]] bool happens(unsigned of_thousand) { return random_() % 1'000 < of_thousand; }
 
-  // Frames go wrong all the time, and whole directions or the servo now and then.
+  // Frame errors all the time, and outages of whole directions or of the servo now and then.
   void disturb(int step) {
     board_.in.latency = board_.out.latency = microseconds(random_() % 1'500);
     board_.faults = {often_ ? 450U : 30U, 30, 30, 30, false, 30};
@@ -170,7 +170,7 @@ class Witness {
   int silent_ = 0, ways_ = 0, runs_ = 0, with_gaps_ = 0;
 };
 
-TEST(SerialSession, ReadingsTellJustTheForcesThatTheBoardHeldBetweenThem) {
+TEST(SerialSession, ReadingsNameExactlyTheHeldForces) {
   int ways = 0, runs = 0, with_gaps = 0, tried = 0;
   for (unsigned seed = 1; seed <= 60; seed += test::tries(5U, 1U), ++tried) {
     SCOPED_TRACE(seed);
@@ -186,9 +186,9 @@ TEST(SerialSession, ReadingsTellJustTheForcesThatTheBoardHeldBetweenThem) {
   EXPECT_GT(with_gaps, 100 * tried);
 }
 
-// For a few lost reports the readings of one run go on; not where the board let go meanwhile,
-// though it holds a force again by the next report that comes.
-TEST(SerialSession, AForceThatWasDroppedUnseenEndsTheRun) {
+// Readings of one run continue over a few lost reports, but not over a release in between, even if
+// the next report has a force again.
+TEST(SerialSession, UnseenReleaseEndsTheRun) {
   for (const bool lets_go : {false, true}) {
     Wired wired;
     wired.servo_runs = false;
@@ -215,12 +215,12 @@ TEST(SerialSession, AForceThatWasDroppedUnseenEndsTheRun) {
   }
 }
 
-// Of the seeds that a gate leaves out: no divisor of 60, by which seeds choose what differs.
+// For the seeds that a gate omits: no divisor of 60, which determines the parameters of a seed.
 constexpr unsigned kSteps = 7;
 
-// The board's own books, over phases, latencies, rates of reports, hands and walls; also those that
-// push along axes that a board of one or two lacks.
-TEST(SerialSession, NeverGivesMoreEnergyThanTheHandPutIn) {
+// The board's own ledger, over phases, latencies, report rates, hands and walls; includes walls
+// along axes that a board of one or two lacks.
+TEST(SerialSession, NeverGivesUnpaidEnergy) {
   double least = 0, meter = -1, most_allowance = 0;
   std::uint64_t failed = 0;
   unsigned runs = 0;
@@ -230,7 +230,7 @@ TEST(SerialSession, NeverGivesMoreEnergyThanTheHandPutIn) {
     options.axes = seed % 4 == 0 ? 1 : seed % 4 == 1 ? 2 : 3;
     options.mass = seed % 3 == 0 ? 0.5 : 0.1;
     options.hand_stiffness = 10 * seed;
-    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // most of what stops it is the device's
+    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // the device itself must stop the handle
     options.period = seed % 5 == 0 ? 500 : seed % 5 == 1 ? 2'000 : 1'000;
     options.jitter = static_cast<int>(10 * seed);
     const Vector3d normals[] = {{1, 0, 0.7}, {0.3, 1, 1}, {0, 0, 1}, {-0.5, 0.5, 1}};
@@ -238,7 +238,7 @@ TEST(SerialSession, NeverGivesMoreEnergyThanTheHandPutIn) {
     Wired wired(
         options,
         [=](double t) {
-          const double turn = wave * std::min(t, 6.0);  // then it holds still
+          const double turn = wave * std::min(t, 6.0);  // then it rests
           return Vector3d(0.02 * std::sin(turn) - 0.01, 0.01 * std::cos(turn),
                           0.015 * std::sin(turn) - 0.01);
         },
@@ -262,9 +262,9 @@ TEST(SerialSession, NeverGivesMoreEnergyThanTheHandPutIn) {
       least, meter, most_allowance, static_cast<unsigned long long>(failed), 8 * runs);
 }
 
-// In phases in which frames of the board are lost, changed, doubled and swapped, and frames to it
-// are changed.
-TEST(SerialSession, FramesThatGoWrongMakeNoEnergy) {
+// In phases with frames of the board lost, changed, duplicated and swapped, and frames to it
+// changed.
+TEST(SerialSession, DamagedFramesMakeNoEnergy) {
   std::uint64_t lost = 0, damaged = 0, failed = 0;
   double least = 0, felt = 0;
   unsigned runs = 0;
@@ -306,7 +306,7 @@ TEST(SerialSession, FramesThatGoWrongMakeNoEnergy) {
               6 * runs);
 }
 
-TEST(SerialSession, ALostReportNowAndThenDoesNotTakeTheForceAway) {
+TEST(SerialSession, OccasionalLostReportKeepsTheForce) {
   Wired wired;
   wired.press();
   const auto trips = wired.last.trips;
@@ -319,7 +319,7 @@ TEST(SerialSession, ALostReportNowAndThenDoesNotTakeTheForceAway) {
   EXPECT_GT(wired.last.force.z(), 0.5);
 }
 
-TEST(SerialSession, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
+TEST(SerialSession, ChainSlowerThanDeclaredFailsReadings) {
   Wired wired(
       {}, [](double t) { return Vector3d(0, 0, 0.015 * std::sin(9 * t) - 0.005); },
       board_limits(milliseconds(2)));
@@ -329,8 +329,8 @@ TEST(SerialSession, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) 
   EXPECT_GE(wired.least_books, -1e-9);
 }
 
-// Measured, it is enough: no reading fails any more.
-TEST(SerialSession, TheChainThatItMeasuresIsEnough) {
+// The measured delay suffices: no reading fails any more.
+TEST(SerialSession, MeasuredChainDelaySuffices) {
   for (int latency = 0; latency <= 2'000; latency += 250) {
     SerialBoardOptions options;
     options.seed = static_cast<unsigned>(latency + 1);

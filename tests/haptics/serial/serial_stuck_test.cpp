@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A line that takes no octets any more, with the very loop and port, the kernel's calls answered by
-// a model of it. All time is the board's.
+// A line that takes no octets any more, with the real loop and port; a model of the line answers
+// the kernel's calls. All time is the board's.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -32,7 +32,7 @@ DeviceLimits limits() {
   return usb_limits(serial_facts(), settings);
 }
 
-/// A servo that asks for one force.
+/// A servo that requests one force.
 class Shimmed {
  public:
   Shimmed() {
@@ -46,7 +46,7 @@ class Shimmed {
   }
   ~Shimmed() { beside = nullptr; }
 
-  /// @return whether it came about
+  /// @return whether it became true
   bool run_until(const std::function<bool()>& what) {
     for (const nanoseconds end = board.now() + std::chrono::seconds(2); board.now() < end;) {
       if (what()) return true;
@@ -66,13 +66,13 @@ class Shimmed {
   nanoseconds next_step_{0};
 };
 
-TEST(SerialStuck, ALineThatTakesNoOctetsIsClosedAtOnceAndNothingOldReachesTheBoardLater) {
+TEST(SerialStuck, BlockedLineIsClosedAndDropsOldForces) {
   Shimmed shimmed;
   ASSERT_TRUE(shimmed.run_until([&] { return shimmed.board.will_hold(); }));
   const nanoseconds stuck = shimmed.board.now();
   const auto time = [&] { return shimmed.board.now() - stuck; };
   shimmed.shim.hang(milliseconds(100));
-  bool is_told = false;  // a force, by what waited
+  bool is_told = false;  // a force, by the pending octets
   shimmed.beside = [&] {
     const bool is_let_go = time() > milliseconds(20) && time() < milliseconds(150);
     is_told = is_told || (is_let_go && shimmed.board.will_hold() &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The thread of a serial board over a real tty, on the clock of this host. A busy host may miss the
-// board's 10 ms: then it goes on by itself, and what is waited for comes later.
+// board's 10 ms: then the thread recovers, and the awaited events come later.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ using std::chrono::nanoseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
-TEST(SerialThread, ForcesPassToABoardThatRunsBesideItAndItIsToldOfItsEnd) {
+TEST(SerialThread, ForcesAndFinalZeroReachTheBoard) {
   haptics::UsbSettings settings;
   settings.max_force = 5.0;
   settings.resolution = 20e-6;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial board at whatever there is to touch: walls, hands of others, effects, bodies, at five
-// latencies of its line each. Energy by the board's own books. RECKON_SOAK=1 draws 200 of each.
+// A serial board with everything that can be touched: walls, remote hands, effects, bodies, each at
+// five latencies of its line. Energy by the board's own ledger. RECKON_SOAK=1 draws 200 of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ int seeds() { return test::tries(2, 200); }
 
 constexpr int kLatencies = 5;
 
-TEST(SerialTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch) {
+TEST(SerialTouch, NeverGivesUnpaidEnergyForAnyTouch) {
   double least = 0, allowance = 0;
   for (const TouchKind kind : test::kTouchKinds) {
     double most_force = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A board that is pulled out at random instants, all time the board's: what its loop does then is
-// done here, for a tty of the kernel has a clock of its own.
+// A board that is pulled out at random instants, all time the board's. The test does the work of
+// the loop, because a kernel tty has its own clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Pulled : public test::WiredBoard {
             options, [](double t) { return Vector3d(0, 0, 0.015 * std::sin(20 * t) - 0.01); },
             test::board_limits(), test::stiff_floor()) {}
 
-  // The next session asks into a line on which nobody is.
+  // The next session asks on a line without a board.
   void pull() {
     in = out = test::LineWay();
     in_is_cut = out_is_cut = true;
@@ -47,7 +47,7 @@ class Pulled : public test::WiredBoard {
   std::uint16_t question_ = 100;
 };
 
-TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
+TEST(SerialUnplug, AtRandomInstantsLeavesNoForce) {
   std::uint64_t pressed = 0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     test::SerialBoardOptions options;
@@ -63,7 +63,7 @@ TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
       wired.run(milliseconds(10));
       EXPECT_TRUE(wired.last.force.isZero(0));
       EXPECT_FALSE(wired.last.enabled);
-      wired.run(milliseconds(2));  // a tick, and what was under way
+      wired.run(milliseconds(2));  // a tick, and octets in transit
       EXPECT_TRUE(wired.board.force().isZero(0)) << "its own watchdog";
       wired.run(microseconds(50) * (random() % 2'000));
       EXPECT_TRUE(wired.board.force().isZero(0)) << "nothing is told to what is not there";
@@ -77,8 +77,8 @@ TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
   EXPECT_GT(pressed, 100U) << "pulled out under a force";
 }
 
-// What the hand took until the board let go, nobody knows.
-TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
+// The hand's energy until the board released is unknown.
+TEST(SerialUnplug, MeterStaysBelowTheBoardsLedger) {
   test::SerialBoardOptions options;
   options.damping = 2.0;
   options.hand_stiffness = 600;
@@ -103,8 +103,8 @@ TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
   EXPECT_GE(wired.least_books, -1e-9);
 }
 
-// Its last zero is not, and the first of the question would do as well.
-TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
+// The last zero of the frame is missing, and the first zero of the question would complete it.
+TEST(SerialUnplug, IncompleteForceIsNeverHeld) {
   test::SerialBoard board({}, [](double) { return Vector3d(0, 0, 0.01); });
   const auto tell = [&](std::span<const std::uint8_t> octets) {
     for (const std::uint8_t octet : octets) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What parts two hands: solids that lie between them, and not those beside them.
+// Objects that separate two hands: solids between them, but not beside them.
 #include "reckon/haptics/servo/between_hands.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Scene scene_of(const Shape& shape, double mass) {
   return scene;
 }
 
-// The same as what stands still and as a body that is elsewhere than at the start.
+// The same for a fixed object and for a body that is away from its start.
 void expect(bool is, const Shape& shape, const Vector3d& from, const Vector3d& to,
             bool apart = false) {
   const EffectPlan standing(scene_of(shape, 0.0)), moving(scene_of(shape, 0.1));
@@ -36,7 +36,7 @@ void expect(bool is, const Shape& shape, const Vector3d& from, const Vector3d& t
   EXPECT_FALSE(is_between_hands(moving, {&body, 1}, from, to, apart)) << "it has gone";
 }
 
-TEST(BetweenHands, CubePartsFingersOnOppositeSides) {
+TEST(BetweenHands, CubeSeparatesOppositeFingers) {
   for (const double edge : {0.001, 0.02, 0.03, 0.04, 0.2}) {
     const Vector3d at(0.5 * edge + 1e-9, 0.1 * edge, 0);
     expect(true, BoxShape{Vector3d::Constant(edge)}, at, -at);
@@ -44,7 +44,7 @@ TEST(BetweenHands, CubePartsFingersOnOppositeSides) {
   }
 }
 
-TEST(BetweenHands, BoardAndBallPartHandsOnOppositeSides) {
+TEST(BetweenHands, BoardAndBallSeparateOppositeHands) {
   expect(true, BoxShape{Vector3d(0.3, 0.3, 0.001)}, {0, 0, 0.02}, {0.005, 0, -0.01});
   expect(true, SphereShape{0.02}, {0.02, 0, 0}, {-0.02, 0.001, 0});
   expect(true, CylinderShape{0.02, 0.1}, {0.021, 0, 0}, {-0.021, 0, 0.03});
@@ -56,7 +56,7 @@ TEST(BetweenHands, FingersSideBySideStillTouch) {
   expect(false, BoxShape{Vector3d::Constant(0.04)}, {0.01, 0, 0.03}, {-0.01, 0, 0.021});
 }
 
-// The chord's depth, beyond a tenth of its length, and of half of that.
+// Depth of the chord beyond a tenth of its length, and beyond half of that.
 TEST(BetweenHands, ContactDoesNotFlickerAtEdges) {
   const auto over = [](double half) { return std::sqrt(0.02 * 0.02 - half * half); };
   for (const double half : {0.0079, 0.005, 0.0035}) {
@@ -67,15 +67,15 @@ TEST(BetweenHands, ContactDoesNotFlickerAtEdges) {
   }
 }
 
-// As where the other hand is predicted too far.
-TEST(BetweenHands, PlaceInsideDeepSolidCounts) {
+// As if the other hand were predicted too far.
+TEST(BetweenHands, PositionInsideADeepSolidCounts) {
   const BoxShape cube{Vector3d::Constant(0.02)};
   expect(true, cube, {-0.03, 0, 0}, {0.005, 0, 0});
   expect(true, cube, {0.005, 0, 0}, {-0.03, 0, 0});
   expect(false, cube, {-0.005, 0, 0.01}, {0.005, 0, 0.009});
 }
 
-TEST(BetweenHands, FloorPartsNobodyAboveIt) {
+TEST(BetweenHands, FloorSeparatesNoHandsAboveIt) {
   const EffectPlan plan(scene_of(PlaneShape{Vector3d::UnitZ()}, 0.0));
   EXPECT_FALSE(is_between_hands(plan, {}, {0, 0, 0.001}, {0.03, 0, 0.001}, false));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two hands press and push each other over a bad line, each through a device that is late and reads
-// in steps: energy is transferred, never copied, by the books of either device and of both.
+// Two hands press and push each other over a bad line, each through a device with delay and encoder
+// steps: energy is transferred, never copied, by the ledgers of either device and of both.
 // RECKON_SOAK=1 tries 2,000 seeds of each.
 #include <gtest/gtest.h>
 
@@ -41,15 +41,16 @@ struct DeviceStep {
   double resolution = 0;  // [m]
 };
 
-// What the books of a run came to.
+// The energy results of a run.
 struct Books {
   double least = 1e9;      // [J], of one device with loan and encoder allowance
-  double least_sum = 1e9;  // [J], of both without what went from one to the other
-  double meter = -1e9;     // [J], most that a meter is above its device's books and allowance
-  double received = -1e9;  // [J], most that one received above what the other gave
-  double transferred = 0;  // [J], most given by one
+  double least_sum = 1e9;  // [J], of both without the transfer between them
+  double meter = -1e9;     // [J], largest excess of a meter over its device's ledger and allowance
+  double received = -1e9;  // [J], largest excess of one's received energy over the other's given
+                           // energy
+  double transferred = 0;  // [J], largest amount given by one
   double shown = 0;        // [N], greatest force
-  double allowance = 0;    // [J], most for the steps of one encoder
+  double allowance = 0;    // [J], largest allowance for the steps of one encoder
 
   void take(const Books& other) {
     least = std::min(least, other.least);
@@ -69,7 +70,7 @@ struct Player {
 
   SimulatedDevice device;
   ServoLoop servo;
-  RemoteHand told;                 // what the other knows of this hand
+  RemoteHand told;                 // state of this hand as known to the other
   double given = 0, received = 0;  // [J], of the account with the other
 };
 
@@ -133,7 +134,7 @@ class PressedPair {
     return {delay, any_of(kResolutions)};
   }
 
-  // They stand side by side along x and touch at rest.
+  // They are side by side along x and touch at rest.
   Player player(int side, DeviceStep step) {
     SimulatedDeviceConfig device;
     device.delay_samples = step.delay;
@@ -160,7 +161,7 @@ class PressedPair {
     return Player(device, script, servo);
   }
 
-  // What is older than what was heard is dropped, but for lines that pass on whatever comes.
+  // Stale updates are dropped, except on lines that pass on every update.
   void deliver(std::size_t to) {
     auto& line = lines_[to];
     for (auto it = line.begin(); it != line.end();) {
@@ -194,7 +195,7 @@ class PressedPair {
     ++hand.version;
     if (silent || part() < loss_) return;
     lines_[1 - from].push_back({now_ + late(), hand});
-    if (part() < 0.1) lines_[1 - from].push_back({now_ + 2 * late(), hand});  // comes twice
+    if (part() < 0.1) lines_[1 - from].push_back({now_ + 2 * late(), hand});  // duplicated
   }
   nanoseconds late() { return pdu::from_seconds(delay_ * (0.5 + part())); }
 
@@ -226,7 +227,7 @@ class PressedPair {
   double delay_;          // [s], +-50 % each
   double loss_;           // probability
   int period_;            // [steps], between two updates
-  double stiffness_ = 0;  // [N/m], that both show
+  double stiffness_ = 0;  // [N/m], of both
   std::array<Player, 2> players_;
   std::array<std::deque<Datagram>, 2> lines_;
   std::array<std::uint32_t, 2> heard_{};
@@ -236,7 +237,7 @@ class PressedPair {
 
 class DelayedPair : public testing::TestWithParam<std::tuple<int, double>> {};
 
-// One device is that of the cell; in every second run so is the other, else it is any.
+// One device is the cell's; in every second run the other one is too, otherwise it is any.
 TEST_P(DelayedPair, TakeNoMoreEnergyThanTheyPutIn) {
   const auto [delay, resolution] = GetParam();
   const int tried = delay > 4 ? test::tries(2, 200) : test::tries(10, 2000);
@@ -254,7 +255,8 @@ TEST_P(DelayedPair, TakeNoMoreEnergyThanTheyPutIn) {
       "%d seeds: least %.2g J, of both %.2g J, meter above the books by %.2g J, most given %.2g J, "
       "peak %.1f N, encoder allowed %.2g J\n",
       tried, all.least, all.least_sum, all.meter, all.transferred, all.shown, all.allowance);
-  // They do push each other. Behind 16 samples they show some 30 N/m and few of them give anything.
+  // They do push each other. With 16 samples of delay they render some 30 N/m, and few of them give
+  // anything.
   if (tried >= 10) {
     EXPECT_GT(all.transferred, 1e-4);
   }
@@ -264,9 +266,9 @@ INSTANTIATE_TEST_SUITE_P(OverBadLines, DelayedPair,
                          testing::Combine(testing::ValuesIn(kDelays),
                                           testing::ValuesIn(kResolutions)));
 
-// The hand takes the most of each force that comes to the handle, while others ask for all there
-// is: what was chosen before is answered for until it has left the handle.
-TEST(ForcesUnderWay, AreAnsweredForWhateverIsGivenAway) {
+// The hand takes the maximum energy of each force that arrives at the handle, while others request
+// all that there is: the port covers an earlier force until it has left the handle.
+TEST(ForcesUnderWay, AreCoveredWhileOthersRequestAllEnergy) {
   constexpr double kDamping = 1, kPeriod = 1e-3;
   for (const int delay : {0, 1, 2, 3, 4, 16}) {
     EnergyPort port(kDamping, delay);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device that is late and reads in steps: its own books never show more energy out than in, and
-// the servo's meter says no more than they do. RECKON_SOAK=1 tries 2,000 seeds of each.
+// A device with delay and encoder steps: its own ledger never has more energy out than in, and the
+// servo's meter never exceeds it. RECKON_SOAK=1 tries 2,000 seeds of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ using std::chrono::nanoseconds;
 
 constexpr double kRoundOff = 1e-9;  // [J], of sums of some joules
 
-// What touches the hand.
+// The objects that touch the hand.
 enum class Against { leaps, wave, liar, wall, corner };
 
-// One hand, its device and what it meets, all drawn from a seed.
+// One hand, its device and its opponent, all drawn from a seed.
 class Trial {
  public:
   Trial(Against against, int delay, double resolution, int seed)
@@ -54,8 +54,8 @@ class Trial {
     }
   }
 
-  double least = 0;      // [J], of the device's own books with loan and encoder allowance
-  double meter = -1e9;   // [J], most that the meter has above books and allowance
+  double least = 0;      // [J], of the device's own ledger with loan and encoder allowance
+  double meter = -1e9;   // [J], largest excess of the meter over ledger and allowance
   double allowance = 0;  // [J]
   double felt = 0;       // [N], mean over the last quarter
 
@@ -150,7 +150,7 @@ using Cell = std::tuple<Against, int, double>;
 
 class DeviceDelay : public testing::TestWithParam<Cell> {};
 
-TEST_P(DeviceDelay, NoMoreEnergyComesOutThanTheDevicesOwnBooksHave) {
+TEST_P(DeviceDelay, GivesNoMoreEnergyThanItsLedgerHas) {
   const auto [against, delay, resolution] = GetParam();
   const int tried = delay > 4 ? test::tries(4, 200) : test::tries(10, 2000);
   double least = 0, meter = -1e9, allowance = 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer that lies about what it gave moves a hand by little more than its surface is seen to do;
-// one that lies about what it needs starves nobody; who does not lie is not hindered.
+// A peer that lies about its given energy moves a hand by little more than the observed motion of
+// its surface permits. A peer that lies about its need starves no other peer. Honest peers are not
+// limited.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,19 +22,20 @@ namespace {
 
 constexpr double kUnseen = EnergyPort::kUnseen;
 constexpr double kUnseenPower = EnergyPort::kUnseenPower;
-constexpr double kKept = 0.04;  // [J], that a port holds beside its springs
+constexpr double kKept = 0.04;  // [J], kept by a port beside its springs
 
-// A sphere comes from outside to 15 mm within a resting hand, and then does its worst.
+// A sphere comes from outside to 15 mm within a resting hand, and then gives as much energy as it
+// can.
 struct Liar {
   double tremble = 0;     // [m]
   double frequency = 0;   // [Hz]
-  bool velocity = false;  // tells the velocity of its trembling
-  double softest = 1;     // of its stiffness, in turn with the full one
+  bool velocity = false;  // reports the velocity of its trembling
+  double softest = 1;     // of its stiffness, alternating with the full one
   bool renamed = false;   // another hand every 50 ms
 };
 
 struct Outcome {
-  double unseen_power = 0;  // [W], over the last 8 s, into the hand beyond what is seen
+  double unseen_power = 0;  // [W], over the last 8 s, into the hand beyond the observable power
   double unseen_most = 0;   // [J], beyond that power, at any time
   double force_rms = 0;
 };
@@ -76,7 +78,7 @@ Outcome suffer(const Liar& liar) {
     servo.step(now);
     servo.snapshots().update();
     const double force = servo.snapshots().read().force.x();
-    // What the surface can be seen to do by coming; its trembling is left to the caller.
+    // The observable work of the surface during its approach; the caller adds its trembling.
     seen += before * 0.020 * (smooth(t) - smooth(t - 1e-3));
     before = force;
     const double into = -device.port_work() - device.damping_loss() - seen;
@@ -89,7 +91,7 @@ Outcome suffer(const Liar& liar) {
   return out;
 }
 
-TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
+TEST(EnergyLiar, LiarMovesAHandLittleMoreThanObserved) {
   double worst = 0;
   test::Thinned thinned(3);
   for (const double tremble : {0.0, 1e-4}) {
@@ -106,7 +108,7 @@ TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
                               << ", velocity " << velocity << ", renamed " << renamed << ": "
                               << o.unseen_power << " W, most " << o.unseen_most << " J, rms "
                               << o.force_rms << " N";
-            // By Cauchy and Schwarz, whatever the phase of the force.
+            // By Cauchy and Schwarz, for any phase of the force.
             const double trembling = std::sqrt(2.0) * std::numbers::pi * frequency * tremble;
             EXPECT_LE(o.unseen_power,
                       kUnseenPower + (kUnseen + kKept) / 8 + trembling * o.force_rms)
@@ -121,12 +123,12 @@ TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
   std::printf("liars about gifts: at most %.4f W into a resting hand\n", worst);
 }
 
-// A surface that also swings, and says to have given whatever it takes.
+// A surface that also oscillates, and claims to have given whatever the hand takes.
 struct Swing {
   double offset, amplitude, frequency, stiffness, square;
   int every;
   bool velocity;
-  double press = 0;   // [m], slowly in each period of a second, before it leaps; 0: it does not
+  double press = 0;   // [m], slowly in each period of a second, before it jumps; 0: no press
   double leap = 0;    // [m]
   double slow = 0.5;  // share of the second
 };
@@ -137,8 +139,8 @@ struct Held {
 
 struct Thrown {
   double power = 0;   // [W], greatest into a resting hand of 0.1 kg over any second
-  double burst = 0;   // [J], over any 50 ms; also what the hand put in before
-  double beyond = 0;  // [J], greatest beyond what others may give since the start
+  double burst = 0;   // [J], over any 50 ms; includes the hand's earlier input
+  double beyond = 0;  // [J], greatest beyond the permitted energy from others since the start
 };
 
 Thrown thrown(const Swing& swing, const Held& by = {}) {
@@ -197,8 +199,8 @@ Thrown thrown(const Swing& swing, const Held& by = {}) {
   return most;
 }
 
-// Climbs from a swing at the hand's own frequency.
-TEST(EnergyLiar, WhoAlsoMovesThrowsAHandNoHarderThanOthersMay) {
+// A climb that starts at an oscillation with the hand's own frequency.
+TEST(EnergyLiar, MovingLiarIsLimitedLikeOthers) {
   std::mt19937 random(9);
   std::normal_distribution<double> gauss;
   Swing best{0.035, 0.03, 8.7, 900, 1, 5, false};
@@ -224,9 +226,9 @@ TEST(EnergyLiar, WhoAlsoMovesThrowsAHandNoHarderThanOthersMay) {
   EXPECT_LE(worst, 0.3);
 }
 
-// A spring that a liar let the hand fill gives it back in a burst, which has no bar. But from the
-// start on no hand gets more than others may give, 8 mJ and 0.2 W, beyond what it put in and what
-// it owes.
+// A spring that a liar let the hand fill returns its energy in a burst, which has no limit. But
+// from the start on a hand gets at most 8 mJ and 0.2 W from others beyond its own input and its
+// loan.
 TEST(EnergyLiar, EnergyGainStaysWithinReceivedPower) {
   const int tries = test::tries(25, 250);
   for (const Held& held : {Held{}, Held{180, 2, 15, 0.7}, Held{180, 2, 30, 2}}) {
@@ -261,7 +263,7 @@ TEST(EnergyLiar, EnergyGainStaysWithinReceivedPower) {
   }
 }
 
-TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
+TEST(EnergyLiar, HonestPeersAreNotLimited) {
   for (const double press : {0.020, 0.040}) {
     for (const double delay : {0.0, 0.0003, 0.005, 0.020, 0.050}) {
       RowHands hands;
@@ -290,10 +292,11 @@ TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
   }
 }
 
-// Three hands in a row, a liar among them. What is right follows from where the hands are: a liar
-// who starves himself does not push, and is shown as soft as he shows others. The last of the row
-// has nobody but the middle to get its energy from: where that one lies it may be weaker.
-TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
+// Three hands in a row, with a liar among them. The correct force follows from the positions of the
+// hands: a liar that starves itself does not push, and is rendered as softly as it renders others.
+// The last of the row can get its energy only from the middle: if that one lies, the last may be
+// weaker.
+TEST(EnergyLiar, ExcessiveRequestsDoNotStarveOthers) {
   for (const double need : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
     for (const double delay : {0.0003, 0.005, 0.020, 0.050}) {
       for (const std::size_t liar : {0u, 1u, 2u}) {
@@ -319,7 +322,7 @@ TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
                                                << need << ", " << delay << " s";
           EXPECT_LE(row.felt(i), 1.02 * right + 0.03) << text;
           if (i != liar) {
-            // Less than the threshold of an update is not known.
+            // An error below the threshold of an update stays unknown.
             EXPECT_GE(row.felt(i), (i == 2 && liar == 1 ? 0.8 : 0.95) * right - 0.015) << text;
           }
         }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two hands that find one another inside: after a start, an outage or a late discovery neither of
-// them ever pushed a surface away, and both ports are empty.
+// Two hands that find each other overlapping: after a start, an outage or a late discovery neither
+// of them has pushed a surface away, and both ports are empty.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ HandsInARow overlapping(const Cell& cell, unsigned seed) {
   return {hands, line, seed};
 }
 
-// Both hands have most of the force within 3 s of the first word, and nobody more than was lent.
+// Both hands have most of the force within 3 s of the first update, and neither has more energy
+// than the loan.
 void expect_right(HandsInARow& row, const Cell& cell, const char* when) {
   const double right = row_truth(2, 300, 500, cell.press)[0];
   while (row.snapshot(0).count == 0 || row.snapshot(1).count == 0) row.step();
@@ -61,7 +62,7 @@ void expect_right(HandsInARow& row, const Cell& cell, const char* when) {
 
 constexpr double kDelays[] = {0.0003, 0.005, 0.020, 0.050};  // [s]
 
-TEST(EnergyLoan, HandsThatStartOverlappingPushOneAnother) {
+TEST(EnergyLoan, OverlappingStartHandsPushEachOther) {
   for (const double press : {0.010, 0.020}) {
     for (const double delay : kDelays) {
       const Cell cell{press, delay, 0};
@@ -71,7 +72,7 @@ TEST(EnergyLoan, HandsThatStartOverlappingPushOneAnother) {
   }
 }
 
-TEST(EnergyLoan, AnOutageInContactIsGotOverTwice) {
+TEST(EnergyLoan, OutageInContactIsRecoveredTwice) {
   for (const double press : {0.010, 0.020}) {
     for (const double delay : kDelays) {
       const Cell cell{press, delay, 0};
@@ -109,7 +110,7 @@ TEST(EnergyLoan, LateDiscoveryOverALossyLine) {
   }
 }
 
-TEST(EnergyLoan, NothingIsLentToAContactThatBeganFromOutside) {
+TEST(EnergyLoan, ContactFromOutsideGetsNoLoan) {
   for (const std::size_t count : {2u, 3u}) {
     for (const double delay : kDelays) {
       RowHands hands;
@@ -131,9 +132,9 @@ TEST(EnergyLoan, NothingIsLentToAContactThatBeganFromOutside) {
   }
 }
 
-// A peer whose hand appears in ours and vanishes, over and over, gets no more than one loan out of
+// A peer whose hand appears inside ours and vanishes, again and again, gets at most one loan from
 // us, and no faster.
-TEST(EnergyLoan, IsOneForTheDeviceWhateverAppearsInTheHand) {
+TEST(EnergyLoan, IsOnePerDevice) {
   SimulatedDeviceConfig held;
   held.hand_stiffness = 300;
   SimulatedDevice device(held);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A reading that fails does not take the force off the hand: what the hand got under it is booked.
+// A failed reading does not remove the force from the hand: the hand's energy meanwhile is booked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using bench::floor;
 using namespace std::chrono_literals;
 
-// Holds the force through a transfer that fails, as hardware does.
+// Holds the force through a failed transfer, like hardware.
 class FlakyDevice : public SimulatedDevice {
  public:
   using SimulatedDevice::SimulatedDevice;
@@ -33,8 +33,8 @@ class FlakyDevice : public SimulatedDevice {
 // Pressed 10 mm into a floor and pulled out; one reading fails, or three in a row, on the way out
 // (or on the way in).
 struct Trial {
-  double booked_too_much = 0;  // [J], of the meter against the device's own books
-  double least = 0;            // [J], of the device's own books
+  double booked_too_much = 0;  // [J], of the meter against the device's own ledger
+  double least = 0;            // [J], of the device's own ledger
   double force = 0, speed = 0;
 };
 
@@ -75,7 +75,7 @@ Trial fail_once(int failures, double speed, bool outwards) {
   return trial;
 }
 
-TEST(FailedReading, IsBookedWhenTheNextGoodOneComes) {
+TEST(FailedReading, IsBookedAtTheNextGoodReading) {
   for (const int failures : {1, 3}) {
     for (const double speed : {0.1, 0.3, 0.6}) {
       for (const bool outwards : {true, false}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force on a hand grows and turns no faster than the servo says, falls as it likes, pushes a
-// hand that gives way with no more power than that, and what it lags by is in the books.
+// The force on a hand grows and turns at most at the servo's rate, falls at any rate, pushes a
+// yielding hand at most with the power limit, and the difference is booked.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ Scene floor(double stiffness) {
   return scene;
 }
 
-TEST(ForceRate, AWallThatTheDeviceHoldsNeverMeetsItBelowAMetreASecond) {
+TEST(ForceRate, SlowContactWithAWallIsNotLimited) {
   // A hand that is thrown: the grip is far ahead of it.
   Bench bench(floor(1425), {0, 0, 0.05}, [](double t) {
     HandTarget hand;
@@ -92,7 +92,7 @@ TEST(ForceRate, AWallThatTheDeviceHoldsNeverMeetsItBelowAMetreASecond) {
   EXPECT_GE(bench.least, -1e-9);
 }
 
-TEST(ForceRate, WhatLagsIsBookedAndTold) {
+TEST(ForceRate, LagIsBookedAndReported) {
   ServoConfig slow;
   slow.max_force_rate = 300;
   Bench bench(
@@ -115,8 +115,9 @@ TEST(ForceRate, WhatLagsIsBookedAndTold) {
   EXPECT_NEAR(bench.snapshot().force.z(), right, 1e-3 * right);
 }
 
-// Pressed for long, let go of, pressed again: what the limit takes from the wall is in the books.
-TEST(ForceHeat, WarmMotorsShowWhatTheyHoldAndNoEnergyIsMade) {
+// Pressed for a long time, released, pressed again: the part that the limit removes from the wall
+// is booked.
+TEST(ForceHeat, WarmMotorsHoldTheirForceWithoutMakingEnergy) {
   ServoConfig warm;
   warm.continuous_force = 2.0;
   warm.thermal_time = 10.0;
@@ -144,7 +145,7 @@ TEST(ForceHeat, WarmMotorsShowWhatTheyHoldAndNoEnergyIsMade) {
   EXPECT_EQ(bench.snapshot().trips, 0U);
 }
 
-// Pressed into a wall, then pulled off it at up to 1.2 m/s: the wall pushes that way too.
+// Pressed into a wall, then pulled off it at up to 1.2 m/s: the wall pushes in the same direction.
 HandTarget pulled_off(double t) {
   HandTarget hand;
   hand.position.z() =
@@ -152,7 +153,7 @@ HandTarget pulled_off(double t) {
   return hand;
 }
 
-TEST(ForcePower, IsCutWhereAHandGivesWayFasterThanItAllows) {
+TEST(ForcePower, IsCutForAQuicklyYieldingHand) {
   Bench free(floor(1425), {0, 0, 0.02}, pulled_off);
   free.run(1s);
   ServoConfig weak;
@@ -160,21 +161,21 @@ TEST(ForcePower, IsCutWhereAHandGivesWayFasterThanItAllows) {
   Bench bench(floor(1425), {0, 0, 0.02}, pulled_off, weak);
   EXPECT_EQ(bench.servo.power_limit(), 0.1);
   bench.run(500ms);
-  // Who presses meets no limit of what is given back.
+  // A pressing hand meets no limit on returned energy.
   EXPECT_EQ(bench.peak, [] {
     Bench same(floor(1425), {0, 0, 0.02}, pulled_off);
     same.run(500ms);
     return same.peak;
   }());
   bench.run(500ms);
-  // Of the speed at the start of a sample: within it the hand gets faster.
+  // For the speed at the start of a sample: within it the hand accelerates.
   EXPECT_GT(free.power, 0.3);
   EXPECT_LE(bench.power, 0.1 * 1.3);
   EXPECT_GE(bench.least, -1e-9);
   EXPECT_EQ(bench.too_fast, 0);
 }
 
-TEST(ForcePower, OfAWallIsNeverMetBelowTheDevicesForceAtAMetreASecond) {
+TEST(ForcePower, SlowContactWithAWallIsNotLimited) {
   Bench bench(floor(1425), {0, 0, 0.02}, pulled_off);
   EXPECT_EQ(bench.servo.power_limit(), SimulatedDeviceConfig().max_force * 1.0);
   ServoConfig more;
@@ -183,7 +184,7 @@ TEST(ForcePower, OfAWallIsNeverMetBelowTheDevicesForceAtAMetreASecond) {
             bench.servo.power_limit());
 }
 
-TEST(ForceRate, IsKeptWhateverTheNetworkSays) {
+TEST(ForceRate, IsKeptForAnyUpdates) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -223,7 +224,7 @@ TEST(ForceRate, IsKeptWhateverTheNetworkSays) {
   }
 }
 
-TEST(ForceRate, IsRefusedWhereItWouldLetNothingThrough) {
+TEST(ForceRate, TooLowARateIsRefused) {
   ServoConfig config;
   config.max_force_rate = 0;
   EXPECT_THROW(Bench(floor(500), {0, 0, 0.1}, {}, config), std::invalid_argument);

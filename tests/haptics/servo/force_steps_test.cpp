@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force has no steps: over the edge of a region, where a record changes while it is touched,
-// and where friction breaks away.
+// The force has no steps: over the edge of a region, when a record changes during contact, and when
+// friction breaks away.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using Choice = test::Choice<16>;
 using Kind = pdu::ForceModelKind;
 
 constexpr double kMostStep = 0.5;   // [N], in 1 ms
-constexpr double kMostSpeed = 0.2;  // [m/s], of a hand that meets them
+constexpr double kMostSpeed = 0.2;  // [m/s], of a hand in contact
 
 struct Felt {
   double step = 0;  // [N], the largest in 1 ms
@@ -35,7 +35,7 @@ struct Felt {
   double least = 0;
 };
 
-// A hand that presses a record which is sent anew every `period` [s]; what it feels from `from` on.
+// A hand that presses a record which is sent again every `period` [s]; forces from `from` on.
 template <class Record>
 Felt feel(Bench& bench, double from, double end, double period, Record record) {
   Felt felt;
@@ -96,7 +96,7 @@ Felt slides_over_an_edge(const Choice& c) {
               [&](double) { return region; });
 }
 
-// What of a record is another one from kChange on.
+// The property of a record that changes at kChange.
 enum class Change { stiffness, hardening, friction, radius, normal, place, nothing };
 constexpr double kChange = 2.5;  // [s]
 
@@ -129,7 +129,7 @@ RemoteHand changed(const Choice& c, Change change, RemoteHand hand) {
   return hand;
 }
 
-// Presses what somebody holds or a body, moves sideways over it, and its record changes.
+// Presses a remote hand or a body and moves sideways over it while its record changes.
 Felt presses_what_changes(const Choice& c, Change change) {
   const bool turns = change == Change::normal, held = !turns && c[10] < 0.5;
   const bool plane = turns || (!held && c[11] < 0.5);
@@ -157,7 +157,7 @@ Felt presses_what_changes(const Choice& c, Change change) {
 
 class ForceStepsOfSeeds : public ::testing::TestWithParam<unsigned> {};
 
-TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
+TEST_P(ForceStepsOfSeeds, EdgeTurnsTheForceGradually) {
   std::mt19937_64 random(GetParam());
   for (int i = 0; i < 20; ++i) {
     const Felt felt = slides_over_an_edge(any_choice<16>(random));
@@ -166,7 +166,7 @@ TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
   }
 }
 
-TEST_P(ForceStepsOfSeeds, WhatChangesWhileItIsTouchedIsBlendedIn) {
+TEST_P(ForceStepsOfSeeds, ChangesDuringContactAreBlended) {
   std::mt19937_64 random(100 + GetParam());
   for (const Change change : {Change::stiffness, Change::hardening, Change::friction,
                               Change::radius, Change::normal, Change::place}) {
@@ -178,7 +178,7 @@ TEST_P(ForceStepsOfSeeds, WhatChangesWhileItIsTouchedIsBlendedIn) {
   }
 }
 
-TEST_P(ForceStepsOfSeeds, FrictionBreaksAwayWithoutABlow) {
+TEST_P(ForceStepsOfSeeds, FrictionBreaksAwaySmoothly) {
   std::mt19937_64 random(200 + GetParam());
   for (int i = 0; i < 20; ++i) {
     const Felt felt = presses_what_changes(any_choice<16>(random), Change::nothing);
@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ForceSteps, ::testing::ValuesIn(kScenes),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 // 100 to 500 N/m, 5 mm beyond the first touch.
-TEST(AHandThatGetsStiffer, PushesNoHarderThanItWill) {
+TEST(AHandThatGetsStiffer, NeverExceedsItsFinalForceMuch) {
   for (const double grip : {100.0, 300.0, 600.0}) {
     SimulatedDeviceConfig device = at(0.06);
     device.hand_stiffness = grip;
@@ -233,7 +233,7 @@ TEST(AHandThatGetsStiffer, PushesNoHarderThanItWill) {
       return sphere({0, 0, 0}, t < kChange ? 100.0 : 500.0);
     });
     EXPECT_LE(felt.step, 0.1) << grip;
-    EXPECT_LE(felt.peak, 1.2 * felt.end) << grip;  // the lightest grip swings
+    EXPECT_LE(felt.peak, 1.2 * felt.end) << grip;  // the lightest grip oscillates
     const double right = 0.005 / (1 / 500.0 + 1 / grip);
     EXPECT_NEAR(felt.end, right, 0.01 * right) << grip;
   }

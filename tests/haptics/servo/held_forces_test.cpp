@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that leans on something for a minute goes on feeling it, through a device that is late and
-// reads in steps: in each second the mean force is that of the stiffness which the device can show,
-// at the true mean depth. RECKON_SOAK=1 adds a device of little friction and holds two hands for
-// the whole minute.
+// A hand that leans on an object for a minute continues to feel it, through a device with delay and
+// encoder steps: in each second the mean force equals the device's stiffness at the true mean
+// depth. RECKON_SOAK=1 adds a device of little friction and holds two hands for the whole minute.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the force of the spring: a hand feels a tenth of a force as less of it.
+// Share of the spring's force: a person notices a reduction of one tenth.
 constexpr double kLeastShare = 0.9;
 constexpr double kMinute = 60;  // [s]
 
@@ -55,7 +54,7 @@ class Shares {
   double force_ = 0, spring_ = 0, least_ = 1e9;
 };
 
-// A gate visits half of them: each delay with each resolution, still or with a tremor.
+// A gate visits half of them: each delay with each resolution, at rest or with a tremor.
 template <typename Visit>
 void each_cell(double tremor, Visit&& visit) {
   for (const int delay : {0, 1, 2, 3, 4}) {
@@ -67,14 +66,14 @@ void each_cell(double tremor, Visit&& visit) {
   }
 }
 
-// A grip of 300 N/m and 3 N s/m comes down at 50 mm/s and wants to be 15 mm inside.
+// A grip of 300 N/m and 3 N s/m comes down at 50 mm/s with a goal 15 mm inside.
 class Leaner {
  public:
   Leaner(const Leaning& cell, double damping, const Scene& scene, double radius)
       : device_(device(cell, damping), script(cell.tremor)),
         servo_(device_, EffectPlan(scene), config(radius)) {}
 
-  // @param other what is sent every 60 ms, nullptr: nothing
+  // @param other state sent every 60 ms, nullptr: none
   void step(RemoteHand* other) {
     const auto now = std::chrono::milliseconds(1000 + steps_);
     if (other != nullptr && steps_ % 60 == 0) {
@@ -132,7 +131,7 @@ double lean_on_a_wall(const Leaning& cell, double damping) {
   return shares.least();
 }
 
-// A sphere that touches ours where we are at z = 0, and that nothing moves.
+// A sphere that touches ours when we are at z = 0, and that nothing moves.
 double lean_on_a_resting_hand(const Leaning& cell) {
   const Vector3d centre(0, 0, -0.04);
   Leaner leaner(cell, 1, {}, 0.02);
@@ -152,7 +151,7 @@ double lean_on_each_other(const Leaning& cell, double press) {
   RowHands hands;
   hands.delay_samples = cell.delay;
   hands.resolution = cell.resolution;
-  hands.stiffness = std::min(500.0, 950.0 / (1 + 2 * cell.delay));  // what both devices can show
+  hands.stiffness = std::min(500.0, 950.0 / (1 + 2 * cell.delay));  // the stiffness of both devices
   hands.start = -0.02;
   hands.target = [&](std::size_t i, double t) {
     const double wave = 2 * std::numbers::pi * 8 * t;
@@ -172,10 +171,9 @@ double lean_on_each_other(const Leaning& cell, double press) {
   return std::min(shares[0].least(), shares[1].least());
 }
 
-// Cells left out, for they fall below kLeastShare within the minute; beside each the least share
-// that was measured. Less is booked there than the hand put in and the device's friction took, for
-// the handle trembles over the borders of the encoder's steps: by 4 to 14 mJ in the minute, which
-// the pair then lacks.
+// Excluded cells, which fall below kLeastShare within the minute, each with its measured least
+// share. The ledger there books less than the hand's input and the device's friction loss, because
+// the handle trembles across encoder steps: by 4 to 14 mJ in the minute, which the pair then lacks.
 struct Fading {
   double tremor;  // [m]
   int delay;      // [samples]
@@ -189,10 +187,10 @@ bool is_among(const List& fading, const Leaning& cell) {
   });
 }
 
-// b = 0.3 N s/m: shown with 47 N/m, the wall and the grip tremble at their own frequency.
+// b = 0.3 N s/m: rendered with 47 N/m, wall and grip tremble at their own frequency.
 constexpr std::array kFadingWalls{Fading{3e-4, 4, 1e-4}};  // 0.69
 
-// Two hands of 500 N/m, or what the device can show; the first one's share, then the second one's.
+// Two hands of 500 N/m, or the device's stiffness; the first one's share, then the second one's.
 constexpr std::array<Fading, 0> kFadingPairs20mm{};
 constexpr std::array kFadingPairs10mm{
     Fading{0, 0, 1e-4},     // 0.94, 0.86
@@ -200,7 +198,7 @@ constexpr std::array kFadingPairs10mm{
     Fading{3e-4, 4, 1e-4},  // 0.95, 0.87
 };
 
-TEST(HeldForces, AWallHoldsAHandThatLeansOnItForAMinute) {
+TEST(HeldForces, WallHoldsALeaningHandForAMinute) {
   double least = 1e9;
   for (const double damping : {1.0, 0.3}) {
     if (damping < 1 && !test::soaks()) continue;
@@ -216,7 +214,7 @@ TEST(HeldForces, AWallHoldsAHandThatLeansOnItForAMinute) {
   std::printf("least mean force of a second: %.3f of the spring's\n", least);
 }
 
-TEST(HeldForces, ARemoteHandAtRestHoldsAHandThatLeansOnItForAMinute) {
+TEST(HeldForces, RestingRemoteHandHoldsALeaningHand) {
   double least = 1e9;
   for (const double tremor : {0.0, 3e-4}) {
     each_cell(tremor, [&](const Leaning& cell) {
@@ -242,7 +240,7 @@ double least_of_pairs(double press, const List& fading) {
   return least;
 }
 
-TEST(HeldForces, TwoHandsOnALanHoldOneAnother) {
+TEST(HeldForces, TwoHandsOnALanHoldEachOther) {
   const double deep = least_of_pairs(0.02, kFadingPairs20mm);
   const double shallow = least_of_pairs(0.01, kFadingPairs10mm);
   std::printf("least mean force of a second: %.3f, %.3f of the spring's\n", deep, shallow);

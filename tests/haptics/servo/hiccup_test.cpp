@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// After a failed reading, a switch let go, a cable pulled, a trip or a start inside, a hand that
-// leans where it is has its force back, by loans that have an end.
+// After a failed reading, a released switch, a pulled cable, a trip or a start inside an object, a
+// hand that leans at its place gets its force back, by bounded loans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 constexpr double kRight = 0.9;      // of the force before
 constexpr double kRoundOff = 1e-9;  // [J]
 
-// A grip of 300 N/m that wants to be 15 mm deep in a floor.
+// A grip of 300 N/m with a goal 15 mm deep in a floor.
 struct Wall {
   double stiffness, grip = 300, goal = 0.015;
   [[nodiscard]] double right() const { return grip * stiffness / (grip + stiffness) * goal; }
@@ -91,7 +91,7 @@ HandTarget wants(double height) {
   return target;
 }
 
-TEST(Hiccup, AWallIsAsHardAsBeforeWithinThreeSeconds) {
+TEST(Hiccup, WallRecoversWithinThreeSeconds) {
   for (const Row& row : hiccups_at_a_wall()) {
     Bench bench(floor(row.wall.stiffness), held(row.wall, 0.03), presses(row.wall.goal));
     const double before = bench.run(3s).force.norm();
@@ -108,7 +108,7 @@ TEST(Hiccup, AWallIsAsHardAsBeforeWithinThreeSeconds) {
   }
 }
 
-TEST(Hiccup, OneFailedReadingTakesAQuarterOfTheForceAtMost) {
+TEST(Hiccup, OneFailedReadingCostsAtMostAQuarter) {
   Bench bench(floor(1400), held({1400}, 0.03), presses(0.015));
   const double before = bench.run(3s).force.norm();
   unplug_for(bench, 1ms);
@@ -119,7 +119,7 @@ TEST(Hiccup, OneFailedReadingTakesAQuarterOfTheForceAtMost) {
   EXPECT_EQ(bench.servo.snapshots().read().trips, 0u);
 }
 
-TEST(Hiccup, WhoBeginsInsideAWallFeelsItFadeInAndIsTold) {
+TEST(Hiccup, WallFadesInForAHandInside) {
   for (const double stiffness : {500.0, 1400.0}) {
     const Wall wall{stiffness};
     Bench bench(floor(stiffness), held(wall, -wall.goal),
@@ -140,8 +140,8 @@ TEST(Hiccup, WhoBeginsInsideAWallFeelsItFadeInAndIsTold) {
   }
 }
 
-// 200 mm deep: no loan lifts a hand out of there, and it is said for as long.
-TEST(Hiccup, WhatNoLoanReachesIsTold) {
+// 200 mm deep: no loan lifts a hand out of there, and this is reported all the time.
+TEST(Hiccup, ContactBeyondTheLoanIsReported) {
   const Wall wall{1400, 300, 0.2};
   Bench bench(floor(1400), held(wall, -0.2), [](double) { return wants(-0.2); });
   bench.run(10s);
@@ -151,9 +151,9 @@ TEST(Hiccup, WhatNoLoanReachesIsTold) {
   EXPECT_GE(bench.least, -kRoundOff);
 }
 
-// Deeper than the loan reaches: the surface comes to the handle, and what is pressed deeper from
-// there is the whole wall.
-TEST(Hiccup, WallDeeperThanTheLoanStandsAtTheHandle) {
+// Deeper than the loan reaches: the surface moves to the handle, and any deeper press from there
+// feels the whole wall.
+TEST(Hiccup, WallBeyondTheLoanMovesToTheHandle) {
   for (const Wall& wall : {Wall{900, 150, 0.06}, Wall{600, 300, 0.06}, Wall{1400, 200, 0.08}}) {
     double deeper = 0;
     Bench bench(floor(wall.stiffness), held(wall, -wall.goal),
@@ -173,8 +173,8 @@ TEST(Hiccup, WallDeeperThanTheLoanStandsAtTheHandle) {
   }
 }
 
-// What is hidden is shown again as far as the hand comes out.
-TEST(Hiccup, HiddenDepthIsShownOnTheWayOut) {
+// Hidden depth is rendered again as the hand comes out.
+TEST(Hiccup, HiddenDepthReturnsOnTheWayOut) {
   Bench bench(floor(900), held({900, 150}, -0.06), [](double t) {
     const double out = 0.07 * smooth((t - 6) / 2), in = 0.02 * smooth(t - 9);
     return wants(-0.06 + out - in);
@@ -222,7 +222,7 @@ std::vector<Pair> hiccups_of_a_pair() {
           {"one cable out for 2 s", 0.030, pulled({1}, 2000)}};
 }
 
-TEST(Hiccup, TwoHandsPushOneAnotherAsBefore) {
+TEST(Hiccup, TwoHandsPushEachOtherAsBefore) {
   for (const double delay : {0.0003, 0.02}) {
     for (const Pair& pair : hiccups_of_a_pair()) {
       RowHands hands;
@@ -247,8 +247,8 @@ TEST(Hiccup, TwoHandsPushOneAnotherAsBefore) {
   }
 }
 
-// However often switch and cable flap, all of it is no more than one loan.
-TEST(Hiccup, AThousandFlapsAreLentNoMoreThanOnce) {
+// For any number of flaps of switch and cable the total is at most one loan.
+TEST(Hiccup, AThousandFlapsGetOneLoan) {
   for (const bool cable : {false, true}) {
     Bench bench(floor(1400), held({1400}, 0.03), presses(0.015));
     bench.run(2s);

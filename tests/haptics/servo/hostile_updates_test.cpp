@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whatever the network says about hands: the servo stays passive, within its limits, and the same.
+// For any updates of hands from the network: the servo stays passive, within its limits, and
+// deterministic.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace bench;
 
-// Everything the network may say about a hand, every few milliseconds, to a hand that moves about.
+// All possible statements about a hand, every few milliseconds, to a moving hand.
 class Hostile {
  public:
   explicit Hostile(unsigned seed)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A servo step that comes late while the hand leaves a contact: the device lets go meanwhile.
+// A servo step that is late while the hand leaves a contact: the device releases meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
 struct Outcome {
-  double port = 0;   // [J], least of the device's own books
-  double meter = 0;  // [J], most that the servo's meter has above them
+  double port = 0;   // [J], least of the device's own ledger
+  double meter = 0;  // [J], largest excess of the servo's meter over it
 };
 
 // Slowly into a remote sphere and a floor, quickly out of them, 5 % of the steps 1 to 9.8 ms late.
@@ -67,7 +67,7 @@ Outcome late(nanoseconds hold, unsigned seed) {
   return out;
 }
 
-TEST(LateStep, CostsLittleWhereTheDeviceLetsGoInTime) {
+TEST(LateStep, CostsLittleIfTheDeviceReleasesInTime) {
   Outcome kept, dropped;
   for (unsigned seed = 1; seed <= test::tries(100U, 300U); ++seed) {
     const Outcome whole = late(HapticDevice::kWatchdog, seed);
@@ -85,13 +85,13 @@ TEST(LateStep, CostsLittleWhereTheDeviceLetsGoInTime) {
 }
 
 struct Books {
-  double least = 0;   // [J], least energy of the port, with what was lent
-  double beyond = 0;  // [J], least of the same with what late steps account for
+  double least = 0;   // [J], least energy of the port, with loans
+  double beyond = 0;  // [J], least of the same with the account of late steps
   double late_cost = 0;
 };
 
 // Light touches and hard ones of a ball that comes and goes: the ledger is empty again and again.
-// @param most longest delay of a step [s]  @param often share of the steps that are late
+// @param most longest delay of a step [s]  @param often share of late steps
 Books touches(double most, double often, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(0, 1);
@@ -138,8 +138,8 @@ Books touches(double most, double often, unsigned seed) {
   return books;
 }
 
-// Half a period is less than it takes the device to let go.
-TEST(LateStep, AccountsForWhatItTakesFromAnEmptyLedger) {
+// Half a period is shorter than the device's release time.
+TEST(LateStep, AccountsForEnergyFromAnEmptyLedger) {
   Books worst;
   const unsigned seeds = test::tries(100U, 300U);
   int below = 0;

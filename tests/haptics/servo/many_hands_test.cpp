@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A servo among as many hands as it takes, servos that share a scene, and a device that is set up
-// anywhere and any way round.
+// A servo among the maximum number of hands, servos that share a scene, and a device with any
+// position and orientation.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -108,7 +108,7 @@ TEST(ManyHands, EachOfThirtyTwoIsFelt) {
   }
 }
 
-TEST(ManyHands, TogetherAreNoStifferThanTheDeviceBears) {
+TEST(ManyHands, TogetherAreWithinTheDevicesStiffness) {
   SimulatedDeviceConfig config = held_tight();
   config.start.z() = 0.05;
   Bench bench({}, config);
@@ -130,7 +130,7 @@ TEST(ManyHands, TogetherAreNoStifferThanTheDeviceBears) {
   EXPECT_GE(bench.device.port_work() + bench.device.damping_loss(), -1e-9);
 }
 
-TEST(ManyHands, TellsHowManyItLeavesOut) {
+TEST(ManyHands, CountsOmittedHands) {
   ServoConfig config;
   config.max_contacts = 5;
   Bench bench(config);
@@ -143,8 +143,8 @@ TEST(ManyHands, TellsHowManyItLeavesOut) {
   EXPECT_EQ(bench.run(5ms).left_out, 0u);
 }
 
-// Sets in any order, with hands that come, go and come back, more of them than there are accounts.
-TEST(ManyHands, TheBooksHoldWhoeverComesAndGoes) {
+// Sets in any order, with hands that come, go and return, more of them than there are accounts.
+TEST(ManyHands, LedgerHoldsThroughComingAndGoing) {
   std::mt19937 random(11);
   Bench bench({}, {}, {});
   std::map<std::uint16_t, ContactAccount> last;  // of each hand ever met
@@ -175,13 +175,13 @@ TEST(ManyHands, TheBooksHoldWhoeverComesAndGoes) {
   double sum = closed;
   for (const auto& [entity, account] : last) sum += account.received - account.given;
   EXPECT_GT(last.size(), 300u);
-  // The hand is at rest and touches nobody: all that the port has is what others gave.
+  // The hand is at rest and touches nothing: the port has only energy from others.
   const ServoSnapshot& s = bench.run(1ms);
   ASSERT_EQ(bench.device.port_work(), 0.0);
   EXPECT_NEAR(s.port_energy, sum, 1e-12);
 }
 
-TEST(SharedPlan, IsHeldOnceAndAnswersAsOneOfItsOwn) {
+TEST(SharedPlan, IsSharedAndGivesTheSameResults) {
   Scene scene;
   for (int i = 0; i < 200; ++i) {
     SceneObject object;
@@ -200,7 +200,7 @@ TEST(SharedPlan, IsHeldOnceAndAnswersAsOneOfItsOwn) {
   ServoLoop own(devices[2], EffectPlan(scene), {});
   EXPECT_EQ(plan.use_count(), 3) << "no copy is made";
   for (nanoseconds now{0}; now < 3s; now += 1ms) {
-    // One after the other, and one of them ahead: what one does is nothing to the other.
+    // One after the other, and one of them ahead: they do not influence each other.
     a.step(now);
     own.step(now);
     ASSERT_EQ(devices[0].force(), devices[2].force());
@@ -226,7 +226,7 @@ Scene floor_and_ball() {
   return scene;
 }
 
-// Where a hand goes in S: down to the floor, then to and fro against a block.
+// Path of a hand in S: down to the floor, then to and fro against a block.
 Vector3d stroke(double t) {
   return {0.02 * std::sin(3.0 * t), 0.01 * std::sin(5.0 * t), std::max(-0.004, 0.03 - 0.03 * t)};
 }
@@ -272,7 +272,7 @@ TEST(DevicePose, GivesTheSameForcesInTheScene) {
     }
     const ServoSnapshot& a = plain.snapshots().read();
     const ServoSnapshot& b = servo.snapshots().read();
-    // Both turn by rounding only, which contact with friction does not make grow.
+    // They differ by rounding only, which contact with friction does not amplify.
     ASSERT_LT((a.device - b.device).norm(), 1e-9) << "step " << i;
     ASSERT_LT((a.scp - b.scp).norm(), 1e-9) << "step " << i;
     ASSERT_LT((a.velocity - b.velocity).norm(), 1e-6) << "step " << i;

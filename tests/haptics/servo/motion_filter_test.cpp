@@ -19,20 +19,20 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTolerance = 30e-6;  // [m], the filter's default
-// Of the scale of the motion. The filter's equations have a condition of about 1e4 in doubles of
-// 1e-16: 1e-12. The rest is for windows that a pause of up to 2 s divides, a thousand times the
-// distance of the samples, where the condition is a million times worse.
+// In units of the motion's scale. The filter's equations have a condition of about 1e4 in doubles
+// of 1e-16: 1e-12. The rest is for windows divided by a pause of up to 2 s, a thousand times the
+// sample distance, with a condition a million times worse.
 constexpr double kAgreement = 1e-9;
 constexpr double kAgreementOverPauses = 1e-8;
 
 struct Motion {
   Vector3d velocity = Vector3d::Zero();
   Vector3d acceleration = Vector3d::Zero();
-  double speed_scale = 0.0;         // [m/s], way in the window over its length
+  double speed_scale = 0.0;         // [m/s], displacement in the window over its length
   double acceleration_scale = 0.0;  // [m/s^2]
 };
 
-// The same parabolas fitted from scratch, as the filter is defined, with 11 bits more.
+// The same parabolas fitted from scratch, by the filter's definition, with 11 more bits.
 class DirectFit {
  public:
   void add(const Vector3d& position, double time) {
@@ -100,7 +100,7 @@ class DirectFit {
   std::deque<Sample> samples_;  // newest first
 };
 
-// How far the filter is from the direct fit, in parts of the scale of the motion.
+// Difference between filter and direct fit, in units of the motion's scale.
 struct Worst {
   double velocity = 0.0;
   double acceleration = 0.0;
@@ -117,7 +117,7 @@ struct Worst {
   }
 };
 
-// A hand that strokes, rests, trembles and jumps, read by an encoder of 10 um now and then.
+// A hand that strokes, rests, trembles and jumps, sometimes read by an encoder of 10 um.
 class Hand {
  public:
   explicit Hand(unsigned seed, double far) : random_(seed) { place_.setConstant(far); }
@@ -144,14 +144,14 @@ class Hand {
   int mode_ = 1;
 };
 
-TEST(MotionFilter, EqualsTheDirectFitOverHoursAndFarFromTheOrigin) {
+TEST(MotionFilter, EqualsTheDirectFitOverHours) {
   for (const double far : {0.0, 1e3, -1e3}) {
     MotionFilter filter;
     DirectFit direct;
     Hand hand(7, far);
     Worst worst;
     double time = far == 0.0 ? 0.0 : 1e5;
-    // In a soak 10 million of the three: 2.8 hours at 1 kHz.
+    // In a soak 10 million for all three: 2.8 hours at 1 kHz.
     const int steps = test::tries(400'000, 3'400'000);
     for (int i = 0; i < steps; ++i) {
       time += 1e-3;
@@ -167,7 +167,7 @@ TEST(MotionFilter, EqualsTheDirectFitOverHoursAndFarFromTheOrigin) {
   }
 }
 
-TEST(MotionFilter, EqualsTheDirectFitWhateverTheSpacingOfTheSamples) {
+TEST(MotionFilter, EqualsTheDirectFitForAnySpacing) {
   for (unsigned seed = 0; seed < test::tries(6U, 20U); ++seed) {
     MotionFilter filter;
     DirectFit direct;
@@ -180,7 +180,7 @@ TEST(MotionFilter, EqualsTheDirectFitWhateverTheSpacingOfTheSamples) {
       double dt = seed % 3 == 0 ? 1e-3 : 1e-3 * (0.2 + 1.6 * u(hand.random()));
       if (draw < 0.01) dt = 0.1 * u(hand.random());   // a pause
       if (draw < 0.001) dt = 2.0 * u(hand.random());  // a long one
-      if (draw > 0.98) dt = 0.0;                      // told twice: ignored
+      if (draw > 0.98) dt = 0.0;                      // repeated: ignored
       if (draw > 0.995) dt = -1e-3;                   // out of order: ignored
       const Vector3d position = hand.next(std::max(dt, 0.0));
       filter.add(position, time + dt);
@@ -198,7 +198,7 @@ TEST(MotionFilter, EqualsTheDirectFitWhateverTheSpacingOfTheSamples) {
   }
 }
 
-// Two instants seen from a day away have no slope of their own: the parabola is not to be trusted.
+// Two instants a day ago give no slope: the parabola must not be used.
 TEST(MotionFilter, StaysFiniteAndCalmAfterAnyPause) {
   for (const double pause : {1.0, 1e3, 1e5, 1e9}) {
     MotionFilter filter;

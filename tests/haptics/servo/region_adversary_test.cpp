@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Nobody gets more out of regions than the loan of the port and the power of its oscillations: an
-// adversary by the port's own books.
+// No one gets more energy out of regions than the loan of the port and the power of its
+// oscillations: an adversary by the port's own ledger.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -26,15 +26,15 @@ using Eigen::Vector3d;
 
 constexpr double kRoundOff = 1e-9;  // [J]
 
-/// What was taken out of a port [J], by its own books.
+/// Energy taken out of a port [J], by its own ledger.
 struct Loot {
-  double least = 0.0;   // of the books
-  double beyond = 0.0;  // <= 0, of the bound that is stated
-  double spent = -1.0;  // by oscillations beyond what they may
+  double least = 0.0;   // of the ledger
+  double beyond = 0.0;  // <= 0, relative to the stated bound
+  double spent = -1.0;  // by oscillations beyond their limit
   double owed = 0.0;    // most
 };
 
-/// A hand in regions, whose port has a loan.
+/// A hand in regions, with a port that has a loan.
 class Thief {
  public:
   Thief(const Scene& scene, double loan, const Vector3d& place, int delay = 0)
@@ -73,8 +73,8 @@ class Thief {
   BookedPort port;
 };
 
-// In at the top and out at the bottom: the second round is paid by nobody.
-TEST(RegionAdversary, EnteringAgainGrantsNothingNew) {
+// In at the top and out at the bottom: nothing pays for the second round.
+TEST(RegionAdversary, ReentryGrantsNothingNew) {
   Thief thief(weight(2.0, BoxShape{{0.04, 0.04, 0.08}}), 0.12, {0.03, 0, 0.039});
   const Vector3d corners[] = {
       {0.0, 0, 0.039}, {0.0, 0, -0.039}, {0.03, 0, -0.039}, {0.03, 0, 0.039}};
@@ -96,7 +96,7 @@ TEST(RegionAdversary, EnteringAgainGrantsNothingNew) {
   EXPECT_LE(thief.loot().owed, 0.12 + kRoundOff);
 }
 
-/// What an adversary can choose, each in [0, 1].
+/// The choices of an adversary, each in [0, 1].
 struct Genes {
   static constexpr int kCount = 16;
   double value[kCount] = {};
@@ -125,7 +125,7 @@ Scene drawn(const Genes& g) {
   return scene;
 }
 
-/// Circles over the edge, goes with the force for some of the time, and is cut now and then.
+/// Circles over the edge, follows the force for some of the time, and is cut now and then.
 Loot played(const Genes& g, std::uint32_t seed) {
   constexpr double kLoan = 0.05;
   std::mt19937 random(seed);
@@ -156,7 +156,7 @@ Loot played(const Genes& g, std::uint32_t seed) {
   return thief.loot();
 }
 
-// A climb of 250 tries by what is taken, and by what is taken beyond the stated bound.
+// A climb of 250 tries by the energy taken, and by the energy beyond the stated bound.
 TEST(RegionAdversary, GetsNoMoreByMotion) {
   std::mt19937 random(20261128);
   std::uniform_real_distribution<double> any(0.0, 1.0);

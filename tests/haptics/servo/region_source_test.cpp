@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Regions are sources of energy: what a hand at rest or in motion feels of them, within a loan and
-// a power.
+// Regions are sources of energy: their forces on a hand at rest or in motion, within a loan and a
+// power.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -73,7 +73,7 @@ TEST(RegionSource, RestingHandFeelsASpring) {
   rest(of(one), {0.008, 0, 0}, 0.008 * 100.0 * kGrip / (100.0 + kGrip), 0.5 * 100 * 0.008 * 0.008);
 }
 
-// A grip that gives way comes to rest nearer to the magnet than where it began.
+// A yielding grip comes to rest nearer to the magnet than at its start.
 TEST(RegionSource, RestingHandFeelsAMagnet) {
   SceneRegion one = region();
   one.effects.declare<Attraction>() = {1.0, 0.02};
@@ -102,7 +102,7 @@ TEST(RegionSource, RestingHandFeelsAVibration) {
   EXPECT_GE(bench.least, bench::kPassive);
 }
 
-// Nothing that it brings in is left for others: no storage, no gift.
+// None of its energy remains for others: no storage, no gift.
 TEST(RegionSource, OscillationFillsNoLedger) {
   for (const double frequency : {3.0, 5.0, 20.0, 60.0}) {
     Bench bench(shaking(2.0, frequency), held_at({0, 0, 0}), rests_at({0, 0, 0}));
@@ -158,7 +158,7 @@ void moves(const Scene& scene, HandScript script, bool (*inside)(const Vector3d&
   EXPECT_GE(bench.least, bench::kPassive);
 }
 
-TEST(RegionSource, WeightStaysRightDownAndUp) {
+TEST(RegionSource, WeightStaysCorrectDownAndUp) {
   const auto everywhere = [](const Vector3d&) { return true; };
   moves(
       weight(2.0),
@@ -170,7 +170,7 @@ TEST(RegionSource, WeightStaysRightDownAndUp) {
       everywhere);
 }
 
-TEST(RegionSource, WeightStaysRightThroughTheEdge) {
+TEST(RegionSource, WeightStaysCorrectThroughTheEdge) {
   const auto inside = [](const Vector3d& place) { return std::abs(place.x()) <= 0.03; };
   moves(
       weight(2.0, BoxShape{{0.06, 0.2, 0.2}}),
@@ -182,7 +182,7 @@ TEST(RegionSource, WeightStaysRightThroughTheEdge) {
       inside);
 }
 
-// The loan is no more than what the regions can store where the device can be.
+// The loan is at most the energy that the regions can store within the device's reach.
 TEST(RegionSource, LoanIsAtMostThePotentialWithinReach) {
   SceneRegion one = region(BoxShape{{0.02, 0.02, 0.02}});
   one.effects.declare<PointSpring>() = {100.0};
@@ -213,7 +213,7 @@ TEST(RegionSource, ThinWeightLendsLess) {
   EXPECT_LE(s.region_loan_most, 0.024 + kRoundOff);
 }
 
-// A servo whose force is switched off and on, on a device that lags and reads in steps.
+// A servo with its force switched off and on, on a device with delay and encoder steps.
 TEST(RegionSource, CutsAndDelaysTakeNoMore) {
   for (int delay = 0; delay < 4; ++delay) {
     for (const double resolution : {0.0, 2e-5}) {
@@ -259,7 +259,7 @@ TEST(RegionSource, ToolOfSixAxesFeelsWeightAndVibration) {
   EXPECT_GE(bench.least, bench::kPassive);
 }
 
-// A liar presses a resting hand and says to have given whatever it takes.
+// A liar presses a resting hand and claims to have given whatever the hand takes.
 double into_hand(const Scene& scene) {
   SimulatedDevice device(held_at({0, 0, 0}), rests_at({0, 0, 0}));
   ServoConfig config;

@@ -22,7 +22,7 @@ DeviceSample good() {
   return sample;
 }
 
-// One whose limits have risen.
+// A Safety with fully risen limits.
 Safety ready(double max_force, double max_power, double max_speed, int hold_steps) {
   Safety safety(max_force, max_power, max_speed, hold_steps);
   for (int i = 0; i < Safety::kRampSteps; ++i) (void)safety.admit(good(), kStill);
@@ -39,8 +39,8 @@ TEST(Safety, SaturatesWithoutTurningTheForce) {
   EXPECT_EQ(safety.trips(), 0u);
 }
 
-// The time until the limit begins to fall, and the way down, by the law's closed forms.
-TEST(Safety, WarmMotorsShowTheirContinuousForceAndNoMore) {
+// The time until the limit begins to fall, and its fall, by the closed forms.
+TEST(Safety, WarmMotorsKeepOnlyTheirContinuousForce) {
   constexpr double kMost = 8.0, kContinuous = 2.0, kTau = 20e3;  // [N], [N], [samples]
   Safety safety = ready(kMost, 100.0, 1.0, 10);
   safety.limit_heat(kContinuous, kTau);
@@ -62,17 +62,17 @@ TEST(Safety, WarmMotorsShowTheirContinuousForceAndNoMore) {
   }
   EXPECT_NEAR(at_full, full, 2);
   EXPECT_NEAR(shown * kMost, kContinuous, 1e-6);
-  // What it may show beyond is the warmth of one time constant.
+  // The excess is limited to the heat of one time constant.
   EXPECT_LE(squares / (kContinuous * kContinuous), steps + kTau);
   EXPECT_GE(squares / (kContinuous * kContinuous), steps + 0.95 * kTau);
-  // It cools while nothing is shown, trips or not.
+  // It cools while no force is shown, with or without a trip.
   for (int i = 0; i < static_cast<int>(kTau); ++i) (void)safety.admit({}, kStill);
   for (int i = 0; i < 20 + Safety::kRampSteps; ++i) (void)safety.admit(good(), kStill);
   EXPECT_EQ(safety.scale(wanted, kStill), 1.0);
   EXPECT_EQ(safety.scale(0.1 * wanted, kStill), 1.0);
 }
 
-TEST(Safety, AForceThatMotorsHoldForEverIsNeverCut) {
+TEST(Safety, ContinuousForceIsNeverCut) {
   Safety safety = ready(8.0, 100.0, 1.0, 10);
   safety.limit_heat(2.0, 1000);
   for (int i = 0; i < 20'000; ++i) {
@@ -87,7 +87,7 @@ Wrench wrench(const Vector3d& force, const Vector3d& torque) {
   return both;
 }
 
-TEST(Safety, LimitsForceTorqueAndPowerOfWhatTurnsByOneShare) {
+TEST(Safety, LimitsForceTorqueAndPowerByOneShare) {
   Safety safety = ready(8.0, 2.0, 1.0, 10);
   safety.limit_turns(0.5, 20.0);
   const Wrench still = Wrench::Zero();
@@ -104,7 +104,7 @@ TEST(Safety, LimitsForceTorqueAndPowerOfWhatTurnsByOneShare) {
   EXPECT_EQ(safety.last_trip(), Trip::overspeed);
 }
 
-TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
+TEST(Safety, LimitsThePowerOfAYieldingContact) {
   Safety safety = ready(8.0, 2.0, 1.0, 10);
   const Vector3d force(3, 0, 4);
   EXPECT_EQ(safety.scale(force, Vector3d(-1, 0, -1)), 1.0) << "the hand puts it in";
@@ -115,7 +115,7 @@ TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
   EXPECT_EQ(safety.trips(), 0u);
 }
 
-TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
+TEST(Safety, CutsNonFiniteForces) {
   Safety safety(8.0, 2.0, 1.0, 10);
   ASSERT_EQ(safety.admit(good(), kStill), Admission::shown);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -127,7 +127,7 @@ TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
   EXPECT_EQ(safety.trips(), 1u);
 }
 
-TEST(Safety, TripsOnceForACauseThatLasts) {
+TEST(Safety, TripsOnceForALastingCause) {
   Safety safety(8.0, 2.0, 1.0, 10);
   for (int i = 0; i < 50; ++i) EXPECT_EQ(safety.admit(good(), Vector3d(2, 0, 0)), Admission::cut);
   EXPECT_EQ(safety.trips(), 1u);
@@ -162,7 +162,7 @@ TEST(Safety, ForgetsAFailedReadingAfterHalfASecond) {
   EXPECT_EQ(safety.trips(), 0u);
 }
 
-TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
+TEST(Safety, ReleasedSwitchCutsTheForceWithoutATrip) {
   Safety safety(8.0, 2.0, 1.0, 10);
   DeviceSample released = good();
   released.enabled = false;
@@ -172,7 +172,7 @@ TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
 }
 
 // 8 N and 0.4 N m in 100 samples: the force may grow by 80 mN and the torque by 4 mN m in each.
-TEST(Safety, LimitsRiseEvenlyAtTheStartAndAfterEachCut) {
+TEST(Safety, LimitsRiseEvenlyAfterEachCut) {
   Safety safety(8.0, 1e3, 1.0, 10);
   safety.limit_turns(0.4, 20.0);
   const Wrench still = Wrench::Zero();
@@ -197,7 +197,7 @@ TEST(Safety, LimitsRiseEvenlyAtTheStartAndAfterEachCut) {
   EXPECT_LE(20 * safety.scale(pushed, still), 0.08 + 1e-12) << "after a trip";
 }
 
-TEST(Safety, AFailedReadingDoesNotBeginTheRiseAnew) {
+TEST(Safety, FailedReadingDoesNotRestartTheRise) {
   Safety safety = ready(8.0, 2.0, 1.0, 10);
   DeviceSample lost = good();
   lost.ok = false;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace bench;
 
-TEST(ServoLoop, HoldsAHandAgainstAWallWithTheSpringsForce) {
+TEST(ServoLoop, HoldsAHandAgainstAWall) {
   Bench bench(floor(800), at(0.03), presses(0.01));
   const ServoSnapshot& s = bench.run(4s);
   EXPECT_TRUE(s.in_mesh_contact);
@@ -28,7 +28,7 @@ TEST(ServoLoop, HoldsAHandAgainstAWallWithTheSpringsForce) {
   EXPECT_GE(s.port_energy_min, kPassive);
 }
 
-TEST(ServoLoop, SoftensAWallThatTheDeviceCannotHoldAndStaysPassive) {
+TEST(ServoLoop, SoftensTooStiffAWallAndStaysPassive) {
   Bench bench(floor(5000, 0.3), at(0.03), presses(0.01));
   const ServoSnapshot& s = bench.run(4s);
   EXPECT_LT(bench.servo.static_stiffness_limit(), 2000.0);
@@ -64,7 +64,7 @@ TEST(ServoLoop, RendersARemoteHandAsReceivedOnceSettled) {
   EXPECT_GE(bench.least, kPassive);
 }
 
-TEST(ServoLoop, PredictsTheMotionOfARemoteHandByItself) {
+TEST(ServoLoop, PredictsTheMotionOfARemoteHand) {
   Bench bench({}, at(0.0));
   RemoteHand hand = sphere({0, 0, -0.2}, 300);
   hand.state.velocity = {0, 0, 0.05};
@@ -75,7 +75,7 @@ TEST(ServoLoop, PredictsTheMotionOfARemoteHandByItself) {
               reach - (bench.device.position().z() - centre), 1e-9);
 }
 
-TEST(ServoLoop, FadesAnExpiredModelOutInATenthOfASecond) {
+TEST(ServoLoop, FadesOutAnExpiredModel) {
   Bench bench({}, at(0.06), presses(-0.025, 0.06));
   RemoteHand hand = sphere(Vector3d::Zero(), 600);
   hand.valid_until = 4s;
@@ -88,7 +88,7 @@ TEST(ServoLoop, FadesAnExpiredModelOutInATenthOfASecond) {
   EXPECT_GE(bench.least, kPassive);
 }
 
-TEST(ServoLoop, FadesOutAHandThatLeavesTheSetAndFreesItsPlace) {
+TEST(ServoLoop, FadesOutLeavingHandsAndFreesSlots) {
   Bench bench({}, at(0.06), presses(-0.025, 0.06));
   bench.servo.contacts().write(only(sphere(Vector3d::Zero(), 600)));
   EXPECT_GT(bench.run(4s).force.norm(), 0.5);
@@ -99,7 +99,7 @@ TEST(ServoLoop, FadesOutAHandThatLeavesTheSetAndFreesItsPlace) {
   EXPECT_EQ(s.count, 0u);
 }
 
-TEST(ServoLoop, FrozenHoldsTheSurfaceWhereItIs) {
+TEST(ServoLoop, FrozenHoldsTheSurfaceInPlace) {
   Bench bench({}, at(0.0));
   RemoteHand hand = sphere({0, 0, -0.2}, 300);
   hand.state.velocity = {0, 0, 0.05};
@@ -111,7 +111,7 @@ TEST(ServoLoop, FrozenHoldsTheSurfaceWhereItIs) {
   EXPECT_NEAR(bench.run(2s).contacts[0].depth, before, 1e-3);
 }
 
-TEST(ServoLoop, TheOperatorsSwitchCutsAtOnceAndTheForceComesBackWithinItsLedger) {
+TEST(ServoLoop, SwitchCutsAtOnceAndTheForceReturns) {
   Bench bench(floor(800), at(0.03), [](double t) {
     HandTarget hand;  // in, out from 7 s on, in again
     hand.position.z() = t < 7 || t > 8 ? std::max(-0.01, 0.03 - 0.05 * t) : 0.01;
@@ -124,7 +124,7 @@ TEST(ServoLoop, TheOperatorsSwitchCutsAtOnceAndTheForceComesBackWithinItsLedger)
   bench.device.enable(true);
   EXPECT_LT(bench.run(1ms).force.norm(), 0.1 * full);
   EXPECT_GT(bench.run(1s).force.norm(), 0.1 * full);
-  // Only once the hand has been out is the wall what it was: pushing it out was not paid for.
+  // The wall is complete again only after the hand was outside: pushing it out was not paid for.
   EXPECT_NEAR(bench.run(6s).force.norm(), full, 1e-3);
   EXPECT_GE(bench.least, kPassive);
 }
@@ -166,20 +166,20 @@ TEST(ServoLoop, StaysPassiveWhenItsThreadIsLate) {
   EXPECT_GE(bench.least, kPassive);
 }
 
-TEST(ServoLoop, GoesOnAfterAStallThatMadeTheDeviceLetGo) {
+TEST(ServoLoop, ContinuesAfterAStallWithAReleasedForce) {
   Bench bench(floor(800), at(0.03), presses(0.01));
   const double held = bench.run(4s).force.z();
-  bench.now += 36ms;  // past the device's 10 ms watchdog
+  bench.now += 36ms;  // beyond the device's 10 ms watchdog
   const ServoSnapshot& back = bench.run(200ms);
   EXPECT_EQ(back.trips, 0u);
-  // The hand fell some millimetres deeper with nothing to hold it: all of the force would take
-  // energy that nobody put in.
+  // Without support the hand fell some millimetres deeper: the full force would take energy that no
+  // one put in.
   EXPECT_GE(back.force.z(), 0.4 * held);
   EXPECT_GE(bench.least, kPassive);
   EXPECT_GE(back.port_energy_min, kPassive);
 }
 
-TEST(ServoLoop, HoldsTheLimitOfTheDeviceInEverySituation) {
+TEST(ServoLoop, RespectsTheDevicesLimitInEverySituation) {
   SimulatedDeviceConfig config = at(0.03);
   config.max_force = 2;
   Bench bench(floor(900), config, presses(0.04));
@@ -198,8 +198,8 @@ HandScript along(double from, double begin, double speed) {
   };
 }
 
-// The hand goes down at 20 cm/s towards a floor 1 m below it.
-TEST(ServoLoop, IsNearASurfaceBeforeItIsFelt) {
+// The hand moves down at 20 cm/s towards a floor 1 m below it.
+TEST(ServoLoop, IsNearASurfaceBeforeContact) {
   Bench bench(floor(800), at(1.0), along(1.0, 0.0, -0.2));
   bench.run(10ms);
   EXPECT_FALSE(bench.servo.has_near());
@@ -208,7 +208,7 @@ TEST(ServoLoop, IsNearASurfaceBeforeItIsFelt) {
   while (!(bench.run(1ms).force.norm() > 0)) EXPECT_TRUE(bench.servo.has_near());
 }
 
-TEST(ServoLoop, IsNearARemoteHandAsLongAsTheModelLoopGivesIt) {
+TEST(ServoLoop, IsNearAListedRemoteHand) {
   Bench bench({}, at(0.1));
   bench.run(10ms);
   EXPECT_FALSE(bench.servo.has_near());
@@ -220,7 +220,7 @@ TEST(ServoLoop, IsNearARemoteHandAsLongAsTheModelLoopGivesIt) {
   EXPECT_FALSE(bench.servo.has_near());
 }
 
-TEST(ServoLoop, HasNewsOfAHandThatMovesAndTenTimesLessOfOneThatRests) {
+TEST(ServoLoop, HasTenfoldNewsOfAMovingHand) {
   Bench bench({}, at(0.0), along(0.0, 1.0, 0.2));
   const auto news_of = [&](int steps) {
     int news = 0;
@@ -236,7 +236,7 @@ TEST(ServoLoop, HasNewsOfAHandThatMovesAndTenTimesLessOfOneThatRests) {
   EXPECT_EQ(news_of(400), 400);
 }
 
-TEST(ServoLoop, TracesEveryStepUntilTheRingIsFullAndCountsTheRest) {
+TEST(ServoLoop, TracesEveryStepUntilTheRingIsFull) {
   TraceRing ring(128);
   Bench bench;
   bench.servo.trace(&ring);
@@ -258,7 +258,7 @@ TEST(ServoLoop, RefusesSettingsOutOfRangeByName) {
   EXPECT_THROW(ServoLoop(device, EffectPlan(), config), std::invalid_argument);
 }
 
-TEST(ServoLoop, RunsBesideAModelThreadThatWritesAndReads) {
+TEST(ServoLoop, RunsConcurrentlyWithAModelThread) {
   Bench bench(floor(800), at(0.03), presses(0.01));
   std::atomic<bool> stop = false;
   std::thread model([&] {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// That a servo tells what it shows less than it was asked for, and of steps that came late.
+// The servo reports forces rendered below the requested ones, and late steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ ContactSet balls(const std::vector<Vector3d>& centres, double k1) {
   return set;
 }
 
-/// A servo with a device that a hand holds, and every snapshot of it.
+/// A servo with a device held by a hand, and every snapshot of it.
 class Bench {
  public:
   explicit Bench(SimulatedDeviceConfig config = {}, HandScript script = {}, Scene scene = {})
@@ -52,9 +52,9 @@ class Bench {
   nanoseconds now{0};
 };
 
-// A surface comes quickly into a hand that holds still: its operator puts nothing in but what the
-// damping took on a short way before.
-TEST(ServoTally, TellsForHowLongAndByHowMuchAContactIsHeldBack) {
+// A surface moves quickly into a resting hand: its operator puts in only the damping loss of an
+// earlier short motion.
+TEST(ServoTally, GivesDurationAndAmountOfHeldBackContacts) {
   SimulatedDeviceConfig config;
   config.damping = 0.75;
   Bench bench(config, [](double t) {
@@ -90,7 +90,7 @@ TEST(ServoTally, TellsForHowLongAndByHowMuchAContactIsHeldBack) {
   EXPECT_NEAR(last.tally.held_back.asked, expected.asked, 1e-9);
 }
 
-TEST(ServoTally, IsEmptyWhereAllIsShownAsAsked) {
+TEST(ServoTally, IsEmptyIfAllForcesAreRendered) {
   SimulatedDeviceConfig config;
   config.start.z() = 0.035;
   Bench bench(config, [](double t) {
@@ -109,8 +109,8 @@ TEST(ServoTally, IsEmptyWhereAllIsShownAsAsked) {
   EXPECT_EQ(tally.scene, 0.0);
 }
 
-// Four springs of 900 N/m in one direction on a device that shows 1900 N/m.
-TEST(ServoTally, TellsThatManyHandsTogetherAreShownSofter) {
+// Four springs of 900 N/m in one direction on a device of 1900 N/m.
+TEST(ServoTally, ReportsSoftenedCrowdsOfHands) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 1000;
   config.start.z() = 0.035;
@@ -129,9 +129,9 @@ TEST(ServoTally, TellsThatManyHandsTogetherAreShownSofter) {
   EXPECT_NEAR(s.contacts[0].force.norm(), s.crowd_share * s.contacts[0].asked_force.norm(), 1e-9);
 }
 
-// A floor of 1000 N/m under a grip of 300 N/m that is 35 mm inside: the device shows 2 N, and is
-// asked for the floor's force at the depth where 2 N hold the grip.
-TEST(ServoTally, TellsForHowLongAndByHowMuchTheForceWasCutAtTheLimit) {
+// A floor of 1000 N/m under a grip of 300 N/m with a goal 35 mm inside: the device gives 2 N, and
+// the requested force is the floor's at the depth where 2 N balance the grip.
+TEST(ServoTally, GivesDurationAndAmountOfForceLimiting) {
   SimulatedDeviceConfig config;
   config.max_force = 2.0;
   config.start.z() = 0.005;
@@ -164,7 +164,7 @@ TEST(ServoTally, TellsForHowLongAndByHowMuchTheForceWasCutAtTheLimit) {
   EXPECT_NEAR(last.limit_share, 2.0 / (1000 * depth), 1e-3);
 }
 
-TEST(ServoTally, CountsStepsThatComeLateAndForcesThatTheDeviceLetGo) {
+TEST(ServoTally, CountsLateStepsAndReleasedForces) {
   SimulatedDeviceConfig config;
   config.hold = 1500us;
   config.start.z() = -0.005;
@@ -198,7 +198,7 @@ TEST(ServoTally, CountsStepsThatComeLateAndForcesThatTheDeviceLetGo) {
   EXPECT_GT(bench.step().tally.scene, 0.4);
 }
 
-TEST(ServoTally, TellsOfARecordThatCannotBeShown) {
+TEST(ServoTally, ReportsAnInvalidRecord) {
   Bench bench;
   ContactSet set = balls({Vector3d(0, 0, -0.02)}, 400);
   bench.servo.contacts().write(set);
@@ -214,11 +214,11 @@ TEST(ServoTally, TellsOfARecordThatCannotBeShown) {
   EXPECT_FALSE(bench.step().contacts[0].refused);
 }
 
-TEST(Shortfall, KeepsTheStepInWhichMostNewtonsLacked) {
+TEST(Shortfall, KeepsTheStepWithTheGreatestShortfall) {
   Shortfall s;
   s.note(1.0, 5.0, 0.001);
-  s.note(0.995, 5.0, 0.001);   // nobody feels 1 %
-  s.note(0.0, 0.0005, 0.001);  // nor that
+  s.note(0.995, 5.0, 0.001);   // 1 % is not noticeable
+  s.note(0.0, 0.0005, 0.001);  // nor is this
   EXPECT_EQ(s.seconds, 0.0);
   s.note(0.1, 0.1, 0.001);
   s.note(0.5, 2.0, 0.002);

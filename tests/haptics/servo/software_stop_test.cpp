@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The software stop takes the force off in its own step, for as long as it is pressed, and costs no
-// energy. At the start and after it forces come back no faster than the limit rises.
+// The software stop removes the force in its own step, for as long as it is pressed, and costs no
+// energy. At the start and after a stop forces return at most at the rate of the limit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ ServoConfig stopped_by(ForceStop& stop) {
   return config;
 }
 
-TEST(SoftwareStop, TakesTheForceOffInItsStepAndKeepsItOff) {
+TEST(SoftwareStop, RemovesTheForceInItsStep) {
   ForceStop stop;
   Bench bench(floor(800), bench::at(0.03), presses(0.015), stopped_by(stop));
   ASSERT_GT(bench.run(2s).force.norm(), 1.0);
@@ -50,7 +50,7 @@ TEST(SoftwareStop, TakesTheForceOffInItsStepAndKeepsItOff) {
   EXPECT_EQ(s.trips, 0U) << "it is no fault";
 }
 
-TEST(SoftwareStop, AFailedReadingDoesNotLiftIt) {
+TEST(SoftwareStop, FailedReadingDoesNotReleaseIt) {
   ForceStop stop;
   Bench bench(floor(800), bench::at(0.03), presses(0.015), stopped_by(stop));
   bench.run(2s);
@@ -62,7 +62,7 @@ TEST(SoftwareStop, AFailedReadingDoesNotLiftIt) {
   }
 }
 
-TEST(SoftwareStop, AButtonOfTheDevicePressesAndReleasesIt) {
+TEST(SoftwareStop, DeviceButtonPressesAndReleasesIt) {
   ServoConfig config;
   config.stop_button = 1;
   Bench bench(floor(800), bench::at(0.03), presses(0.015), config);
@@ -76,7 +76,7 @@ TEST(SoftwareStop, AButtonOfTheDevicePressesAndReleasesIt) {
   EXPECT_NEAR(bench.run(3s).force.norm(), before, 0.1 * before);
 }
 
-// By how much the force grew in one sample at most [N].
+// Largest growth of the force in one sample [N].
 double fastest_return(Bench& bench, std::chrono::milliseconds time) {
   double fastest = 0.0, last = bench.device.force().norm();
   for (auto passed = 0ms; passed < time; passed += 1ms) {
@@ -87,7 +87,7 @@ double fastest_return(Bench& bench, std::chrono::milliseconds time) {
   return fastest;
 }
 
-TEST(SoftwareStop, AfterItAWallFadesInAsAfterATrip) {
+TEST(SoftwareStop, WallFadesInAsAfterATrip) {
   ForceStop stop;
   Bench bench(floor(1400), bench::at(0.03), presses(0.015), stopped_by(stop));
   const double before = bench.run(3s).force.norm();
@@ -98,10 +98,10 @@ TEST(SoftwareStop, AfterItAWallFadesInAsAfterATrip) {
   EXPECT_GE(bench.device.force().norm(), 0.9 * before);
 }
 
-// 20 mm up and down at 5 Hz: it hits the floor with 0.6 m/s, where 1400 N/m are 0.9 N in a sample.
+// 20 mm up and down at 5 Hz: it hits the floor at 0.6 m/s, where 1400 N/m give 0.9 N in a sample.
 double strikes(double t) { return 0.015 + 0.02 * std::cos(31.4 * t); }
 
-// By how much the force was above 0.1 N for each sample of the next 0.1 s [N].
+// Largest excess of the force over 0.1 N per sample in the next 0.1 s [N].
 double above_the_rise(Bench& bench) {
   double most = -1.0;
   for (int step = 1; step <= Safety::kRampSteps; ++step)
@@ -109,13 +109,13 @@ double above_the_rise(Bench& bench) {
   return most;
 }
 
-TEST(SoftwareStop, ABlowRightAfterTheStartOrAStopStaysBelowTheRisingLimit) {
+TEST(SoftwareStop, EarlyBlowStaysBelowTheRisingLimit) {
   for (const int wait : {0, 20, 40, 60}) {
     ForceStop stop;
     SimulatedDeviceConfig device = bench::at(0.002);
     device.hand_stiffness = 3000;
     device.hand_damping = 20;
-    const double ahead = 0.075 - 1e-3 * wait;  // 7 ms before it strikes, where nothing is to wait
+    const double ahead = 0.075 - 1e-3 * wait;  // 7 ms before the blow, if `wait` is 0
     Bench bench(
         floor(1400), device,
         [=](double t) {
@@ -129,12 +129,12 @@ TEST(SoftwareStop, ABlowRightAfterTheStartOrAStopStaysBelowTheRisingLimit) {
     stop.press(StopCause::program);
     bench.run(std::chrono::milliseconds(200 + wait));
     stop.release(StopCause::program);
-    bench.run(1ms);  // it sees the release, and is the last without a force
+    bench.run(1ms);  // the servo sees the release; last step without a force
     EXPECT_LE(above_the_rise(bench), kRoundOff) << "after the stop, " << wait;
   }
 }
 
-// The device's own books, at stops of any length at any instant.
+// The device's own ledger, for stops of any length at any instant.
 TEST(SoftwareStop, StopsAtRandomInstantsMakeNoEnergy) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     std::mt19937 random(seed);
@@ -169,7 +169,7 @@ TEST(SoftwareStop, StopsAtRandomInstantsMakeNoEnergy) {
   }
 }
 
-TEST(SoftwareStop, TwoHandsThatPushOneAnotherMakeNoEnergyOfIt) {
+TEST(SoftwareStop, StoppingTwoPushingHandsMakesNoEnergy) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     ForceStop stop;
     RowHands hands;

@@ -40,7 +40,7 @@ SpringScene felt(const Scene& scene, int axes = 2, const ServoConfig& config = {
 
 const SpringWall kNone{};
 
-TEST(SpringScene, APlaneIsAWallWhereverTheHandIs) {
+TEST(SpringScene, PlaneIsAWallForAnyHandPosition) {
   SpringScene scene = felt(scene_of(solid("wall", PlaneShape{Vector3d::UnitX()}, {-0.02, 0, 0})));
   for (const double x : {0.05, -0.01, -0.03, -0.5}) {
     const SpringModel model = scene.walls_at({x, 0, 0}, 7);
@@ -50,14 +50,14 @@ TEST(SpringScene, APlaneIsAWallWhereverTheHandIs) {
   }
 }
 
-TEST(SpringScene, OfTwoWallsTheNearerIsMet) {
+TEST(SpringScene, NearerOfTwoWallsApplies) {
   Scene scene = scene_of(solid("far", PlaneShape{-Vector3d::UnitY()}, {0, 0.04, 0}));
   scene.objects.push_back(solid("near", PlaneShape{-Vector3d::UnitY()}, {0, 0.03, 0}));
   SpringScene walls = felt(scene);
   EXPECT_EQ(walls.walls_at({0, 0, 0}, 1).wall(1, WallSide::above).at, 0.03);
 }
 
-TEST(SpringScene, ABoxHasTheFaceThatIsAhead) {
+TEST(SpringScene, BoxHasTheFaceAhead) {
   const Scene scene = scene_of(solid("box", BoxShape{{0.02, 0.04, 0.02}}, {0.05, 0, 0}));
   SpringScene walls = felt(scene);
   SpringModel model = walls.walls_at({0, 0.01, 0}, 1);
@@ -69,7 +69,7 @@ TEST(SpringScene, ABoxHasTheFaceThatIsAhead) {
   EXPECT_EQ(walls.walls_at({0, 0.05, 0}, 1), SpringModel()) << "beside an edge";
 }
 
-TEST(SpringScene, AHandInABoxStaysAtTheFaceByWhichItCame) {
+TEST(SpringScene, HandInsideABoxStaysAtEntryFace) {
   const Scene scene = scene_of(solid("box", BoxShape{{0.02, 0.04, 0.02}}, {0.05, 0, 0}));
   SpringScene walls = felt(scene);
   static_cast<void>(walls.walls_at({0.039, 0, 0}, 1));
@@ -78,7 +78,7 @@ TEST(SpringScene, AHandInABoxStaysAtTheFaceByWhichItCame) {
   EXPECT_EQ(model.wall(0, WallSide::below), kNone);
 }
 
-TEST(SpringScene, AxesThatTheDeviceHasNotDecideWhatIsInItsWay) {
+TEST(SpringScene, AxesOutsideTheDeviceSelectObstacles) {
   const Shape box = BoxShape{Vector3d::Constant(0.02)};
   EXPECT_EQ(felt(scene_of(solid("high", box, {0, 0, 0.03}))).walls_at({0.02, 0, 0}, 1),
             SpringModel());
@@ -88,7 +88,7 @@ TEST(SpringScene, AxesThatTheDeviceHasNotDecideWhatIsInItsWay) {
             SpringModel());
 }
 
-TEST(SpringScene, TheDeviceMayBeTurnedAndElsewhere) {
+TEST(SpringScene, DeviceMayBeTurnedAndMoved) {
   ServoConfig config;
   config.device_origin = {1, 2, 3};
   // x of the device is z of the scene.
@@ -100,14 +100,14 @@ TEST(SpringScene, TheDeviceMayBeTurnedAndElsewhere) {
   EXPECT_NEAR(model.wall(0, WallSide::below).at, -0.02, 1e-12);
 }
 
-TEST(SpringScene, StifferSurfacesAreAsStiffAsTheDeviceShows) {
+TEST(SpringScene, StiffSurfacesHaveTheDevicesStiffness) {
   SceneObject object = solid("hard", PlaneShape{Vector3d::UnitX()}, {-0.02, 0, 0});
   object.effects.of<SpringDamper>().stiffness = 5000;
   SpringScene walls = felt(scene_of(object));
   EXPECT_EQ(walls.walls_at({0, 0, 0}, 1).wall(0, WallSide::below).stiffness, 1000);
 }
 
-TEST(SpringScene, WhatCannotBeShownIsRefusedByName) {
+TEST(SpringScene, UnsupportedObjectsAreRefusedByName) {
   const Shape plane = PlaneShape{Vector3d::UnitX()};
   const Vector3d at{-0.02, 0, 0};
   const auto refused = [](const Scene& scene) -> std::string {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A servo's look at it, one a millisecond.
+// Polls of a servo, one per millisecond.
 class Looks {
  public:
   explicit Looks(std::optional<int> button, ForceStop* shared = nullptr)
@@ -33,7 +33,7 @@ class Looks {
   std::chrono::nanoseconds now_ = 5s;
 };
 
-TEST(StopSwitch, StopsInTheStepThatSeesTheButtonAndStaysSo) {
+TEST(StopSwitch, StopsInTheStepOfTheButton) {
   Looks servo(2);
   EXPECT_FALSE(servo.look_for(100ms, 0));
   EXPECT_FALSE(servo.look_for(100ms, 0b1011)) << "another button";
@@ -45,7 +45,7 @@ TEST(StopSwitch, StopsInTheStepThatSeesTheButtonAndStaysSo) {
   EXPECT_FALSE(servo.look_for(1s, 0));
 }
 
-TEST(StopSwitch, AButtonThatBouncesIsPressedOnce) {
+TEST(StopSwitch, BouncingButtonIsPressedOnce) {
   Looks servo(0);
   (void)servo.look_for(100ms, 0);
   for (int i = 0; i < 20; ++i) {
@@ -60,7 +60,7 @@ TEST(StopSwitch, AButtonThatBouncesIsPressedOnce) {
   EXPECT_TRUE(servo.look_for(100ms, 0));
 }
 
-TEST(StopSwitch, TwoPressesInHasteStop) {
+TEST(StopSwitch, TwoQuickPressesStop) {
   Looks servo(0);
   (void)servo.look_for(100ms, 0);
   EXPECT_TRUE(servo.look_for(60ms, 1));
@@ -69,7 +69,7 @@ TEST(StopSwitch, TwoPressesInHasteStop) {
   EXPECT_TRUE(servo.look_for(1s, 0));
 }
 
-TEST(StopSwitch, TwoHandsThatPressAtOnceStop) {
+TEST(StopSwitch, TwoSimultaneousPressesStop) {
   ForceStop stop;
   Looks left(0, &stop), right(0, &stop);
   for (int i = 0; i < 100; ++i) (void)left.look(0), (void)right.look(0);
@@ -80,12 +80,12 @@ TEST(StopSwitch, TwoHandsThatPressAtOnceStop) {
   EXPECT_TRUE(stop.is_pressed());
 }
 
-TEST(StopSwitch, AButtonThatIsDownAtTheStartStops) {
+TEST(StopSwitch, ButtonHeldAtTheStartStops) {
   Looks servo(3);
   EXPECT_TRUE(servo.look(0b1000));
 }
 
-TEST(StopSwitch, AFailedReadingSaysNothingOfTheButton) {
+TEST(StopSwitch, FailedReadingIsNoButtonState) {
   Looks servo(0);
   (void)servo.look_for(100ms, 0);
   EXPECT_FALSE(servo.look(1, false));
@@ -93,7 +93,7 @@ TEST(StopSwitch, AFailedReadingSaysNothingOfTheButton) {
   for (int i = 0; i < 1000; ++i) EXPECT_TRUE(servo.look(0, false)) << "unplugged, and stopped";
 }
 
-TEST(StopSwitch, SeesAPressThatWasReleasedBetweenTwoSteps) {
+TEST(StopSwitch, DetectsAPressReleasedBetweenTwoSteps) {
   ForceStop stop;
   Looks servo(std::nullopt, &stop);
   EXPECT_FALSE(servo.look(1));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh that feels otherwise from place to place: which patch is felt, how a hand goes over a
-// border, and that nobody gets energy out of one.
+// A mesh with different patches: the patch that is felt, the crossing of a border, and the absence
+// of energy gain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,11 +28,11 @@ using test::TemporaryMesh;
 
 constexpr double kPeriod = 1e-3;  // [s]
 constexpr double kDamping = 1.0;  // [N s/m], of the device
-constexpr double kSoft = 200.0;   // [N/m], where x < 0
-constexpr double kHard = 900.0;   // [N/m], where x > 0
+constexpr double kSoft = 200.0;   // [N/m], for x < 0
+constexpr double kHard = 900.0;   // [N/m], for x > 0
 
-// A slab of 200 x 100 x 20 mm whose top is at z = 0: soft where x < 0, hard where x > 0, its sides
-// and its bottom of no material.
+// A slab of 200 x 100 x 20 mm with its top at z = 0: soft for x < 0, hard for x > 0, its sides and
+// its bottom without a material.
 const char* const kSlab =
     "v -0.1 -0.05 0\nv 0 -0.05 0\nv 0.1 -0.05 0\nv -0.1 0.05 0\nv 0 0.05 0\nv 0.1 0.05 0\n"
     "v -0.1 -0.05 -0.02\nv 0 -0.05 -0.02\nv 0.1 -0.05 -0.02\n"
@@ -58,8 +58,8 @@ std::vector<SurfacePatch> soft_and_hard(double friction_soft = 0.0, double frict
           {"hard", {kHard, 0.0}, rough(friction_hard)}};
 }
 
-/// Goes where it is told, and keeps books of its own: what the force took from whoever moves it,
-/// and what its sure damping takes.
+/// Moves as commanded, and keeps its own ledger: the energy that the force took from its mover, and
+/// the loss of its sure damping.
 class Finger : public HapticDevice {
  public:
   [[nodiscard]] DeviceLimits limits() const noexcept override {
@@ -88,7 +88,7 @@ class Bench {
     step(finger_.position);
   }
 
-  /// One servo step after the finger went to p.
+  /// One servo step after the finger moved to p.
   const ServoSnapshot& step(const Vector3d& p) {
     const Vector3d dx = p - finger_.position;
     const Vector3d before = finger_.held;
@@ -126,10 +126,10 @@ class Bench {
   ServoLoop servo;
   double energy = 0.0, least = 0.0;  // [J]
   double largest_step = 0.0;         // [N], of the force
-  double largest_bend = 0.0;         // [N], of one such step and the next
+  double largest_bend = 0.0;         // [N], difference of two consecutive steps
 };
 
-TEST(SurfacePatch, IsNumberedAsTheFileSaysItsNameWhateverASceneDeclaresFirst) {
+TEST(SurfacePatch, IsNumberedInTheOrderOfTheFile) {
   const TemporaryMesh mesh(".obj", kSlab);
   std::vector<SurfacePatch> turned = soft_and_hard();
   std::swap(turned[0], turned[1]);
@@ -152,8 +152,8 @@ TEST(SurfacePatch, IsNumberedAsTheFileSaysItsNameWhateverASceneDeclaresFirst) {
   }
 }
 
-// The face that is touched first is felt as it is, without a blend.
-TEST(SurfacePatch, IsFeltAsItIsFromTheFirstTouchOn) {
+// The face that is touched first is felt without a blend.
+TEST(SurfacePatch, IsFeltUnblendedFromTheFirstTouch) {
   const TemporaryMesh mesh(".obj", kSlab);
   Bench bench(slab(mesh, soft_and_hard()));
   for (const double x : {-0.03, 0.03, -0.03}) {
@@ -166,7 +166,7 @@ TEST(SurfacePatch, IsFeltAsItIsFromTheFirstTouchOn) {
 
 // A probe with a radius, in the edge between the slab and a wall along it: both hold the contact
 // point, each with its own spring.
-TEST(SurfacePatch, IsFeltBesideAnotherObjectAndByABall) {
+TEST(SurfacePatch, IsFeltBesideAnotherObject) {
   const TemporaryMesh mesh(".obj", kSlab);
   constexpr double kRadius = 0.002;
   Scene scene = slab(mesh, soft_and_hard());
@@ -189,9 +189,9 @@ TEST(SurfacePatch, IsFeltBesideAnotherObjectAndByABall) {
   EXPECT_GE(bench.least, -1e-9);
 }
 
-// Without a blend the force would step by 700 N/m x depth: 0.7 to 4.2 N. Where a stroke begins with
-// friction the motion itself stretches the spring by more: that is left out.
-TEST(SurfacePatch, ABorderIsCrossedWithoutAStepInTheForce) {
+// Without a blend the force would step by 700 N/m x depth: 0.7 to 4.2 N. At the beginning of a
+// stroke with friction the motion itself stretches the spring by more: that part is skipped.
+TEST(SurfacePatch, BorderIsCrossedWithoutAForceStep) {
   const TemporaryMesh mesh(".obj", kSlab);
   double worst = 0.0, change = 0.0;
   for (const double depth : {0.001, 0.003, 0.006}) {
@@ -209,7 +209,7 @@ TEST(SurfacePatch, ABorderIsCrossedWithoutAStepInTheForce) {
           worst = std::max(worst, bench.largest_step);
           EXPECT_LE(bench.largest_step, 0.2)
               << depth << " m, " << speed << " m/s, friction " << mu << ", to " << x;
-          // The rate goes on without a step: dt/lag of it a sample, twice over.
+          // The rate continues without a step: dt/lag of it per sample, twice.
           EXPECT_LE(bench.largest_bend, 0.01 * 1.2 * 700.0 * depth)
               << depth << " m, " << speed << " m/s, friction " << mu << ", to " << x;
           change = std::max(change, std::abs(bench.force().norm() - before));
@@ -223,9 +223,9 @@ TEST(SurfacePatch, ABorderIsCrossedWithoutAStepInTheForce) {
   std::printf("largest step %.3f N, of a change of %.1f N\n", worst, change);
 }
 
-// Spring k x depth, 100 ms after the hand came to rest. What the device's own friction took on the
+// Spring k x depth, 100 ms after the hand came to rest. The loss of the device's friction on the
 // way there pays for it.
-TEST(SurfacePatch, TheForceIsRightATenthOfASecondAfterTheHandCameToRest) {
+TEST(SurfacePatch, ForceIsCorrectATenthSecondLater) {
   const TemporaryMesh mesh(".obj", kSlab);
   double worst = 0.0;
   for (const double depth : {0.001, 0.002, 0.003, 0.005}) {
@@ -248,7 +248,7 @@ TEST(SurfacePatch, TheForceIsRightATenthOfASecondAfterTheHandCameToRest) {
 }
 
 // A hand with a grip, to and fro over the border, then at rest on either side: springs in series.
-TEST(SurfacePatch, AHeldDeviceComesToRestWithTheForceOfItsSide) {
+TEST(SurfacePatch, HeldDeviceRestsWithItsSidesForce) {
   const TemporaryMesh mesh(".obj", kSlab);
   constexpr double kDepth = 0.012;  // [m], of the grip's target
   for (const double end : {-0.02, 0.02}) {
@@ -276,9 +276,10 @@ TEST(SurfacePatch, AHeldDeviceComesToRestWithTheForceOfItsSide) {
   }
 }
 
-// A hand that did next to nothing before it crosses the border has brought too little for the hard
-// side: it feels what was paid for, is told so, and feels it right once it has pressed anew.
-TEST(SurfacePatch, WhatNobodyPaidForIsNotFeltAndTold) {
+// A hand that did almost no work before it crosses the border has put in too little for the hard
+// side: it feels the paid part, this is reported, and it feels the full force after it has pressed
+// again.
+TEST(SurfacePatch, UnpaidForceIsNotRenderedButReported) {
   const TemporaryMesh mesh(".obj", kSlab);
   constexpr double kDepth = 0.008;
   Bench bench(slab(mesh, soft_and_hard()));
@@ -300,7 +301,7 @@ TEST(SurfacePatch, WhatNobodyPaidForIsNotFeltAndTold) {
 }
 
 // 700 N/m more at 5 mm would be 8.75 mJ a round if growing springs were free. Rounds that take it:
-// down on the soft side, over the border, up on the hard one; every fourth stroke goes anywhere.
+// down on the soft side, over the border, up on the hard one; every fourth stroke is random.
 TEST(SurfacePatch, StrokesOverABorderMakeNoEnergy) {
   const TemporaryMesh mesh(".obj", kSlab);
   std::mt19937 random(7);
@@ -335,9 +336,9 @@ TEST(SurfacePatch, StrokesOverABorderMakeNoEnergy) {
   }
 }
 
-// A hand that gains if anybody does: slow, down on the soft side, up on the hard one, and back
-// through the air. Without the bound each round would give it 5 mJ.
-TEST(SurfacePatch, TheBestRoundForAThiefGivesHimNothing) {
+// The most profitable hand: slow, down on the soft side, up on the hard one, and back through the
+// air. Without the bound each round would give it 5 mJ.
+TEST(SurfacePatch, BestRoundForAThiefGainsNothing) {
   const TemporaryMesh mesh(".obj", kSlab);
   Bench bench(slab(mesh, soft_and_hard()));
   bench.go({-0.001, 0, 0.0005}, 0.01);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An opponent that reads whatever poses it likes gets no energy out of a servo of six axes.
+// An opponent that reports arbitrary poses gets no energy out of a servo of six axes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -26,12 +26,12 @@ using turning::floor_at;
 using turning::kPeriod;
 using turning::turn;
 
-/// A handle without mass that an opponent moves. It puts in next to nothing: it presses and twists
-/// by microns from the very surface, and lets go along what takes most out of the force and torque
-/// that are held.
+/// A massless handle moved by an opponent. It puts in almost nothing: it presses and twists by
+/// microns from the surface, and releases along the direction that takes most energy out of the
+/// held force and torque.
 class Opponent : public HapticDevice {
  public:
-  /// @param start of the handle  @param claim times its damping is what it states
+  /// @param start of the handle  @param claim its damping times this is the stated one
   Opponent(unsigned seed, const Vector3d& start, double claim)
       : random_(seed), claim_(claim), start_(start), position_(start) {
     damping_ = {0.3 + any(0, 1.5), 0.002 * std::pow(20.0, any(0, 1))};
@@ -61,7 +61,7 @@ class Opponent : public HapticDevice {
     torque_ = torque;
     felt_ = std::max(felt_, torque.norm());
   }
-  /// Of all that it was given, and the damping that it has [J].
+  /// Of all energy that it was given, and its damping loss [J].
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double felt() const { return felt_; }
   [[nodiscard]] double any(double from, double to) {
@@ -126,7 +126,7 @@ Feat oppose(unsigned seed, double claim) {
   return {device.least(), device.felt()};
 }
 
-TEST(ToolServo, AnOpponentGetsNothingOutOfIt) {
+TEST(ToolServo, OpponentGetsNoEnergy) {
   double least = 0.0, torque = 0.0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
     const Feat one = oppose(seed, 1.0);

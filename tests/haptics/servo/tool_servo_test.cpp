@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The servo of a device of six axes, with tools of several probes: closed forms of the wrench, and
-// the energy by the device's own books.
+// the energy by the device's own ledger.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -33,7 +33,7 @@ SimulatedDeviceConfig six_axes() {
   return config;
 }
 
-/// A servo on a simulated device, on a clock that is stepped.
+/// A servo on a simulated device, on a stepped clock.
 class Bench {
  public:
   Bench(const SimulatedDeviceConfig& device, HandScript script, const Scene& scene,
@@ -57,7 +57,7 @@ class Bench {
   }
   [[nodiscard]] SimulatedDevice& device() { return device_; }
   [[nodiscard]] const ServoLoop& servo() const { return *servo_; }
-  /// Least of what the port took and the device's damping [J].
+  /// Least of the port's energy input and the device's damping [J].
   [[nodiscard]] double least() const { return least_; }
 
  private:
@@ -67,9 +67,9 @@ class Bench {
   double least_ = 0.0;
 };
 
-// A bar of two probes, pressed by a hand on a floor of 500 N/m: each probe stands on it, and the
-// device gets their sum and r x F.
-TEST(ToolServo, ShowsTheForceAndTheTorqueOfEachProbe) {
+// A bar of two probes, pressed by a hand on a floor of 500 N/m: each probe is on it, and the device
+// gets their sum and r x F.
+TEST(ToolServo, RendersForceAndTorqueOfEachProbe) {
   const std::vector<Vector3d> probes{{0.03, 0, -0.02}, {-0.05, 0.01, -0.02}};
   const double tilt = 0.02;
   const auto script = [&](double t) {
@@ -100,7 +100,7 @@ TEST(ToolServo, ShowsTheForceAndTheTorqueOfEachProbe) {
   EXPECT_EQ(pressed, 2);
   EXPECT_GT(force.norm(), 0.2);
   EXPECT_GT(torque.norm(), 0.005);
-  // 1e-7 of the size is the clearance of a plane.
+  // The clearance of a plane is 1e-7 of the size.
   EXPECT_NEAR((out.force - force).norm(), 0.0, 1e-6);
   EXPECT_NEAR((out.tool.torque - torque).norm(), 0.0, 1e-7);
   EXPECT_NEAR((bench.device().turn()->orientation().angularDistance(out.tool.orientation)), 0.0,
@@ -109,7 +109,7 @@ TEST(ToolServo, ShowsTheForceAndTheTorqueOfEachProbe) {
   EXPECT_NEAR((out.device - first).norm(), 0.0, 1e-15) << "others feel the first probe";
 }
 
-TEST(ToolServo, OfOneProbeAtTheHandleIsTheServoOfThreeAxes) {
+TEST(ToolServo, OneProbeEqualsAServoOfThreeAxes) {
   const auto script = [](double t) {
     HandTarget target;
     target.position = {0.01 * std::sin(3 * t), 0.004 * std::cos(5 * t), 0.008 * std::cos(9 * t)};
@@ -131,7 +131,7 @@ TEST(ToolServo, OfOneProbeAtTheHandleIsTheServoOfThreeAxes) {
   EXPECT_GT(most, 1.0);
 }
 
-// A lever multiplies what a turn meets: the stiffness that is sure falls with it.
+// A lever multiplies the effect of a turn: the sure stiffness falls with it.
 TEST(ToolServo, SoftensWallsByTheLeversOfItsProbes) {
   const SimulatedDeviceConfig config = six_axes();
   Scene scene;
@@ -147,7 +147,7 @@ TEST(ToolServo, SoftensWallsByTheLeversOfItsProbes) {
   }
 }
 
-TEST(ToolServo, RefusesWhatItCannotShow) {
+TEST(ToolServo, RefusesUnsupportedTools) {
   SimulatedDevice three{SimulatedDeviceConfig{}};
   ServoConfig config;
   config.probes = {Vector3d(0.1, 0, 0)};
@@ -179,13 +179,13 @@ Scene corner(std::mt19937& random) {
 }
 
 struct Outcome {
-  double least = 0.0;      // of the device's books
-  double stated = 0.0;     // least port energy that the servo states
+  double least = 0.0;      // of the device's ledger
+  double stated = 0.0;     // least port energy stated by the servo
   double torque = 0.0;     // greatest
   double allowance = 0.0;  // for encoder steps, and late steps
 };
 
-// What moves a tool: a hand that strokes, pushes and twists at random, and lets go at times.
+// A hand that strokes, pushes and twists a tool at random, and releases it at times.
 Outcome stroke(unsigned seed, bool in_steps, bool late) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -231,7 +231,7 @@ Outcome stroke(unsigned seed, bool in_steps, bool late) {
   return out;
 }
 
-TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnBooks) {
+TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnLedger) {
   double least = 0.0, torque = 0.0;
   for (unsigned seed = 1; seed <= test::tries(20U, 60U); ++seed) {
     const Outcome one = stroke(seed, false, false);
@@ -244,7 +244,7 @@ TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnBooks) {
   std::printf("least %.3g J, greatest torque %.3g N m\n", least, torque);
 }
 
-TEST(ToolServo, KeepsItsBooksWithEncodersAndLateSteps) {
+TEST(ToolServo, KeepsItsLedgerWithEncodersAndLateSteps) {
   double worst = 0.0;
   for (unsigned seed = 1; seed <= test::tries(20U, 60U); ++seed) {
     const Outcome one = stroke(seed, seed % 2 == 0, true);
@@ -254,7 +254,7 @@ TEST(ToolServo, KeepsItsBooksWithEncodersAndLateSteps) {
   std::printf("least beyond the allowance %.3g J\n", worst);
 }
 
-TEST(ToolServo, CutsTheForceOfAReadingThatIsNoPose) {
+TEST(ToolServo, CutsTheForceOfAnInvalidPose) {
   class Broken : public SimulatedDevice {
    public:
     using SimulatedDevice::SimulatedDevice;

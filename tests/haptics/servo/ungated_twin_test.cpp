@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand without the gate: equal to the gated one where nothing is delayed, unstable over a delay.
+// A hand without the gate: equal to the gated one without delay, unstable with delay.
 #include "reckon/haptics/servo/ungated_twin.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ std::shared_ptr<const EffectPlan> plan_of(const Scene& scene = {}) {
   return std::make_shared<const EffectPlan>(scene);
 }
 
-/// A twin whose real hand is where a test says.
+/// A twin with a real hand at a position set by the test.
 struct Alone {
   explicit Alone(const Scene& scene = {}, SimulatedDeviceConfig config = {}, HandScript script = {})
       : device(config, std::move(script)), twin(device, plan_of(scene), {}) {}
@@ -43,7 +43,7 @@ struct Alone {
   nanoseconds now{0};
 };
 
-/// The servo and its twin with one operator, each on a device of its own.
+/// The servo and its twin with one operator, each on its own device.
 struct Beside {
   Beside(const Scene& scene, const SimulatedDeviceConfig& config, const HandScript& script)
       : real(scene, config, script), device(config, script), twin(device, plan_of(scene), {}) {}
@@ -57,7 +57,7 @@ struct Beside {
   UngatedTwin twin;
 };
 
-TEST(UngatedTwin, FeelsASlowPressAsItsHandDoes) {
+TEST(UngatedTwin, FeelsASlowPressLikeItsHand) {
   // A floor of 800 N/m, and a hand of 500 N/m at rest above another one.
   for (const bool on_floor : {true, false}) {
     Beside pair(on_floor ? bench::floor(800) : Scene{}, bench::at(on_floor ? 0.03 : 0.06),
@@ -165,7 +165,7 @@ TEST(UngatedTwin, ShakesAndMakesEnergyOverADelay) {
   }
 }
 
-TEST(UngatedTwin, StandsAsideAndBeginsAnewAtTheRealHandWhereItsForceIsBeyondTheDevice) {
+TEST(UngatedTwin, RestartsAtTheRealHandBeyondDeviceForce) {
   Alone one;
   one.step();
   EXPECT_TRUE(one.twin.feels());
@@ -192,7 +192,7 @@ TEST(UngatedTwin, IsLostFarFromTheRealHand) {
   EXPECT_EQ(one.twin.resets(), 1U);
 }
 
-TEST(UngatedTwin, OutlivesModelsAndStatesThatAreNoNumbers) {
+TEST(UngatedTwin, SurvivesNonFiniteModelsAndStates) {
   using Limits = std::numeric_limits<double>;
   for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1e300}) {
     for (int field = 0; field < 6; ++field) {
@@ -221,7 +221,7 @@ TEST(UngatedTwin, OutlivesModelsAndStatesThatAreNoNumbers) {
   }
 }
 
-TEST(UngatedTwin, FeelsNothingOfAModelThatHasExpired) {
+TEST(UngatedTwin, IgnoresAnExpiredModel) {
   Alone one;
   RemoteHand hand = sphere({0.025, 0, 0}, 500);
   hand.valid_until = 5ms;
@@ -269,7 +269,7 @@ TEST(UngatedTwin, IntegratesNothingOfAGap) {
   EXPECT_EQ(one.twin.resets(), 0U);
 }
 
-TEST(UngatedTwin, LeavesAStepOutThatIsNotLater) {
+TEST(UngatedTwin, IgnoresAStepThatIsNotLater) {
   Alone one;
   one.step();
   one.step();
@@ -280,7 +280,7 @@ TEST(UngatedTwin, LeavesAStepOutThatIsNotLater) {
   EXPECT_EQ(one.twin.resets(), 0U);
 }
 
-TEST(UngatedTwin, GoesAnyPointersWayWithoutANumberThatIsNone) {
+TEST(UngatedTwin, StaysFiniteForAnyPointerPath) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     PointerDevice device({}, 0.5);
     UngatedTwin twin(device, plan_of(bench::floor(800)), {});
@@ -297,8 +297,8 @@ TEST(UngatedTwin, GoesAnyPointersWayWithoutANumberThatIsNone) {
   }
 }
 
-// A pointer that holds on while its twin stands aside is held afterwards too.
-TEST(UngatedTwin, KeepsItsOperatorWhileItStandsAside) {
+// A pointer that holds while its twin pauses holds it afterwards too.
+TEST(UngatedTwin, KeepsItsOperatorWhilePaused) {
   PointerDevice device({}, 0.5), real({}, 0.5);
   UngatedTwin twin(device, plan_of(), {});
   for (int i = 1; i <= 1200; ++i) {

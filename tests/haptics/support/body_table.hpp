@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A table on which bodies stand, fall and meet.
+// A table on which bodies rest, fall and meet.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,10 +20,10 @@ using std::chrono::nanoseconds;
 inline constexpr nanoseconds kStep = std::chrono::milliseconds(1);
 inline constexpr double kG = 9.81;
 
-/// Objects of a scene, and its world on a clock that is stepped.
+/// Objects of a scene, and its world on a stepped clock.
 class Table {
  public:
-  /// What is returned lasts until the next one is added.
+  /// The reference is valid until the next object is added.
   SceneObject& box(double edge, const Vector3d& at, Matter matter) {
     SceneObject& object = scene_.objects.emplace_back();
     object.name = "box " + std::to_string(scene_.objects.size());

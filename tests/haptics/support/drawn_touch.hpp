@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Something to touch, drawn from a seed, and how a hand goes about it.
+// Something to touch, drawn from a seed, and the motion of a hand about it.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,13 +20,13 @@
 
 namespace reckon::test {
 
-/// What most of it is.
+/// The main kind of object.
 enum class TouchKind : std::uint8_t { walls, hands, effects, bodies };
 inline constexpr std::array kTouchKinds{TouchKind::walls, TouchKind::hands, TouchKind::effects,
                                         TouchKind::bodies};
 
-/// A floor some mm below the middle, and what belongs to its kind. The hand rests in the middle,
-/// where it touches nothing, roams about it, some 10 mm wide, and rests there again in the end.
+/// A floor some mm below the middle, and the objects of its kind. The hand rests in the middle,
+/// where it touches nothing, roams about it, some 10 mm wide, and rests there again at the end.
 class DrawnTouch {
  public:
   DrawnTouch(TouchKind kind, unsigned seed) : random_(seed), kind_(kind) {
@@ -41,7 +41,7 @@ class DrawnTouch {
 
   [[nodiscard]] const haptics::Scene& scene() const { return scene_; }
 
-  /// Where the hand wants to be [m], at rest until 0 and from `kRests` on.
+  /// The hand's goal [m], at rest until 0 and from `kRests` on.
   static constexpr double kRests = 4.0;  // [s]
   [[nodiscard]] Eigen::Vector3d hand(double t) const {
     Eigen::Vector3d place = middle_;
@@ -52,7 +52,7 @@ class DrawnTouch {
     return place;
   }
 
-  /// Hands of others come, go and are forgotten. Call it before each step of the servo.
+  /// Remote hands appear, disappear and are forgotten. Call it before each step of the servo.
   void play_others(haptics::ServoLoop& servo, std::chrono::nanoseconds now) {
     if (kind_ != TouchKind::hands || now < next_others_) return;
     const double t = pdu::to_seconds(now);
@@ -144,7 +144,7 @@ class DrawnTouch {
   std::uint32_t version_ = 0;
 };
 
-/// What others gave a hand through their contacts, less what they took [J].
+/// Energy that a hand received through its contacts, minus the energy it gave [J].
 inline double transferred(const haptics::ServoSnapshot& step) {
   double sum = 0.0;
   for (std::size_t i = 0; i < step.count; ++i)

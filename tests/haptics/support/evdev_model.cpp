@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 constexpr const char* kPath = "/dev/input/event7";
 constexpr int kFile = 7;
 constexpr microseconds kStep{50};
-// Of a handle that is held, while nothing is shown: its time is cheap.
+// For a held handle without force: its time is cheap.
 constexpr microseconds kHeldStep{1000};
 constexpr std::int32_t kLeast = -32768, kMost = 32767;  // of its axes
 
@@ -46,7 +46,7 @@ void EvdevModel::pass(nanoseconds time) {
   }
 }
 
-// The energy that a constant model takes is the difference of its potential, whatever the step.
+// The energy input to a constant model is the difference of its potential, for any step.
 void EvdevModel::run(double h) {
   if (held_at_) {
     place_ = *held_at_;
@@ -121,7 +121,7 @@ void EvdevModel::report() {
   next_report_ = now_ + options_.report;
   if (drops_) {
     send(EV_SYN, SYN_DROPPED, 0);
-    send(EV_ABS, ABS_X, 30000);  // a part of a frame that is not to be believed
+    send(EV_ABS, ABS_X, 30000);  // an incomplete frame, which must be ignored
   }
   bool is_new = drops_;
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
@@ -151,7 +151,7 @@ void EvdevModel::plug(bool in) {
   orders_.clear();
 }
 
-// In the order in which it was told.
+// In the order of the requests.
 void EvdevModel::order(int reports, std::function<void()> act) {
   std::uniform_int_distribution<std::int64_t> within(0, options_.latency.count());
   last_order_ = std::max(last_order_, now_ + microseconds(within(random_))) +
@@ -189,7 +189,7 @@ int EvdevModel::open(const std::string& path) {
   return kFile;
 }
 
-// Who opens it next has effects of its own.
+// The next one to open it has its own effects.
 void EvdevModel::close(int /*file*/) noexcept {
   --open_;
   events_.clear();
@@ -242,7 +242,7 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
     const bool is_new = told.id < 0;
     if (is_new) {
       if (static_cast<int>(effects_.size()) >= most_effects) return -ENOSPC;
-      told.id = 0;  // the lowest that is free
+      told.id = 0;  // the lowest free one
       while (effects_.contains(told.id)) ++told.id;
       effects_[told.id].numbers.replay = told.replay;
     } else if (!effects_.contains(told.id)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device below the calls of the kernel, and the hand that holds it: a mass on each
-// axis, springs that the device renders by itself, its own books, and what goes wrong with it.
+// A force feedback device of Linux below the kernel's calls, and the hand that holds it: a mass on
+// each axis, springs rendered by the device, its own ledger, and faults.
 #pragma once
 
 #include <linux/input.h>
@@ -32,17 +32,18 @@ struct EvdevModelOptions {
   double travel = 0.2;                     ///< [m], of each axis
   double full_force = 20;                  ///< [N]
   double full_stiffness = 2000;            ///< [N/m]
-  std::chrono::microseconds report{1000};  ///< between reports of its places
-  std::chrono::microseconds latency{500};  ///< most, until it does what it is told; seeded
-  /// It takes one report of the host each so long; a change of an effect is two, playing it is one.
+  std::chrono::microseconds report{1000};  ///< between reports of its position
+  std::chrono::microseconds latency{500};  ///< at most, until it obeys; seeded
+  /// Time that it takes for one report of the host; a change of an effect is two reports, playing
+  /// it is one.
   std::chrono::microseconds takes{125};
-  bool misses_turns = false;  ///< every other: it takes one in twice as long
+  bool misses_turns = false;  ///< every second turn: a report takes twice as long
   int substeps = 5;           ///< of its motion, within 50 us
   int axes = 2;
   bool ends_effects = true;  ///< obeys the length of an effect
 };
 
-/// What a scene says of it, the truth, with a delay that it keeps.
+/// The true facts of it, as in a scene, with a delay that it keeps.
 inline haptics::EvdevSettings settings_for(const EvdevModelOptions& model) {
   haptics::EvdevSettings settings;
   settings.axes = model.axes;
@@ -54,44 +55,43 @@ inline haptics::EvdevSettings settings_for(const EvdevModelOptions& model) {
   return settings;
 }
 
-/// All time is the model's: wait() lets it pass. Calls take none.
+/// All time is the model's: wait() advances it. Calls take no time.
 class EvdevModel final : public haptics::EventCalls {
  public:
   using Places = std::array<double, 2>;  // [m]
 
-  /// @param hand where the hand wants the handle [m] at a time [s]
+  /// @param hand the hand's goal for the handle [m] at a time [s]
   EvdevModel(const EvdevModelOptions& options, std::function<Places(double)> hand);
 
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
-  /// Called every 50 us of its time, or every millisecond while it is held: what runs beside the
-  /// device's thread.
+  /// Called every 50 us of its time, or every millisecond while it is held: the code that runs
+  /// beside the device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
   void pass(std::chrono::nanoseconds time);
 
-  /// A hand that is stronger than all holds the handle here, at rest, until it is released. That
-  /// is not booked.
+  /// An unyielding hand holds the handle here, at rest, until it is released. This is not booked.
   void hold(const Places& place) { held_at_ = place; }
   void release() { held_at_.reset(); }
   [[nodiscard]] bool is_held() const { return held_at_.has_value(); }
 
-  // What goes wrong.
+  // Faults.
   void plug(bool in);
-  /// Unplugs it; the file that is open stays dead though the device is plugged in again.
+  /// Unplugs it; the open file stays dead even after the device is plugged in again.
   void pull();
-  std::function<void()> at_each_call = [] {};  ///< that may find it gone
+  std::function<void()> at_each_call = [] {};  ///< which may find it gone
   [[nodiscard]] bool is_plugged() const { return plugged_; }
-  void fail(unsigned long request, int error) { failing_[request] = error; }  ///< 0: no more
+  void fail(unsigned long request, int error) { failing_[request] = error; }  ///< 0: ends the fault
   void fail_writes(int error) { failing_write_ = error; }
   void drop_events() { drops_ = true; }  ///< of the next report
   void press(std::uint16_t key, bool down);
-  std::vector<int> without;  ///< bits of EV_FF that it has not
+  std::vector<int> without;  ///< missing bits of EV_FF
   static constexpr int kEffects = 16;
   int most_effects = kEffects;      ///< at once
-  int opening = 0;                  ///< what open() returns where it is below 0
-  bool tells_interval = true;       ///< how often it takes a report
+  int opening = 0;                  ///< result of open() if negative
+  bool tells_interval = true;       ///< its report interval
   std::vector<std::string> others;  ///< paths before its own, which are no devices
 
-  // Its own books, of its springs: what they took from the hand since the begin [J].
+  // Its own ledger, of its springs: energy taken from the hand since the start [J].
   [[nodiscard]] double absorbed() const { return absorbed_; }
   [[nodiscard]] double least_absorbed() const { return least_; }
   [[nodiscard]] double fastest() const { return fastest_; }  ///< [m/s], so far
@@ -103,10 +103,10 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] std::int32_t gain() const { return gain_; }
   [[nodiscard]] std::int32_t autocenter() const { return autocenter_; }
   [[nodiscard]] int open_files() const { return open_; }
-  /// What each upload gave to its springs when it was there, in their order [J].
+  /// Energy that each upload gave to its springs on arrival, in order [J].
   [[nodiscard]] const std::vector<double>& rises() const { return rises_; }
-  /// The longest so far from the newest place that was read to a change of an effect that followed:
-  /// of a handle that moves all the time.
+  /// Longest time so far from the newest position that was read to a change of an effect that
+  /// followed, for a handle that moves all the time.
   [[nodiscard]] std::chrono::nanoseconds slowest_change() const { return slowest_change_; }
 
   std::vector<std::string> paths() override;
@@ -147,7 +147,8 @@ class EvdevModel final : public haptics::EventCalls {
   std::function<void(std::chrono::nanoseconds)> beside_;
   std::mt19937 random_;
   std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0}, slowest_change_{0};
-  std::chrono::nanoseconds sent_at_{0}, known_at_{0};  // the newest place, and that which was read
+  std::chrono::nanoseconds sent_at_{0}, known_at_{0};  // the newest position, and the one that was
+                                                       // read
   Places place_{}, speed_{};
   std::optional<Places> held_at_;
   std::map<int, Effect> effects_;
@@ -164,7 +165,7 @@ class EvdevModel final : public haptics::EventCalls {
   double absorbed_ = 0, least_ = 0, fastest_ = 0, greatest_ = 0;
 };
 
-/// For a session that does not own the model, which outlives it.
+/// For a session that does not own the model; the model must outlive it.
 std::unique_ptr<haptics::EventCalls> calls_of(EvdevModel& model);
 
 }  // namespace reckon::test

@@ -19,11 +19,11 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kOctet = nanoseconds(6'667);    // at 1.5 Mbaud
-constexpr nanoseconds kWatchdog = milliseconds(100);  // of its own
-constexpr std::uint16_t kRunBaud = 2;                 // as its program has it
+constexpr nanoseconds kWatchdog = milliseconds(100);  // its own
+constexpr std::uint16_t kRunBaud = 2;                 // as in its program
 constexpr std::size_t kPacket = 62;                   // octets, beside two of status
 
-// Frame D in the Falcon's own axes, which the model moves in.
+// Frame D in the Falcon's own axes, in which the model moves.
 Vector3d turned(const Vector3d& v_D) { return {v_D.x(), v_D.z(), -v_D.y()}; }
 Vector3d place(const Vector3d& p_D) {
   return turned(p_D) + Vector3d(0, 0, FalconGeometry::kMiddle);
@@ -51,7 +51,8 @@ Vector3d FalconModel::half_steps() const { return Vector3d::Constant(0.5e-4); }
 std::optional<HeldModel::Joints> FalconModel::joints_at(const Vector3d& position) const {
   const auto angles = haptics::falcon_angles(place(position));
   if (!angles) return std::nullopt;
-  // The slope of the closed form: the driver's way from angles to a place may lead to another one.
+  // The slope of the closed form: the driver's conversion from angles to a position may give
+  // another solution.
   constexpr double kStep = 1e-7;  // [m]
   Joints joints{*angles, Eigen::Matrix3d::Zero()};
   Eigen::Matrix3d turning;
@@ -107,7 +108,7 @@ void FalconModel::run_line() {
     packet.push_back(to_host_.front().second);
     to_host_.pop_front();
   }
-  // Where nobody listens the chip keeps one packet of status.
+  // Without a reader the chip keeps one packet of status.
   if (packet.size() == 2 && !packets_.empty()) return;
   packets_.push_back(std::move(packet));
 }
@@ -152,7 +153,7 @@ void FalconModel::report() {
   }
 }
 
-// Without firmware it answers a greeting, and then repeats what it is given.
+// Without firmware it answers a greeting, and then echoes its input.
 void FalconModel::echo(std::uint8_t octet) {
   const auto say = [&](std::string_view text) {
     for (const char c : text) to_host_.emplace_back(now_, static_cast<std::uint8_t>(c));
@@ -179,7 +180,7 @@ int FalconModel::control(std::uint8_t request, std::uint16_t value,
   if (request == 0 && std::exchange(stalls_, false)) return -EPIPE;
   if (request == 3) {
     baud_ = value;
-    // The loader starts what it was given where the line's speed becomes that of the program.
+    // The loader starts the received program when the line's speed becomes that program's.
     if (value == 2 && loading_) {
       loading_ = false;
       has_firmware_ = loaded_ == options_.firmware;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A Falcon and the hand that holds it, behind the calls of the kernel: its mass, its motors and
-// encoders, its line and the timer of its FTDI chip, and what goes wrong with them.
+// A Falcon and the hand that holds it, behind the kernel's calls: its mass, its motors and
+// encoders, its line and the timer of its FTDI chip, and their faults.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,27 +20,27 @@
 namespace reckon::test {
 
 struct FalconModelOptions : HeldModelOptions {
-  double tick_at = 0.5;  ///< [ms] of a frame, when the chip's timer fires
+  double tick_at = 0.5;  ///< [ms] in a frame, when the chip's timer fires
   bool has_firmware = true;
   bool homed = true;
-  std::vector<std::uint8_t> firmware;  ///< that it takes
-  int latency_set = -1;  ///< [ms] that its timer keeps, whatever is asked; -1: what is asked
+  std::vector<std::uint8_t> firmware;  ///< that it accepts
+  int latency_set = -1;  ///< [ms] that its timer keeps, for any request; -1: as requested
 };
 
 class FalconModel final : public HeldModel {
  public:
-  /// What a person does to it: nothing but hold it.
+  /// Actions of a person: only holding it.
   struct Care {
     [[nodiscard]] Eigen::Vector3d hand(const Eigen::Vector3d& wanted) const { return wanted; }
     void tend(FalconModel&, const haptics::UsbLoop&) {}
   };
 
-  /// @param hand where the hand wants it [m, frame D] at a time [s]
+  /// @param hand the hand's goal [m, frame D] at a time [s]
   FalconModel(const FalconModelOptions& options, std::function<Eigen::Vector3d(double)> hand);
 
-  void forget();       ///< without power: firmware, homing, motors
-  void forget_line();  ///< without the bus: its FTDI chip, which the bus feeds
-  /// Octets of its next reports that are none of theirs.
+  void forget();       ///< power loss: firmware, homing, motors
+  void forget_line();  ///< bus loss: its FTDI chip, which is powered by the bus
+  /// Invalid octets in its next reports.
   void damage_visibly(int count) {
     damage(count);
     is_visible_ = true;
@@ -85,7 +85,7 @@ class FalconModel final : public HeldModel {
   std::vector<std::uint8_t> loaded_;
   std::string greeting_;
   bool loading_ = false;
-  bool is_visible_ = false;  // what is damaged
+  bool is_visible_ = false;  // kind of damage
 };
 
 }  // namespace reckon::test

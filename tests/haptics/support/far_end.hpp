@@ -15,7 +15,7 @@
 
 namespace reckon::test {
 
-/// What is told to it waits in the kernel until it is fetched. When it goes, its line is hung up.
+/// Octets to it wait in the kernel until they are fetched. Its destructor hangs up the line.
 class FarEnd {
  public:
   FarEnd() : descriptor_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
@@ -25,7 +25,7 @@ class FarEnd {
   FarEnd(const FarEnd&) = delete;
   FarEnd& operator=(const FarEnd&) = delete;
 
-  /// Of the near end.
+  /// Name of the near end.
   [[nodiscard]] std::string name() const {
     std::array<char, 64> name{};
     return ptsname_r(descriptor_, name.data(), name.size()) == 0 ? name.data() : "";

@@ -24,7 +24,7 @@ class FlakyDevice : public SimulatedDevice {
   unsigned rate = 0;
 };
 
-/// Draws limits of a device: little strength, a delay, encoder steps, forces that it drops.
+/// Draws limits of a device: little strength, a delay, encoder steps, released forces.
 inline void weaken(SimulatedDeviceConfig& config, std::mt19937& random) {
   std::uniform_real_distribution<double> any(0.0, 1.0);
   config.max_force = random() % 2 == 0 ? 0.5 + 2 * any(random) : 30.0;

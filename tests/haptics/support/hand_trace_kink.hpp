@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether a recorded hand moves as it says it does.
+// Whether a recorded hand moves at its stated velocity.
 #pragma once
 
 #include <Eigen/Core>

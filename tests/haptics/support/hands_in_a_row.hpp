@@ -24,8 +24,8 @@ struct RowLine {
   double delay = 0;            ///< [s], +-30 % each
   double loss = 0;             ///< probability
   double rate_hz = 0;          ///< fixed rate; 0 = by threshold
-  double threshold_n = 0.015;  ///< [N], of the force error that the peer sees
-  double longest = 0.06;       ///< [s], between two updates where they go by threshold
+  double threshold_n = 0.015;  ///< [N], of the force error at the peer
+  double longest = 0.06;       ///< [s], between two updates by threshold
 };
 
 struct RowHands {
@@ -37,25 +37,25 @@ struct RowHands {
   Scene scene = {};       ///< of walls, for each hand
   double friction = 0;
   double radius = 0.02;  ///< [m]
-  /// Where the grip of hand i wants to be from its place [m], at t [s].
+  /// Goal of the grip of hand i from its place [m], at t [s].
   std::function<double(std::size_t, double)> target;
   double start = 0;  ///< [m], of the first hand's device from its place
-  /// The device of hand i, in the place of one that goes by `target`; none: that one.
+  /// Makes the device of hand i, instead of one that follows `target`; none: the latter.
   std::function<std::unique_ptr<SimulatedDevice>(std::size_t, const SimulatedDeviceConfig&)> make =
       {};
   ForceStop* stop = nullptr;  ///< of all servos
-  /// What hand i makes of the truth before it tells it.
+  /// Falsifies the state of hand i before it is sent.
   std::function<void(std::size_t, RemoteHand&)> lie = {};
 };
 
-/// Rises from 0 to 1 within [0, 1], smoothly.
+/// Rises smoothly from 0 to 1 within [0, 1].
 inline double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
-/// Forces that each hand feels at most from a neighbour when the first grip is `press` [m] beyond
-/// the first touch: springs in a row.
+/// Greatest force on each hand from a neighbour when the first grip is `press` [m] beyond the first
+/// touch: springs in a row.
 inline std::vector<double> row_truth(std::size_t count, double grip, double stiffness,
                                      double press) {
   const auto n = static_cast<Eigen::Index>(count);
@@ -140,18 +140,18 @@ class HandsInARow {
     for (std::size_t i = 0; i < s.count; ++i) most = std::max(most, s.contacts[i].force.norm());
     return most;
   }
-  /// How deep hand and the next one overlap in truth [m].
+  /// True overlap of this hand and the next one [m].
   [[nodiscard]] double depth(std::size_t hand) const {
     return 2 * hands_.radius - (devices_[hand + 1]->position() - devices_[hand]->position()).norm();
   }
-  /// Stiffness with which hand and the next one show one another [N/m].
+  /// Stiffness with which this hand and the next one render each other [N/m].
   [[nodiscard]] double shown_stiffness(std::size_t hand) const {
     return hands_.stiffness * snapshot(hand).softening * snapshot(hand + 1).softening;
   }
-  /// Of all ports, with what they owe [J].
+  /// Of all ports, including their loans [J].
   [[nodiscard]] double least_sum() const { return least_sum_; }
   [[nodiscard]] double least_port() const { return least_port_; }
-  /// Least of port and loan together [J]: the promise is that no port owes more than was lent.
+  /// Least of port and loan together [J]: by guarantee no port owes more than its loan.
   [[nodiscard]] double least_unlent() const { return least_unlent_; }
   [[nodiscard]] double most_loan(std::size_t hand) const { return most_loan_[hand]; }
   [[nodiscard]] double peak() const { return peak_; }
@@ -212,7 +212,7 @@ class HandsInARow {
       RemoteHand hand;
       hand.id = {1, 1, static_cast<std::uint16_t>(side + 1)};
       hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
-      hand.state.position = s.scp;  // where the hand is shown
+      hand.state.position = s.scp;  // the displayed position of the hand
       hand.model.point = s.device - s.scp;
       hand.state.velocity = s.device_velocity;
       hand.state_time = pdu::from_seconds(t) + std::chrono::milliseconds(1);

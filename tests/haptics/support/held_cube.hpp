@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A cube that hands hold.
+// A cube held by hands.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -78,7 +78,7 @@ void HeldModel::lead(const Vector3d& place) {
   }
 }
 
-// Velocity first, as in SimulatedDevice: each book with the velocity that moves the handle.
+// Velocity first, as in SimulatedDevice: each ledger uses the velocity that moves the handle.
 void HeldModel::move(double h) {
   const Vector3d before = angles_;
   if (h > 0) {

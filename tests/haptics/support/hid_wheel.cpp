@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 constexpr int kFile = 40;
 constexpr microseconds kTick{100};
 constexpr std::chrono::milliseconds kHeldTick{1};
-constexpr std::size_t kKept = 64;  // reports, by the kernel, of one who does not read
+constexpr std::size_t kKept = 64;  // reports kept by the kernel for a slow reader
 
 /// A host without event devices.
 class NoEvents final : public haptics::EventCalls {
@@ -37,7 +37,7 @@ class NoEvents final : public haptics::EventCalls {
   std::function<void(microseconds)> wait_;
 };
 
-/// The wheel's, which stays with the test.
+/// The wheel's; it stays with the test.
 class Lent final : public haptics::HidCalls {
  public:
   explicit Lent(HidWheel& wheel) : wheel_(wheel) {}
@@ -122,7 +122,7 @@ void HidWheel::pass(nanoseconds time) {
 void HidWheel::plug(bool in) {
   if (!in) {
     wheel.lose_power();
-    is_dead_ = true;  // the file that was open stays so
+    is_dead_ = true;  // the file that was open stays dead
     reports_.clear();
   }
   plugged_ = in;
@@ -180,7 +180,7 @@ int HidWheel::made(Call call, microseconds time) noexcept {
 
 int HidWheel::read(int, std::span<std::uint8_t> report) noexcept {
   at_each_call();
-  if (is_dead_) return -EIO;  // as hidraw says it
+  if (is_dead_) return -EIO;  // as in hidraw
   if (failing_reads_ > 0) {
     --failing_reads_;
     return -EIO;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A PidWheel below the calls by which reports reach it, and the hand that holds it. All time is its
-// own: a call that waits for the device lets it pass.
+// A PidWheel below the calls that carry its reports, and the hand that holds it. All time is its
+// own: a call that waits for the device advances it.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ namespace reckon::test {
 
 struct HidWheelOptions {
   PidWheelOptions wheel{.axes = 2, .hand_speed = 0.7};
-  std::chrono::microseconds takes{1000};    ///< it takes a report of the host each so long
-  std::chrono::microseconds answers{500};   ///< a feature report takes, either way
+  std::chrono::microseconds takes{1000};    ///< time that it takes for a report of the host
+  std::chrono::microseconds answers{500};   ///< time of a feature report, in either direction
   std::chrono::microseconds reports{1000};  ///< between its own
-  bool says_where = true;                   ///< where it is, when it is asked
+  bool says_where = true;                   ///< its position, on request
   bool tells_interval = true;
 };
 
-/// What a scene says of it, the truth, with a delay that it keeps.
+/// The true facts of it, as in a scene, with a delay that it keeps.
 haptics::EvdevSettings settings_for(const HidWheelOptions& options);
 
 class HidWheel final : public haptics::HidCalls {
@@ -40,26 +40,26 @@ class HidWheel final : public haptics::HidCalls {
   static constexpr const char* kPath = "/dev/hidraw3";
   static constexpr const char* kName = "Reckon FFBoard model";
 
-  /// @param hand where the hand wants the handle [m] at a time [s]
+  /// @param hand the hand's goal for the handle [m] at a time [s]
   HidWheel(const HidWheelOptions& options, std::function<Places(double)> hand);
 
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
-  /// Called every 100 us of its time: what runs beside the device's thread.
+  /// Called every 100 us of its time: the code that runs beside the device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
   void pass(std::chrono::nanoseconds time);
 
-  // What goes wrong.
+  // Faults.
   void plug(bool in);
   enum class Call : std::uint8_t { write, set_feature, get_feature };
-  /// The next calls of that kind, 0: no more.
+  /// The next calls of that kind; 0 ends the fault.
   void fail(Call call, int error, unsigned count = ~0U) { failing_[call] = {error, count}; }
   void fail_reads(unsigned count) { failing_reads_ = count; }
-  /// The next writes come back so much later than the device has the report.
+  /// The next writes return later by this time than the device has the report.
   void slow_down(std::chrono::microseconds each, unsigned count) { slow_ = {each, count}; }
   std::function<void()> at_each_call = [] {};
-  int opening = 0;        ///< what open() returns where it is below 0
+  int opening = 0;        ///< result of open() if negative
   bool is_taken = false;  ///< by another program
-  haptics::HidSeen seen;  ///< what the kernel tells of it
+  haptics::HidSeen seen;  ///< the kernel's facts of it
 
   PidWheel wheel;
   [[nodiscard]] bool is_plugged() const { return plugged_; }
@@ -106,7 +106,7 @@ class HidWheel final : public haptics::HidCalls {
   unsigned tries_ = 0;
 };
 
-/// The wheel is the only force feedback device of its host, and outlives them.
+/// The wheel is the only force feedback device of its host, and outlives the calls.
 std::unique_ptr<haptics::EventCalls> calls_of(HidWheel& wheel);
 
 }  // namespace reckon::test

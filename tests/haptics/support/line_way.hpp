@@ -13,7 +13,7 @@
 
 namespace reckon::test {
 
-/// One way of a line: each octet takes its time, and comes so much later.
+/// One direction of a line: each octet takes its time, and arrives later by the latency.
 class LineWay {
  public:
   std::chrono::nanoseconds latency{100'000};

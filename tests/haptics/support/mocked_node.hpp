@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device node that umockdev pretends: what a program asks of it goes to a model.
+// A device node simulated by umockdev: a program's requests go to a model.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace reckon::test {
 
-/// Only under umockdev-wrapper. A thread of its own answers, while the caller waits: between two
+/// Only under umockdev-wrapper. A thread of its own answers while the caller waits: between two
 /// calls nothing else reads or changes the model.
 class MockedNode {
  public:
@@ -41,31 +41,31 @@ class MockedNode {
 
   using Octets = std::vector<std::uint8_t>;
 
-  /// What an ioctl passes.
+  /// The argument of an ioctl.
   class Request {
    public:
     explicit Request(UMockdevIoctlClient* client)
         : argument_(umockdev_ioctl_client_get_arg(client)) {
-      // Sign-extended by umockdev where its top bit is set.
+      // Sign-extended by umockdev if its top bit is set.
       number_ = static_cast<std::uint32_t>(umockdev_ioctl_client_get_request(client));
     }
-    /// The same but for its size.
+    /// The same except for its size.
     [[nodiscard]] bool is(unsigned long other) const {
       return ((number_ ^ other) & ~std::uint32_t{IOCSIZE_MASK} & 0xffffffff) == 0;
     }
     [[nodiscard]] std::size_t size() const { return _IOC_SIZE(number_); }
-    /// Of a request whose argument is no address.
+    /// Of a request whose argument is not an address.
     [[nodiscard]] std::uint64_t value() const {
       std::uint64_t out = 0;
       std::memcpy(&out, argument_->data, sizeof out);
       return out;
     }
-    /// The octets at the address that it passes.
+    /// The octets at the passed address.
     [[nodiscard]] Octets octets() const {
       const UMockdevIoctlData* const data = resolve();
       return {data->data, data->data + size()};
     }
-    /// Writes there what has room. @returns how many octets.
+    /// Writes there as many as fit. @returns their number.
     long give(Octets octets) const {
       octets.resize(std::min(octets.size(), size()));
       umockdev_ioctl_data_update(resolve(), 0, octets.data(), static_cast<int>(octets.size()));
@@ -81,10 +81,10 @@ class MockedNode {
     UMockdevIoctlData* argument_;
   };
 
-  // Each returns what the call does, or an error number below 0.
+  // Each returns the result of the call, or a negative error number.
   virtual long control(const Request& request) = 0;
   virtual long write(std::span<const std::uint8_t> octets) = 0;
-  /// @param octets what is read; empty where it fails
+  /// @param octets the octets read; empty if it fails
   virtual long read(Octets& octets) = 0;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Distances by closed forms and by comparison of all features, sharing no code with the library;
-// and drawn shapes and places.
+// and random shapes and placements.
 #pragma once
 
 #include <Eigen/Core>
@@ -107,7 +107,7 @@ inline double point_segment(const Vector3d& p, const Vector3d& a, const Vector3d
   return (p - a - t * ab).norm();
 }
 
-/// Distance of two segments: of the lines, if their nearest points are inside of both, else of an
+/// Distance of two segments: of the lines, if their nearest points are inside both, otherwise of an
 /// end from the other segment.
 inline double segment_segment(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                               const Vector3d& d) {
@@ -158,7 +158,7 @@ inline bool foot_inside(const Corners& t, const Vector3d& p) {
   return true;
 }
 
-/// Distance of two triangles: corners over faces, pairs of sides, and 0 where a side goes through.
+/// Distance of two triangles: corners over faces, pairs of sides, and 0 if a side passes through.
 inline double triangle_triangle(const Corners& a, const Corners& b) {
   double best = std::numeric_limits<double>::infinity();
   for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
@@ -194,8 +194,8 @@ struct Ball {
   double radius = 0.0;
 };
 
-/// Least distance of two triangles. Those whose balls are farther apart than the least so far are
-/// left out.
+/// Least distance of two triangles. Pairs with balls farther apart than the least so far are
+/// skipped.
 inline double all_triangles(const std::vector<Corners>& a, const std::vector<Corners>& b) {
   const std::vector<Ball> balls(b.begin(), b.end());
   double best = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of usages are those of the class definition of Physical Interface Devices 1.0.
+// Numbers of usages from the class definition of Physical Interface Devices 1.0.
 #include "reckon/tests/haptics/support/pid_wheel.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ class Items {
     return *this;
   }
   Items& report(int use, int number) { return open(use, 2).item(0x84, number); }
-  /// `count` numbers of the usages before.
+  /// `count` numbers of the preceding usages.
   Items& numbers(int main, int least, int most, int bits, int count, int kind) {
     item(0x14, least).item(0x24, most);
     return item(0x74, bits).item(0x94, count).item(main, kind);
@@ -100,7 +100,7 @@ void add_word(std::vector<std::uint8_t>& to, int value) {
   to.push_back(static_cast<std::uint8_t>(value >> 8));
 }
 
-// Octets of a report of the host, with its number; 0: there is none.
+// Octets of a report of the host, with its number; 0: no such report.
 std::size_t size_of(std::uint8_t number) {
   switch (number) {
     case kSetEffect:
@@ -267,7 +267,7 @@ void PidWheel::control(std::uint8_t what) {
       effects_.clear();
       return;
     default:
-      ++strange_;  // to pause and to go on
+      ++strange_;  // to pause and to continue
   }
 }
 
@@ -311,7 +311,7 @@ void PidWheel::run_until(nanoseconds now) {
   }
 }
 
-// The energy that constant springs take is the difference of their potential, whatever the step.
+// The energy input to constant springs is the difference of their potential, for any step.
 void PidWheel::run(double h) {
   if (held_) {
     place_ = wanted_ = *held_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A wheel or stick of the USB class HID PID that renders springs by itself, as its firmware would,
-// and the hand that holds it. Reports of the host go in, its own come out; it keeps its own books.
+// A wheel or stick of the USB class HID PID that renders springs like its firmware, and the hand
+// that holds it. Reports of the host go in, its own come out; it keeps its own ledger.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ struct PidWheelOptions {
   double mass = 0.2;             ///< [kg]
   double hand_stiffness = 300;   ///< [N/m]
   double hand_damping = 10;      ///< [N s/m]
-  double hand_speed = 0.1;       ///< [m/s], of the place where the hand wants the handle
+  double hand_speed = 0.1;       ///< [m/s], of the hand's goal
   int most_effects = 16;         ///< at once
   bool has_room_of_its_own = true;
-  /// Usages of the page PID that its descriptor leaves out: what stands there is told as padding.
+  /// Usages of the page PID missing in its descriptor, which declares padding instead.
   std::vector<int> without = {};
 };
 
@@ -35,29 +35,29 @@ class PidWheel {
  public:
   static constexpr std::size_t kAxes = 2;
   static constexpr int kMostEffects = 16;  ///< that reports can name
-  /// Of a coefficient, a saturation, and half the travel, in a report.
+  /// Steps of a coefficient, a saturation, and half the travel, in a report.
   static constexpr double kSteps = 10000;
 
   explicit PidWheel(const PidWheelOptions& options) : options_(options) {}
 
-  /// What the host learns its reports from.
+  /// Defines the reports for the host.
   [[nodiscard]] std::vector<std::uint8_t> descriptor() const;
-  /// An output or feature report of the host.
+  /// Processes an output or feature report of the host.
   void take(std::span<const std::uint8_t> report);
-  /// A feature report that the host asks for; nothing: there is none of this number.
+  /// A feature report requested by the host; nothing: there is none of this number.
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> feature(std::uint8_t number) const;
-  /// Where its axes are.
+  /// Report with the positions of its axes.
   [[nodiscard]] std::vector<std::uint8_t> input() const;
-  /// Unplugged or plugged in, it has no effects and its actuators are off.
+  /// Unplugged or plugged in: it has no effects and its actuators are off.
   void lose_power();
 
-  /// Where the hand wants the handle [m]; it goes there at hand_speed.
+  /// Sets the hand's goal for the handle [m]; it moves there at hand_speed.
   void want(std::size_t axis, double place) { goal_[axis] = place; }
-  /// A hand that is stronger than all holds the handle here [m], at rest, until nothing does. That
-  /// is not booked.
+  /// An unyielding hand holds the handle here [m], at rest, until it is released. This is not
+  /// booked.
   void hold(const std::optional<std::array<double, kAxes>>& place) { held_ = place; }
   [[nodiscard]] bool is_held() const { return held_.has_value(); }
-  /// Lets time pass until then.
+  /// Advances its time to `now`.
   void run_until(std::chrono::nanoseconds now);
 
   [[nodiscard]] double place(std::size_t axis) const { return place_[axis]; }  ///< [m]
@@ -66,18 +66,18 @@ class PidWheel {
     return force_at(axis, place_[axis]);
   }
   [[nodiscard]] double fastest() const { return fastest_; }  ///< [m/s], so far
-  // What its springs took from the hand since the begin, and the least of it [J].
+  // Energy that its springs took from the hand since the start, and its minimum [J].
   [[nodiscard]] double absorbed() const { return absorbed_; }
   [[nodiscard]] double least_absorbed() const { return least_; }
   [[nodiscard]] std::size_t effects() const { return effects_.size(); }
   [[nodiscard]] std::size_t playing() const;
-  /// Conditions so far that changed an effect.
+  /// Number of conditions so far that changed an effect.
   [[nodiscard]] int changes() const { return changes_; }
-  /// Conditions and starts so far.
+  /// Number of conditions and starts so far.
   [[nodiscard]] std::uint64_t orders() const { return orders_; }
-  /// Reports so far that it does not know, or of an effect that is not there.
+  /// Number of unknown reports so far, or reports of an effect that does not exist.
   [[nodiscard]] int strange() const { return strange_; }
-  /// When a report of the host came last.
+  /// Time of the last report of the host.
   [[nodiscard]] std::chrono::nanoseconds told() const { return told_; }
 
  private:
@@ -110,7 +110,7 @@ class PidWheel {
 
   PidWheelOptions options_;
   std::map<std::uint8_t, Effect> effects_;
-  std::uint8_t loaded_ = 0, load_status_ = 0;  // of the last effect that was asked for
+  std::uint8_t loaded_ = 0, load_status_ = 0;  // of the last requested effect
   bool actuates_ = false;
   double gain_ = 1;
   std::chrono::nanoseconds now_{0}, told_{0};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A flat surface, as contacts get it.
+// A flat surface, as passed to contacts.
 #pragma once
 
 #include "reckon/haptics/passivity/contact_spring.hpp"

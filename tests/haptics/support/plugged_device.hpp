@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device on USB behind the real libusb, the kernel's calls answered by a model, with the thread
-// and the servo that use it. All of them on the model's clock.
+// A device on USB behind the real libusb, with the thread and the servo that use it; a model
+// answers the kernel's calls. All of them use the model's clock.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@
 
 namespace reckon::test {
 
-/// A floor at z = 0 of 20,000 N/m, softened to what a device can hold.
+/// A floor at z = 0 of 20,000 N/m, softened to the device's limit.
 inline haptics::Scene stiff_floor() {
   haptics::Scene scene;
   haptics::SceneObject object;
@@ -47,7 +47,7 @@ class PluggedDevice {
  public:
   using Hand = std::function<Eigen::Vector3d(double)>;
 
-  /// @param middle where the scene's origin is [m, frame D]
+  /// @param middle of the scene's origin [m, frame D]
   template <class Options>
   PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
                 const haptics::DeviceLimits& limits, const haptics::Scene& scene = stiff_floor(),
@@ -73,7 +73,7 @@ class PluggedDevice {
     });
   }
 
-  /// In the place of the one that is there.
+  /// Replaces the present thread.
   void begin_thread(std::unique_ptr<haptics::UsbDriver> driver) {
     loop.reset();
     loop = std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options());
@@ -87,23 +87,23 @@ class PluggedDevice {
     }
   }
 
-  /// A step of 50 us of what a person does to it.
+  /// A step of 50 us of a person's actions on it.
   void tend() {
     if (loop) care_.tend(model, *loop);
   }
   [[nodiscard]] bool motors_rest() const { return model.motors() == decltype(model.motors()){}; }
-  /// [J], of the device's own books: what the hand put in since they began.
+  /// [J], of the device's own ledger: the hand's input since its start.
   [[nodiscard]] double books() const {
     return model.port_work() + model.damping_loss() + model.lifted() - first_;
   }
-  /// The books begin now, where nothing is touched.
+  /// Starts the ledger now; nothing may be touched.
   void begin_books() {
     first_ += books();
     least_own = least_books = 0;
   }
 
  private:
-  typename Model::Care care_;  // what a person does to it
+  typename Model::Care care_;  // actions of a person on it
 
  public:
   std::function<void(std::chrono::nanoseconds)> before_step;  // of the servo
@@ -115,9 +115,9 @@ class PluggedDevice {
   std::unique_ptr<haptics::UsbLoop> loop;
   std::vector<std::string> notices;
   bool servo_runs = true;
-  std::chrono::nanoseconds pulled_at{0};  // its motors last
-  double least_own = 0;                   // [J], of the device's own books with loan
-  double least_books = 0;                 // [J], of the device's own books with loan and allowance
+  std::chrono::nanoseconds pulled_at{0};  // last force of its motors
+  double least_own = 0;                   // [J], of the device's own ledger with loan
+  double least_books = 0;                 // [J], of the device's own ledger with loan and allowance
   haptics::ServoSnapshot last;
 
  private:

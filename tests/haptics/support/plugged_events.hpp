@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device that renders springs by itself, with its session and its servo, all on the clock of its
+// A device that renders springs itself, with its session and its servo, all on the clock of its
 // model.
 #pragma once
 
@@ -33,7 +33,7 @@ inline haptics::SceneObject solid(const std::string& name, const haptics::Shape&
   object.effects.of<haptics::SpringDamper>().stiffness = 1'000;
   return object;
 }
-/// Solid where x is below -20 mm.
+/// Solid for x below -20 mm.
 inline haptics::Scene one_wall() {
   haptics::Scene scene;
   scene.objects.push_back(
@@ -60,7 +60,7 @@ inline haptics::Scene room_with_post() {
 
 /// Strokes along both axes, and a rest in the middle, where nothing is touched.
 struct RoamingHand {
-  /// @param least, most size of a stroke [m]  @param fastest [rad/s]  @param from begin of the rest
+  /// @param least, most size of a stroke [m]  @param fastest [rad/s]  @param from start of the rest
   RoamingHand(unsigned seed, double least, double most, double fastest, double from)
       : random(seed), rests_from(from) {
     for (auto& axis : strokes)
@@ -88,7 +88,7 @@ class PluggedEvents {
  public:
   using Hand = std::function<typename Model::Places(double)>;
 
-  /// @param idle passes where a step of the session takes no time
+  /// @param idle passes if a step of the session takes no time
   template <class Options>
   PluggedEvents(const Options& options, Hand hand, const haptics::Scene& scene,
                 haptics::EvdevSettings chosen, std::chrono::nanoseconds idle = {})
@@ -105,7 +105,7 @@ class PluggedEvents {
     start();
   }
 
-  /// A session in the place of the one that is there.
+  /// Replaces the present session.
   void start() {
     loop = std::make_unique<haptics::EvdevLoop>(exchange, settings, calls_of(model),
                                                 [this] { return model.now(); });
@@ -118,14 +118,14 @@ class PluggedEvents {
       if (model.now() == before && idle_.count() > 0) model.pass(idle_);
     }
   }
-  /// The program does nothing, and the device goes on.
+  /// The program does nothing, and the device continues.
   void hang(std::chrono::nanoseconds time) {
     servo_runs = false;
     model.pass(time);
     servo_runs = true;
   }
   [[nodiscard]] const haptics::ServoSnapshot& last() { return servo.snapshots().read(); }
-  /// Steps since the last call in which the servo did not know where the hand is.
+  /// Steps since the last call without a known position of the hand.
   [[nodiscard]] int steps_without() { return std::exchange(steps_without_, 0); }
 
   haptics::ForceStop stop;
@@ -158,7 +158,7 @@ class PluggedEvents {
   int steps_without_ = 0;
 };
 
-/// An EvdevModel that a hand presses into a wall, unless said otherwise.
+/// An EvdevModel pressed into a wall by a hand, unless stated otherwise.
 class PluggedWheel : public PluggedEvents<EvdevModel> {
  public:
   explicit PluggedWheel(const haptics::Scene& scene = one_wall(), Hand hand = pressing,

@@ -38,7 +38,7 @@ class PointerPlay {
     to_ = point();
   }
 
-  /// Calls put(PointerSample) for each sample that is due at this millisecond.
+  /// Calls put(PointerSample) for each sample that is due in this millisecond.
   template <class Put>
   void at(int ms, Put&& put) {
     if (ms < next_) return;
@@ -97,7 +97,7 @@ class PointerPlay {
     return p;
   }
 
-  /// The next point of a straight stroke of 32, of which each four come in reverse order.
+  /// The next point of a straight stroke of 32; each four come in reverse order.
   Eigen::Vector3d overtaken() {
     const double way = static_cast<double>(sent_ ^ 3U) / 31.0;
     if (++sent_ == 32) {

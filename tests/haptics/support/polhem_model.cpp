@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// Its measures, written out once more.
+// Its dimensions, written out independently.
 constexpr double kBase = 0.058, kUpper = 0.174, kFore = 0.133;
 constexpr std::array<double, 3> kRatios{18, 10, 10};
 constexpr double kTorque = 0.0538;  // [N m/A]
@@ -22,7 +22,7 @@ constexpr double kCounts = 2000;
 const Vector3d kMiddle(0.14, 0, 0.1);  // in its own axes, x towards the operator
 
 constexpr nanoseconds kFrame = milliseconds(1);
-constexpr nanoseconds kWatchdog = milliseconds(500);  // of its own
+constexpr nanoseconds kWatchdog = milliseconds(500);  // its own
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Vector3d PolhemModel::Care::hand(const Vector3d& wanted) const {
 }
 
 void PolhemModel::Care::tend(PolhemModel& model, const haptics::UsbLoop& loop) {
-  constexpr double kStep = 1e-4;  // half a second for the way
+  constexpr double kStep = 1e-4;  // half a second for the path
   constexpr int kStill = 4'000;
   const auto stage = loop.stage();
   if (!model.is_tended_ || !stage) return;
@@ -68,7 +68,7 @@ std::optional<HeldModel::Joints> PolhemModel::joints_at(const Vector3d& position
   const double lean = std::atan2(out, up) - std::acos(at_base);
   const double elbow_out = kUpper * std::sin(lean), elbow_up = kUpper * std::cos(lean);
   const double reach = std::atan2(out - elbow_out, elbow_up - up);
-  // The base may go round more than once: the turn next to where it is.
+  // The base may turn more than once: the turn next to the present one.
   const double turn = std::atan2(own.y(), own.x());
   const double whole = std::round((angles_[0] - turn) / (2 * std::numbers::pi));
   Joints joints;
@@ -205,7 +205,7 @@ std::vector<std::uint8_t> PolhemModel::descriptors() const {
           0x12, 0x06, 0x00, 0x01, 0,  0,    0,    0,    1,   // device
           9,    2,    41,   0,    1,  1,    0,    0xC0, 50,  // configuration
           9,    4,    0,    0,    2,  kind, 0,    0,    0,   // interface
-          9,    0x21, 0x11, 0x01, 0,  1,    0x22, 32,   0,   // of HID
+          9,    0x21, 0x11, 0x01, 0,  1,    0x22, 32,   0,   // HID
           7,    5,    0x81, 3,    64, 0,    1,               // in
           7,    5,    0x01, 3,    64, 0,    1};              // out
 }

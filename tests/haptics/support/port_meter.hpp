@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Energy at a port by the device's own account.
+// Energy at a port by the device's own ledger.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -21,13 +21,13 @@ inline constexpr double kPassive = -1e-9;  // [J], rounding of sums of some joul
 
 inline double cap_of(double b) { return 0.95 * b / kT; }
 
-/// What a port of damping b has booked in truth: exact work of the held force, least damping loss.
+/// The true energy of a port of damping b: exact work of the held force, least damping loss.
 struct Meter {
   double absorbed = 0, least = 0, surplus = 0;
   void move(const Vector3d& force, const Vector3d& dx, double b) {
     absorbed += b * dx.squaredNorm() / kT - force.dot(dx);
   }
-  // What was absorbed must cover what may still be spent, not only be >= 0.
+  // The absorbed energy must cover the spendable energy, not only be >= 0.
   void check(const EnergyPort& port) {
     least = std::min(least, absorbed);
     surplus = std::min(surplus, absorbed - port.level());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of one region, and what oscillations may put in by default.
+// Scenes of one region, and the default energy input of oscillations.
 #pragma once
 
 #include <optional>

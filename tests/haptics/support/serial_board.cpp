@@ -24,7 +24,7 @@ SerialBoard::SerialBoard(const SerialBoardOptions& options, std::function<Vector
     : options_(options),
       hand_(std::move(hand)),
       random_(options.seed),
-      first_stamp_(0xFFFFFFFFU - 500'000U) {  // its clock comes round soon
+      first_stamp_(0xFFFFFFFFU - 500'000U) {  // its clock wraps soon
   position_ = hand_(0);
   for (int i = options_.axes; i < 3; ++i) position_[i] = 0;
   next_tick_ = microseconds(random_() % 1'000);
@@ -74,7 +74,7 @@ std::vector<std::vector<std::uint8_t>> SerialBoard::pass() {
   return std::exchange(sent_, {});
 }
 
-// Velocity first: each book with the velocity that moves the handle.
+// Velocity first: each ledger uses the velocity that moves the handle.
 void SerialBoard::move(double h) {
   if (held_at_) {
     position_ = *held_at_;

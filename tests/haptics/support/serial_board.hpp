@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A board that runs the example's program, the handle that it moves and the hand that holds it,
-// with books of its own: the work of the force that was held, on the way of the handle under it.
+// A board that runs the example's program, its handle and the hand that holds it, with its own
+// ledger: the work of the held force on the handle's motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,57 +30,57 @@ struct SerialBoardOptions {
   int most_force = 5'000;       ///< [mN]
   int watchdog = 10;            ///< [ms]
   int period = 1'000;           ///< [us]
-  bool is_led = false;          ///< its handle is where the hand wants it, whatever the force
+  bool is_led = false;          ///< its handle follows the hand's goal, for any force
   int jitter = 50;              ///< [us], of its ticks
-  int lag = 0;                  ///< [ms], of its motors behind what it reports
+  int lag = 0;                  ///< [ms], of its motors behind its reports
 };
 
 class SerialBoard {
  public:
   using Vector3d = Eigen::Vector3d;
 
-  /// @param hand where the hand wants it [m, frame D] at a time [s]
+  /// @param hand the hand's goal [m, frame D] at a time [s]
   SerialBoard(const SerialBoardOptions& options, std::function<Vector3d(double)> hand);
   SerialBoard(const SerialBoard&) = delete;
   SerialBoard& operator=(const SerialBoard&) = delete;
 
   /// An octet from the host.
   void take(std::uint8_t octet);
-  /// Lets 50 us pass. @return what it sent meanwhile
+  /// Advances time by 50 us. @return frames sent meanwhile
   [[nodiscard]] std::vector<std::vector<std::uint8_t>> pass();
 
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
-  /// [J] that the hand put in: through the motors, and what its damping took.
+  /// [J], the hand's input: through the motors, and the damping loss.
   [[nodiscard]] double books() const { return port_work_ + damping_loss_; }
-  /// [J], most that whole mN of its forces may have put into work that a host knows.
+  /// [J], largest part of its work that the rounding to whole mN may add beyond the host's
+  /// knowledge.
   [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] const Vector3d& position() const { return position_; }  ///< [m, D]
   [[nodiscard]] const Vector3d& force() const { return force_; }        ///< [N, D] that is held
 
-  /// What it did in a tick.
+  /// Its state in a tick.
   struct Tick {
     std::uint32_t stamp;  // [us]
     std::array<std::int32_t, 3> counts;
     Vector3d force;  // [N, D] from then on
   };
   [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
-  /// Frames that asked it or told it a force.
+  /// Number of question and force frames received.
   [[nodiscard]] std::uint64_t commands() const { return commands_; }
-  /// Whether it holds a force, or will by what it was told, from its next tick on.
+  /// Whether it holds a force, or will from its next tick on by its received frames.
   [[nodiscard]] bool will_hold() const;
 
   void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
-  /// A hand that is stronger than all holds the handle here, at rest, until it is released. That
-  /// is not booked.
+  /// An unyielding hand holds the handle here, at rest, until it is released. This is not booked.
   void hold(const Vector3d& place) { held_at_ = place; }
   void release() { held_at_.reset(); }
   [[nodiscard]] bool is_held() const { return held_at_.has_value(); }
-  void forget();  ///< as after its reset: counters, force, what it was told
+  void forget();  ///< as after its reset: counters, force, received frames
   void hold_button(bool on) { buttons_ = on ? 1 : 0; }
-  void lose_place(bool on) { homed_ = !on; }  ///< its counts are no places
+  void lose_place(bool on) { homed_ = !on; }  ///< its counts are no positions
   void run_clock_at(double rate) { clock_rate_ = rate; }
-  void hang(bool on) { hangs_ = on; }  ///< its program stands still, and holds its force
-  reckon_board program;                ///< as the example's
+  void hang(bool on) { hangs_ = on; }  ///< its program stops, and holds its force
+  reckon_board program;                ///< the example's
 
  private:
   void move(double h);

@@ -33,7 +33,7 @@ using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kTick = microseconds(50);
-// So long the kernel waits, where a line is closed, for octets that are on their way still.
+// Time for which the kernel waits on closing for octets in transit.
 constexpr seconds kClosingWait{30};
 constexpr int kWeak = 100;  // [mN]
 
@@ -221,7 +221,7 @@ short SerialShim::poll(short wanted, nanoseconds longest) {
   return events();
 }
 
-// A line that was hung up reads nothing, as one on which nothing came.
+// A hung-up line reads nothing, like a silent one.
 std::ptrdiff_t SerialShim::read(std::span<std::uint8_t> octets) {
   if (at_call_) at_call_();
   if (hung_up_) return 0;
@@ -295,7 +295,8 @@ int __wrap_flock(int file, int what) {
 
 long __wrap_syscall(long number, ...) {
   std::array<long, 6> all{};
-  const std::size_t passed = number == SYS_ioctl ? 3 : all.size();  // no more is there to be read
+  // it has no further arguments to read
+  const std::size_t passed = number == SYS_ioctl ? 3 : all.size();
   std::va_list arguments;
   va_start(arguments, number);
   for (std::size_t i = 0; i < passed; ++i) all[i] = va_arg(arguments, long);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A board behind a serial line below SerialPort: the test program answers the calls by which that
-// talks with the kernel. The linker leads them here first (--wrap, reckon_shim_serial() of
-// tests/CMakeLists.txt); those for other files go on to the C library. Where the program waits, the
-// board's time passes and no other.
+// A board behind a serial line below SerialPort: the test program answers SerialPort's calls to the
+// kernel. The linker leads them here first (--wrap, reckon_shim_serial() of tests/CMakeLists.txt);
+// calls for other files go on to the C library. If the program waits, only the board's time passes.
 #pragma once
 
 #include <chrono>
@@ -22,16 +21,16 @@
 
 namespace reckon::test {
 
-/// Which board is in the place of the true one.
+/// The board that replaces the true one.
 enum class FalseBoard : std::uint8_t {
   none,
-  newer,   ///< speaks another version of the line
+  newer,   ///< uses another version of the protocol
   silent,  ///< has no program for this line
-  noisy,   ///< what it sends are no frames
-  weaker,  ///< holds less force than is asked of it
+  noisy,   ///< sends no valid frames
+  weaker,  ///< holds less force than is requested
 };
 
-/// One at a time, of one thread.
+/// One at a time, on one thread.
 class SerialShim {
  public:
   /// @param board outlives it  @param out, in latency of the way to the board and back
@@ -42,31 +41,33 @@ class SerialShim {
   SerialShim& operator=(const SerialShim&) = delete;
 
   void pass(std::chrono::nanoseconds time);
-  /// Called every 50 us of its time, whoever lets it pass.
+  /// Called every 50 us of its time, whoever advances it.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
   /// Called at each call to the kernel for the line, before it is answered.
   void at_each_call(std::function<void()> call) { at_call_ = std::move(call); }
 
-  /// What was open is hung up, and stays so.
+  /// Hangs up the open line for good.
   void unplug();
   void plug(FalseBoard board = FalseBoard::none);
   [[nodiscard]] bool is_plugged() const { return plugged_; }
   [[nodiscard]] int open_files() const { return files_; }
-  /// Times that somebody tried to open it.
+  /// Number of attempts to open it.
   [[nodiscard]] unsigned tries() const { return tries_; }
 
-  // What goes wrong from now on.
+  // Faults from now on.
   void deny(int error) { denied_ = error; }       ///< errno of opening it; 0: none
   void fail(unsigned calls) { errors_ = calls; }  ///< reads and writes, with EIO
-  void hang(std::chrono::nanoseconds time) { hangs_until_ = board_.now() + time; }  ///< no way out
-  void mute(std::chrono::nanoseconds time) { mute_until_ = board_.now() + time; }   ///< no way in
+  /// nothing goes out
+  void hang(std::chrono::nanoseconds time) { hangs_until_ = board_.now() + time; }
+  /// nothing comes in
+  void mute(std::chrono::nanoseconds time) { mute_until_ = board_.now() + time; }
   void damage(unsigned frames) { damaged_in_ = damaged_out_ = frames; }  ///< a bit of each
-  /// Octets, both ways. @param of_thousand that are lost
+  /// Octets in both directions. @param of_thousand that are lost
   void lose(unsigned of_thousand, std::chrono::nanoseconds time);
-  /// What comes waits for the next multiple of a time. @param every > 0
+  /// Input waits for the next multiple of a time. @param every > 0
   void bunch(std::chrono::nanoseconds every, std::chrono::nanoseconds time);
-  void piece(bool on) { pieces_ = on; }  ///< a read gives a few octets at most
-  void restart();                        ///< the board's program, which says something
+  void piece(bool on) { pieces_ = on; }  ///< a read gives at most a few octets
+  void restart();                        ///< the board's program, which prints something
 
   // For the calls.
   static SerialShim* that_is_there();
@@ -75,13 +76,13 @@ class SerialShim {
   int open();
   int close();
   int control(unsigned long request, void* argument);
-  /// @return events of poll() that it has
+  /// @return its pending events of poll()
   short poll(short wanted, std::chrono::nanoseconds longest);
   std::ptrdiff_t read(std::span<std::uint8_t> octets);
   std::ptrdiff_t write(std::span<const std::uint8_t> octets);
 
  private:
-  static constexpr std::size_t kRoom = 4'096;  // octets that the kernel keeps, each way
+  static constexpr std::size_t kRoom = 4'096;  // octets that the kernel keeps, in each direction
 
   [[nodiscard]] bool is_readable() const { return !to_host_.empty(); }
   [[nodiscard]] std::size_t waiting() const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A servo on a simulated device that a test steps by hand, and what it is pressed against.
+// A servo on a simulated device that a test steps by hand, and the objects that it presses.
 #pragma once
 
 #include <algorithm>
@@ -80,7 +80,7 @@ class Bench {
   SimulatedDevice device;
   ServoLoop servo;
   nanoseconds now{0};
-  double least = 0;  ///< [J], of the device's own books with what is owed
+  double least = 0;  ///< [J], of the device's own ledger with loans
   double peak = 0;   ///< [N]
 };
 

@@ -23,7 +23,7 @@ inline double ease(double t) {
   return t <= 0 ? 0 : t >= 1 ? 1 : 0.5 - 0.5 * std::cos(std::numbers::pi * t);
 }
 
-/// Where hand 0, at the left, or 1 wants to be: they close in, squeeze, and carry to and fro.
+/// Goal of hand 0, at the left, or 1: they close in, squeeze, and carry to and fro.
 inline double target(int side, double t) {
   const double way = side == 1 ? 1 : -1;
   const double carry = t > 4 && t < 8 ? 0.02 * std::sin(2 * std::numbers::pi * 1.5 * (t - 4)) : 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of devices on USB as typed tests take them, each with five chains.
+// The kinds of devices on USB for typed tests, each with five chains.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ using OptionsOf =
 
 struct FalconKind {
   using Model = FalconModel;
-  // Its chip's timer fires at other times of a frame, and the servo is told of more than there is.
+  // Its chip's timer fires at another time of a frame, and the declared delay is longer than the
+  // true one.
   static FalconModelOptions options(int delay) {
     FalconModelOptions options;
     options.tick_at = 0.1 + 0.2 * delay;
@@ -38,7 +39,7 @@ struct FalconKind {
     return std::make_unique<haptics::FalconDriver>(haptics::FalconFirmware{});
   }
   static const haptics::UsbFacts& facts() { return haptics::falcon_facts(); }
-  static constexpr double kLongest = 4.2;  ///< greatest lever(), over that in the middle
+  static constexpr double kLongest = 4.2;  ///< greatest lever(), relative to the middle
   /// See haptics::levers_of [m/rad]; 0 where its driver shows no force. @param place [m, frame D]
   static double lever(const Eigen::Vector3d& place) {
     const Eigen::Vector3d own =
@@ -52,7 +53,7 @@ struct FalconKind {
 
 struct PolhemKind {
   using Model = PolhemModel;
-  // It is asked and told at other times of a frame.
+  // Its requests and commands are at other times of a frame.
   static PolhemModelOptions options(int delay) {
     PolhemModelOptions options;
     options.in_at = 0.2 * delay;
@@ -74,7 +75,7 @@ struct PolhemKind {
   }
 };
 
-/// Of a chain that is as long as the servo is told.
+/// Length of the chain as declared to the servo.
 inline std::chrono::milliseconds usb_chain(int delay) {
   return std::chrono::milliseconds(6 + 2 * delay);
 }

@@ -29,7 +29,7 @@ std::mutex all_guard;
 constexpr std::chrono::nanoseconds kTick = std::chrono::microseconds(50);
 constexpr std::chrono::nanoseconds kIdleTick = std::chrono::milliseconds(1);
 
-// Of the file that is open; empty where no device is looked for by its name.
+// Name of the open file; empty if no device is searched by name.
 std::string name_of(int descriptor, bool is_wanted) {
   std::array<char, 256> name{};
   if (!is_wanted) return {};
@@ -98,7 +98,7 @@ void UsbShim::be_at(std::string node) {
   node_ = std::move(node);
 }
 
-// The library asks each device that it opens what it can do.
+// The library asks each device that it opens for its capabilities.
 void UsbShim::be_opened_anew() {
   requests_.clear();
   gone_ = !plugged_;
@@ -120,7 +120,7 @@ libusb_device_handle* UsbShim::open(libusb_context* context) {
   {
     const std::lock_guard lock(guard_);
     if (!plugged_) return nullptr;
-    if (!requests_.empty()) std::abort();  // the library still waits for what it has closed
+    if (!requests_.empty()) std::abort();  // the library still waits for a closed device
     const std::lock_guard all(all_guard);
     if (file_ >= 0) ::close(file_);
     file = file_ = ::memfd_create("usb", MFD_CLOEXEC);
@@ -186,7 +186,7 @@ int UsbShim::answer(unsigned long request, void* argument) {
   }
 }
 
-// The library itself asks for the configuration only; others are waited for, as transfers.
+// The library itself requests only the configuration; other requests are awaited, like transfers.
 int UsbShim::control(void* argument) {
   const auto& request = *static_cast<usbdevfs_ctrltransfer*>(argument);
   if (request.bRequestType != 0x80 || request.bRequest != LIBUSB_REQUEST_GET_CONFIGURATION ||
@@ -237,7 +237,7 @@ void UsbShim::end(Request& request) {
 
 bool UsbShim::is_ready() {
   const std::lock_guard lock(guard_);
-  // In order: of two that listen, the first gets what comes first.
+  // In order: of two readers, the first gets the first data.
   for (Request& request : requests_) end(request);
   return gone_ ||
          std::ranges::any_of(requests_, [](const Request& request) { return request.ended; });
@@ -260,13 +260,13 @@ int real_poll(pollfd* files, nfds_t count, int wait_ms) {
       ::syscall(SYS_ppoll, files, count, wait_ms < 0 ? nullptr : &wait, nullptr, 0));
 }
 
-// The time to wait is the model's, and passes at once; or, where it has a clock, that of the clock.
-// What else is waited for is of real time: to look once a millisecond is enough.
+// Without a clock, the wait advances the model's time at once. With a clock, it lasts until the
+// clock has advanced. The other files are polled once a millisecond of the wait, which suffices.
 int shimmed_poll(UsbShim& shim, pollfd* files, nfds_t count, int wait_ms) {
   pollfd* const end = files + count;
   pollfd* const ours =
       std::find_if(files, end, [&](const pollfd& f) { return f.fd == shim.descriptor(); });
-  if (ours != end) ours->fd = -1;  // the kernel leaves it out
+  if (ours != end) ours->fd = -1;  // the kernel ignores it
   auto left = std::chrono::nanoseconds(std::chrono::milliseconds(wait_ms < 0 ? 1000 : wait_ms));
   auto unseen = std::chrono::nanoseconds(0);
   int others = real_poll(files, count, 0);
@@ -292,7 +292,7 @@ int shimmed_poll(UsbShim& shim, pollfd* files, nfds_t count, int wait_ms) {
 }  // namespace
 }  // namespace reckon::test
 
-// A program's own functions come before those that libusb would find in the C library.
+// A program's own functions precede the functions of the C library for libusb.
 extern "C" int ioctl(int file, unsigned long request, ...) noexcept {
   std::va_list arguments;
   va_start(arguments, request);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A USB device below libusb: the test program answers the calls by which libusb talks with the
-// kernel, ioctl() and poll(), for one descriptor. The library above it is the real one. Where it
-// waits, the model's time passes and no other, unless it is given a clock.
+// A USB device below libusb: the test program answers libusb's calls to the kernel, ioctl() and
+// poll(), for one descriptor. The library above it is the real one. While it waits, only the
+// model's time passes, unless it is given a clock.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ struct libusb_device_handle;
 
 namespace reckon::test {
 
-/// What a device does. All calls come from the thread that uses libusb.
+/// Behaviour of a device. All calls come from the thread that uses libusb.
 class UsbModel {
  public:
   virtual ~UsbModel() = default;
@@ -29,13 +29,13 @@ class UsbModel {
   /// A request of its own, at once. @return octets moved, or a negative errno
   virtual int control(std::uint8_t request, std::uint16_t value,
                       std::span<std::uint8_t> answer) = 0;
-  /// A transfer to it was handed in; out_done() says when it has ended.
+  /// A transfer to it was submitted; out_done() reports its end.
   virtual void begin_out(std::span<const std::uint8_t> octets) = 0;
   /// @return octets taken or a negative errno; nothing: not yet
   virtual std::optional<int> out_done() = 0;
-  /// @return octets that came or a negative errno; nothing: not yet
+  /// @return octets received or a negative errno; nothing: not yet
   virtual std::optional<int> in_done(std::span<std::uint8_t> octets) = 0;
-  /// Time goes on.
+  /// Advances its time.
   virtual void pass(std::chrono::nanoseconds time) = 0;
 };
 
@@ -52,9 +52,9 @@ class UsbShim {
   UsbShim(const UsbShim&) = delete;
   UsbShim& operator=(const UsbShim&) = delete;
 
-  /// What is under way then ends as unplugging ends it.
+  /// Ends pending transfers as an unplug does.
   void unplug();
-  /// What was open before stays as dead as it was.
+  /// Files opened before stay dead.
   void plug();
   [[nodiscard]] bool is_plugged() const { return plugged_; }
   /// A handle of libusb's on the device, null while it is not plugged in.
@@ -63,9 +63,9 @@ class UsbShim {
   /// From now on the library finds and opens the device by itself, by a file of this name.
   void be_at(std::string node);
 
-  /// Transfers end with this errno from now on, so many; as a cable does that is half out.
+  /// The next `count` transfers end with this errno, as with a half-plugged cable.
   void fail(int error, unsigned count);
-  /// What is under way is called off, as where a hub resets its port. The device stays open.
+  /// Cancels pending transfers, as when a hub resets its port. The device stays open.
   void reset_port();
   /// Called at each call to the kernel for this device, before it is answered.
   void at_each_call(std::function<void()> call) { at_call_ = std::move(call); }
@@ -80,13 +80,13 @@ class UsbShim {
 
   // For ioctl() and poll().
   static UsbShim* of(int descriptor);
-  /// The first without a clock: its time passes where none of them has its device open.
+  /// The first without a clock: its time passes if none of them has its device open.
   static UsbShim* that_keeps_time();
   [[nodiscard]] int descriptor() const { return file_; }
   int answer(unsigned long request, void* argument);
   [[nodiscard]] bool is_ready();
   [[nodiscard]] bool is_gone() const { return gone_; }
-  /// Its time passes, up to so much. @return how much
+  /// Advances its time by at most this. @return by how much
   std::chrono::nanoseconds pass(std::chrono::nanoseconds most);
   [[nodiscard]] bool has_clock() const { return clock_ != nullptr; }
 
@@ -108,9 +108,9 @@ class UsbShim {
   std::chrono::nanoseconds passed_{0};
   std::string node_;
   int file_ = -1;      // that is open
-  bool gone_ = false;  // what was open when it was unplugged
+  bool gone_ = false;  // the file that was open at the unplug
   bool plugged_ = true;
-  std::vector<Request> requests_;  // in the order in which they came
+  std::vector<Request> requests_;  // in the order of their submission
   std::function<void()> at_call_;
   int error_ = 0;
   unsigned errors_ = 0;

@@ -22,7 +22,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kWords = 12;  // of a head of USB/IP
+constexpr std::size_t kWords = 12;  // of a USB/IP header
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr unsigned kFullSpeed = 2;
 
@@ -47,7 +47,7 @@ void UsbipDevice::plug_in() {
   const int attach = ::open((std::string(kBus) + "/attach").c_str(), O_WRONLY | O_CLOEXEC);
   bool is_taken = false;
   for (int tries = 0; tries < 200 && attach >= 0 && !is_taken; ++tries) {
-    is_taken = ::write(attach, order.data(), order.size()) >= 0;  // a call is an order
+    is_taken = ::write(attach, order.data(), order.size()) >= 0;  // a write is an order
     if (!is_taken) std::this_thread::sleep_for(milliseconds(20));
   }
   ::close(attach);
@@ -112,7 +112,7 @@ bool UsbipDevice::receive(std::span<std::uint8_t> into) {
   return true;
 }
 
-// Numbers are in the order of the network; the setup packet is as on the line.
+// Numbers are in network byte order; the setup packet is as on the bus.
 bool UsbipDevice::take_request() {
   std::array<std::uint8_t, 4 * kWords> octets{};
   if (!receive(octets)) return false;
@@ -168,7 +168,7 @@ void UsbipDevice::send(std::span<const std::uint32_t> head, std::span<const std:
     std::memcpy(&octets[4 * i], &word, sizeof word);
   }
   octets.insert(octets.end(), data.begin(), data.end());
-  // A kernel that has let go of it closes the socket, which the next read tells.
+  // A kernel that has released it closes the socket, which the next read detects.
   static_cast<void>(::send(socket_, octets.data(), octets.size(), MSG_NOSIGNAL));
 }
 
@@ -182,7 +182,7 @@ void UsbipDevice::control(const Request& request) {
     if (out->empty()) out.reset();
   } else if (what == USB_REQ_GET_STATUS) {
     out = {0, 0};
-  } else if (!request.is_in) {  // what it is told to be, it is: it has one configuration
+  } else if (!request.is_in) {  // accepted: it has one configuration
     out.emplace();
   }
   answer(request, out ? 0 : -EPIPE, out.value_or(std::vector<std::uint8_t>{}));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device on the USB of this very kernel: vhci_hcd has one end of a pair of sockets, and here the
-// protocol USB/IP is spoken on the other. It needs root, and is for a virtual machine alone.
+// A device on the USB of this kernel: vhci_hcd has one end of a socket pair, and this code runs the
+// USB/IP protocol on the other. It needs root, and is only for a virtual machine.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@
 
 namespace reckon::test {
 
-/// What a device does; of its endpoints there is one each way. One thread at a time.
+/// Behaviour of a device with one endpoint in each direction. One thread at a time.
 class UsbipModel {
  public:
   virtual ~UsbipModel() = default;
   /// Empty: there is none.
   [[nodiscard]] virtual std::vector<std::uint8_t> descriptor(std::uint8_t kind,
                                                              std::uint8_t index) const = 0;
-  /// A request of its class or its maker's. @param data with it, where it goes to the device
-  /// @return its answer; nothing: it does not know the request
+  /// A request of its class or its maker's. @param data with it, if it goes to the device
+  /// @return its answer; nothing: the request is unknown
   virtual std::optional<std::vector<std::uint8_t>> control(std::span<const std::uint8_t, 8> setup,
                                                            std::span<const std::uint8_t> data) = 0;
   /// The oldest transfer to it that it has not taken. @return false: not yet
   virtual bool take(std::span<const std::uint8_t> octets) = 0;
-  /// A transfer to it is called off.
+  /// Cancels a transfer to it.
   virtual void call_off() {}
-  /// What it has to say, where anybody listens.
+  /// Its next report, if the host reads.
   virtual std::optional<std::vector<std::uint8_t>> give() = 0;
-  /// Lets its time pass until then.
+  /// Advances its time to `now`.
   virtual void run_until(std::chrono::nanoseconds now) = 0;
   /// It is unplugged.
   virtual void lose_power() = 0;
@@ -47,20 +47,20 @@ class UsbipDevice {
   static constexpr const char* kBus = "/sys/devices/platform/vhci_hcd.0";
 
   /// @param model outlives it
-  /// @param frame in which a transfer moves each way
+  /// @param frame interval of transfers in each direction
   UsbipDevice(UsbipModel& model, std::chrono::nanoseconds frame);
   ~UsbipDevice();
   UsbipDevice(const UsbipDevice&) = delete;
   UsbipDevice& operator=(const UsbipDevice&) = delete;
 
-  /// Once it is unplugged; waits until its port is free. @throws std::runtime_error if the kernel
-  /// does not take it
+  /// After an unplug; waits until its port is free. @throws std::runtime_error if the kernel
+  /// refuses it
   void plug_in();
   void unplug();
 
-  /// Of the model, and of this machine.
+  /// Time of the model, and of this machine.
   [[nodiscard]] static std::chrono::nanoseconds now();
-  /// While no other thread has the model, which is as it is now.
+  /// Calls it with the model at the present time, while no other thread has the model.
   template <class Call>
   auto with_model(Call&& call) {
     const std::lock_guard lock(having_);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A FalconModel on the USB of this very kernel, and the hand that holds it.
+// A FalconModel on the USB of this kernel, and the hand that holds it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,23 +15,23 @@
 
 namespace reckon::test {
 
-/// Its time begins when it is made.
+/// Its time begins at its construction.
 class UsbipFalcon {
  public:
   static constexpr double kHandSpeed = 0.1;  // [m/s]
 
-  /// @param hand_at where the hand begins [m, frame D]
+  /// @param hand_at start of the hand [m, frame D]
   UsbipFalcon(const FalconModelOptions& options, const Eigen::Vector3d& hand_at)
       : model_(options, hand_at) {}
 
-  /// @throws std::runtime_error if the kernel does not take it
+  /// @throws std::runtime_error if the kernel refuses it
   void plug_in() { device_.plug_in(); }
   void unplug() { device_.unplug(); }
-  /// The hand goes there [m, frame D] at kHandSpeed.
+  /// The hand moves there [m, frame D] at kHandSpeed.
   void go(const Eigen::Vector3d& place) {
     device_.with_model([&] { model_.go(place); });
   }
-  /// What `use` makes of the Falcon as it is now. Any thread.
+  /// Result of `use` on the Falcon at the present time. Any thread.
   template <class Use>
   auto with(Use&& use) {
     return device_.with_model([&] { return use(model_.falcon); });
@@ -58,7 +58,7 @@ class UsbipFalcon {
 
     std::chrono::nanoseconds made_ = UsbipDevice::now();
     Eigen::Vector3d from_, to_;
-    double left_ = 0;  // [s], when the hand went
+    double left_ = 0;  // [s], start of the hand's motion
     bool begun_ = false;
 
    public:

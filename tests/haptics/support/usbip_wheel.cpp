@@ -30,9 +30,9 @@ std::vector<std::uint8_t> UsbipWheel::Model::descriptor(std::uint8_t kind,
                                                         std::uint8_t index) const {
   const std::size_t length = wheel.descriptor().size();
   switch (kind) {
-    case USB_DT_DEVICE:  // of OpenFFBoard's number
+    case USB_DT_DEVICE:  // with OpenFFBoard's number
       return {18, kind, 0, 2, 0, 0, 0, 64, 0x09, 0x12, 0xB0, 0xFF, 0, 1, 1, 2, 0, 1};
-    case USB_DT_CONFIG:  // with its interface, what is of the class, and two endpoints
+    case USB_DT_CONFIG:  // with its interface, class descriptor, and two endpoints
       return {9,
               kind,
               41,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A PidWheel on the USB of this very kernel.
+// A PidWheel on the USB of this kernel.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,8 @@
 
 namespace reckon::test {
 
-/// As a board of full speed whose interrupt endpoints move one report in a millisecond, each way.
+/// Like a full-speed board whose interrupt endpoints move one report per millisecond, in each
+/// direction.
 class UsbipWheel {
  public:
   static constexpr const char* kMaker = "Reckon";
@@ -22,11 +23,11 @@ class UsbipWheel {
 
   explicit UsbipWheel(const PidWheelOptions& options) : model_(options) {}
 
-  /// @throws std::runtime_error if the kernel does not take it
+  /// @throws std::runtime_error if the kernel refuses it
   void plug_in() { device_.plug_in(); }
   void unplug() { device_.unplug(); }
 
-  /// What `use` makes of the wheel as it is now. Any thread.
+  /// Result of `use` on the wheel at the present time. Any thread.
   template <class Use>
   auto with(Use&& use) {
     return device_.with_model([&] { return use(model_.wheel); });

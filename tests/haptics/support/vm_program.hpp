@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What tests in the virtual machine of ./run devices-vm have in common: the program, and waiting in
+// Common parts of the tests in the virtual machine of ./run devices-vm: the program, and waits in
 // the time of an emulated machine, which is slow and uneven.
 #pragma once
 
@@ -45,7 +45,7 @@ inline double milliseconds_until(const std::function<bool()>& what) {
   return milliseconds_of(std::chrono::steady_clock::now() - begin);
 }
 
-/// The program, with what it says in a file.
+/// The program, with its output in a file.
 class Program {
  public:
   /// @param user runs it
@@ -65,7 +65,7 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void send(int signal) const { ::kill(id_, signal); }
-  /// @return its status, as a shell says it
+  /// @return its exit status, as in a shell
   int wait() {
     int status = 0;
     ::waitpid(std::exchange(id_, 0), &status, 0);

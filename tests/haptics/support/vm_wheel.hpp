@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand at an emulated wheel and the program that plays it, of ./run devices-vm: what every test
-// of a wheel or stick does there. Each program of tests has one wheel, and one boot.
+// A hand at an emulated wheel and the program that renders its forces, of ./run devices-vm: the
+// common part of all tests of a wheel or stick. Each test program has one wheel, and one boot.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ namespace reckon::test {
 
 class VmWheel : public ::testing::Test {
  protected:
-  // Of /wall.toml: a wall whose outside is where x is greater, and where the hand goes [m].
+  // From /wall.toml: a wall with its outside at greater x, and the hand's goals [m].
   static constexpr double kStiffness = 700;  // [N/m]
   static constexpr double kWall = -0.00513, kOutside = 0.04, kInside = -0.035;
-  // Where a hand of 300 N/m rests that wants to be there.
+  // Rest position of a hand of 300 N/m with that goal.
   static constexpr double kRest = kWall + (kInside - kWall) * 300 / (300 + kStiffness);
 
   // Plugs a wheel in; nothing outside the virtual machine.
@@ -80,8 +80,8 @@ class VmWheel : public ::testing::Test {
     ASSERT_TRUE(comes_true([] { return rests_at(kRest, 1e-4); }))
         << place() << " m, " << force() << " N";
   }
-  // But for what the reports round off: a wall begins at a whole number of ten thousandths of
-  // 0.125 m, and a coefficient is a whole number of ten thousandths of 2,000 N/m, or 0.2 N/m.
+  // Within the rounding of the reports: a wall begins at a whole number of ten thousandths of 0.125
+  // m, and a coefficient is a whole number of ten thousandths of 2,000 N/m, or 0.2 N/m.
   static void expect_the_wall(std::size_t axis = 0, double wall = kWall) {
     const auto [at, shown] =
         with([&](PidWheel& one) { return std::pair(one.place(axis), one.force(axis)); });
@@ -99,7 +99,7 @@ class VmWheel : public ::testing::Test {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its greatest force has risen
     return program;
   }
-  // Of all that was done to it.
+  // After all of the above.
   static void expect_no_energy_from_the_wheel() {
     with([](PidWheel& one) {
       std::printf("  %.6f J taken, %.3g J at least; %.3f m/s at most; %d changes\n", one.absorbed(),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial board, its line, the talk with it and the servo that uses it, all on the board's clock.
+// A serial board, its line, its session and the servo that uses it, all on the board's clock.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,11 +25,11 @@
 
 namespace reckon::test {
 
-/// How often frames of the board go wrong, each of a thousand.
+/// Rates of damaged frames of the board, each of a thousand.
 struct LineFaults {
   unsigned lost = 0, changed = 0, doubled = 0, swapped = 0;
   bool next_lost = false;    ///< the next of the board's, once
-  unsigned changed_out = 0;  ///< of those to the board
+  unsigned changed_out = 0;  ///< rate of changed frames to the board
 };
 
 /// The servo steps every millisecond.
@@ -65,10 +65,10 @@ class WiredBoard {
   LineFaults faults;
   bool servo_runs = true;
   std::function<void(std::chrono::nanoseconds)> before_step;  // of the servo
-  /// Steps in its place, if there is one.
+  /// Replaces the servo's steps, if set.
   std::function<void(std::chrono::nanoseconds)> other_servo;
   bool in_is_cut = false, out_is_cut = false;  // no octets
-  double least_books = 0;  // [J], of the board's own books with loan and allowance
+  double least_books = 0;  // [J], of the board's own ledger with loan and allowance
   double least_own = 0;    // [J], with loan alone
   haptics::ServoSnapshot last;
 
@@ -169,7 +169,7 @@ class PressingBoard : public WiredBoard {
                          const haptics::Scene& scene = wall_of(Vector3d::UnitZ()))
       : WiredBoard(options, std::move(hand), limits, scene) {}
 
-  // Until the force is there.
+  // Until the force has arrived.
   void press() {
     run(std::chrono::seconds(3));
     ASSERT_GT(board.force().z(), 0.5) << "no wall is felt";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the servo sees of a device that reports at times of its own.
+// The servo's view of a device that reports at its own times.
 #include "reckon/haptics/usb/usb_device.hpp"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ TEST(UsbDevice, ReadsAndWritesAllocateNothing) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST(UsbDevice, AForceThatIsNoNumberIsNone) {
+TEST(UsbDevice, NonFiniteForceIsZero) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   device.write(Vector3d(std::nan(""), 0, 0), milliseconds(1));
@@ -45,13 +45,13 @@ TEST(UsbDevice, AForceThatIsNoNumberIsNone) {
   EXPECT_TRUE(exchange.force.read().force.isZero(0));
 }
 
-// Each way of the handle is shown in the step for which the ledger books the force that was held.
-TEST(UsbDevice, ShowsAReadingJustWhenItsForceIsDue) {
+// Each motion of the handle is shown in the step for which the ledger books the held force.
+TEST(UsbDevice, ReadingIsShownWhenItsForceIsDue) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   const int delay = device.limits().delay_samples;
-  // The force of write 10 is held until the place 0.1, and that of write 12 (11 was left out) from
-  // then on until 0.2.
+  // The force of write 10 is held until position 0.1, and the force of write 12 (11 was skipped)
+  // from then on until 0.2.
   exchange.readings.push({Vector3d::Zero(), {}, 0, 10, 1, 0});
   exchange.readings.push({Vector3d(0.1, 0, 0), {}, 10, 12, 1, 0});
   exchange.readings.push({Vector3d(0.2, 0, 0), {}, 12, 40, 1, 0});
@@ -65,7 +65,7 @@ TEST(UsbDevice, ShowsAReadingJustWhenItsForceIsDue) {
   }
 }
 
-TEST(UsbDevice, AReadingThatIsLateFails) {
+TEST(UsbDevice, LateReadingFails) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   exchange.readings.push({Vector3d::Zero(), {}, 0, 1, 1, 0});
@@ -76,8 +76,8 @@ TEST(UsbDevice, AReadingThatIsLateFails) {
   }
 }
 
-// Else the first force after a silence would be that of a place from before it.
-TEST(UsbDevice, AReadingFromBeforeASilenceOfTheServoIsNone) {
+// Otherwise the first force after a silence would use a position from before it.
+TEST(UsbDevice, ReadingFromBeforeASilenceIsDropped) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
@@ -95,8 +95,8 @@ TEST(UsbDevice, AReadingFromBeforeASilenceOfTheServoIsNone) {
   EXPECT_TRUE(sample.ok && sample.watchdog);
 }
 
-// However long the chain may be that its user states.
-TEST(UsbDevice, WhereARunIsOverNothingIsRead) {
+// For any length of the declared chain.
+TEST(UsbDevice, NothingIsReadAfterARunEnded) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 3, 0});
@@ -109,9 +109,9 @@ TEST(UsbDevice, WhereARunIsOverNothingIsRead) {
   EXPECT_TRUE(sample.ok && sample.watchdog);
 }
 
-// Also over readings that failed, and not over a force that was dropped.
-// Reports that are not due yet tell where the handle is by now.
-TEST(UsbDevice, TellsTheDampingOfTheWorstPoseThatIsHereAndTheDriverWhatThatPaysFor) {
+// Also across failed readings, but not across a dropped force. Reports that are not due yet give
+// the present position of the handle.
+TEST(UsbDevice, GivesTheDampingOfTheWorstPose) {
   UsbSettings settings;
   settings.joint_damping = 0.02;
   const UsbFacts& facts = falcon_facts();
@@ -149,7 +149,7 @@ TEST(UsbDevice, TellsTheDampingOfTheWorstPoseThatIsHereAndTheDriverWhatThatPaysF
   }
 }
 
-TEST(UsbDevice, OfADampingOfTheHandleItTellsNoneOfAPose) {
+TEST(UsbDevice, DampingOfTheHandleHasNoPose) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   UsbReading reading;
@@ -163,7 +163,7 @@ TEST(UsbDevice, OfADampingOfTheHandleItTellsNoneOfAPose) {
   EXPECT_TRUE(std::isinf(exchange.force.read().lever));
 }
 
-TEST(UsbDevice, TellsTheLeastShareOfItsForceThatWasHeld) {
+TEST(UsbDevice, GivesTheLeastHeldShareOfItsForce) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   UsbReading reading;
@@ -177,7 +177,7 @@ TEST(UsbDevice, TellsTheLeastShareOfItsForceThatWasHeld) {
   EXPECT_EQ(device.read(milliseconds(1)).held, 1.0) << "told once";
 }
 
-TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
+TEST(UsbDevice, TimesAMotionByTheDevicesClock) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   const int delay = device.limits().delay_samples;
@@ -187,7 +187,7 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
   };
   push(0, 1, 1, milliseconds(100));
   push(1, 2, 1, milliseconds(103));
-  push(4, 5, 1, milliseconds(107));  // 2 to 4 give no notice
+  push(4, 5, 1, milliseconds(107));  // 2 to 4 are not reported
   push(5, 9, 1, milliseconds(108));
   std::vector<std::optional<nanoseconds>> took;
   for (int write = 1; write <= delay + 8; ++write) {
@@ -203,8 +203,8 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
                                 Optional(nanoseconds(0)), std::nullopt));
 }
 
-// The servo is late once; that way comes to it `delay` steps later, when it is punctual again.
-TEST(UsbDevice, TellsHowLongAWayTookByTheWritesOfItsForceWhereItHasNoClock) {
+// The servo is late once; that motion reaches it `delay` steps later, when it is on time again.
+TEST(UsbDevice, WithoutAClockWritesTimeAMotion) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   const int delay = device.limits().delay_samples;
@@ -221,8 +221,8 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheWritesOfItsForceWhereItHasNoClock) {
   }
 }
 
-// 3 mm that a handle went while nobody read it: over a period it would be 16 mJ of damping.
-TEST(UsbDevice, AWayBetweenTwoRunsCountsForNoDamping) {
+// A motion of 3 mm without readings: over one period it would be 16 mJ of damping.
+TEST(UsbDevice, MotionBetweenTwoRunsCountsNoDamping) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   ServoLoop servo(device, EffectPlan(Scene()), ServoConfig());
@@ -243,8 +243,8 @@ TEST(UsbDevice, AWayBetweenTwoRunsCountsForNoDamping) {
   EXPECT_LE(after.port_energy, 1e-12);
 }
 
-// A hand that presses slowly, and of which nobody knows how it came out.
-TEST(UsbDevice, WhereTheForceWasDroppedTheMeterLosesWhatTheWallStored) {
+// A slowly pressing hand, whose way out is unknown.
+TEST(UsbDevice, DroppedForceCostsTheMeterTheStoredEnergy) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   ServoLoop servo(device, EffectPlan(test::stiff_floor()), ServoConfig());
@@ -264,7 +264,7 @@ TEST(UsbDevice, WhereTheForceWasDroppedTheMeterLosesWhatTheWallStored) {
   EXPECT_LE(read_at(0.001, 2).port_energy, pressed.port_energy - stored + 1e-12);
 }
 
-TEST(UsbDevice, TellsThatTheForceWasDropped) {
+TEST(UsbDevice, ReportsADroppedForce) {
   UsbExchange exchange;
   UsbDevice device(exchange, damped());
   exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Each kind of device behind the real libusb, the kernel's calls answered by a model: what fails,
-// and what the servo, the user and the handle notice. All time is the model's.
+// Each kind of device behind the real libusb; a model answers the kernel's calls: faults, and their
+// effects on the servo, the user and the handle. All time is the model's.
 #include "reckon/haptics/usb/usb_loop.hpp"
 
 #include <gmock/gmock.h>
@@ -31,8 +31,8 @@ using ::testing::IsEmpty;
 
 struct Falcon : test::FalconKind {
   static void wake(Model& model) { model.wake(); }
-  static constexpr milliseconds kReady{1000};   // to be taken up
-  static constexpr milliseconds kSettle{3000};  // to press again
+  static constexpr milliseconds kReady{1000};   // until it is ready
+  static constexpr milliseconds kSettle{3000};  // until it presses again
   static constexpr double kBeyond = 0.08;       // [m], out of reach
   static constexpr const char* kNotice = "ready: forces are shown";
 };
@@ -55,7 +55,7 @@ class Plugged : public test::PluggedDevice<typename Kind::Model> {
                                                   std::move(hand), Kind::driver(),
                                                   test::damped_limits(Kind::facts())) {}
 
-  // Until the force is there.
+  // Until the force has arrived.
   void press() {
     this->run(Kind::kSettle);
     ASSERT_GT(this->model.force().z(), 0.5) << "no wall is felt";
@@ -68,13 +68,13 @@ class UsbLoopTest : public ::testing::Test {};
 using Kinds = ::testing::Types<Falcon, Polhem>;
 TYPED_TEST_SUITE(UsbLoopTest, Kinds, test::UsbKindNames);
 
-TYPED_TEST(UsbLoopTest, AWallIsFeltThroughTheRealLibrary) {
+TYPED_TEST(UsbLoopTest, WallIsFeltThroughTheRealLibrary) {
   Plugged<TypeParam> usb;
   usb.run(TypeParam::kSettle);
   EXPECT_THAT(usb.notices, Contains(HasSubstr(TypeParam::kNotice)));
   EXPECT_THAT(usb.notices, Contains(HasSubstr("ready: forces are shown")));
   EXPECT_THAT(usb.notices, Contains(HasSubstr("an exchange takes 1.")));
-  // A spring K of the wall against the hand's of 200 N/m, 20 mm behind it.
+  // A wall spring K against the hand's of 200 N/m, 20 mm behind it.
   const double wall = usb.servo.static_stiffness_limit();
   const double force = 200 * wall / (200 + wall) * 0.02;
   EXPECT_NEAR(usb.model.force().z(), force, 0.05);
@@ -83,7 +83,7 @@ TYPED_TEST(UsbLoopTest, AWallIsFeltThroughTheRealLibrary) {
   EXPECT_LE(usb.last.trips, 1U) << "before there was a device";
 }
 
-TYPED_TEST(UsbLoopTest, AtTheEndOfItsReachThereIsNoForce) {
+TYPED_TEST(UsbLoopTest, NoForceAtTheEndOfItsReach) {
   double out = 0;
   Plugged<TypeParam> usb([&](double t) { return Vector3d(pressing(t) - Vector3d(0, out, 0)); });
   usb.press();
@@ -96,7 +96,7 @@ TYPED_TEST(UsbLoopTest, AtTheEndOfItsReachThereIsNoForce) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10Ms) {
+TYPED_TEST(UsbLoopTest, UnplugZeroesTheForceWithin10Ms) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.shim.unplug();
@@ -108,13 +108,13 @@ TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10Ms) {
   EXPECT_THAT(usb.notices, ::testing::ElementsAre(HasSubstr("unplugged")));
 }
 
-TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
+TYPED_TEST(UsbLoopTest, UnplugAtAnyInstantZeroesTheForce) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> instant(0, 400);
-  // In and out: a hand that only holds still would not pay back what each ramp borrows.
+  // In and out: a hand at rest would not pay back the loan of each ramp.
   Plugged<TypeParam> usb([](double t) { return Vector3d(0, 0, 0.02 * std::sin(3 * t) - 0.01); });
   for (int i = 0; i < test::tries(18, 60); ++i) {
-    // Also while it is set up, and while the force ramps up.
+    // Also during set-up, and while the force ramps up.
     usb.run((i % 2 == 0 ? nanoseconds(TypeParam::kReady) : nanoseconds(0)) +
             std::chrono::microseconds(997) * instant(random));
     usb.shim.unplug();
@@ -134,7 +134,7 @@ TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
   EXPECT_GE(usb.least_books, -1e-9);
 }
 
-TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10MsHoweverLongTheChain) {
+TYPED_TEST(UsbLoopTest, UnplugWithALongChainZeroesTheForce) {
   DeviceLimits slow = test::damped_limits(TypeParam::facts());
   slow.delay_samples = 30;
   test::PluggedDevice<typename TypeParam::Model> usb(test::OptionsOf<typename TypeParam::Model>{},
@@ -146,7 +146,7 @@ TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10MsHoweverLongTheChain) {
   EXPECT_TRUE(usb.last.force.isZero(0));
 }
 
-TYPED_TEST(UsbLoopTest, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {
+TYPED_TEST(UsbLoopTest, PluggedInAgainTheForceRampsUp) {
   Plugged<TypeParam> usb;
   usb.press();
   const double before = usb.model.force().z();
@@ -167,7 +167,7 @@ TYPED_TEST(UsbLoopTest, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {
   EXPECT_GE(usb.least_books, -1e-9);
 }
 
-TYPED_TEST(UsbLoopTest, ADeviceThatIsNotThereIsSaidOnceAndFoundLater) {
+TYPED_TEST(UsbLoopTest, MissingDeviceIsReportedOnceAndFoundLater) {
   Plugged<TypeParam> usb;
   usb.shim.unplug();
   usb.run(std::chrono::seconds(2));
@@ -178,7 +178,7 @@ TYPED_TEST(UsbLoopTest, ADeviceThatIsNotThereIsSaidOnceAndFoundLater) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-TYPED_TEST(UsbLoopTest, AServoThatIsSilentLeavesNoForceAfter10Ms) {
+TYPED_TEST(UsbLoopTest, SilentServoLeavesNoForceAfter10Ms) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.servo_runs = false;
@@ -187,7 +187,7 @@ TYPED_TEST(UsbLoopTest, AServoThatIsSilentLeavesNoForceAfter10Ms) {
   usb.run(std::chrono::seconds(1));
   EXPECT_TRUE(usb.motors_rest());
   EXPECT_THAT(usb.notices, IsEmpty());
-  // It comes back: what the contacts hold is written off, and they fade in.
+  // It comes back: the energy of the contacts is written off, and they fade in.
   usb.servo_runs = true;
   usb.run(milliseconds(50));
   EXPECT_TRUE(usb.motors_rest());
@@ -196,7 +196,7 @@ TYPED_TEST(UsbLoopTest, AServoThatIsSilentLeavesNoForceAfter10Ms) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-TYPED_TEST(UsbLoopTest, AtTheEndOfTheProgramTheDeviceIsToldAZero) {
+TYPED_TEST(UsbLoopTest, EndOfTheProgramSendsAZero) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.loop.reset();
@@ -204,7 +204,7 @@ TYPED_TEST(UsbLoopTest, AtTheEndOfTheProgramTheDeviceIsToldAZero) {
   EXPECT_TRUE(usb.motors_rest());
 }
 
-TYPED_TEST(UsbLoopTest, ATransferThatIsLateIsZeroWithin10Ms) {
+TYPED_TEST(UsbLoopTest, LateTransferZeroesTheForceWithin10Ms) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.model.hang(milliseconds(40));
@@ -217,7 +217,7 @@ TYPED_TEST(UsbLoopTest, ATransferThatIsLateIsZeroWithin10Ms) {
   EXPECT_GE(usb.least_books, -1e-9);
 }
 
-TYPED_TEST(UsbLoopTest, AReportThatDoesNotComeIsAnsweredByAZero) {
+TYPED_TEST(UsbLoopTest, MissingReportIsAnsweredByAZero) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.model.mute(milliseconds(30));
@@ -228,7 +228,7 @@ TYPED_TEST(UsbLoopTest, AReportThatDoesNotComeIsAnsweredByAZero) {
   EXPECT_THAT(usb.notices, ::testing::Each(Not(HasSubstr("unplugged"))));
 }
 
-TYPED_TEST(UsbLoopTest, ADeviceThatGoesMuteIsSetUpAgain) {
+TYPED_TEST(UsbLoopTest, MuteDeviceIsSetUpAgain) {
   Plugged<TypeParam> usb;
   usb.press();
   usb.model.mute(milliseconds(600));
@@ -239,7 +239,7 @@ TYPED_TEST(UsbLoopTest, ADeviceThatGoesMuteIsSetUpAgain) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-// A fault that breaks the line and leaves the device where it is.
+// A fault that breaks the line while the device stays.
 template <class Kind>
 void break_line(void (*strike)(typename Kind::Model&), const char* notice) {
   Plugged<Kind> usb;
@@ -255,11 +255,11 @@ void break_line(void (*strike)(typename Kind::Model&), const char* notice) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
+TYPED_TEST(UsbLoopTest, StallIsReportedAndTheLineSetUp) {
   break_line<TypeParam>([](auto& model) { model.stall(); }, "refuses transfers");
 }
 
-TYPED_TEST(UsbLoopTest, AShortTransferIsSaidAndTheLineSetUpAgain) {
+TYPED_TEST(UsbLoopTest, ShortTransferIsReportedAndLineSetUp) {
   break_line<TypeParam>([](auto& model) { model.cut(); }, "cut short");
 }
 

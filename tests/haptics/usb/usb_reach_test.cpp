@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Devices behind the real libusb over their whole reach and beyond, with friction in their joints:
-// hands that roam, stroke and press where the force is cut, and whatever there is to touch right
-// there. Energy by the models' own books, of torques and turns. RECKON_SOAK=1 draws 200 of each.
+// hands that roam, stroke and press where the force is cut, and everything that can be touched
+// right there. Energy by the models' own ledgers, of torques and turns. RECKON_SOAK=1 draws 200 of
+// each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,16 +25,16 @@ using std::chrono::nanoseconds;
 using test::DrawnTouch;
 using test::TouchKind;
 
-// Without the damping of each pose three of the first eight fail of a Falcon.
+// Without the damping of each pose three of the first eight fail for a Falcon.
 constexpr int kFirst = 24;
 int runs() { return test::tries(8, 800); }
 
 constexpr double kDamping = 6.0;  // [N s/m], of the handle in the middle of its work space
 constexpr double kThere = 3.0, kLeaves = 7.5;  // [s]
 
-/// Where the hand goes: from the middle of the work space to a drawn place, where it roams or
-/// presses the floor. In three of four runs a turn of the joints moves the handle as far there as
-/// is drawn, up to where the force is cut; in the others the reach has just ended.
+/// Path of the hand: from the middle of the work space to a random place, where it roams or presses
+/// the floor. In three of four runs the place has a random lever, up to the one at which the force
+/// is cut; in the others the reach has just ended.
 template <class Kind>
 struct ReachingHand {
   ReachingHand(DrawnTouch& drawn, int run) : touch(drawn), presses(run % 2 == 1) {
@@ -74,7 +75,7 @@ template <class Kind>
 class UsbReach : public testing::Test {};
 TYPED_TEST_SUITE(UsbReach, test::UsbKinds, test::UsbKindNames);
 
-TYPED_TEST(UsbReach, NeverGivesMoreEnergyThanTheHandPutInUpToTheEndOfItsReachAndBeyond) {
+TYPED_TEST(UsbReach, NeverGivesUnpaidEnergyUpToItsReach) {
   double least = 0, allowance = 0, felt = 0, longest = 0;
   const double middle = TypeParam::lever(Vector3d::Zero());
   for (int run = kFirst; run < kFirst + runs(); ++run) {

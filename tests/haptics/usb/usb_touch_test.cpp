@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices behind the real libusb at whatever there is to touch: walls, hands of others, effects,
-// bodies, at five delays each. Energy by the models' own books. RECKON_SOAK=1 draws 200 of each.
+// Devices behind the real libusb with everything that can be touched: walls, remote hands, effects,
+// bodies, each at five delays. Energy by the models' own ledgers. RECKON_SOAK=1 draws 200 of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ template <class Kind>
 class UsbTouch : public testing::Test {};
 TYPED_TEST_SUITE(UsbTouch, test::UsbKinds, test::UsbKindNames);
 
-TYPED_TEST(UsbTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch) {
+TYPED_TEST(UsbTouch, NeverGivesUnpaidEnergyForAnyTouch) {
   double least = 0, allowance = 0, felt = 0;
   for (const TouchKind kind : test::kTouchKinds) {
     double most_force = 0;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A plug that is pulled, or a program that ends, in the middle of something. `./run fuzz unplugs`
-// does it at random.
+// A pulled plug or an ending program during another action. `./run fuzz unplugs` does it at random.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,10 +31,10 @@ class Plugged : public test::PluggedDevice<typename Kind::Model> {
 using PluggedFalcon = Plugged<test::FalconKind>;
 using PluggedPolhem = Plugged<test::PolhemKind>;
 
-// Whatever call to the kernel it is that fails.
+// For each failing call to the kernel.
 template <class Kind>
 void unplug_at_each_call() {
-  constexpr unsigned kCalls = 60;  // and some of the first exchanges
+  constexpr unsigned kCalls = 60;  // includes some of the first exchanges
   for (unsigned call = 0; call < kCalls; ++call) {
     const auto usb = std::make_unique<Plugged<Kind>>();
     unsigned calls = 0;
@@ -58,12 +57,12 @@ void unplug_at_each_call() {
   }
 }
 
-TEST(UsbUnplug, AtEachCallOfTheSetUpItIsSaidAndTakenUpAgain) {
+TEST(UsbUnplug, AtEachSetUpCallIsRecovered) {
   unplug_at_each_call<test::FalconKind>();
   unplug_at_each_call<test::PolhemKind>();
 }
 
-TEST(UsbUnplug, PluggedInAgainBeforeItIsNoticedTheOldLineIsGone) {
+TEST(UsbUnplug, QuickReplugDropsTheOldLine) {
   PluggedFalcon usb;
   usb.run(milliseconds(3'000));
   ASSERT_GT(usb.model.force().z(), 0.5);
@@ -81,7 +80,7 @@ TEST(UsbUnplug, PluggedInAgainBeforeItIsNoticedTheOldLineIsGone) {
 }
 
 // An FTDI chip then has another speed.
-TEST(UsbUnplug, WhereItsPortIsResetItIsSetUpAgain) {
+TEST(UsbUnplug, PortResetSetsItUpAgain) {
   PluggedFalcon usb;
   usb.run(milliseconds(3'000));
   usb.notices.clear();
@@ -93,8 +92,8 @@ TEST(UsbUnplug, WhereItsPortIsResetItIsSetUpAgain) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-// It obeys once its report was fetched, and the line is closed soon after.
-TEST(UsbUnplug, TheLastZeroIsObeyedWheneverTheDeviceTakesIt) {
+// It obeys after its report was fetched, and the line is closed soon after.
+TEST(UsbUnplug, LastZeroIsObeyedAtAnyPhase) {
   for (int phase = 0; phase < 20; ++phase) {
     test::PolhemModelOptions options;
     options.out_at = 0.05 * phase;
@@ -108,8 +107,8 @@ TEST(UsbUnplug, TheLastZeroIsObeyedWheneverTheDeviceTakesIt) {
   }
 }
 
-// The numbers of runs go on.
-TEST(UsbUnplug, ASecondProgramPartOnTheSameExchangeIsReadToo) {
+// The numbers of runs continue.
+TEST(UsbUnplug, SecondThreadOnTheSameExchangeIsRead) {
   PluggedFalcon usb;
   for (int i = 0; i < 3; ++i) {
     usb.run(milliseconds(1'000));

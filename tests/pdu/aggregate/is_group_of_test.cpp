@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The golden sample has descriptions of category 6.
+// The descriptions of the golden sample are of category 6.
 #include "reckon/pdu/aggregate/is_group_of.hpp"
 
 #include <gtest/gtest.h>

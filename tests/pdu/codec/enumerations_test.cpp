@@ -17,7 +17,7 @@ TEST(EnumerationNames, AreEmptyForValuesWithoutOne) {
   EXPECT_EQ(name(ForceId::opposing), "Opposing");
 }
 
-TEST(EnumerationNames, OfOurEnumerationsEndWithTheLastValue) {
+TEST(EnumerationNames, OfThisProjectEndWithTheLastValue) {
   EXPECT_EQ(name(ForceModelKind::modal), "Modal");
   EXPECT_EQ(name(ForceModelKind{6}), "");
   EXPECT_EQ(name(CellScheme::locales), "Locales");

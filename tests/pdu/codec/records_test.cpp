@@ -32,12 +32,12 @@ TEST(EntityId, OrdersBySiteThenApplicationThenEntity) {
   EXPECT_LT((EntityId{1, 1, 1}), (EntityId{1, 1, 2}));
 }
 
-TEST(EntityId, HashesNeighboursApart) {
+TEST(EntityId, HashesOfNeighboursDiffer) {
   std::unordered_set<std::size_t> hashes;
   for (std::uint16_t application = 0; application < 16; ++application)
     for (std::uint16_t entity = 0; entity < 256; ++entity)
       hashes.insert(std::hash<EntityId>{}(EntityId{1, application, entity}) % 65536);
-  // 4096 ids thrown into 65536 places at random fill 3970 of them on average.
+  // 4096 ids in 65536 random buckets occupy 3970 of them on average.
   EXPECT_GT(hashes.size(), 3900U);
 }
 
@@ -49,7 +49,7 @@ TEST(Presence, CutsALongName) {
   EXPECT_EQ(presence.name_view(), "b");
 }
 
-TEST(DatagramTrailer, GivesTheAgeAcrossTheWrapOfItsClock) {
+TEST(DatagramTrailer, GivesTheAgeAcrossAClockWrap) {
   const std::chrono::nanoseconds wrap = std::chrono::microseconds(1ULL << 32);
   for (const auto age : {0ns, 3000ns, -5000ns, 1'500'000'000ns}) {
     const auto sent = 400'000 * wrap - 2us;
@@ -57,7 +57,7 @@ TEST(DatagramTrailer, GivesTheAgeAcrossTheWrapOfItsClock) {
   }
 }
 
-TEST(Header, ReadsTwelveOctetsAndSaysWhatIsWrong) {
+TEST(Header, ReadsTwelveOctetsAndReportsErrors) {
   std::array<std::byte, 16> octets{std::byte{7}, std::byte{1}, std::byte{72}, std::byte{1}};
   PduHeader header;
   store_big_endian(octets.data() + 8, std::uint16_t{16});

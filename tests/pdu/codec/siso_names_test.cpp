@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The generated tables against the list that they are made from; siso_names.py holds that list
-// against those of others.
+// The generated tables against their source, siso_names.txt; siso_names.py compares that list with
+// other sources.
 #include "reckon/pdu/codec/siso_names.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ std::vector<Section> sections(bool of_bits) {
 constexpr auto kTableEnd = static_cast<std::size_t>(SisoTable::end_);
 constexpr auto kBitsEnd = static_cast<std::size_t>(SisoBits::end_);
 
-TEST(SisoNames, AreThoseOfTheListAndNoOthers) {
+TEST(SisoNames, EqualTheSourceList) {
   const auto list = sections(false);
   ASSERT_EQ(list.size() + 1, kTableEnd);
   std::size_t names = 0;
@@ -91,7 +91,7 @@ TEST(SisoNames, AllocateNothing) {
   EXPECT_EQ(allocations, 0U);
 }
 
-TEST(SisoBits, AreThoseOfTheListAndDoNotOverlap) {
+TEST(SisoBits, EqualTheSourceListAndDoNotOverlap) {
   const auto list = sections(true);
   ASSERT_EQ(list.size() + 1, kBitsEnd);
   for (std::size_t i = 1; i < kBitsEnd; ++i) {
@@ -117,7 +117,7 @@ TEST(SisoBits, AreThoseOfTheListAndDoNotOverlap) {
   }
 }
 
-TEST(SisoBits, KnowFrozenAndDeactivatedOfEveryKindOfEntity) {
+TEST(SisoBits, HaveFrozenAndStateForEveryEntityKind) {
   for (unsigned kind = 1; kind <= 9; ++kind) {
     for (unsigned domain = 0; domain < 7; ++domain) {
       const SisoBits bits =
@@ -136,7 +136,7 @@ TEST(SisoBits, KnowFrozenAndDeactivatedOfEveryKindOfEntity) {
   }
 }
 
-TEST(SisoBits, TakeAFieldOutOfItsWord) {
+TEST(SisoBits, ExtractAFieldFromItsWord) {
   const SisoBitField damage{"damage", 3, 2, SisoTable::damage};
   EXPECT_EQ(damage.of(0xFFFFFFFF), 3U);
   EXPECT_EQ(damage.of(0x10), 2U);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Records that say their own length, inside the PDUs that carry them.
+// Records with a length field of their own, inside their PDUs.
 #include "reckon/pdu/codec/sized_records.hpp"
 
 #include <gtest/gtest.h>
@@ -37,12 +37,12 @@ Octets encoded(const T& pdu) {
   return octets;
 }
 
-// The sample: at 28 a system of 33 x 4 octets with beams at 48 (one target) and 108, then one
-// without beams.
+// The sample has a system of 33 x 4 octets at offset 28, with beams at 48 (one target) and 108,
+// then a system without beams.
 constexpr std::size_t kSystem = 28;
 constexpr std::size_t kBeam = 48;
 
-TEST(EmitterSystems, HoldTheirBeamsAndTheBeamsTheirTargets) {
+TEST(EmitterSystems, ContainBeamsAndBeamsContainTargets) {
   const Octets octets = test::sample_octets("electromagnetic_emission");
   ElectromagneticEmission pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -54,7 +54,7 @@ TEST(EmitterSystems, HoldTheirBeamsAndTheBeamsTheirTargets) {
   EXPECT_EQ(targets, (std::vector<std::size_t>{1, 0}));
 }
 
-TEST(EmitterSystems, AreAsLongAsTheirPartsWhereTheirLengthIsTooLongToSay) {
+TEST(EmitterSystems, WithoutLengthTakeTheLengthOfTheirParts) {
   Octets octets = test::sample_octets("electromagnetic_emission");
   octets[kSystem] = std::byte{0};
   octets[kBeam] = std::byte{0};
@@ -63,7 +63,7 @@ TEST(EmitterSystems, AreAsLongAsTheirPartsWhereTheirLengthIsTooLongToSay) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TEST(EmitterSystems, AreRefusedWhereTheirLengthCutsABeamOrRunsPastThePdu) {
+TEST(EmitterSystems, RefuseALengthThatCutsABeam) {
   const Octets good = test::sample_octets("electromagnetic_emission");
   for (const unsigned length : {1U, 4U, 5U, 32U, 34U, 255U}) {
     Octets octets = good;
@@ -72,7 +72,7 @@ TEST(EmitterSystems, AreRefusedWhereTheirLengthCutsABeamOrRunsPastThePdu) {
   }
 }
 
-TEST(EmitterBeams, AreRefusedWhereTheirLengthCutsTheirTargets) {
+TEST(EmitterBeams, RefuseALengthThatCutsTheirTargets) {
   Octets octets = test::sample_octets("electromagnetic_emission");
   octets[kBeam] = std::byte{14};
   EXPECT_EQ(error_of<ElectromagneticEmission>(octets), DecodeError::record);
@@ -88,23 +88,23 @@ TEST(EmitterBeams, AreSearchedForValuesThatAreNotFinite) {
   EXPECT_EQ(first_not_finite(pdu), "beams");
 }
 
-TEST(EnvironmentRecords, CountTheirHeadAndNotTheirPadding) {
+TEST(EnvironmentRecords, CountTheirHeaderButNotTheirPadding) {
   const Octets octets = test::sample_octets("environmental_process");
   EnvironmentalProcess pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
   std::vector<std::size_t> bodies;
   for (const auto& record : pdu.environment_records.records()) bodies.push_back(record.body.size());
-  // The first: 256 bits with the head. The last: 100 bits are 13 octets, padded to 16.
+  // The first has 256 bits including the header. The last has 100 bits: 13 octets, padded to 16.
   EXPECT_EQ(bodies, (std::vector<std::size_t>{24, 48, 32, 48, 56, 8}));
 }
 
-TEST(EnvironmentRecords, ShorterThanTheirHeadAreRefused) {
+TEST(EnvironmentRecords, ShorterThanTheirHeaderAreRefused) {
   Octets octets = test::sample_octets("environmental_process");
   store_big_endian(octets.data() + 36, std::uint16_t{0});
   EXPECT_EQ(error_of<EnvironmentalProcess>(octets), DecodeError::record);
 }
 
-TEST(IffLayers, GoOnToTheEndOfThePdu) {
+TEST(IffLayers, ExtendToTheEndOfThePdu) {
   const Octets octets = test::sample_octets("iff");
   Iff pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -113,7 +113,7 @@ TEST(IffLayers, GoOnToTheEndOfThePdu) {
   EXPECT_EQ(layers, (std::vector<unsigned>{2, 3, 4, 4, 5}));
 }
 
-TEST(IffLayers, OfModeSStayOctetsWhereTheyDoNotFit) {
+TEST(IffLayers, InvalidModeSLayersStayOctets) {
   const auto shown = [](std::size_t size, std::uint8_t records) {
     Octets layer(size);
     layer[0] = std::byte{4};
@@ -131,19 +131,19 @@ TEST(IffLayers, OfModeSStayOctetsWhereTheyDoNotFit) {
   EXPECT_EQ(shown(20, 0).find("levels_present"), std::string::npos) << "too short";
 }
 
-TEST(IffLayers, WithALengthOfZeroAreRefusedAndNotWalkedForEver) {
+TEST(IffLayers, OfZeroLengthAreRefusedWithoutALoop) {
   Octets octets = test::sample_octets("iff");
   store_big_endian(octets.data() + 62, std::uint16_t{0});
   EXPECT_EQ(error_of<Iff>(octets), DecodeError::record);
 }
 
-TEST(RecordSets, WithAsManyBitsAsCanBeSaidAreRefusedInOneStep) {
+TEST(RecordSets, OfHugeBitCountAreRefusedAtOnce) {
   Octets octets = test::sample_octets("record_r");
   store_big_endian(octets.data() + 40 + 12, std::uint32_t{0xFFFFFFFF});
   EXPECT_EQ(error_of<RecordR>(octets), DecodeError::record);
 }
 
-TEST(SignalData, HasItsLengthInBitsAndMayLackItsPaddingAtTheEnd) {
+TEST(SignalData, HasABitLengthAndOptionalFinalPadding) {
   Octets octets = test::sample_octets("signal");
   Signal pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -164,7 +164,7 @@ TEST(Transmitter, HasVariableParametersInVersion7Only) {
   EXPECT_EQ(pdu.variable_transmitter_parameters.count, 2);
   EXPECT_FALSE(pdu.variable_transmitter_parameters.bytes.empty());
 
-  // In version 6 these two octets are padding, whatever they hold.
+  // In version 6 these two octets are padding with any value.
   octets.resize(104 + 16 + 40);
   octets[0] = std::byte{6};
   store_big_endian(octets.data() + 8, static_cast<std::uint16_t>(octets.size()));

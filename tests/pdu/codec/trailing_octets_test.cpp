@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets within a PDU's length behind its last field: decode() skips them, trailing_octets() does
-// not.
+// Octets within the length of a PDU after its last field: decode() skips them, trailing_octets()
+// returns them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,11 +32,11 @@ TEST(TrailingOctets, AreNoneInAnyGoldenSample) {
   EXPECT_GE(samples, 76U);
 }
 
-TEST(TrailingOctets, AreThoseThatEncodeDoesNotWrite) {
+TEST(TrailingOctets, AreTheOctetsThatEncodeOmits) {
   const std::vector<std::byte> records(32, std::byte{0x11});
   EntityState state;
   state.variable_parameters = records;
-  std::vector<std::byte> octets(300);  // a datagram goes on behind the PDU
+  std::vector<std::byte> octets(300);  // the datagram continues after the PDU
   ASSERT_EQ(encode(state, octets), 176U);
   EntityState decoded;
   ASSERT_EQ(decode(octets, decoded), DecodeError::none);
@@ -50,7 +50,7 @@ TEST(TrailingOctets, AreThoseThatEncodeDoesNotWrite) {
   EXPECT_EQ(wire_size(decoded) + trailing.size(), 176U);
 }
 
-TEST(TrailingOctets, AreNoPaddingOfBits) {
+TEST(TrailingOctets, ExcludePaddingOfBits) {
   Signal signal;
   const std::vector<std::byte> data(4, std::byte{0x22});  // 13 bits in 2 octets, 2 of padding
   signal.data = {13, data};

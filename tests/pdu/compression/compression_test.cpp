@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The compact form: every field comes back exactly or within half a quantum, or the
-// form declines; any octets may come.
+// The compact form: every field is restored exactly or within half a quantum, or the encoder
+// declines; the decoder accepts any octets safely.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -67,7 +67,7 @@ void expect_near(const Vector3Float& a, const Vector3Float& b, double most) {
   EXPECT_NEAR(a.z, b.z, most);
 }
 
-TEST(BitStream, GivesBackNumbersOfAnyWidth) {
+TEST(BitStream, RestoresNumbersOfAnyWidth) {
   Random random(1);
   for (int round = 0; round < 2000; ++round) {
     std::array<std::byte, 256> octets;
@@ -91,7 +91,7 @@ TEST(BitStream, GivesBackNumbersOfAnyWidth) {
   EXPECT_EQ(writer.finish(), 0u) << "no room";
 }
 
-TEST(BitStream, GivesBackThreeNumbersOfAnyWidthAndLeavesWhatIsBehindItsRoom) {
+TEST(BitStream, RestoresTriplesOfAnyWidthWithinItsRoom) {
   Random random(7);
   for (int round = 0; round < 5000; ++round) {
     std::array<std::byte, 96> octets;
@@ -125,8 +125,8 @@ TEST(BitStream, GivesBackThreeNumbersOfAnyWidthAndLeavesWhatIsBehindItsRoom) {
   }
 }
 
-// The bound is half a quantum and what a float32 cannot hold of the sum.
-TEST(CompactState, KeepsMotionWithinHalfAQuantumAndAllElseExactly) {
+// The bound is half a quantum plus the float32 rounding of the sum.
+TEST(CompactState, KeepsMotionWithinHalfAQuantum) {
   Random random(2);
   const StateScale scale;
   std::size_t octets = 0;
@@ -177,7 +177,7 @@ TEST(CompactState, CarriesAQuantisedStateExactly) {
   }
 }
 
-TEST(CompactState, DeclinesWhatItCannotCarry) {
+TEST(CompactState, DeclinesUnsupportedStates) {
   Random random(4);
   std::array<std::byte, kMostCompact> body;
   const auto declines = [&](auto change) {
@@ -199,7 +199,7 @@ TEST(CompactState, DeclinesWhatItCannotCarry) {
   EXPECT_EQ(encode_compact(random_state(random), {}, front(body, 100)), 0u);
 }
 
-TEST(CompactState, HalfATurnIsTheSameEitherWay) {
+TEST(CompactState, EncodesHalfATurnAsTheLeastNumber) {
   EntityState state;
   state.orientation.psi = static_cast<float>(std::numbers::pi);
   const auto numbers = numbers_of(state, {});
@@ -207,7 +207,7 @@ TEST(CompactState, HalfATurnIsTheSameEitherWay) {
   EXPECT_EQ(numbers->orientation[0], -32768);
 }
 
-TEST(CompactState, ReadsAnyOctetsWithoutHarm) {
+TEST(CompactState, DecodesAnyOctetsSafely) {
   Random random(5);
   std::array<std::byte, kMostCompact> body;
   std::size_t taken = 0;
@@ -223,7 +223,7 @@ TEST(CompactState, ReadsAnyOctetsWithoutHarm) {
   EXPECT_GT(taken, 0u);
 }
 
-TEST(TimestampNear, IsTheOneFromOneAndAHalfSecondsBeforeToAFifthBehind) {
+TEST(TimestampNear, CoversTheRecentPastAndNearFuture) {
   constexpr std::uint32_t kSecond = 1'193'046;  // 2^32 / 3600
   for (const std::uint32_t base : {0U, 5U, 0x80000000U, 0xFFFFFFFEU}) {
     for (const std::int32_t off :
@@ -234,7 +234,7 @@ TEST(TimestampNear, IsTheOneFromOneAndAHalfSecondsBeforeToAFifthBehind) {
   }
 }
 
-TEST(StateNumbers, AreOfUnlikeStatesWhereAnythingButTheMotionDiffers) {
+TEST(StateNumbers, DifferWhereAnythingButTheMotionDiffers) {
   Random random(5);
   const EntityState state = random_state(random);
   const auto unlike = [&](auto change) {

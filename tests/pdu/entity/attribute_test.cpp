@@ -103,7 +103,7 @@ TEST(AttributeReader, GivesAnUnknownRecordAsTypeAndOctets) {
   }
 }
 
-TEST(HapticRecord, ComesBackWithItsCoefficients) {
+TEST(HapticRecord, RestoresItsCoefficients) {
   const auto octets = test::sample_octets("attribute");
   const Attribute pdu = decoded(octets);
   const AttributeSet set = *AttributeReader(pdu).begin();
@@ -121,7 +121,7 @@ AttributeRecord first_record(const Attribute& pdu) {
   return *(*AttributeReader(pdu).begin()).records().begin();
 }
 
-TEST(HapticRecord, IsRefusedInAVersionItDoesNotKnow) {
+TEST(HapticRecord, IsRefusedInAnUnknownVersion) {
   auto octets = test::sample_octets("attribute");
   octets[32 + 8 + 6] = std::byte{2};
   HapticRecord haptic;
@@ -139,7 +139,7 @@ TEST(HapticRecord, IsRefusedWhenItsRecordIsShort) {
             DecodeError::length);
 }
 
-TEST(HapticRecord, IsReadFromALongerRecordOfItsVersion) {
+TEST(HapticRecord, IsReadFromALongerRecord) {
   std::array<std::byte, 256> buffer;
   std::array<std::byte, 98> body{};
   body[0] = std::byte{HapticRecord::kVersion};
@@ -152,7 +152,7 @@ TEST(HapticRecord, IsReadFromALongerRecordOfItsVersion) {
   EXPECT_EQ(haptic.length, 104);
 }
 
-TEST(HapticRecord, IsNotReadFromARecordOfAnotherType) {
+TEST(HapticRecord, IsNotReadFromAnotherRecordType) {
   const auto octets = test::sample_octets("attribute");
   EnergyAccountRecord energy;
   EXPECT_EQ(decode(first_record(decoded(octets)), energy), DecodeError::pdu_type);
@@ -165,7 +165,7 @@ TEST(AttributeWriter, RefusesARecordBeforeTheFirstSet) {
   EXPECT_EQ(writer.finish(), 0U);
 }
 
-TEST(AttributeWriter, StaysWholeWhenARecordDoesNotFit) {
+TEST(AttributeWriter, StaysIntactWhenARecordDoesNotFit) {
   std::array<std::byte, 32 + 8 + 72 + 23> buffer;
   AttributeWriter writer(buffer, Attribute{});
   ASSERT_TRUE(writer.begin_set({1, 2, 3}));
@@ -204,7 +204,7 @@ TEST(AttributeWriter, AllocatesNothing) {
   EXPECT_EQ(allocations, 0U);
 }
 
-// The traps of a walk: each sets one lying field of the sample.
+// Malformed samples: each has one wrong field.
 struct Trap {
   const char* what;
   std::size_t offset;

@@ -50,7 +50,7 @@ TEST(EntityState, RefusesMoreVariableParametersThanItHasOctets) {
   }
 }
 
-TEST(EntityState, KeepsVariableParametersAsAViewIntoTheDatagram) {
+TEST(EntityState, KeepsVariableParametersAsViewIntoTheInput) {
   const auto octets = test::sample_octets("entity_state");
   EntityState pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -58,7 +58,7 @@ TEST(EntityState, KeepsVariableParametersAsAViewIntoTheDatagram) {
   EXPECT_EQ(pdu.variable_parameters.size(), 32U);
 }
 
-TEST(EntityState, TellsFrozenDeactivatedAndCoupledApart) {
+TEST(EntityState, DistinguishesFrozenDeactivatedAndCoupled) {
   const auto octets = test::sample_octets("entity_state");
   EntityState pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -66,7 +66,7 @@ TEST(EntityState, TellsFrozenDeactivatedAndCoupledApart) {
   EXPECT_TRUE(pdu.header.coupled_extension());
 }
 
-TEST(EntityMarking, CutsWhatIsLongerThanElevenCharacters) {
+TEST(EntityMarking, TruncatesTextBeyondElevenCharacters) {
   EntityMarking marking;
   marking.set("HAND-OF-GOD-2");
   EXPECT_EQ(marking.view(), "HAND-OF-GOD");
@@ -75,7 +75,7 @@ TEST(EntityMarking, CutsWhatIsLongerThanElevenCharacters) {
   EXPECT_EQ(marking.text[10], '\0');
 }
 
-TEST(VariableParameter, KindsOfTheStandardTakeSixteenOctetsAndOthersStayOctets) {
+TEST(VariableParameter, KnowsStandardKindsAndKeepsOthersAsOctets) {
   int known = 0;
   int unknown = 0;
   for (int type = 0; type < 256; ++type) {

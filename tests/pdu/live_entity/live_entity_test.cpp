@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Fields that flag octets switch on and off. The octets are written out here by hand.
+// Fields that are present or absent by flag octets. The octets are written by hand.
 #include "reckon/pdu/live_entity/live_entity.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace reckon::pdu {
 namespace {
 
-// A PDU of DIS 7 from its type and what stands behind its header.
+// A PDU of DIS 7 from its type and the octets after its header.
 std::vector<std::byte> with_header(PduType type, const std::string& hex) {
   auto octets = test::octets_from_hex("07 01 00 0b 00 00 00 00 00 00 00 00" + hex);
   store_big_endian(octets.data() + 2, type);
@@ -32,7 +32,7 @@ std::vector<std::byte> encoded(const T& pdu) {
   return octets;
 }
 
-TEST(Tspi, WithoutFlagsIsItsIdAndItsLocation) {
+TEST(Tspi, WithoutFlagsHasItsIdAndLocation) {
   const auto octets = with_header(PduType::tspi, "01 02 00 03 00 0007 0010 fff0 8000");
   Tspi pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -43,7 +43,7 @@ TEST(Tspi, WithoutFlagsIsItsIdAndItsLocation) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TEST(Tspi, HasExactlyTheFieldsOfItsFlagsInOrder) {
+TEST(Tspi, HasExactlyTheFieldsOfItsFlags) {
   // Bits 0, 1 and 5: linear velocity, orientation, measured speed.
   const auto octets =
       with_header(PduType::tspi, "01 02 00 03 23 0007 0010 fff0 0001 000a fff6 0000 01 02 ff 0100");
@@ -57,7 +57,7 @@ TEST(Tspi, HasExactlyTheFieldsOfItsFlagsInOrder) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TEST(Tspi, IsRefusedWhereItsSystemSpecificDataRunPastTheEnd) {
+TEST(Tspi, RefusesSystemSpecificDataBeyondTheEnd) {
   const auto good = with_header(PduType::tspi, "01 02 00 03 40 0007 0010 fff0 0001 02 aabb");
   Tspi pdu;
   ASSERT_EQ(decode(good, pdu), DecodeError::none);
@@ -66,8 +66,8 @@ TEST(Tspi, IsRefusedWhereItsSystemSpecificDataRunPastTheEnd) {
   EXPECT_EQ(decode(bad, pdu), DecodeError::count);
 }
 
-TEST(Appearance, HasASecondFlagOctetOnlyWhereTheFirstSaysSo) {
-  // Bits 0 and 7: force, second flag octet; of that bit 1: acoustic appearance.
+TEST(Appearance, HasASecondFlagOctetByTheFirst) {
+  // Bits 0 and 7: force, second flag octet. Bit 1 of the second: acoustic appearance.
   const auto both = with_header(PduType::appearance, "01 02 00 03 81 02 03 12345678");
   Appearance pdu;
   ASSERT_EQ(decode(both, pdu), DecodeError::none);
@@ -81,8 +81,8 @@ TEST(Appearance, HasASecondFlagOctetOnlyWhereTheFirstSaysSo) {
   EXPECT_EQ(encoded(pdu), one);
 }
 
-TEST(LeFire, LeavesOutTheAddressesThatAreThoseOfTheFiringEntity) {
-  // Bit 2: munition id, without its address (bit 1) as the event id is without its own (bit 3).
+TEST(LeFire, OmitsAddressesOfTheFiringEntity) {
+  // Bit 2: munition id, without its address (bit 1), as the event id is without its own (bit 3).
   const auto octets = with_header(
       PduType::le_fire, "01 02 012c 04 01f4 002a 02 02 00e1 02 01 00 00 0001 0002 fffd 03e8");
   LeFire pdu;
@@ -96,7 +96,7 @@ TEST(LeFire, LeavesOutTheAddressesThatAreThoseOfTheFiringEntity) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TEST(LeFire, PassesOverAnAddressFlagWithoutTheMunitionId) {
+TEST(LeFire, IgnoresAnAddressFlagWithoutAMunitionId) {
   const auto octets = with_header(PduType::le_fire,
                                   "01 02 012c 02 002a 02 02 00e1 02 01 00 00 0001 0002 fffd 03e8");
   LeFire pdu;
@@ -105,7 +105,7 @@ TEST(LeFire, PassesOverAnAddressFlagWithoutTheMunitionId) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TEST(LeDetonation, HasItsLocationInTheAxesThatTheFlagsName) {
+TEST(LeDetonation, HasItsLocationInFlaggedAxes) {
   const auto in_world =
       with_header(PduType::le_detonation,
                   "01 02 012c 00 0007 0001 fffe 0003 0004 0005 0006 02 02 00e1 02 01 00 00 05");
@@ -126,7 +126,7 @@ TEST(LeDetonation, HasItsLocationInTheAxesThatTheFlagsName) {
   EXPECT_EQ(encoded(pdu), in_target);
 }
 
-TEST(LeDetonation, ReadsAnOrientationOfOneOctetEachWhereThereIsNoRoomForTwo) {
+TEST(LeDetonation, ReadsOneOctetAnglesForLackOfRoom) {
   // Bit 7 of the first flags, bit 0 of the second: munition orientation.
   const std::string head = "01 02 012c 80 01 0007 0001 0002 0003 0004 0005 0006";
   const std::string tail = "02 02 00e1 02 01 00 00 05";

@@ -27,7 +27,7 @@ std::array<std::byte, 56> datum_bomb() {
   return octets;
 }
 
-TEST(Data, RefusesADatumThatClaimsAllBitsThereAreAtNoCost) {
+TEST(Data, RefusesADatumOfMaximumLengthAtOnce) {
   const auto octets = datum_bomb();
   test::GuardedBuffer buffer;
   const auto guarded = buffer.hold(octets);
@@ -40,7 +40,7 @@ TEST(Data, RefusesADatumThatClaimsAllBitsThereAreAtNoCost) {
   EXPECT_EQ(pdu.variable_datums.count, 0U);
 }
 
-TEST(Data, RefusesMoreRecordsThanOctetsWhateverTheCount) {
+TEST(Data, RefusesMoreRecordsThanOctets) {
   test::GuardedBuffer buffer;
   for (const std::uint32_t count : {3U, 1U << 29, 0xFFFFFFFFU}) {
     auto octets = test::sample_octets("data");
@@ -65,7 +65,7 @@ TEST(Data, GivesFixedDatumsInOrder) {
   EXPECT_EQ(datums, (std::vector<FixedDatum>{{1000, 7}, {1001, 0xFFFFFFFF}}));
 }
 
-TEST(VariableDatums, GiveTheValueWithoutItsPadding) {
+TEST(VariableDatums, GiveTheValueWithoutPadding) {
   const auto octets = test::sample_octets("data");
   Data pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -86,7 +86,7 @@ TEST(VariableDatums, MayLackThePaddingOfTheLastRecord) {
   EXPECT_EQ(pdu.variable_datums.bytes.size(), 16U + 17U);
 }
 
-TEST(VariableDatumWriter, MakesABlockThatReadsBackAsItWasPutIn) {
+TEST(VariableDatumWriter, MakesABlockThatReadsBack) {
   std::array<std::byte, 64> buffer;
   VariableDatumWriter writer(buffer);
   const std::array<std::byte, 13> value{std::byte{1}, std::byte{2}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The golden sample has every column.
+// The golden sample has all columns.
 #include "reckon/pdu/minefield/minefield_data.hpp"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ nlohmann::json shown(std::uint32_t data_filter, std::size_t octets) {
   return shown(pdu);
 }
 
-TEST(MinefieldData, HasTheColumnsThatItsFilterSelects) {
-  // Three mines: locations and entity numbers always, in 42 octets and 2 of padding.
+TEST(MinefieldData, HasTheColumnsOfItsFilter) {
+  // Three mines: locations and entity numbers are always present, in 42 octets and 2 of padding.
   const auto plain = shown(0, 44);
   EXPECT_EQ(plain["mine_locations"].size(), 3U);
   EXPECT_EQ(plain["mine_entity_numbers"].size(), 3U);
@@ -61,7 +61,7 @@ TEST(MinefieldData, KeepsOctetsThatAreNoColumns) {
 
 TEST(MinefieldData, NamesAColumnThatIsNotFinite) {
   Octets octets = test::sample_octets("minefield_data");
-  store_big_endian(octets.data() + 84, std::uint32_t{0x7FC00000});  // behind 36 of locations
+  store_big_endian(octets.data() + 84, std::uint32_t{0x7FC00000});  // after 36 octets of locations
   MinefieldData pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
   EXPECT_EQ(first_not_finite(pdu), "ground_burial_depth_offsets");

@@ -7,8 +7,9 @@
 namespace reckon::pdu {
 namespace {
 
-// The first outputs of the authors' generator for seed 1234567, as others print them too.
-TEST(SplitMix, DrawsWhatItsAuthorsDraw) {
+// The first outputs of the authors' generator for seed 1234567; other implementations print the
+// same.
+TEST(SplitMix, EqualsTheReferenceImplementation) {
   std::uint64_t state = 1234567;
   for (const std::uint64_t draw : {6457827717110365317U, 3203168211198807973U, 9817491932198370423U,
                                    4593380528125082431U, 16408922859458223821U}) {
@@ -17,7 +18,7 @@ TEST(SplitMix, DrawsWhatItsAuthorsDraw) {
   }
 }
 
-TEST(SplitMix, LeavesZeroAloneInItsOutputFunction) { EXPECT_EQ(mixed_bits(0), 0U); }
+TEST(SplitMix, OutputFunctionMapsZeroToZero) { EXPECT_EQ(mixed_bits(0), 0U); }
 
 TEST(SplitMix, GivesNumbersFromZeroToBelowOne) {
   EXPECT_EQ(unit_of(0), 0.0);

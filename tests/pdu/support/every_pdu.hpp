@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every PDU type in the list. The suite is instantiated over a share of the list in
-// each every_pdu_N_test.cpp, so that they compile side by side.
+// Properties of every PDU type of the list. The suite is instantiated over a share of the list in
+// each every_pdu_N_test.cpp, so that they compile in parallel.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ class RestCheck {
 };
 template <typename T>
 bool keeps_rest() {
-  // As who reads sees it: what is only looked at may be shown as the records it holds.
+  // With the visitor of a reader: views may be shown as the records that they hold.
   RestCheck check;
   fields(check, *std::make_unique<T>());
   return check.keeps();
@@ -107,7 +107,7 @@ std::vector<std::byte> encoded(const auto& pdu) {
   return octets;
 }
 
-TYPED_TEST_P(EveryPdu, DecodesTheGoldenSampleToTheValuesThatAnIndependentWriterPutIn) {
+TYPED_TEST_P(EveryPdu, DecodesTheGoldenSampleToItsValues) {
   const auto octets = this->sample();
   TypeParam pdu;
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
@@ -122,7 +122,7 @@ TYPED_TEST_P(EveryPdu, EncodesTheGoldenSampleToTheSameOctets) {
   EXPECT_EQ(encoded(pdu), octets);
 }
 
-TYPED_TEST_P(EveryPdu, ComesBackFromTheWireWithEveryFieldAsItWas) {
+TYPED_TEST_P(EveryPdu, RoundTripsWithAllFields) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     RandomFields random(seed);
     TypeParam pdu;
@@ -160,7 +160,7 @@ TYPED_TEST_P(EveryPdu, RejectsEveryLengthFieldBelowTheFixedPart) {
   }
 }
 
-TYPED_TEST_P(EveryPdu, NeverReadsBeyondALengthFieldThatCutsItsVariablePart) {
+TYPED_TEST_P(EveryPdu, NeverReadsBeyondACutLengthField) {
   const auto octets = this->sample();
   GuardedBuffer buffer;
   for (auto length = static_cast<std::uint16_t>(kFixedSize<TypeParam>); length < octets.size();
@@ -168,13 +168,14 @@ TYPED_TEST_P(EveryPdu, NeverReadsBeyondALengthFieldThatCutsItsVariablePart) {
     auto lying = buffer.hold(std::span(octets).first(length));
     store_big_endian(lying.data() + 8, length);
     TypeParam pdu;
-    // Only the padding of the last record may be missing, or the end of what is kept as octets.
+    // Only the padding of the last record may be missing, or the end of a part that is kept as
+    // octets.
     const bool accepted = decode(lying, pdu) == DecodeError::none;
     EXPECT_TRUE(!accepted || length + 8U > octets.size() || keeps_rest<TypeParam>()) << length;
   }
 }
 
-TYPED_TEST_P(EveryPdu, KeepsWhateverItAcceptsFromDamagedOctetsAndNeverReadsBeyondThem) {
+TYPED_TEST_P(EveryPdu, RoundTripsAcceptedDamageWithoutOverrun) {
   const auto octets = this->sample();
   GuardedBuffer buffer;
   std::mt19937_64 random(7);
@@ -189,7 +190,7 @@ TYPED_TEST_P(EveryPdu, KeepsWhateverItAcceptsFromDamagedOctetsAndNeverReadsBeyon
     ++accepted;
     const auto back = encoded(pdu);
     ASSERT_LE(back.size(), damaged.size());
-    // The family and the length are ours to write; all other octets are as they came.
+    // The encoder sets the family and the length; all other octets are unchanged.
     EXPECT_TRUE(std::equal(back.begin(), back.begin() + 3, damaged.begin()));
     EXPECT_TRUE(std::equal(back.begin() + 4, back.begin() + 8, damaged.begin() + 4));
     EXPECT_TRUE(std::equal(back.begin() + 10, back.end(), damaged.begin() + 10));
@@ -197,7 +198,7 @@ TYPED_TEST_P(EveryPdu, KeepsWhateverItAcceptsFromDamagedOctetsAndNeverReadsBeyon
   EXPECT_GT(accepted, 1000U);
 }
 
-TYPED_TEST_P(EveryPdu, LeavesTheOutputAsNewlyMadeAfterAnError) {
+TYPED_TEST_P(EveryPdu, LeavesADefaultPduAfterAnError) {
   auto octets = this->sample();
   octets[0] = std::byte{99};
   RandomFields random(1);
@@ -214,14 +215,15 @@ TYPED_TEST_P(EveryPdu, RefusesOctetsOfAnotherType) {
   EXPECT_EQ(decode(octets, pdu), DecodeError::pdu_type);
 }
 
-TYPED_TEST_P(EveryPdu, PassesOverOctetsThatALaterRevisionAddedAtTheEnd) {
+TYPED_TEST_P(EveryPdu, SkipsOctetsAddedByALaterRevision) {
   auto octets = this->sample();
   const auto whole = octets;
   octets.resize(octets.size() + 24, std::byte{0xEE});
   store_big_endian(octets.data() + 8, static_cast<std::uint16_t>(octets.size()));
   TypeParam pdu;
   if (keeps_rest<TypeParam>()) {
-    // Octets that cannot be told from the PDU's own are kept, or refused where they make no record.
+    // Octets that cannot be distinguished from the PDU's own are kept, or refused if they form no
+    // record.
     if (decode(octets, pdu) != DecodeError::none) return;
     EXPECT_EQ(encoded(pdu), octets);
     return;
@@ -257,17 +259,14 @@ TYPED_TEST_P(EveryPdu, IsFoundByTheTypeInItsHeader) {
   EXPECT_EQ(type_found_by_visit(octets), TypeParam::kPduType);
 }
 
-REGISTER_TYPED_TEST_SUITE_P(EveryPdu, DecodesTheGoldenSampleToTheValuesThatAnIndependentWriterPutIn,
-                            EncodesTheGoldenSampleToTheSameOctets,
-                            ComesBackFromTheWireWithEveryFieldAsItWas,
+REGISTER_TYPED_TEST_SUITE_P(EveryPdu, DecodesTheGoldenSampleToItsValues,
+                            EncodesTheGoldenSampleToTheSameOctets, RoundTripsWithAllFields,
                             RejectsEveryTruncationWithoutReadingBeyondIt,
                             RejectsEveryLengthFieldBelowTheFixedPart,
-                            NeverReadsBeyondALengthFieldThatCutsItsVariablePart,
-                            KeepsWhateverItAcceptsFromDamagedOctetsAndNeverReadsBeyondThem,
-                            LeavesTheOutputAsNewlyMadeAfterAnError, RefusesOctetsOfAnotherType,
-                            PassesOverOctetsThatALaterRevisionAddedAtTheEnd,
-                            WritesNothingWhenItDoesNotFit, AllocatesNothingWhileDecodingAndEncoding,
-                            IsFoundByTheTypeInItsHeader);
+                            NeverReadsBeyondACutLengthField, RoundTripsAcceptedDamageWithoutOverrun,
+                            LeavesADefaultPduAfterAnError, RefusesOctetsOfAnotherType,
+                            SkipsOctetsAddedByALaterRevision, WritesNothingWhenItDoesNotFit,
+                            AllocatesNothingWhileDecodingAndEncoding, IsFoundByTheTypeInItsHeader);
 
 }  // namespace
 }  // namespace reckon::pdu

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets that end exactly at an unreadable page: reading one octet too far stops the test program.
+// Octets that end exactly at an unreadable page: a read beyond them ends the test program.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The least that reads our reference captures: little-endian pcap, Ethernet, IPv4, UDP.
+// Reads just the format of the reference captures: little-endian pcap, Ethernet, IPv4, UDP.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Random values for any PDU or record: one more visitor of the field tables.
+// Random values for any PDU or record: another visitor of the field tables.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace reckon::test {
 
-/// Fills fields with random bits; floats stay finite. Owns the octets that the views point to, so
-/// that it must outlive the PDU. Variable parts have 0 to 5 records.
+/// Fills fields with random bits; floats stay finite. Owns the octets of the views, so it must
+/// outlive the PDU. Variable parts have 0 to 5 records.
 class RandomFields {
  public:
   explicit RandomFields(std::uint64_t seed) : random_(seed) {}

@@ -20,7 +20,7 @@ using test::ProgramResult;
 using test::run_bench;
 using ::testing::HasSubstr;
 
-/// By column, numbers; an empty cell is NaN.
+/// Numbers by column; an empty cell is NaN.
 using Row = std::map<std::string, double>;
 
 std::vector<Row> rows_of(const std::string& path) {
@@ -62,7 +62,7 @@ class PoseTraceFile : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-TEST_F(PoseTraceFile, ShowsWhatStaysWhereItWasOneChordOfTheCircleBehind) {
+TEST_F(PoseTraceFile, HeldPositionIsOneChordBehind) {
   const auto result = trace({"--motion", "circle", "--for", "10s", "--models", "static", "--curves",
                              "snap", "--period", "1s"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -71,7 +71,7 @@ TEST_F(PoseTraceFile, ShowsWhatStaysWhereItWasOneChordOfTheCircleBehind) {
   ASSERT_EQ(found.size(), 600U);
   for (const Row& row : found) {
     const double t = row.at("t_s"), behind = t - (std::ceil(t - 1e-4) - 1);
-    // The time has six decimals, which are 10 um on the way; the wire's angles are float32.
+    // The time has six decimals, which are 10 um of the path; the wire's angles are float32.
     EXPECT_NEAR(row.at("error_m"), 200 * std::sin(0.1 * behind), 2e-5) << t;
     EXPECT_NEAR(row.at("true_x_m"), 100 * std::cos(0.2 * t), 2e-5) << t;
     EXPECT_NEAR(row.at("angle_rad"), 0.2 * behind, 1e-6) << t;
@@ -80,7 +80,7 @@ TEST_F(PoseTraceFile, ShowsWhatStaysWhereItWasOneChordOfTheCircleBehind) {
   }
 }
 
-TEST_F(PoseTraceFile, HoldsTheSamplesWhoseSumsTheStudyTells) {
+TEST_F(PoseTraceFile, ContainsTheSamplesOfTheStudysSums) {
   const std::vector<std::string> run{
       "--motion", "weave", "--for",   "20s",  "--models", "rvw", "--thresholds", "0.5m",
       "--curves", "cubic", "--delay", "80ms", "--jitter", "40%", "--loss",       "10%"};
@@ -109,13 +109,13 @@ TEST_F(PoseTraceFile, HoldsTheSamplesWhoseSumsTheStudyTells) {
               setting["position_m"]["rms"].get<double>(), 1e-6);
   EXPECT_NEAR(*std::max_element(errors.begin(), errors.end()),
               setting["position_m"]["max"].get<double>(), 1e-5);
-  // A change of speed is not more than the change of velocity.
+  // A change of speed is at most the change of velocity.
   EXPECT_LE(greatest_step, setting["velocity_step_mps"]["max"].get<double>() + 1e-6);
   EXPECT_EQ(found.back().at("sent"), setting["updates"].get<double>());
   EXPECT_GT(found.back().at("lost"), 0);
 }
 
-TEST_F(PoseTraceFile, TellsEntitiesByTheNamesOfTheirFile) {
+TEST_F(PoseTraceFile, NamesEntitiesAsInTheirFile) {
   test::ScratchFolder folder;
   const std::string cars = folder.file("cars.csv");
   std::ofstream(cars) << "id,t_s,x_m,y_m\nred,0,0,0\nred,1,1,0\nred,2,2,0\nblue,0,5,0\nblue,1,5,1\n"
@@ -150,7 +150,7 @@ TEST_F(PoseTraceFile, SendsAtAPeriodOrByAThreshold) {
   EXPECT_THAT(alone.err, HasSubstr("with --trace FILE.csv only"));
 }
 
-TEST_F(PoseTraceFile, SaysWhereTheFileCannotBeWritten) {
+TEST_F(PoseTraceFile, ReportsAnUnwritableFile) {
   const auto result =
       run_bench({"bench", "accuracy", "--trace", "/no/such/folder/trace.csv", "--motion", "weave",
                  "--models", "fpw", "--curves", "cubic", "--period", "1s"});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The studies of poses against closed forms, and the marking of what nothing beats.
+// The studies of poses against closed forms, and the marking of undominated settings.
 #include "reckon/bench/studies/accuracy/study.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ StudySubject subject(std::string_view name, double seconds) {
   return {std::string(name), "", {row->generate(seconds, 1)}};
 }
 
-/// One model, 1 m, position alone, no heartbeat, snap.
+/// One model, 1 m, position only, no heartbeat, snap.
 AccuracyGrid grid_of(std::string_view name) {
   AccuracyGrid grid;
   grid.models = {model(name)};
@@ -58,16 +58,16 @@ TEST(PoseStudy, NeedsOneUpdateForAStraightLine) {
   }
 }
 
-TEST(PoseStudy, AddsTheHeartbeatsToTheOneUpdate) {
+TEST(PoseStudy, AddsHeartbeatsToTheOneUpdate) {
   AccuracyGrid grid = grid_of("fpw");
   grid.heartbeat = 5;
-  // At the first sample at or past the heartbeat, and so on from there.
+  // At the first sample at or after the heartbeat, and again from there.
   const double wait = std::min(5.0, deadreckon::jittered_heartbeat(5, {1, 1, 0}));
   const auto samples = static_cast<std::uint64_t>(std::ceil(wait * 60 - 1e-9));
   EXPECT_EQ(result_of("straight", grid).updates, 1 + 3600 / samples);
 }
 
-TEST(PoseStudy, SaysAChangeAgainAfterLongerAndLongerSilence) {
+TEST(PoseStudy, RepeatsAChangeAfterDoublingSilences) {
   AccuracyGrid grid = grid_of("fpw");
   grid.heartbeat = 50;
   grid.first_heartbeat = 0.5;
@@ -75,7 +75,7 @@ TEST(PoseStudy, SaysAChangeAgainAfterLongerAndLongerSilence) {
   EXPECT_EQ(result_of("straight", grid).updates, 7U);
 }
 
-TEST(PoseStudy, NeedsOneUpdateForACircleByTheModelThatTurnsWithIt) {
+TEST(PoseStudy, TurningModelNeedsOneUpdateForACircle) {
   for (const char* name : {"rpb", "rvb"}) {
     const PoseResult result = result_of("circle", grid_of(name));
     EXPECT_EQ(result.updates, 1U) << name;
@@ -84,8 +84,8 @@ TEST(PoseStudy, NeedsOneUpdateForACircleByTheModelThatTurnsWithIt) {
   }
 }
 
-TEST(PoseStudy, SendsAsOftenAsTheTangentLeavesTheCircle) {
-  // FPW goes along the tangent: off by |(wt - sin wt, 1 - cos wt)| r.
+TEST(PoseStudy, TangentModelSendsWhenItLeavesTheCircle) {
+  // FPW moves along the tangent: its error is |(wt - sin wt, 1 - cos wt)| r.
   const auto off = [](std::uint64_t samples) {
     const double angle = 0.2 * static_cast<double>(samples) / 60;
     return 100 * std::hypot(angle - std::sin(angle), 1 - std::cos(angle));
@@ -97,7 +97,7 @@ TEST(PoseStudy, SendsAsOftenAsTheTangentLeavesTheCircle) {
   EXPECT_NEAR(result.position.max, off(samples), 1e-3);
 }
 
-TEST(PoseStudy, SendsAtEverySampleWhatIsHeldAndMovesFaster) {
+TEST(PoseStudy, HeldFastPositionIsSentAtEverySample) {
   AccuracyGrid grid = grid_of("static");
   grid.thresholds = {0.1};  // 20 m/s / 60 Hz = 0.33 m
   const PoseResult result = result_of("straight", grid, 10);
@@ -115,7 +115,7 @@ TEST(PoseStudy, CountsUpdatesByTheirModels) {
             result_of("weave", grid_of("fpw")).updates);
 }
 
-TEST(PoseStudy, KeepsTheErrorWithinTheThresholdAndOneSampleWithoutLossAndDelay) {
+TEST(PoseStudy, ErrorIsWithinTheThresholdPlusOneSample) {
   for (const Motion& motion : motions()) {
     if (motion.name == "jump") continue;
     const StudySubject moving = subject(motion.name, 30);
@@ -129,7 +129,7 @@ TEST(PoseStudy, KeepsTheErrorWithinTheThresholdAndOneSampleWithoutLossAndDelay) 
       AccuracyGrid grid = grid_of(row.name);
       grid.thresholds = {motion.thresholds[2]};
       grid.heartbeat = 5;
-      // The truth and the prediction may both move, the latter having gained speed for 5 s.
+      // Truth and prediction may both move, the latter with the speed gained in 5 s.
       const double moved = (2 * speed + 5 * acceleration) / 60;
       EXPECT_LE(run_accuracy_study(moving, grid).rows.front().result.position.max,
                 motion.thresholds[2] + moved)
@@ -155,7 +155,7 @@ TEST(AccuracyStudy, GivesTheSameTwice) {
   }
 }
 
-TEST(AccuracyStudy, TellsTheMedianOfItsSeeds) {
+TEST(AccuracyStudy, GivesTheMedianOfItsSeeds) {
   const StudySubject moving = subject("weave", 10);
   PoseSetting setting;
   setting.model = pdu::DeadReckoningAlgorithm::rvw;
@@ -170,7 +170,7 @@ TEST(AccuracyStudy, TellsTheMedianOfItsSeeds) {
   EXPECT_EQ(middle, each[1]);
 }
 
-TEST(AccuracyStudy, ConvergesAsTheGridSays) {
+TEST(AccuracyStudy, UsesTheConvergenceOfTheGrid) {
   AccuracyGrid grid = grid_of("fpw");
   grid.curves = {ConvergenceCurve::linear};
   grid.convergence.duration = 1e-6;  // over before the next sample: snap
@@ -181,7 +181,7 @@ TEST(AccuracyStudy, ConvergesAsTheGridSays) {
             1.1 * result_of("weave", grid_of("fpw")).position.rms);
 }
 
-TEST(AccuracyStudy, EndsWhereItIsToldTo) {
+TEST(AccuracyStudy, StopsOnRequest) {
   AccuracyGrid grid;
   grid.thresholds = {1, 2, 5};
   const auto two = run_accuracy_study(subject("circle", 2), grid,
@@ -189,7 +189,7 @@ TEST(AccuracyStudy, EndsWhereItIsToldTo) {
   EXPECT_EQ(two.rows.size(), 2U);
 }
 
-TEST(AccuracyStudy, TellsTheVelocityStepOfTheTruth) {
+TEST(AccuracyStudy, GivesTheVelocityStepOfTheTruth) {
   // v w h = 20 x 0.2 / 60 along the chord.
   EXPECT_NEAR(run_accuracy_study(subject("circle", 5), AccuracyGrid{}).own_velocity_step, 4.0 / 60,
               1e-6);
@@ -229,7 +229,7 @@ TEST(EqualError, FindsThatAModelSavesNothingAgainstItself) {
   EXPECT_LT(found.saving(), 0.1);
 }
 
-TEST(EqualError, FindsThatATurningModelNeedsOneUpdateForACircle) {
+TEST(EqualError, TurningModelNeedsOneUpdateForACircle) {
   const StudySubject moving = subject("circle", 20);
   const EqualError found =
       find_equal_error(moving.tracks, grid_of("fpw"), model("fpw"), 1, model("rvb"));
@@ -237,7 +237,7 @@ TEST(EqualError, FindsThatATurningModelNeedsOneUpdateForACircle) {
   EXPECT_GT(found.saving(), 0.9);
 }
 
-TEST(EqualError, SaysWhereNoThresholdWillDo) {
+TEST(EqualError, ReportsThatNoThresholdSuffices) {
   const StudySubject moving = subject("circle", 20);
   const EqualError found =
       find_equal_error(moving.tracks, grid_of("rvb"), model("rvb"), 1, model("static"));
@@ -255,7 +255,7 @@ TEST(CircleStudy, DefaultClearsTheBar) {
   EXPECT_TRUE(row.clears());
 }
 
-TEST(CircleStudy, IsExactForTheModelThatTurnsAndMissesByThePlainOne) {
+TEST(CircleStudy, OnlyTheTurningModelIsExact) {
   const std::vector<PoseModel> models{model("rvb"), model("rvw")};
   const std::vector<ConvergenceCurve> curves{ConvergenceCurve::cubic};
   CircleCase circle;
@@ -272,7 +272,7 @@ TEST(MarkFront, MarksAHandMadeSet) {
   const std::vector<Costs> settings{
       {1, 9, 5},  // cheapest
       {2, 5, 5},  // in the middle
-      {3, 5, 5},  // worse than 1 in one
+      {3, 5, 5},  // worse than 1 in one cost
       {9, 1, 5},  // most exact
       {2, 6, 1},  // smoothest
       {2, 5, 5},  // the same as 1
@@ -290,7 +290,7 @@ TEST(MarkFront, MarksAHandMadeSet) {
   EXPECT_EQ(marks[6]->by, 0U);
 }
 
-TEST(MarkFront, AgreesWithTryingAllPairs) {
+TEST(MarkFront, AgreesWithAllPairComparisons) {
   std::mt19937 engine(3);
   std::vector<Costs> settings(300);
   for (Costs& cost : settings)
@@ -310,7 +310,7 @@ TEST(MarkFront, AgreesWithTryingAllPairs) {
   }
 }
 
-TEST(MarkFront, TakesWhatIsNotANumberForTheWorst) {
+TEST(MarkFront, TreatsNaNAsTheWorst) {
   const std::vector<Costs> settings{{std::nan(""), 1, 1}, {1, 1, 1}};
   const auto marks = mark_front(settings);
   EXPECT_TRUE(marks[0]);
@@ -320,7 +320,7 @@ TEST(MarkFront, TakesWhatIsNotANumberForTheWorst) {
 
 // --- text ---
 
-TEST(StudyText, WritesThreeDigitsAndTheUnitThatSuits) {
+TEST(StudyText, WritesThreeDigitsAndASuitableUnit) {
   EXPECT_EQ(number_text(0), "0");
   EXPECT_EQ(number_text(0.5), "0.5");
   EXPECT_EQ(number_text(12.345), "12.3");
@@ -333,7 +333,7 @@ TEST(StudyText, WritesThreeDigitsAndTheUnitThatSuits) {
   EXPECT_EQ(length_text(1e-12), "< 1 nm");
 }
 
-TEST(StudyText, ComparesWhatTheTablesShow) {
+TEST(StudyText, ComparesTheDisplayedDigits) {
   EXPECT_DOUBLE_EQ(in_three_digits(0.012345), 0.0123);
   EXPECT_DOUBLE_EQ(in_three_digits(-41250), -41300);
   EXPECT_EQ(in_three_digits(99.96), in_three_digits(100.04));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The measures of contacts on records whose answers are known.
+// The measures of contacts on records with known results.
 #include "reckon/bench/studies/contact/contact_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 constexpr ContactTruth kTruth{500, 0.04};  // [N/m], [m]
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Two hands along a slanted line that overlap by depth(step) [m]; the first feels
-/// felt(step, true force), the second the true force.
+/// Two hands along a slanted line that overlap by depth(step) [m]. The first feels felt(step, true
+/// force), the second the true force.
 ContactRecord record_of(std::size_t steps, const std::function<double(double)>& depth,
                         const std::function<double(std::size_t, double)>& felt) {
   const Vector3d line = Vector3d(1, 2, -2) / 3;
@@ -38,7 +38,7 @@ ContactRecord record_of(std::size_t steps, const std::function<double(double)>& 
 
 double as_it_is(std::size_t, double force) { return force; }
 
-TEST(ContactMeasures, FindNoErrorWhereHandsFeelTheTruth) {
+TEST(ContactMeasures, FindNoErrorForTrueForces) {
   const auto record = record_of(
       500, [](double t) { return 0.001 + 0.01 * t; }, as_it_is);
   const ForceError error = error_at_instant(record, kTruth);
@@ -48,7 +48,7 @@ TEST(ContactMeasures, FindNoErrorWhereHandsFeelTheTruth) {
   EXPECT_EQ(linger(record, kTruth), 0);
 }
 
-TEST(ContactMeasures, TellTheSizeOfAnErrorByItsShareOfTheTime) {
+TEST(ContactMeasures, SeparatePercentilesFromShareOfTime) {
   // 2 N all the time; the first hand feels 0.5 N too much in every tenth step.
   const auto record = record_of(
       1000, [](double) { return 0.004; },
@@ -62,7 +62,7 @@ TEST(ContactMeasures, TellTheSizeOfAnErrorByItsShareOfTheTime) {
   EXPECT_NEAR(error.noticed, 0.05, 1e-12);
 }
 
-TEST(ContactMeasures, NoticeATenthOfALargeForceAndFiftyMillinewtonsOfASmallOne) {
+TEST(ContactMeasures, NoticeATenthOrFiftyMillinewtons) {
   const auto noticed = [](double depth, double error) {
     return error_at_instant(record_of(
                                 100, [=](double) { return depth; },
@@ -97,8 +97,8 @@ TEST(ContactMeasures, AnswerGainAndPhaseOfAStroke) {
   EXPECT_FALSE(stroke_response(record, kTruth, 0, 1000, 3000));
 }
 
-TEST(ContactMeasures, CountHowLongAForceLingersAfterHandsPart) {
-  // Part at 0.1 s; what is felt falls by 10 N/s from 1 N, so that it is 0.05 N after 95 ms.
+TEST(ContactMeasures, MeasureTheLingerOfAForce) {
+  // The hands part at 0.1 s; the force felt falls by 10 N/s from 1 N, so it is 0.05 N after 95 ms.
   const auto record = record_of(
       1000, [](double t) { return t < 0.1 ? 0.002 : -0.01; },
       [](std::size_t step, double force) {
@@ -107,14 +107,14 @@ TEST(ContactMeasures, CountHowLongAForceLingersAfterHandsPart) {
   EXPECT_NEAR(linger(record, kTruth), 0.095, 1.5e-3);
 }
 
-TEST(ContactMeasures, LeaveAForceWithoutATouchBeforeItOutOfTheLinger) {
+TEST(ContactMeasures, LingerExcludesForcesWithoutAnEarlierTouch) {
   const auto record = record_of(
       1000, [](double t) { return t < 0.1 ? 0.002 : -0.01; },
       [](std::size_t step, double force) { return step > 500 && step < 700 ? 1.0 : force; });
   EXPECT_EQ(linger(record, kTruth), 0);
 }
 
-TEST(ContactMeasures, HoldTheFirstPeakAgainstTheTwins) {
+TEST(ContactMeasures, CompareTheFirstPeakWithTheTwins) {
   const auto depth = [](double t) { return t < 0.5 ? -0.01 : t < 1 ? 0.004 : 0.002; };
   const auto twin = record_of(3000, depth, as_it_is);
   const auto record = record_of(3000, depth, [](std::size_t step, double force) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The twins against closed forms; whole peers in contact, and what is said of them.
+// The twins against closed forms; whole peers in contact, and their report.
 #include "reckon/bench/studies/contact/contact_study.hpp"
 
 #include <gmock/gmock.h>
@@ -44,8 +44,8 @@ TEST(Twins, HoldTheForceOfSpringsInSeries) {
   }
 }
 
-// With neither network nor port in between what the peers feel can be no nearer than this.
-TEST(ContactStudy, PressesAreFeltAsTheTwinsFeelThemWithoutDelay) {
+// Without network and energy port the peers' forces cannot be nearer than this.
+TEST(ContactStudy, WithoutDelayPressesMatchTheTwins) {
   const auto rows = rows_of("press-10", {{0.015, 0}}, 9);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_GT(rows[0].from_shown.samples, 5000U);
@@ -57,30 +57,30 @@ TEST(ContactStudy, PressesAreFeltAsTheTwinsFeelThemWithoutDelay) {
   EXPECT_GT(rows[0].servo_step_ns, 0);
 }
 
-TEST(ContactStudy, NamesWhatWasAskedApartFromWhatDevicesShow) {
+TEST(ContactStudy, DistinguishesRequestedFromRenderedStiffness) {
   const auto rows = rows_of("press-stiff", {{0.2, 0}}, 9);
   EXPECT_EQ(rows[0].asked, 1500);
   EXPECT_NEAR(rows[0].shown, 950, 1);
-  // Springs in series hold 1.3 N at 950 N/m; the overlap of that is worth more at 1500 N/m.
+  // Springs in series hold 1.3 N at 950 N/m; at 1500 N/m the same overlap gives more.
   const double held = 0.01 / (2 / 300.0 + 1 / 950.0);
   EXPECT_NEAR(rows[0].from_asked.p50, held * (1500 / 950.0 - 1), 0.05);
   EXPECT_LT(rows[0].from_shown.p50, 0.02);
   EXPECT_THAT(contact_text(rows, {}), HasSubstr("1500 N/m, of which the devices can show 950"));
 }
 
-TEST(ContactStudy, DelayAndARateMakeForcesWorse) {
+TEST(ContactStudy, DelayAndALowRateIncreaseForceErrors) {
   const auto near = rows_of("stroke-1.5", {{0.015, 0}, {0, 50}}, 11.5);
   const auto far = rows_of("stroke-1.5", {{0.015, 0}}, 11.5, {peer::delayed_by(0.05)});
   EXPECT_LT(near[0].from_shown.rms, near[1].from_shown.rms);
   EXPECT_LT(2 * near[0].from_shown.rms, far[0].from_shown.rms);
   ASSERT_TRUE(far[0].stroke);
   EXPECT_LT((*far[0].stroke)[1].phase, (*near[0].stroke)[1].phase);
-  // Both hands at the rate, and what events ask for.
+  // Both hands at the rate, plus updates for events.
   EXPECT_GT(near[1].packets_per_s, 80);
   EXPECT_LT(near[1].packets_per_s, 200);
 }
 
-TEST(ContactStudy, IsTheSameEachTimeButForTheTime) {
+TEST(ContactStudy, IsDeterministicExceptForTimes) {
   auto once = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {peer::delayed_by(0.005, 0.3, 0.1), 7});
   auto again = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {peer::delayed_by(0.005, 0.3, 0.1), 7});
   for (auto* rows : {&once, &again})
@@ -89,7 +89,7 @@ TEST(ContactStudy, IsTheSameEachTimeButForTheTime) {
   EXPECT_EQ(contact_csv(once, {}), contact_csv(again, {}));
 }
 
-TEST(ContactStudy, EndsWhereItIsTold) {
+TEST(ContactStudy, StopsOnRequest) {
   const ContactScene scene = scene_named("tap");
   const std::vector<ContactSending> sendings(5, {0.1, 0});
   const auto rows = run_contact_study(std::span(&scene, 1), sendings, {}, 1,
@@ -98,7 +98,7 @@ TEST(ContactStudy, EndsWhereItIsTold) {
   EXPECT_LT(rows.size(), 5U);
 }
 
-// --- what is said ---
+// --- the report ---
 
 ContactRow row_of(double threshold, double packets, double p99) {
   ContactRow row;
@@ -111,7 +111,7 @@ ContactRow row_of(double threshold, double packets, double p99) {
   return row;
 }
 
-TEST(ContactReport, SaysWhereAWideThresholdIsWorse) {
+TEST(ContactReport, ReportsAWideThresholdThatIsWorse) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[1].beaten = true;
   EXPECT_THAT(contact_text(rows, {}),
@@ -121,7 +121,7 @@ TEST(ContactReport, SaysWhereAWideThresholdIsWorse) {
   EXPECT_THAT(contact_text(rows, {}), Not(HasSubstr("worse")));
 }
 
-TEST(ContactReport, MarksWhatAPersonMayNoticeAndSaysWhereHandsDidNotTouch) {
+TEST(ContactReport, MarksNoticeableErrorsAndAbsentContact) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[1].from_shown = {};
   const std::string text = contact_text(rows, {peer::delayed_by(0.005, 0.3, 0.1), 7});
@@ -130,7 +130,7 @@ TEST(ContactReport, MarksWhatAPersonMayNoticeAndSaysWhereHandsDidNotTouch) {
   EXPECT_THAT(text, HasSubstr("delay 5 ms +-30 %, 10 % lost; seed 7"));
 }
 
-TEST(ContactReport, IsJsonAndCsvWithAColumnForEachValue) {
+TEST(ContactReport, JsonAndCsvHaveAColumnPerValue) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[0].stroke = {{{1.1, -0.2}, {0.9, 0.1}}};
   rows[0].from_twin = 0.07;

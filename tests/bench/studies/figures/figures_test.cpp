@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of the thesis' figures, against closed forms and against series computed elsewhere.
+// The numbers of the thesis' figures, against closed forms and independently computed series.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ double reach(const FigureCurve& curve, double from, double to) {
   return most;
 }
 
-TEST(ThesisFigures, AreWhole) {
+TEST(ThesisFigures, HaveAllTheirParts) {
   std::set<std::string_view> names;
   EXPECT_EQ(figure_kinds().size(), 30U);
   for (const FigureKind& kind : figure_kinds()) {
@@ -68,7 +68,7 @@ TEST(ThesisFigures, AreWhole) {
   }
 }
 
-TEST(ThesisFigures, DrawingsAreNamedAsSuch) {
+TEST(ThesisFigures, DrawingsAreNamedAsDrawings) {
   std::vector<std::string_view> drawings;
   for (const FigureKind& kind : figure_kinds())
     if (kind.is_drawing) drawings.push_back(kind.name);
@@ -104,13 +104,14 @@ TEST(ThesisFigures, OneUserOfLowOrder) {
   EXPECT_THAT(velocity.why, ::testing::StartsWith("not reproducible, because"));
 }
 
-TEST(ThesisFigures, OneUserOfHighOrderGrowsAtTheRateThatIsTold) {
+TEST(ThesisFigures, HighOrdersGrowAtTheGivenRate) {
   const Figure figure = figure_high_order_force();
   for (const FigurePanel& panel : figure.panels) {
     for (const FigureCurve& curve : panel.curves) {
       const double rate = number_of(figure, "growth, " + curve.name + ", " + panel.title).ours;
       EXPECT_GT(rate, 0) << panel.title;
-      // Late windows of equal length differ by the growth alone. With T it is too slow to be seen.
+      // Late windows of equal length differ only by the growth. With T it is too slow to be
+      // visible.
       const double seen = std::log(reach(curve, 17, 20) / reach(curve, 12, 15)) / 5;
       if (panel.title == "K, no T") {
         EXPECT_NEAR(seen, rate, 0.02) << curve.name;
@@ -149,7 +150,7 @@ TEST(ThesisFigures, ComplexEnvironmentGrowsWhereOneUserPushes) {
   EXPECT_NEAR(number_of(simple, "growth of opposed motion").ours, 0, 1e-3) << "marginal";
 }
 
-TEST(ThesisFigures, SimpleEnvironmentIsMarginalAtOneSampleAndUnstableAtTwo) {
+TEST(ThesisFigures, SimpleEnvironmentIsMarginalAtOneSample) {
   PairParameters pair;
   const auto environment = sum(one_pole_environment(0.2, 1.0, 0.6, pair.sample_period),
                                TransferFunction{{0.1}, {1.0}, pair.sample_period});
@@ -166,7 +167,7 @@ TEST(ThesisFigures, ReducedEnvironmentReachesOneAndAQuarter) {
   EXPECT_NEAR(figure_complex_force().numbers.front().ours, 0.625, 5e-4) << "1 - b v";
 }
 
-TEST(ThesisFigures, ErrorOfTheReductionIsTheOneComputedElsewhere) {
+TEST(ThesisFigures, ReductionErrorMatchesTheIndependentValue) {
   const ReductionErrors half = reduction_errors({.alpha = 0.5});
   EXPECT_NEAR(half.force, 0.009401159007631714, 1e-10);
   EXPECT_NEAR(half.velocity, 0.0046333754958310935, 1e-10);
@@ -178,7 +179,7 @@ TEST(ThesisFigures, ErrorOfTheReductionIsTheOneComputedElsewhere) {
   EXPECT_NEAR(slowest.velocity, 0.38, 5e-3);
 }
 
-TEST(ThesisFigures, ThePrintedErrorsOfForceAndVelocityDoNotComeTogether) {
+TEST(ThesisFigures, PrintedForceAndVelocityErrorsAreIncompatible) {
   for (double alpha = 0.5; alpha < 0.996; alpha += 0.005) {
     const ReductionErrors errors = reduction_errors({.alpha = alpha});
     EXPECT_FALSE(errors.force > 0.27 && errors.force < 0.33 && errors.velocity > 0.05 &&
@@ -187,8 +188,8 @@ TEST(ThesisFigures, ThePrintedErrorsOfForceAndVelocityDoNotComeTogether) {
   }
 }
 
-// At rest each model gives the push, whatever its gain; before contact none gives anything.
-TEST(ThesisFigures, ModelsOfAWallDifferWhereTheHandMovesOnly) {
+// At rest each model gives the push, for any gain; before contact the force is zero.
+TEST(ThesisFigures, WallModelsDifferOnlyDuringMotion) {
   for (const double gain : {PrintedModels::kPrintedGain, PrintedModels::kFollowingGain}) {
     const PushingHand soft{.mass = 0.05, .damping = 3.0};
     const ModelForces forces = wall_forces(soft, gain);
@@ -202,7 +203,7 @@ TEST(ThesisFigures, ModelsOfAWallDifferWhereTheHandMovesOnly) {
   }
 }
 
-// One delta of speed: K_s z/(z - 1) answers at once, K_c/(z - 1) one sample later.
+// One velocity impulse: K_s z/(z - 1) answers at once, K_c/(z - 1) one sample later.
 TEST(ThesisFigures, TheComplexModelIsTheLateOne) {
   const double T = PrintedModels::kPeriod;
   UnilateralEnvironment complex(complex_environment(0.4, 0.1, T));
@@ -219,7 +220,7 @@ TEST(ThesisFigures, TheComplexModelIsTheLateOne) {
   EXPECT_THAT(figure.why, ::testing::StartsWith("not reproducible, because"));
 }
 
-// Momentum: what stands free and without friction takes the hand's along where the contact ends.
+// Momentum: a free object without friction takes over the hand's momentum until the contact ends.
 TEST(ThesisFigures, ForcesOfACollisionMoveTheObject) {
   const Thrown thrown{.hand = {.mass = 0.1, .damping = 0, .push = 0},
                       .speed = 0.3,
@@ -234,7 +235,7 @@ TEST(ThesisFigures, ForcesOfACollisionMoveTheObject) {
   }
 }
 
-TEST(ThesisFigures, SlipEndsAtTheKineticShareAndSticksBelowTheStaticOne) {
+TEST(ThesisFigures, SlipEndsAtTheKineticShare) {
   for (const double gain : {PrintedModels::kPrintedGain, PrintedModels::kFollowingGain}) {
     const ModelForces slides = slip_forces({.along = 0.8}, gain);
     EXPECT_NEAR(slides.complex.y.back(), 0.35, 0.01);

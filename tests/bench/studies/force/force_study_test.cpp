@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a deadband and a force model save: on signals whose answer is known, on the recorded ones,
-// and on the shipped scene.
+// Savings of a deadband and of a force model: on signals with a known result, on recorded ones, and
+// in the shipped scene.
 #include "reckon/bench/studies/force/force_study.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ ForceSignal signal_of(Value value) {
   return signal;
 }
 
-TEST(ForceSignalRows, AConstantForceCostsOnePacket) {
+TEST(ForceSignalRows, ConstantForceCostsOnePacket) {
   for (const ForceRow& row :
        force_signal_rows(signal_of([](double) { return 3.0; }), kTenPercent, 0.05)) {
     EXPECT_NEAR(row.packets_per_s, 1, 1e-9) << row.setting;
@@ -47,14 +47,15 @@ TEST(ForceSignalRows, AConstantForceCostsOnePacket) {
   }
 }
 
-TEST(ForceSignalRows, ARampCostsALineFewAndAHeldValueMany) {
+TEST(ForceSignalRows, RampCostsFewLinesButManyHeldValues) {
   const auto rows =
       force_signal_rows(signal_of([](double t) { return 1 + 4 * t; }), kTenPercent, 0.05);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].setting, "hold, 10 % Weber");
-  // Each packet takes the value 10 % / 90 % further: ln 5 / ln (10/9) = 15.3 in all, and the first.
+  // Each packet moves the value by 10 % / 90 %: ln 5 / ln (10/9) = 15.3 packets in all, and the
+  // first.
   EXPECT_NEAR(rows[0].packets_per_s, 16, 1);
-  // One before the slope is known, one with it each 0.25 s, the longest line.
+  // One packet before the slope is known, then one with the slope each 0.25 s, the longest line.
   EXPECT_LE(rows[1].packets_per_s, 6);
   EXPECT_LE(rows[2].packets_per_s, rows[0].packets_per_s);
   for (const ForceRow& row : rows) {
@@ -65,7 +66,7 @@ TEST(ForceSignalRows, ARampCostsALineFewAndAHeldValueMany) {
   }
 }
 
-TEST(ForceSignalRows, ALineWinsOnASmoothForceAndLosesOnANoisyOneAndTheChoiceFollows) {
+TEST(ForceSignalRows, ChoiceFollowsTheBetterOfLineAndHold) {
   const auto sine = [](double t) { return 5 + 3 * std::sin(std::numbers::pi * t); };
   std::mt19937_64 engine(1);
   const auto noisy = [&](double t) { return sine(t) + 2.0 * (pdu::unit_of(engine()) - 0.5); };
@@ -78,8 +79,8 @@ TEST(ForceSignalRows, ALineWinsOnASmoothForceAndLosesOnANoisyOneAndTheChoiceFoll
   EXPECT_LT(rough[2].packets_per_s, 1.1 * rough[0].packets_per_s);
 }
 
-TEST(ForceSignalRows, CountsEveryThingOfANoisyForceInsideTheBand) {
-  // Larger steps than the deadband, this way and that: no model helps, all stay inside.
+TEST(ForceSignalRows, EverySampleOfANoisyForceIsInside) {
+  // Alternating steps larger than the deadband: no model helps, all samples stay inside.
   const ForceSignal signal =
       signal_of([](double t) { return 2 + (std::fmod(t * 1000, 2) < 1 ? 0.5 : -0.5); });
   for (const ForceRow& row : force_signal_rows(signal, kTenPercent, 0.05)) {
@@ -116,7 +117,7 @@ class ForceSignalFile : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-TEST_F(ForceSignalFile, TakesTheColumnsOfForceUnaskedAndOthersByName) {
+TEST_F(ForceSignalFile, TakesForceColumnsByDefaultOthersByName) {
   const std::string path = write("t_s,fx_N,fy_N,grip\n0,1,2,3\n0,9,9,9\n1,4,5,6\n");
   const ForceSignal force = read_force_signal(path);
   ASSERT_EQ(force.values.size(), 2U);  // the second row has no later time
@@ -127,7 +128,7 @@ TEST_F(ForceSignalFile, TakesTheColumnsOfForceUnaskedAndOthersByName) {
   EXPECT_EQ(read_force_signal(write("f_n,t_s\n7,0\n8,1\n")).values[1], Vector3d(8, 0, 0));
 }
 
-TEST_F(ForceSignalFile, NamesWhatIsMissing) {
+TEST_F(ForceSignalFile, NamesTheMissingColumn) {
   const auto error_of = [&](const std::string& text, std::vector<std::string> columns = {}) {
     try {
       (void)read_force_signal(write(text), columns);
@@ -143,7 +144,7 @@ TEST_F(ForceSignalFile, NamesWhatIsMissing) {
   EXPECT_THAT(error_of("t_s,f_n\n0,1\n1,inf\n"), HasSubstr(":3:3: f_n 'inf'"));
 }
 
-TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold) {
+TEST(ForceModelRows, KeepTheForceWithFarFewerPackets) {
   const peer::SceneFile scene =
       peer::load_scene_file(reckon::test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.01, 0.2}, 60);
@@ -155,13 +156,13 @@ TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold
     EXPECT_GT(row.samples, 0U) << "the hands never touched";
     EXPECT_LE(row.error.p99, row.error.max);
   }
-  // Not the packets: what a hand feels changes how it moves.
+  // The packets are not compared: the force felt changes the motion of a hand.
   EXPECT_GE(rows[0].for_force_per_s, rows[1].for_force_per_s);
   EXPECT_LE(rows[0].error.p99, rows[1].error.p99);
   EXPECT_LT(rows[0].error.p99, 0.03);
 }
 
-TEST(ForceModelRows, AreTheSameEachTime) {
+TEST(ForceModelRows, AreDeterministic) {
   const peer::SceneFile scene =
       peer::load_scene_file(reckon::test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.1, 0.1}, 3);

@@ -51,7 +51,7 @@ TEST(Fields, CsvHasACellForEachTitle) {
   EXPECT_EQ(lines_of(csv_of(std::vector<Row>{}, fields_of)).size(), 1U) << "titles without rows";
 }
 
-TEST(Fields, JsonIsOneObjectALine) {
+TEST(Fields, JsonIsOneObjectPerLine) {
   const auto lines = lines_of(json_of(kRows, fields_of));
   ASSERT_EQ(lines.size(), 2U);
   const json first = json::parse(lines[0]), second = json::parse(lines[1]);
@@ -64,7 +64,7 @@ TEST(Fields, JsonIsOneObjectALine) {
   EXPECT_TRUE(second["rounded"].is_null());
 }
 
-TEST(Fields, NumbersThatAreNotFiniteAreNullInJson) {
+TEST(Fields, NonFiniteNumbersAreNullInJson) {
   for (const double number : {std::numeric_limits<double>::infinity(), std::nan("")}) {
     const Fields fields = Fields().value("number", number);
     EXPECT_EQ(fields.object(), "{\"number\":null}");
@@ -72,7 +72,7 @@ TEST(Fields, NumbersThatAreNotFiniteAreNullInJson) {
   }
 }
 
-TEST(Fields, TableHasTitlesAndALineForEachRow) {
+TEST(Fields, TableHasTitlesAndRows) {
   const auto lines = lines_of(table_of(kRows, fields_of));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0], "NAME    ERROR");

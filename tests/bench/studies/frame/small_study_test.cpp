@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A whole study in 50 lines: what stands here besides step_row() is all that a study needs.
+// A whole study in 50 lines: this file, except step_row(), is all that a study needs.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct StepRow {
   double step = 0, error = 0;
 };
 
-/// Euler's way to e.
+/// Euler's approximation of e.
 StepRow step_row(double step) {
   return {step, std::abs(std::exp(1) - std::pow(1 + step, 1 / step))};
 }
@@ -67,7 +67,7 @@ test::ProgramResult run(const std::vector<std::string_view>& words) {
   tools::Console console;
   console.out = out.file();
   console.err = err.file();
-  // Any row of the list of verbs lends its name.
+  // Any row of the list of verbs provides a name.
   const int status = study_verb(tools::verb_row("zwidth"), step_study).run(words, console);
   return {status, out.text(), err.text()};
 }
@@ -77,7 +77,7 @@ TEST(SmallStudy, PrintsItsTableAndSentence) {
   EXPECT_THAT(run({"--help"}).out, HasSubstr("lengths of a step (0.1,0.01)"));
 }
 
-TEST(SmallStudy, WritesTheSameRowsAsJsonCsvAndPage) {
+TEST(SmallStudy, WritesEqualRowsAsJsonCsvAndPage) {
   const test::ScratchFolder folder;
   const std::string csv = folder.file("rows.csv"), page = folder.file("rows.html");
   const auto made = run({"--json", "--csv", csv, "--report", page, "--steps", "0.5"});

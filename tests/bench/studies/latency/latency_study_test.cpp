@@ -11,8 +11,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Two peers with threads and sockets on loopback. How long anything took is the machine's affair.
-TEST(LatencyStudy, TellsTouchesAndTheServosOwnSteps) {
+// Two peers with threads and sockets on loopback. The test does not judge times; they depend on the
+// machine.
+TEST(LatencyStudy, MeasuresTouchesAndServoSteps) {
   LatencyOptions options;
   options.length = kShortestLatencyStudy;
   const Latencies found = measure_latency(options, tools::Console{});

@@ -21,7 +21,7 @@ std::vector<StepSample> forces(std::initializer_list<double> values) {
   return out;
 }
 
-TEST(TouchMatching, TellsTheTimeToTheFirstStepThatShowsTheChange) {
+TEST(TouchMatching, GivesTheTimeToTheFirstChangedStep) {
   const std::vector<StepSample> changes{{0ms, 1.2}, {2ms, 1.8}, {6ms, 1.2}};
   const TouchTimes times =
       match_touches(changes, forces({1.2, 1.21, 1.22, 1.7, 1.8, 1.8, 1.8, 1.3, 1.2}));
@@ -29,13 +29,13 @@ TEST(TouchMatching, TellsTheTimeToTheFirstStepThatShowsTheChange) {
   EXPECT_EQ(times.missed, 0u);
 }
 
-TEST(TouchMatching, TakesNoNoiseAroundTheOldValueForTheNew) {
+TEST(TouchMatching, IgnoresNoiseAroundTheOldValue) {
   const std::vector<StepSample> changes{{0ms, 1.2}, {1ms, 1.8}};
   const TouchTimes times = match_touches(changes, forces({1.2, 1.49, 1.1, 1.51}));
   EXPECT_EQ(times.taken, std::vector<nanoseconds>{2500us});
 }
 
-TEST(TouchMatching, CountsWhatDoesNotShowBeforeTheNextChangeOrAtAll) {
+TEST(TouchMatching, CountsMissedAndLateChanges) {
   const std::vector<StepSample> late{{0ms, 1.2}, {1ms, 1.8}, {3ms, 1.2}};
   EXPECT_EQ(match_touches(late, forces({1.2, 1.2, 1.2, 1.8, 1.2})).missed, 2u);
   const std::vector<StepSample> never{{0ms, 1.2}, {1ms, 1.8}};
@@ -44,14 +44,14 @@ TEST(TouchMatching, CountsWhatDoesNotShowBeforeTheNextChangeOrAtAll) {
   EXPECT_EQ(match_touches({}, forces({1.2})).missed, 0u);
 }
 
-TEST(TouchMatching, DoesNotCreditAForceThatWasThereBeforeTheChange) {
+TEST(TouchMatching, IgnoresAForcePresentBeforeTheChange) {
   const std::vector<StepSample> changes{{0ms, 1.2}, {2ms, 1.8}};
   const TouchTimes times = match_touches(changes, forces({1.2, 1.7, 1.8, 1.8}));
   EXPECT_TRUE(times.taken.empty());
   EXPECT_EQ(times.missed, 1u);
 }
 
-TEST(TouchMatching, PercentilesAreThoseOfTheSortedList) {
+TEST(TouchMatching, PercentilesMatchTheSortedList) {
   std::vector<nanoseconds> times;
   for (int i = 1000; i > 0; --i) times.push_back(i * 1us);
   const peer::Spread spread = spread_us(times);

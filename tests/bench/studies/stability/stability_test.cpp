@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps of couplings: which cells there are, what each run is worth, and what is told of it.
+// Sweeps of couplings: their cells, the verdict of each run, and the report.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -45,7 +45,7 @@ std::string refused_sweep(const std::string& sweep, const std::string& other = "
   return refusal(words);
 }
 
-TEST(StabilityPlan, CellsAreTheProductOfTheAxesTheLastFastest) {
+TEST(StabilityPlan, CellsAreTheProductOfTheAxes) {
   const StabilityPlan plan =
       plan_of({"hand.k1=300,600", "delay=0..100ms/3", "environment=linear,moving"});
   ASSERT_EQ(plan.cells(), 12U);
@@ -62,7 +62,7 @@ TEST(StabilityPlan, CellsAreTheProductOfTheAxesTheLastFastest) {
   EXPECT_EQ(plan.run(13).environment.stiffness(), 300.0);
 }
 
-TEST(StabilityPlan, EachCellHasASeedOfItsOwnTheSameInEveryMode) {
+TEST(StabilityPlan, EachCellHasItsOwnSeed) {
   const StabilityPlan plan = plan_of({"delay=0..200ms/50"});
   std::set<std::uint64_t> seeds;
   for (std::size_t cell = 0; cell < 50; ++cell) {
@@ -72,7 +72,7 @@ TEST(StabilityPlan, EachCellHasASeedOfItsOwnTheSameInEveryMode) {
   EXPECT_EQ(seeds.size(), 50U);
 }
 
-TEST(StabilityPlan, EveryParameterChangesWhatIsSimulated) {
+TEST(StabilityPlan, EveryParameterChangesItsSetting) {
   for (const StabilityParameter& parameter : stability_parameters()) {
     StabilitySetting setting;
     const double value = parameter.words.empty() ? (parameter.rule.unit == "Hz" ? 400.0 : 0.4)
@@ -83,7 +83,7 @@ TEST(StabilityPlan, EveryParameterChangesWhatIsSimulated) {
   }
 }
 
-TEST(StabilityPlan, JitterIsATimeOrAShareOfTheDelay) {
+TEST(StabilityPlan, JitterIsATimeOrAShare) {
   EXPECT_EQ(plan_of({"delay=10,40ms", "impairment.jitter=20ms"}).run(0).network.jitter, 20ms);
   const StabilityPlan shares = plan_of({"jitter_share=50%", "delay=0,10,40ms"});
   EXPECT_EQ(shares.run(0).network.jitter, 0ms);
@@ -91,7 +91,7 @@ TEST(StabilityPlan, JitterIsATimeOrAShareOfTheDelay) {
   EXPECT_EQ(shares.run(2).network.jitter, 20ms);
 }
 
-TEST(StabilityPlan, TextHoldsAllThatAnOutcomeDependsOn) {
+TEST(StabilityPlan, TextContainsAllInputsOfAnOutcome) {
   const std::string one = plan_of({"delay=0,10ms"}).text();
   EXPECT_THAT(one, HasSubstr("impairment.delay=0 s,10 ms"));
   EXPECT_THAT(one, HasSubstr("seed=1; for=3 s"));
@@ -105,7 +105,7 @@ TEST(StabilityPlan, TextHoldsAllThatAnOutcomeDependsOn) {
   EXPECT_THAT(read_stability_options(words).plan.text(), HasSubstr("reckon_no_gate"));
 }
 
-TEST(StabilityPlan, DefaultCoversStiffnessDelayLossJitterAndEnvironment) {
+TEST(StabilityPlan, DefaultSweepsStiffnessDelayLossJitterAndEnvironment) {
   const StabilityPlan plan = read_stability_options({}).plan;
   EXPECT_EQ(plan.modes.size(), kCouplingModes.size());
   EXPECT_EQ(plan.axes.size(), 5U);
@@ -148,7 +148,7 @@ TEST(StabilityPlan, RefusesWordsWithoutEffect) {
   EXPECT_THAT(refusal(words), HasSubstr("--for"));
 }
 
-TEST(StabilityVerdict, WorstThingCountsFirst) {
+TEST(StabilityVerdict, WorstCriterionCountsFirst) {
   StabilitySetting push;
   StabilityResult result;
   result.truth_rms = 2.0;
@@ -169,7 +169,7 @@ TEST(StabilityVerdict, WorstThingCountsFirst) {
   EXPECT_EQ(verdict_of(push, result), StabilityVerdict::diverged);
 }
 
-TEST(StabilityText, RowsAreReadBackToTheLastBit) {
+TEST(StabilityText, RowsAreRestoredToTheLastBit) {
   const StabilityPlan plan = plan_of({"delay=0,10ms", "environment=all"});
   StabilityResult result{-1.0 / 3, 1e300, 0.1, 1e-17, 2.0 / 7, 0, 1, 2, 0.99, true};
   const std::string line = stability_row(plan, 13, result);
@@ -184,7 +184,7 @@ TEST(StabilityText, RowsAreReadBackToTheLastBit) {
   EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(stability_columns(plan), ','));
 }
 
-/// A study of two modes in six cells, the numbers made up.
+/// A study of two modes in six cells, with invented numbers.
 StabilityReport made_up() {
   StabilityReport report{
       "reckon bench stability <x>", plan_of({"delay=0..100ms/3", "hand.k1=1,2kN/m"}), {}, {}};
@@ -202,7 +202,7 @@ StabilityReport made_up() {
   return report;
 }
 
-TEST(StabilityText, SharesAreOfTheCellsOfAMode) {
+TEST(StabilityText, SharesReferToTheCellsOfAMode) {
   const auto rows = summaries_of(made_up());
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].mode, "printed_dead_reckoning");
@@ -230,7 +230,7 @@ TEST(StabilityText, JsonHasEveryRunAndEveryMode) {
   EXPECT_EQ(rows[13]["no_rest"], 1.0 / 6);
 }
 
-TEST(StabilityText, GateThatIsOffIsTold) {
+TEST(StabilityText, ReportsThatTheGateIsOff) {
   StabilityReport report = made_up();
   EXPECT_THAT(stability_text(report), Not(HasSubstr("GATE")));
   EXPECT_THAT(stability_page(report), Not(HasSubstr("GATE")));
@@ -240,7 +240,7 @@ TEST(StabilityText, GateThatIsOffIsTold) {
   EXPECT_THAT(stability_page(report), HasSubstr("class=\"loud\">THE GATE IS OFF"));
 }
 
-TEST(StabilityPage, HasAMapOfEachModeWithAllNumbersInEachCell) {
+TEST(StabilityPage, HasAMapOfEachModeWithNumbers) {
   const std::string page = stability_page(made_up());
   std::size_t cells = 0;
   for (std::size_t at = page.find("<title>"); at != page.npos; at = page.find("<title>", at + 1))
@@ -273,7 +273,7 @@ TEST(StabilityPage, MapsTakeAnyNumberOfAxes) {
   }
 }
 
-TEST(StabilityStudy, RunsOnlyWhatIsMissingAndGivesTheSameInAnyOrder) {
+TEST(StabilityStudy, RunsOnlyTheMissingCells) {
   const StabilityPlan plan = plan_of({"delay=0,50ms", "loss=0,30%"});
   const auto go_on = [](std::size_t, std::size_t) { return true; };
   StabilityResults whole(plan.runs());
@@ -291,7 +291,7 @@ TEST(StabilityStudy, RunsOnlyWhatIsMissingAndGivesTheSameInAnyOrder) {
   EXPECT_EQ(part, whole);
 }
 
-TEST(StabilityStudy, PrintedDeadReckoningMakesEnergyWhereOursDoesNot) {
+TEST(StabilityStudy, PrintedDeadReckoningAloneMakesEnergy) {
   const StabilityPlan plan = plan_of({"environment=switching", "delay=50ms", "hand.k1=1kN/m"});
   StabilityResults results(plan.runs());
   ASSERT_TRUE(run_stability(

@@ -22,7 +22,7 @@ TEST(AllCores, HasNothingToDoForNoJobs) {
   EXPECT_TRUE(run_on_all_cores(0, [](std::size_t, const std::atomic<bool>&) { FAIL(); }, {}));
 }
 
-TEST(AllCores, EndsJobsThatAreUnderWayWhereToldTo) {
+TEST(AllCores, StopsRunningJobsOnRequest) {
   EXPECT_FALSE(run_on_all_cores(
       4,
       [](std::size_t, const std::atomic<bool>& stop) {
@@ -32,7 +32,7 @@ TEST(AllCores, EndsJobsThatAreUnderWayWhereToldTo) {
       [](std::size_t) { return false; }));
 }
 
-TEST(AllCores, FaultOfAJobIsThatOfTheCall) {
+TEST(AllCores, CallRethrowsTheFaultOfAJob) {
   EXPECT_THROW(run_on_all_cores(100,
                                 [](std::size_t i, const std::atomic<bool>&) {
                                   if (i == 7) throw std::runtime_error("seventh");

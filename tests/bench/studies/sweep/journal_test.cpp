@@ -38,7 +38,7 @@ class Journal : public ::testing::Test {
   const std::string head = "# study: a=1; b=2\nx,y\n";
 };
 
-TEST_F(Journal, GoesOnWhereItWas) {
+TEST_F(Journal, ContinuesAtItsLastRow) {
   {
     SweepJournal journal(path, "study", "a=1; b=2", "x,y");
     EXPECT_THAT(journal.found(), IsEmpty());
@@ -52,7 +52,7 @@ TEST_F(Journal, GoesOnWhereItWas) {
   EXPECT_EQ(content(path), head + "1,2\n3,4\n");
 }
 
-TEST_F(Journal, DropsALineThatWasCutOffWhereverThatWas) {
+TEST_F(Journal, DropsATruncatedLine) {
   const std::string whole = head + "1,2\n3,4\n";
   for (std::size_t length = 0; length <= whole.size(); ++length) {
     write(whole.substr(0, length));
@@ -73,7 +73,7 @@ TEST_F(Journal, NamesTheFirstOptionThatDiffers) {
   EXPECT_EQ(content(path), head) << "left as it was";
 }
 
-TEST_F(Journal, TouchesNoFileOfOthers) {
+TEST_F(Journal, TouchesNoForeignFile) {
   write("t_s,px_m\n0,1\n");
   EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("holds something else than this study"));
   EXPECT_EQ(content(path), "t_s,px_m\n0,1\n");
@@ -81,7 +81,7 @@ TEST_F(Journal, TouchesNoFileOfOthers) {
   EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("holds something else"));
 }
 
-TEST_F(Journal, RefusesPlacesThatCannotBeWritten) {
+TEST_F(Journal, RefusesUnwritablePlaces) {
   path = "/nowhere/results.csv";
   EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("cannot be written"));
   path = scratch.file("");

@@ -25,14 +25,14 @@ std::string refusal(std::string_view text, const ValueRule& rule = kTime) {
   return "taken";
 }
 
-TEST(AxisValues, RangeHasBothEndsAndAsManyAsAsked) {
+TEST(AxisValues, RangeHasBothEndsAndTheGivenCount) {
   EXPECT_THAT(read_values("0..200ms/5", kTime, ""),
               ElementsAre(0, DoubleEq(0.05), DoubleEq(0.1), DoubleEq(0.15), 0.2));
   EXPECT_THAT(read_values("1 .. 0.5 / 2", kShare, ""), ElementsAre(1, 0.5));
   EXPECT_EQ(read_values("0..1s", kTime, "").size(), kRangeValues);
 }
 
-TEST(AxisValues, NumberTakesTheUnitOfTheNextThatHasOne) {
+TEST(AxisValues, NumberTakesTheNextUnit) {
   EXPECT_THAT(read_values("10, 20, 50ms, 1s", kTime, ""), ElementsAre(0.01, 0.02, 0.05, 1));
   EXPECT_THAT(read_values("10..20ms/2,1", kTime, ""), ElementsAre(0.01, 0.02, 1));
   EXPECT_THAT(read_values("0.25, 1", kTime, ""), ElementsAre(0.25, 1)) << "SI without any";
@@ -44,7 +44,7 @@ TEST(AxisValues, UnitsWithASlashAreNoCount) {
   EXPECT_EQ(read_values("100..300 N/m", stiffness, "").size(), kRangeValues);
 }
 
-TEST(AxisValues, SharesAreTakenAsPercentToo) {
+TEST(AxisValues, SharesAreAcceptedAsPercent) {
   EXPECT_THAT(read_values("0..50%/3", kShare, ""), ElementsAre(0, 0.25, 0.5));
 }
 

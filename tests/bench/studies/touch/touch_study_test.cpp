@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Errors of touch against what theory says of each axis; and what counts as dominated. No times.
+// Errors of touch against the theory of each axis; and the rule of dominance. No times.
 #include "reckon/bench/studies/touch/touch_study.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::map<std::string, ForceError> errors_of(const TouchResult& result) {
   return errors;
 }
 
-TEST(TouchError, IsThatOfTheVectorAndFeltAboveATenthAndFiftyMillinewtons) {
+TEST(TouchError, ErrorUsesTheVectorAndItsThresholds) {
   const std::vector<Vector3d> truth{{1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   const std::vector<Vector3d> felt{{1, 0.09, 0}, {1, 0.11, 0}, {0, 0.04, 0}, {0, 0, 0.06}};
   const ForceError error = touch_error(truth, felt);
@@ -37,8 +37,8 @@ TEST(TouchError, IsThatOfTheVectorAndFeltAboveATenthAndFiftyMillinewtons) {
   EXPECT_NEAR(error.rms, std::sqrt((0.0081 + 0.0121 + 0.0016 + 0.0036) / 4), 1e-15);
 }
 
-// Two ways of computing: coordinates of all masses, and modes of a projected body.
-TEST(TouchOrder, ReducedModelsApproachTheWholeOneAndSixteenModesMeetIt) {
+// Two independent computations: coordinates of all masses, and modes of a projected body.
+TEST(TouchOrder, ReducedModelsApproachTheWholeOne) {
   const TouchResult result = result_of("order");
   const auto errors = errors_of(result);
   EXPECT_EQ(errors.at("all 200 states").max, 0);
@@ -49,8 +49,8 @@ TEST(TouchOrder, ReducedModelsApproachTheWholeOneAndSixteenModesMeetIt) {
   EXPECT_GT(errors.at("static").noticed, 0.5) << "inertia of the sheet is felt at 12 Hz";
 }
 
-// A flat facet is off by half its angle in direction and by its sagitta in depth.
-TEST(TouchPrecision, TrianglesAreOffByTheirFacetsAndTheImplicitSurfaceIsNot) {
+// A flat facet has a direction error of half its angle and a depth error of its sagitta.
+TEST(TouchPrecision, TrianglesErrByTheirFacetsOnly) {
   constexpr double kRing = 0.05, kTube = 0.02, kDepth = 0.002, kStiffness = 800;
   const auto errors = errors_of(result_of("precision"));
   EXPECT_LT(errors.at("implicit surface").max, 1e-3);
@@ -71,7 +71,7 @@ TEST(TouchPrecision, TrianglesAreOffByTheirFacetsAndTheImplicitSurfaceIsNot) {
   }
 }
 
-TEST(TouchPrecision, ASearchThatEndsEarlyErrsMore) {
+TEST(TouchPrecision, SearchThatEndsEarlyErrsMore) {
   const auto errors = errors_of(result_of("precision"));
   double last = 0;
   for (const char* search : {"search to 0 mm", "search to 0.01 mm", "search to 0.1 mm",
@@ -81,7 +81,7 @@ TEST(TouchPrecision, ASearchThatEndsEarlyErrsMore) {
   }
 }
 
-TEST(TouchIntegrator, EachIsOfFirstOrderAndTheExactOnesAreBetter) {
+TEST(TouchIntegrator, EachRuleIsOfFirstOrder) {
   const auto errors = errors_of(result_of("integrator"));
   for (const char* rule :
        {"explicit Euler", "semi-implicit Euler", "exact, held wall", "exact with wall"}) {
@@ -99,19 +99,19 @@ TEST(TouchIntegrator, EachIsOfFirstOrderAndTheExactOnesAreBetter) {
   }
 }
 
-TEST(TouchEffects, EachIsMissedByWhatItGives) {
+TEST(TouchEffects, OmissionCostsItsContribution) {
   const TouchResult result = result_of("effects");
   const auto errors = errors_of(result);
   EXPECT_EQ(errors.at("all effects").max, 0);
-  // At most 3.5 mm deep, 800 N/m: the cone of friction holds half of that, beside a texture and a
-  // relief that are felt elsewhere then, each a tenth of the normal force at most.
+  // At most 3.5 mm deep, 800 N/m: the friction cone holds half of that. Texture and relief are then
+  // felt at another place, each at most a tenth of the normal force.
   const ForceError& smooth = errors.at("without stick_slip_friction");
   EXPECT_LT(smooth.max, 0.5 * 0.0035 * 800 + 2 * 0.1 * 0.0035 * 800);
   EXPECT_GT(smooth.p99, 0.35 * 0.003 * 800 * 0.9);
   // 4 N s/m at 0.5 mm and 8 Hz; the filter's velocity lags.
   const double damper = 4 * 0.0005 * 2 * std::numbers::pi * 8;
   EXPECT_NEAR(errors.at("without damper").p99, damper, 0.25 * damper);
-  // 800 in the place of 400 N/m, friction in proportion.
+  // 800 instead of 400 N/m, friction in proportion.
   EXPECT_NEAR(errors.at("without patch").p99, 400 * 0.0035 * std::hypot(1, 0.35), 0.05);
   EXPECT_GT(errors.at("spring alone").rms, errors.at("without patch").rms);
   // 1 N s/m over the surface at 0.126 m/s, 0.5 N s/m everywhere.
@@ -127,13 +127,13 @@ TEST(TouchEffects, EachIsMissedByWhatItGives) {
   EXPECT_GT(errors.at("rate at most 30 N/s").rms, errors.at("rate at most 100 N/s").rms);
 }
 
-TEST(TouchCell, ForceIsLostWhereAPeerSensesLessThanTheTouch) {
+TEST(TouchCell, TooSmallSensingLosesTheForce) {
   const auto errors = errors_of(result_of("cell"));
   const ForceError& all = errors.at("cells 100 m, sensing 2 m");
   EXPECT_LT(all.rms, 0.3);
   EXPECT_NEAR(errors.at("cells 1 m, sensing 100 mm").rms, all.rms, 0.01);
   EXPECT_NEAR(errors.at("cells 50 mm, sensing 100 mm").rms, all.rms, 0.05);
-  // Nothing is felt, however deep.
+  // No force at any depth.
   const ForceError& deaf = errors.at("cells 20 mm, sensing 20 mm");
   EXPECT_GT(deaf.rms, 1);
   EXPECT_GT(deaf.noticed, 0.9);
@@ -144,18 +144,18 @@ TEST(TouchQuantisation, IsWithinTheUnitsOfTheWire) {
   const auto errors = errors_of(result);
   const double speed = 0.003 * 2 * std::numbers::pi * 2, stiffness = 800.1;
   EXPECT_EQ(errors.at("double").max, 0);
-  // Half a unit of 3600 s / 2^31, and a hair for the acceleration.
+  // Half a unit of 3600 s / 2^31, and a small margin for the acceleration.
   const double unit = 3600.0 / 2147483648.0;
   EXPECT_LE(errors.at("times to 1.68 us alone").max, 1.01 * stiffness * speed * unit / 2);
   EXPECT_GT(errors.at("times to 1.68 us alone").max, 0.5 * stiffness * speed * unit / 2);
   EXPECT_NEAR(errors.at("times to 1 ms").max, stiffness * speed * 0.00037, 1.5e-3);
   EXPECT_LT(errors.at("fields of the wire alone").max, 5e-6);
   EXPECT_LT(errors.at("as on the wire").max, 1.1 * stiffness * speed * unit / 2 + 5e-6);
-  // A float32 there has steps of half a metre: the hand is elsewhere.
+  // A float32 there has steps of half a metre: the hand is displaced.
   EXPECT_GT(errors.at("location float32, geocentric").max, 1);
 }
 
-TEST(TouchStudy, IsTheSameForASeedAndAnotherForAnother) {
+TEST(TouchStudy, IsReproducibleForASeed) {
   for (const char* axis : {"order", "precision", "integrator", "effects", "quantisation"}) {
     const TouchResult one = result_of(axis), again = result_of(axis), other = result_of(axis, 2);
     bool differs = false;
@@ -175,7 +175,7 @@ TouchSetting made(const char* name, double error, double ns) {
   return setting;
 }
 
-TEST(TouchStudy, ARowIsDominatedByOneThatTakesNoMoreTimeAndErrsNoMore) {
+TEST(TouchStudy, SlowerAndLessExactRowsAreDominated) {
   const TouchAxis axis{"made", "made", [](std::uint64_t) {
                          TouchCase of;
                          of.settings = {

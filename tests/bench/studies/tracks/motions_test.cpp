@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The motions of the studies: their rates are those of their positions, by central differences.
+// The motions of the studies: their rates match their positions, by central differences.
 #include "reckon/bench/studies/tracks/motions.hpp"
 
 #include <gtest/gtest.h>
@@ -22,11 +22,11 @@ const Motion& motion(std::string_view name) {
                        [&](const Motion& row) { return row.name == name; });
 }
 
-/// Three samples next to each other and what a rate may differ by between them.
+/// Three consecutive samples and the tolerance of a rate between them.
 struct Three {
   const MotionSample &before, &now, &after;
 
-  /// Sum of the changes of a rate: bounds what it may do between the samples, a kink too.
+  /// Sum of the changes of a rate: bounds its variation between the samples, including a kink.
   [[nodiscard]] double change(Vector3d MotionSample::*rate) const {
     return (after.*rate - now.*rate).norm() + (now.*rate - before.*rate).norm();
   }
@@ -34,7 +34,7 @@ struct Three {
 
 class EveryMotion : public testing::TestWithParam<Motion> {
  protected:
-  /// Calls check for all neighbours that lie on one way.
+  /// Calls check for all neighbours of one continuous path.
   template <typename Check>
   static void for_each(const Track& track, Check&& check) {
     for (std::size_t i = 1; i + 1 < track.samples.size(); ++i) {
@@ -47,7 +47,7 @@ class EveryMotion : public testing::TestWithParam<Motion> {
   }
 };
 
-TEST_P(EveryMotion, HasSamplesAtTheRateOfADisplayThatAreFinite) {
+TEST_P(EveryMotion, HasFiniteSamplesAtDisplayRate) {
   const Track track = GetParam().generate(10, 1);
   ASSERT_EQ(track.samples.size(), 601U);
   for (std::size_t i = 0; i < track.samples.size(); ++i) {
@@ -117,7 +117,7 @@ TEST(Motions, AircraftBanksIntoItsTurns) {
   for (const MotionSample& s : motion("aircraft").generate(90, 1).samples) {
     const Vector3d forward = s.velocity.normalized();
     EXPECT_LE((s.orientation * Vector3d::UnitX() - forward).norm(), 1e-12);
-    // What lifts, body -z, leans to where the path bends.
+    // The lift, body -z, leans towards the inside of the turn.
     const Vector3d lift = s.orientation * -Vector3d::UnitZ();
     const Vector3d bend = s.acceleration - s.acceleration.dot(forward) * forward;
     const Vector3d level{bend.x(), bend.y(), 0};
@@ -129,7 +129,7 @@ TEST(Motions, AircraftBanksIntoItsTurns) {
   EXPECT_GT(steepest, 1.0);  // over 57 degrees
 }
 
-TEST(Motions, HandReachesTenCentimetresAtUpToAMetreASecond) {
+TEST(Motions, HandReachesTenCentimetresAtASpeedLimit) {
   double fastest = 0;
   for (const MotionSample& s : motion("hand").generate(120, 1).samples) {
     fastest = std::max(fastest, s.velocity.norm());
@@ -139,7 +139,7 @@ TEST(Motions, HandReachesTenCentimetresAtUpToAMetreASecond) {
   EXPECT_LE(fastest, 1.0);
 }
 
-TEST(Motions, HoverRestsWhileItsToldRatesAreNoiseAboutZero) {
+TEST(Motions, HoverRestsWithNoiseAsItsRates) {
   Vector3d sum = Vector3d::Zero();
   const Track track = motion("hover").generate(60, 1);
   for (const MotionSample& s : track.samples) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tracks from CSV tables and captures: every format, what is not told, and hostile files.
+// Tracks from CSV tables and captures: every format, missing columns, and hostile files.
 #include "reckon/bench/studies/tracks/track_file.hpp"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ class TrackFileTest : public testing::Test {
 using TrackTable = TrackFileTest;
 using TrackCapture = TrackFileTest;
 
-TEST_F(TrackTable, ReadsColumnsInAnyOrderAndPassesUnknownOnesOver) {
+TEST_F(TrackTable, ReadsColumnsInAnyOrderAndIgnoresOthers) {
   const TrackFile file = read("y_m,colour,t_s,id,x_m\n2,red,0,a,1\n4,blue,1,a,3\n");
   ASSERT_EQ(file.tracks.size(), 1U);
   EXPECT_EQ(file.tracks[0].name, "a");
@@ -59,20 +59,20 @@ TEST_F(TrackTable, ReadsColumnsInAnyOrderAndPassesUnknownOnesOver) {
 }
 
 TEST_F(TrackTable, MakesRatesFromEarlierSamplesOnly) {
-  // x = t^2 sampled each second: velocities are those of the second before.
+  // x = t^2 sampled each second: each velocity is the mean of the second before.
   const TrackFile file = read("t_s,x_m,y_m\n0,0,0\n1,1,0\n2,4,0\n3,9,0\n");
   const auto& samples = file.tracks[0].samples;
   EXPECT_EQ(samples[0].velocity, Vector3d::Zero());
   EXPECT_EQ(samples[2].velocity, Vector3d(3, 0, 0));
   EXPECT_EQ(samples[3].velocity, Vector3d(5, 0, 0));
   EXPECT_EQ(samples[3].acceleration, Vector3d(2, 0, 0));
-  // Nothing before the end may change when the future does.
+  // Samples before the end must not change with the future.
   const TrackFile other = read("t_s,x_m,y_m\n0,0,0\n1,1,0\n2,4,0\n3,-50,7\n");
   EXPECT_EQ(other.tracks[0].samples[2].velocity, samples[2].velocity);
   EXPECT_EQ(other.tracks[0].samples[2].acceleration, samples[2].acceleration);
 }
 
-TEST_F(TrackTable, TakesVelocitiesAsToldAndFillsEmptyCells) {
+TEST_F(TrackTable, TakesGivenVelocitiesAndFillsEmptyCells) {
   const TrackFile file = read("t_s,x_m,y_m,vx_mps,vy_mps\n0,0,0,5,6\n1,10,0,,\n2,20,0,7,8\n");
   const auto& samples = file.tracks[0].samples;
   EXPECT_EQ(samples[0].velocity, Vector3d(5, 6, 0));
@@ -90,17 +90,17 @@ TEST_F(TrackTable, TurnsHeadingAndSpeedIntoVelocityAndOrientation) {
   EXPECT_NEAR(second.angular_velocity.z(), 0.25, 1e-12);
 }
 
-TEST_F(TrackTable, LooksAlongTheVelocityWhereNoOrientationIsTold) {
+TEST_F(TrackTable, LooksAlongTheVelocityWithoutAnOrientation) {
   const TrackFile file = read("t_s,x_m,y_m,z_m\n0,0,0,0\n1,0,3,4\n2,0,3,4\n");
   const auto& samples = file.tracks[0].samples;
   const Vector3d forward = samples[1].orientation * Vector3d::UnitX();
   EXPECT_NEAR((forward - Vector3d(0, 0.6, 0.8)).norm(), 0, 1e-12);
-  // At rest the direction stays.
+  // At rest the orientation stays.
   EXPECT_TRUE(samples[2].orientation.isApprox(samples[1].orientation));
 }
 
 TEST_F(TrackTable, ReadsEulerAnglesAndQuaternionsAlike) {
-  // Each moves another way than it looks.
+  // Each moves in another direction than its orientation.
   const TrackFile euler =
       read("t_s,px_m,py_m,pz_m,psi_rad,theta_rad,phi_rad\n0,1,2,3,0,0,0\n1,1,2,9,0.3,0.2,0.1\n");
   const auto q = deadreckon::quaternion_from_euler({0.3, 0.2, 0.1});
@@ -118,7 +118,7 @@ TEST_F(TrackTable, PutsGeodeticPositionsIntoOneCartesianFrame) {
   const auto& samples = file.tracks[0].samples;
   EXPECT_NEAR(samples[1].position.norm(), 110574.3, 2.0);
   EXPECT_NEAR(samples[0].velocity.y(), 10 * 1852.0 / 3600, 1e-9);
-  // North of the second place is not north of the first, but as fast.
+  // North at the second place is not north at the first, but the speed is equal.
   EXPECT_NEAR(samples[1].velocity.norm(), samples[0].velocity.norm(), 1e-9);
   EXPECT_LT(samples[1].velocity.z(), -0.05);
 }
@@ -131,7 +131,7 @@ TEST_F(TrackTable, KeepsDistancesFarFromTheFirstPosition) {
   EXPECT_NEAR((samples[1].position - samples[0].position).norm(), (there - here).norm(), 1e-6);
 }
 
-TEST_F(TrackTable, SortsReversedTimesAndKeepsTheLastOfEqualOnes) {
+TEST_F(TrackTable, SortsTimesAndKeepsTheLastDuplicate) {
   const TrackFile file = read("t_s,x_m,y_m\n2,20,0\n1,10,0\n1,11,0\n0,0,0\n");
   const auto& samples = file.tracks[0].samples;
   ASSERT_EQ(samples.size(), 3U);
@@ -142,7 +142,7 @@ TEST_F(TrackTable, SortsReversedTimesAndKeepsTheLastOfEqualOnes) {
   EXPECT_THAT(file.note, HasSubstr("2 rows behind a later one"));
 }
 
-TEST_F(TrackTable, AcceptsQuotesOtherLineEndsAndAByteOrderMark) {
+TEST_F(TrackTable, AcceptsQuotesLineEndsAndByteOrderMark) {
   const TrackFile file = read(
       "\xEF\xBB\xBF\"t_s\", \"id\" ,X_M,y_m\r\n0,\"a, \"\"b\"\"\nc\",\"1.5\",2\r\n\r\n1,\"a, "
       "\"\"b\"\"\nc\",+2.5,2\r\n");
@@ -152,7 +152,7 @@ TEST_F(TrackTable, AcceptsQuotesOtherLineEndsAndAByteOrderMark) {
   EXPECT_EQ(read("t_s,x_m,y_m\r0,1,2\r1,2,3").tracks[0].samples.size(), 2U);
 }
 
-TEST_F(TrackTable, NamesFileLineAndColumnOfWhatIsWrong) {
+TEST_F(TrackTable, NamesFileLineAndColumnOfAnError) {
   EXPECT_THAT(error_of("0,1,2\n1,2,3\n"), HasSubstr("names no column t_s"));
   EXPECT_THAT(error_of("t_s,x,y\n0,0,0\n"), HasSubstr("x_m,y_m[,z_m]"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,1,2\n1,2\n"), HasSubstr(":3:"));
@@ -172,7 +172,7 @@ TEST_F(TrackTable, NamesFileLineAndColumnOfWhatIsWrong) {
   EXPECT_THROW((void)read_track_file(folder_.file("")), std::runtime_error);
 }
 
-TEST_F(TrackTable, StaysFiniteWhereSamplesFollowWithoutTime) {
+TEST_F(TrackTable, StaysFiniteForSamplesWithoutTimeBetween) {
   const TrackFile file = read("t_s,x_m,y_m\n0,-1e9,0\n1e-300,1e9,0\n2e-300,-1e9,0\n");
   for (const MotionSample& sample : file.tracks[0].samples)
     EXPECT_TRUE(deadreckon::is_finite(sample));
@@ -248,7 +248,7 @@ std::string capture_of(const test::ScratchFolder& folder, const std::vector<Sent
   return path;
 }
 
-TEST_F(TrackCapture, HasATrackForEachEntityWithRatesAsSent) {
+TEST_F(TrackCapture, HasATrackPerEntityWithSentRates) {
   const double x = 6378137;
   const TrackFile file = read_track_file(
       capture_of(folder_, {{7, 0, 0.01, x}, {8, 0, 0.02, x + 5}, {7, 1, 1.03, x + 3}}));
@@ -256,7 +256,8 @@ TEST_F(TrackCapture, HasATrackForEachEntityWithRatesAsSent) {
   EXPECT_EQ(file.tracks[0].name, "1:2:7");
   ASSERT_EQ(file.tracks[0].samples.size(), 2U);
   const auto& samples = file.tracks[0].samples;
-  // Geocentric x is up at this place; the sender's clock says one second, the network 1.02.
+  // Geocentric x is up at this place; by the sender's clock it takes one second, by the network
+  // 1.02 s.
   EXPECT_NEAR(samples[1].time - samples[0].time, 1, 2e-6);
   EXPECT_NEAR((samples[1].position - samples[0].position - Vector3d(0, 0, 3)).norm(), 0, 1e-6);
   EXPECT_NEAR((samples[1].velocity - Vector3d(0, 0, 3)).norm(), 0, 1e-6);
@@ -266,7 +267,7 @@ TEST_F(TrackCapture, HasATrackForEachEntityWithRatesAsSent) {
   EXPECT_FALSE(file.damaged);
 }
 
-TEST_F(TrackCapture, TakesArrivalTimesWhereTimestampsDoNotRun) {
+TEST_F(TrackCapture, TakesArrivalTimesIfTimestampsStandStill) {
   const TrackFile file = read_track_file(
       capture_of(folder_, {{7, 0, 0, 6.4e6}, {7, 0, 1, 6.4e6 + 1}, {7, 0, 2.5, 6.4e6 + 2}}));
   ASSERT_EQ(file.tracks[0].samples.size(), 3U);
@@ -274,13 +275,13 @@ TEST_F(TrackCapture, TakesArrivalTimesWhereTimestampsDoNotRun) {
   EXPECT_THAT(file.note, HasSubstr("do not run with the capture"));
 }
 
-TEST_F(TrackCapture, RunsOnOverTheHour) {
+TEST_F(TrackCapture, ContinuesAcrossTheHour) {
   const TrackFile file = read_track_file(capture_of(
       folder_, {{7, 3599, 0, 6.4e6}, {7, 3600.5, 1.6, 6.4e6 + 1}, {7, 3602, 3.1, 6.4e6 + 2}}));
   EXPECT_NEAR(file.tracks[0].samples[2].time - file.tracks[0].samples[0].time, 3, 1e-5);
 }
 
-TEST_F(TrackCapture, ReadsCompressedOnesAndTellsDamage) {
+TEST_F(TrackCapture, ReadsCompressedFilesAndReportsDamage) {
   const std::vector<SentState> states{{7, 0, 0, 6.4e6}, {7, 1, 1, 6.4e6 + 1}, {7, 2, 2, 6.4e6 + 2}};
   EXPECT_EQ(read_track_file(capture_of(folder_, states, "made.pcapng.zst")).tracks.size(), 1U);
   const std::string path = capture_of(folder_, states);
@@ -291,7 +292,7 @@ TEST_F(TrackCapture, ReadsCompressedOnesAndTellsDamage) {
   EXPECT_THAT(cut.note, HasSubstr("damaged"));
 }
 
-TEST_F(TrackCapture, RefusesOnesInWhichNothingMoves) {
+TEST_F(TrackCapture, RefusesCapturesWithoutEntities) {
   const std::string path = capture_of(folder_, {});
   try {
     (void)read_track_file(path);

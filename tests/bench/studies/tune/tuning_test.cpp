@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The curve of bandwidth against error on motions whose answer is known, its front and its knee.
+// The curve of bandwidth against error on motions with a known result, its front and its knee.
 #include "reckon/bench/studies/tune/tuning.hpp"
 
 #include <gmock/gmock.h>
@@ -56,27 +56,27 @@ TuneRow row_of(double packets_per_s, double p99) {
   return row;
 }
 
-TEST(Tuning, AStraightLineCostsOnePacketAndTheHeartbeats) {
+TEST(Tuning, StraightLineCostsOnePacketAndTheHeartbeats) {
   const std::vector<Track> tracks = straight_line();
   TuneOptions options = options_for({model("fpw"), model("auto")}, {0.01, 1});
   for (const TuneRow& row : tune(tracks, options).rows) EXPECT_EQ(row.result.updates, 1U);
-  options.heartbeat = 4;  // 3.6 to 4.4 s: four times within 20 s, or five
+  options.heartbeat = 4;  // 3.6 to 4.4 s: four or five heartbeats within 20 s
   const TuneTable table = tune(tracks, options);
   EXPECT_GE(table.rows[0].result.updates, 5U);
   EXPECT_LE(table.rows[0].result.updates, 6U);
   EXPECT_EQ(table.every_sample.result.updates, 201U);
   EXPECT_NEAR(table.every_sample.packets_per_s, 10.05, 1e-9);
   EXPECT_NEAR(table.every_sample.octets_per_s, 172 * 10.05, 1e-9);
-  EXPECT_NEAR(table.every_sample.result.position.p99, 1, 1e-3);  // held: the way of 0.1 s
+  EXPECT_NEAR(table.every_sample.result.position.p99, 1, 1e-3);  // held: the displacement of 0.1 s
 }
 
-TEST(Tuning, AHeldPositionCostsAPacketEachThreshold) {
-  // 200 m in steps of 1 m; every third step is the first that is off by more than 2.5 m.
+TEST(Tuning, HeldPositionCostsAPacketPerThreshold) {
+  // 200 m in steps of 1 m; every third step is the first with an error above 2.5 m.
   const TuneTable table = tune(straight_line(), options_for({model("static")}, {2.5}));
   EXPECT_EQ(table.rows[0].result.updates, 1U + 200 / 3);
 }
 
-TEST(Tuning, LargerThresholdsNeverCostMoreOnASteadilyAcceleratingTrack) {
+TEST(Tuning, LargerThresholdsNeverCostMore) {
   const auto tracks = track_along_x([](double t) { return t * t; }, [](double t) { return 2 * t; });
   const std::vector<double> thresholds{0.01, 0.05, 0.1, 0.5, 1, 5, 20};
   const TuneTable table = tune(tracks, options_for({model("fpw")}, thresholds));
@@ -84,7 +84,7 @@ TEST(Tuning, LargerThresholdsNeverCostMoreOnASteadilyAcceleratingTrack) {
     EXPECT_LE(table.rows[i].result.updates, table.rows[i - 1].result.updates);
     EXPECT_GE(table.rows[i].error(), table.rows[i - 1].error());
   }
-  // The first sample past sqrt(h) s: after 0.8 s for 0.5 m, so every eighth of 0.1 s.
+  // The first sample after sqrt(h) s: after 0.8 s for 0.5 m, so every eighth of 0.1 s.
   EXPECT_EQ(table.rows[3].result.updates, 1U + 200 / 8);
 }
 
@@ -101,7 +101,7 @@ TEST(Tuning, GivesTheSameOnAnyNumberOfCores) {
   }
 }
 
-TEST(Tuning, MatchesTheErrorOfTheCommonSettingWithTheFirstModel) {
+TEST(Tuning, MatchesTheErrorOfTheCommonSetting) {
   const auto tracks = track_along_x([](double t) { return 50 * std::sin(t / 2); },
                                     [](double t) { return 25 * std::cos(t / 2); });
   const TuneTable table = tune(tracks, options_for({model("auto")}, {1}));
@@ -110,7 +110,7 @@ TEST(Tuning, MatchesTheErrorOfTheCommonSettingWithTheFirstModel) {
   EXPECT_EQ(table.matched->model, "auto");
 }
 
-TEST(Tuning, EndsWhereItIsStopped) {
+TEST(Tuning, StopsOnRequest) {
   TuneOptions options = options_for(default_tune_models(), {0.01, 0.1, 1});
   const TuneTable table =
       tune(straight_line(), options, [](std::size_t, std::size_t) { return false; });
@@ -118,8 +118,8 @@ TEST(Tuning, EndsWhereItIsStopped) {
   EXPECT_FALSE(table.matched);
 }
 
-TEST(Tuning, LeavesModelsOutThatGiveWhatAnotherGave) {
-  // No rotation: RPW is FPW and FVW is RVW.
+TEST(Tuning, OmitsModelsWithEqualResults) {
+  // No rotation: RPW equals FPW and FVW equals RVW.
   auto tracks = track_along_x([](double t) { return 50 * std::sin(t / 2); },
                               [](double t) { return 25 * std::cos(t / 2); });
   for (auto& sample : tracks[0].samples)
@@ -137,7 +137,7 @@ TEST(Tuning, LeavesModelsOutThatGiveWhatAnotherGave) {
   EXPECT_EQ(table.rows[2].threshold, 0.1);
 }
 
-TEST(TuningFront, HoldsWhatNoOtherUndercutsInBoth) {
+TEST(TuningFront, ContainsTheUndominatedRows) {
   std::vector<TuneRow> rows{row_of(1, 9), row_of(2, 9), row_of(3, 5),
                             row_of(3, 5), row_of(4, 6), row_of(5, 1)};
   mark_front(rows);
@@ -162,21 +162,21 @@ TEST(TuningKnee, IsNotFoundOnAStraightCurve) {
   EXPECT_FALSE(knee_of({}));
 }
 
-TEST(TuningKnee, TellsThePriceOfHalfTheError) {
+TEST(TuningKnee, GivesThePriceOfHalfTheError) {
   std::vector<TuneRow> rows{row_of(1, 8), row_of(3, 4), row_of(27, 1)};
   mark_front(rows);
   EXPECT_NEAR(price_of_half(rows).value_or(0), 3, 1e-12);
   EXPECT_FALSE(price_of_half({}));
 }
 
-TEST(TuningKnee, PassesOverRowsThatSendNothingOrShowNoError) {
+TEST(TuningKnee, IgnoresRowsWithoutPacketsOrError) {
   std::vector<TuneRow> rows{row_of(100, 1), row_of(2, 2), row_of(1, 100), row_of(0, 500),
                             row_of(1000, 0)};
   mark_front(rows);
   EXPECT_EQ(knee_of(rows), 1U);
 }
 
-TEST(TuningGoals, TakeTheCheapestThatIsGoodEnoughAndTheBestThatIsCheapEnough) {
+TEST(TuningGoals, TakeTheCheapestAndTheBestWithinLimits) {
   const std::vector<TuneRow> rows{row_of(10, 0.1), row_of(4, 0.5), row_of(5, 0.4), row_of(1, 2)};
   EXPECT_EQ(cheapest_within(rows, 0.5), 1U);
   EXPECT_EQ(cheapest_within(rows, 0.49), 2U);
@@ -186,7 +186,7 @@ TEST(TuningGoals, TakeTheCheapestThatIsGoodEnoughAndTheBestThatIsCheapEnough) {
   EXPECT_FALSE(best_within(rows, 0.5));
 }
 
-TEST(ThresholdLadder, GoesFromAHundredthToTenTimesTheStep) {
+TEST(ThresholdLadder, SpansAHundredthToTenTimesTheStep) {
   EXPECT_EQ(threshold_ladder(1),
             (std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10}));
   EXPECT_EQ(threshold_ladder(0.4).front(), 0.005);
@@ -200,7 +200,7 @@ TEST(ThresholdLadder, GoesFromAHundredthToTenTimesTheStep) {
   }
 }
 
-TEST(TrackSummary, TellsMediansAndTheSpanOfAll) {
+TEST(TrackSummary, GivesMediansAndTheTotalSpan) {
   Track first, second;
   for (const double t : {0.0, 1.0, 2.0, 3.0}) {
     deadreckon::MotionSample sample;
@@ -219,7 +219,7 @@ TEST(TrackSummary, TellsMediansAndTheSpanOfAll) {
   EXPECT_EQ(summary.step, 2);
 }
 
-TEST(Tuning, NeedsFewerPacketsThanDrm4AtItsErrorOnRecordedPedestrians) {
+TEST(Tuning, NeedsFewerPacketsThanDrm4OnPedestrians) {
   RECKON_NEED_DATA("trajectories");
   const TrackFile file =
       read_track_file(test::reference_data() / "trajectories" / "pedestrians_ucy_students03.csv");

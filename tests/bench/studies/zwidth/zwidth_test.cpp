@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a device can show: theory and measurement against closed forms and eigenvalues.
+// The range of impedances of a device: theory and measurement against closed forms and eigenvalues.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -13,8 +13,8 @@
 namespace reckon::bench {
 namespace {
 
-/// Spectral radius of handle and wall, written out: position, speed, position before, forces under
-/// way.
+/// Spectral radius of handle and wall, written out: position, speed, previous position, forces in
+/// transit.
 double closed_loop_radius(const ZWidthDevice& device, double K, double B) {
   const double T = device.period;
   Eigen::Matrix3d continuous = Eigen::Matrix3d::Zero();  // x' = v, m v' = f - b v, f held
@@ -53,7 +53,7 @@ double stiffness_where_radius_is_one(const ZWidthDevice& device, double B) {
   return high;
 }
 
-TEST(ZWidth, BordersAreThoseOfThreeEightWithoutDelay) {
+TEST(ZWidth, BordersMatchThreeEightWithoutDelay) {
   for (const ZWidthDevice& device :
        {ZWidthDevice{}, ZWidthDevice{0.05, 0.3, 2.5e-4, 0}, ZWidthDevice{2, 8, 1e-2, 0}}) {
     for (const double share : {-0.7, -0.2, 0.0, 0.1, 0.5, 0.9}) {
@@ -66,7 +66,7 @@ TEST(ZWidth, BordersAreThoseOfThreeEightWithoutDelay) {
   }
 }
 
-TEST(ZWidth, DelayedSpringIsPassiveToDampingOverDelayAndAHalf) {
+TEST(ZWidth, DelayedSpringIsPassiveToItsLimit) {
   for (const int d : {1, 2, 5, 20, 100}) {
     const ZWidthDevice device{0.1, 1, 1e-3, d};
     const double border = 1 / (1e-3 * (d + 0.5));
@@ -75,7 +75,7 @@ TEST(ZWidth, DelayedSpringIsPassiveToDampingOverDelayAndAHalf) {
   }
 }
 
-TEST(ZWidth, SomeDampingInADelayedWallAllowsMoreStiffness) {
+TEST(ZWidth, SomeDampingInADelayedWallAllowsStiffness) {
   const ZWidthDevice device{0.1, 1, 1e-3, 5};
   for (const double B : {0.2, 0.5, 0.8})
     EXPECT_NEAR(energy_border(device, B), passive_stiffness(device, B),
@@ -84,14 +84,14 @@ TEST(ZWidth, SomeDampingInADelayedWallAllowsMoreStiffness) {
   EXPECT_GT(passive_stiffness(device, 0.5), 1.3 * passive_stiffness(device, 0));
 }
 
-TEST(ZWidth, DamperAsStrongAsTheDevicesLeavesNoStiffness) {
+TEST(ZWidth, DamperLikeTheDevicesLeavesNoStiffness) {
   for (const double B : {1.0, 1.5, -1.0}) {
     EXPECT_EQ(passive_stiffness({}, B), 0.0);
     EXPECT_LT(energy_border({}, B), 1.0) << B;
   }
 }
 
-TEST(ZWidth, SpringAloneSwingsWithinATwentiethAboveThePassiveLimit) {
+TEST(ZWidth, SpringAloneOscillatesJustAboveThePassiveLimit) {
   for (const int d : {0, 1, 5, 20}) {
     const ZWidthDevice device{0.1, 1, 1e-3, d};
     const double passive = passive_stiffness(device, 0), unstable = stability_border(device, 0);
@@ -100,7 +100,7 @@ TEST(ZWidth, SpringAloneSwingsWithinATwentiethAboveThePassiveLimit) {
   }
 }
 
-TEST(ZWidth, SwingsBeginWhereAnEigenvalueLeavesTheCircle) {
+TEST(ZWidth, OscillationBeginsAtAnEigenvalueOnTheCircle) {
   for (const int d : {0, 1, 5, 20}) {
     for (const double B : {0.0, 0.3, 0.8}) {
       const ZWidthDevice device{0.1, 1, 1e-3, d};
@@ -110,7 +110,7 @@ TEST(ZWidth, SwingsBeginWhereAnEigenvalueLeavesTheCircle) {
   }
 }
 
-TEST(ZWidth, NoWallIsTooSoftWhereItsDamperAloneSwings) {
+TEST(ZWidth, TooStrongADamperLeavesNoStableWall) {
   EXPECT_EQ(stability_border({0.01, 1, 1e-2, 10}, 3), 0.0);
 }
 
@@ -123,7 +123,7 @@ TEST(ZWidth, ServoStaysBelowThePassiveBorder) {
     }
 }
 
-TEST(ZWidth, RowsAreInTheOrderOfTheDampings) {
+TEST(ZWidth, RowsAreInTheOrderOfDampings) {
   const std::vector<double> dampings{0.5, 0, 0.9};
   const auto rows = run_zwidth({}, dampings);
   ASSERT_EQ(rows.size(), 3U);
@@ -133,7 +133,7 @@ TEST(ZWidth, RowsAreInTheOrderOfTheDampings) {
   }
 }
 
-TEST(ZWidth, EndsWithoutRowsWhereToldTo) {
+TEST(ZWidth, StopsWithoutRowsOnRequest) {
   const std::vector<double> dampings{0, 0.5};
   EXPECT_TRUE(run_zwidth({}, dampings, [](std::size_t, std::size_t) { return false; }).empty());
 }
