@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-TEST(ScaleFit, FindsTheLawThatThePointsWereMadeFrom) {
+TEST(ScaleFit, FitRecoversTheGeneratingLaw) {
   std::vector<SizedValue> edge, peers;
   for (const double n : {16.0, 32.0, 64.0, 128.0}) {
     edge.push_back({n, 5 - 3 / std::sqrt(n)});

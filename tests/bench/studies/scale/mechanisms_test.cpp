@@ -137,7 +137,7 @@ TEST(Mechanisms, WantedLieBetweenWhatBruteForceCounts) {
 }
 
 // What stands is taken within the radius alone, of a focus that covers one entity.
-TEST(Mechanisms, WantedOfWhatStandsAreThoseWithinTheRadius) {
+TEST(Mechanisms, WantedUpdatesOfRestingEntitiesAreWithinTheRadius) {
   ScaleSetting setting = small_setting();
   setting.seconds = 1;
   setting.radius = 60;

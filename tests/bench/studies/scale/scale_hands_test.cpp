@@ -41,7 +41,7 @@ TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
   EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
 }
 
-TEST(ScaleHands, AmongFourAreAllTouchingAndEndBetweenRuns) {
+TEST(ScaleHands, AllOfFourTouchAndEndBetweenRuns) {
   int asked = 0;
   const auto rows = run_many_hands(4, {}, 1, [&](double) { return ++asked < 230; });
   ASSERT_EQ(rows.size(), 1U) << "the second was stopped in its first second";
