@@ -82,7 +82,7 @@ peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) 
   options.name = "whole";
   options.scene = scale_scene(setting);
   options.site = kSite;
-  options.capacity = setting.entities;  // a table reserves for all
+  options.capacity = setting.crowd.entities;  // a table reserves for all
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
 }

@@ -20,7 +20,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kBegin = std::chrono::seconds(1);
+constexpr nanoseconds kExerciseBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
 constexpr std::size_t kLeastRoom = 512;  // datagrams under way to a peer
 constexpr double kComing = 1;            // [s] in which all of a simulated network come
@@ -65,7 +65,8 @@ class SimulatedPeers {
   void step(double time, Crowd& crowd) {
     const double come = time / kComing * static_cast<double>(setting_.peers);
     for (std::size_t p = peers_.size(); p < setting_.peers && static_cast<double>(p) <= come; ++p)
-      peers_.push_back(std::make_unique<WholePeer>(setting_, p, network_.link(p), clock_, kBegin,
+      peers_.push_back(std::make_unique<WholePeer>(setting_, p, network_.link(p), clock_,
+                                                   kExerciseBegin,
                                                    static_cast<std::uint32_t>(p + 1)));
     for_each([&](WholePeer& peer) { peer.step(time, crowd); });
   }
@@ -118,7 +119,7 @@ class SimulatedPeers {
 
 WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progress) {
   const double memory = resident_memory();
-  peer::ManualClock clock(kBegin, std::chrono::hours(1));
+  peer::ManualClock clock(kExerciseBegin, std::chrono::hours(1));
   SimulatedPeers peers(setting, clock);
   Crowd crowd(setting.crowd);
   const std::size_t warm = ticks_until(setting, kWarmUp);
@@ -126,13 +127,13 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
   double time = 0;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     time = static_cast<double>(tick) / setting.rate;
-    clock.set(kBegin + pdu::from_seconds(time));
+    clock.set(kExerciseBegin + pdu::from_seconds(time));
     crowd.advance(time);
     if (tick == warm) peers.for_each([&](WholePeer& peer) { peer.begin_counting(time); });
     peers.step(time, crowd);
     // What waits for company leaves in time, not with the next tick.
     if (setting.hold < 1 / setting.rate) {
-      clock.set(kBegin + pdu::from_seconds(time + setting.hold));
+      clock.set(kExerciseBegin + pdu::from_seconds(time + setting.hold));
       peers.serve();
     }
     if (is_look(setting, tick)) peers.for_each([&](WholePeer& peer) { peer.look(time, crowd); });
