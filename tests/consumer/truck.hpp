@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A truck that drives in a circle, tells whom it sees, and stops when it is fired at.
+// A truck that drives in a circle, prints the entities it receives, and stops when it is fired at.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline void drive(reckon::peer::Federate& federate, const std::function<bool()>&
   truck.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 206, 7, 0, 0, 0};
   truck.force_id = pdu::ForceId::friendly;
   federate.publish(peer::EntityClass{truck.type});
-  federate.subscribe(peer::EntityClass{});  // everybody
+  federate.subscribe(peer::EntityClass{});  // all entities
   federate.on_discover([](const peer::RemoteObject& other) {
     std::printf("sees %s\n", std::string(other.marking()).c_str());
   });

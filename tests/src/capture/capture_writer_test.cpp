@@ -203,8 +203,7 @@ TEST(CaptureWriter, KeepsAllFilesTogetherWithinTheirBound) {
     for (const Kept& kept : written) {
       writer.write(kept.view());
       writer.flush();
-      EXPECT_LE(octets_in(folder), 4000U + 200U);  // the last file may exceed its own bound by a
-                                                   // datagram
+      EXPECT_LE(octets_in(folder), 4000U + 200U);  // the last file may exceed its by a datagram
       EXPECT_EQ(octets_in(folder), writer.octets());
     }
     writer.close();

@@ -161,8 +161,7 @@ TEST(IpReassembler, IsNotDisturbedByCopies) {
     feed.add(frame);
     feed.add(frame);
   }
-  feed.add(fragment4(datagram, 3, 8, 2 * kPiece), 50ms);  // not a copy of a fragment: a new
-                                                          // datagram
+  feed.add(fragment4(datagram, 3, 8, 2 * kPiece), 50ms);  // a new datagram, not a copy
   feed.add(frames[3], 90ms);
   feed.finish();
   ASSERT_EQ(feed.returned().size(), 2U);

@@ -241,12 +241,10 @@ TEST(PeerClock, RefusesEchoesWithImpossibleTimes) {
       {{kUs, at - 2000, at - 1000}, at - 1000, true},
       {{kUs, at + 1, at}, at, false},                                // of a datagram not sent yet
       {{kUs, at - 31'000'000, at - 1000}, at, false},                // of one long ago
-      {{kUs, at - 2000, at}, at - 1, false},                         // answered before it was
-                                                                     // received
+      {{kUs, at - 2000, at}, at - 1, false},                         // answered before received
       {{kUs, at - 2000, at - 31'000'000}, at, false},                // held too long
       {{kUs, at - 2'500'000, at}, at + 1, false},                    // 2.5 s on the way
-      {{kUs, at - 2000, at - 500'000}, at, false},                   // held longer than the whole
-                                                                     // round trip
+      {{kUs, at - 2000, at - 500'000}, at, false},                   // held longer than it took
       {{kUs, at - 2000, at + 0x70000000U}, at + 0x70000000U, true},  // a clock 31 min off
   }};
   for (const Case& one : cases) {

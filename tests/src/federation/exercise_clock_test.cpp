@@ -12,8 +12,7 @@ namespace {
 using std::chrono::hours;
 using std::chrono::nanoseconds;
 
-constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();  // the largest hour on the
-                                                                          // wire
+constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();  // last hour on the wire
 
 pdu::StartResume start_at(std::int32_t real, std::int32_t simulation) {
   pdu::StartResume order;

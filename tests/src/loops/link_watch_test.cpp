@@ -26,8 +26,7 @@ class ToldLink final : public Link {
  public:
   LinkStatistics counts;
   std::deque<std::string> events;
-  std::function<void()> meanwhile = [] {};  // another thread's action after the counts have been
-                                            // read
+  std::function<void()> meanwhile = [] {};  // another thread's, after the counts have been read
 
   bool send(const IpEndpoint&, std::span<const std::byte>) noexcept override { return true; }
   std::size_t receive(std::span<Datagram>) noexcept override { return 0; }

@@ -83,8 +83,7 @@ class ManualLink final : public peer::Link {
       taken_.push_back(std::move(waiting_.front()));
       waiting_.pop_front();
       const Waiting& taken = taken_.back();
-      out[i] = {taken.group, taken.sender, {}, std::chrono::nanoseconds::max()};  // timestamp of
-                                                                                  // now
+      out[i] = {taken.group, taken.sender, {}, std::chrono::nanoseconds::max()};  // of now
     }
     for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].octets;
     changed_.notify_all();

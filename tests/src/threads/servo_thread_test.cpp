@@ -139,8 +139,7 @@ TEST(OrdinaryPulse, GoesOnWhereOrdinaryThreadsRun) {
   for (int i = 0; i < 5; ++i) {
     clock.advance(10ms);
     const std::clock_t begin = std::clock();
-    while (std::clock() - begin < CLOCKS_PER_SEC / 200) {  // half of the silence; a tenth would
-                                                           // count
+    while (std::clock() - begin < CLOCKS_PER_SEC / 200) {  // half of the silence, above a tenth
     }
     for (int turn = 0; pulse.starves(clock.now()) && turn < 500'000; ++turn) {
       std::this_thread::yield();
@@ -189,8 +188,7 @@ TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
   WakeSignal told;
   Servo servo;
   servo.duty = &duty;
-  servo.is_urgent = [] { return false; };  // spinning would use CPU time, and the process was
-                                           // stopped
+  servo.is_urgent = [] { return false; };  // spinning would count as CPU time of the process
   servo.step = [&](nanoseconds) {
     if (steps == 2) clock.advance(60s);
   };

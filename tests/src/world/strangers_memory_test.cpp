@@ -113,12 +113,12 @@ TEST_P(StrangersThatInvent, AreBoundedEvictNoMemberAndFreeAll) {
   EXPECT_LE(allocated_octets(), before + GetParam().memory / 8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Floods, StrangersThatInvent,
-                         testing::Values(Invented{4 * kMiB, 30'000, 1, 0.0, false, ""},
-                                         Invented{16 * kMiB, 60'000, 3, 0.5, true, ""},
-                                         Invented{16 * kMiB, 90'000, 1, 1.0, false, ""},
-                                         Invented{32 * kMiB, 120'000, 40, 0.3, true,
-                                                  "[convergence]\nprediction = \"adaptive\"\n"}));
+INSTANTIATE_TEST_SUITE_P(
+    Floods, StrangersThatInvent,
+    testing::Values(
+        Invented{4 * kMiB, 30'000, 1, 0.0, false, ""}, Invented{16 * kMiB, 60'000, 3, 0.5, true, ""},
+        Invented{16 * kMiB, 90'000, 1, 1.0, false, ""},
+        Invented{32 * kMiB, 120'000, 40, 0.3, true, "[convergence]\nprediction = \"adaptive\"\n"}));
 
 class BesideInventors : public StrangersMemory {};
 
