@@ -114,8 +114,7 @@ class Watch {
     nanoseconds at;
   };
   std::vector<Farewell> farewells_;
-  using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< receiver, sender,
-                                                                          ///< group
+  using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< to, from, group
   std::map<Numbering, std::uint32_t> highest_;
   /// Since when a life lists an epoch under an id, including times when it took the epoch for
   /// ended.

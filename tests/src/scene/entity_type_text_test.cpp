@@ -69,9 +69,7 @@ TEST(EntityTypeText, ReadsBackTheInspectorsWordsOfNamedTypes) {
     type.country = static_cast<std::uint16_t>(random() % 300);
     type.category = static_cast<std::uint8_t>(random() % 90);
     const std::string words = entity_type_words(type);
-    if (words.find_first_of("0123456789") != std::string::npos)
-      continue;  // not every type has a
-                 // name
+    if (words.find_first_of("0123456789") != std::string::npos) continue;  // some are unnamed
     const EntityTypeText read = parse_entity_type(words);
     ASSERT_TRUE(read.good()) << words << ": " << read.error;
     ASSERT_EQ(entity_type_words(read.type), words);
