@@ -20,7 +20,7 @@ inline void drive(reckon::peer::Federate& federate, const std::function<bool()>&
   truck.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 206, 7, 0, 0, 0};
   truck.force_id = pdu::ForceId::friendly;
   federate.publish(peer::EntityClass{truck.type});
-  federate.subscribe(peer::EntityClass{});  // all entities
+  federate.subscribe(peer::EntityClass{});  // everybody
   federate.on_discover([](const peer::RemoteObject& other) {
     std::printf("sees %s\n", std::string(other.marking()).c_str());
   });

@@ -156,7 +156,7 @@ TEST(Budget, LeavesTheFarthestCellsAndShowsTheNearest) {
   }
 }
 
-TEST(Budget, KeepsTheOwnCellBeyondABudgetAndReportsIt) {
+TEST(Budget, KeepsItsCellAndReportsAnExceededBudget) {
   Town place(town(false), 200, kStreet);
   place.run(60s);
   const std::vector<int> shown = place.shown();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Datagrams that a listener misses of an entity just behind each cell border that it approaches:
-// cell_border send INTERFACE BEGIN
-// cell_border hear INTERFACE BEGIN LOOKAHEAD_MS
+//   cell_border send INTERFACE BEGIN
+//   cell_border hear INTERFACE BEGIN LOOKAHEAD_MS
 // BEGIN: steady time of the start [ns]. The entities are sent at 200 Hz, each to the group of its
 // cell. The listener prints a JSON object: datagrams missed from the moment the entity was within
 // its radius, over all cells.
@@ -31,10 +31,8 @@ using std::chrono::nanoseconds;
 constexpr int kCells = 14;
 constexpr double kSide = 50, kSpeed = 40, kRadius = 100;  // [m], [m/s], [m]
 constexpr double kBehind = 0.01;                          // [m], of the entity behind the border
-constexpr nanoseconds kPeriod = 5ms, kFoci = 50ms;        // kFoci: peers evaluate their foci at
-                                                          // this period
-constexpr double kBefore = 0.3, kAfter = 1.0;  // [s] of sending before and after an entity enters
-                                               // the radius
+constexpr nanoseconds kPeriod = 5ms, kFoci = 50ms;        // kFoci: update period
+constexpr double kBefore = 0.3, kAfter = 1.0;             // [s] of sending around an entity's entry
 
 struct Mark {
   int cell = 0;

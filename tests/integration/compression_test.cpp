@@ -260,7 +260,7 @@ TEST_P(CompressedExercise, ShowsAllWithinTheThresholdAndARounding) {
   EXPECT_EQ(country.count(1, "malformed_in"), 0U);
 }
 
-TEST_P(CompressedExercise, LosesLittleMoreThanPlainStatesAtTenPercent) {
+TEST_P(CompressedExercise, LosesLittleMoreThanPlainStatesDo) {
   Country plain_country(0.1), country(0.1);
   const auto plain = errors_of(CompressedForm::none, plain_country, 60s);
   const auto errors = errors_of(GetParam(), country, 60s);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coupling study in one process, or one side of it against the other over UDP; prints the hands'
 // motion, sample by sample, in hexadecimal floating point.
-// coupled whole MODE server|hand
-// coupled first|second MODE server|hand OWN_ADDRESS:PORT OTHER_ADDRESS:PORT
+//   coupled whole MODE server|hand
+//   coupled first|second MODE server|hand OWN_ADDRESS:PORT OTHER_ADDRESS:PORT
 #include <chrono>
 #include <cstdint>
 #include <cstdio>

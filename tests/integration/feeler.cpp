@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A peer with the simulated hands of a scene that prints its forces fifty times a second:
-// feeler SCENE INTERFACE OPERATOR NAME SECONDS
+//   feeler SCENE INTERFACE OPERATOR NAME SECONDS
 // A JSON line each time: seconds since the start, force [N] of the hand with the greatest force,
 // and position [m] of the first remote entity, if any; lines with "notice"; then the losses of the
 // link, and the last line of `reckon peer --json`.

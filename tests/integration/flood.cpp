@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A sender that floods a multicast group from one socket:
-// flood ADDRESS GROUP PORT RATE SECONDS KIND
+//   flood ADDRESS GROUP PORT RATE SECONDS KIND
 // ADDRESS of the sending interface; RATE datagrams a second, or max: as fast as possible, without
 // the rests below. KIND crowd: bundles of nine states of a thousand entities, stamped when sent,
 // from eight sockets in turn, so that none is a flood by itself; hosts: the same from the eight

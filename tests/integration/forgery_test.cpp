@@ -111,7 +111,7 @@ TEST_F(Forgery, OfAnUnknownEntityIsRefused) {
   expect_refused_and_told();
 }
 
-TEST_F(Forgery, UnderALaterPeersNumberIsDroppedOnJoin) {
+TEST_F(Forgery, UnderALaterPeersNumberIsDropped) {
   pdu::EntityState squatter = state_of(1);
   squatter.entity_id = {1, 3, 9};
   say_from(3, squatter);

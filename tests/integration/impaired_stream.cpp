@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream of numbered datagrams through the impairment law, on a real link or in process; prints
 // the effect of the law as one JSON object.
-// impaired_stream simulate|send|receive [--iface NAME] [--count N] [--rate HZ] [--seed S]
+//   impaired_stream simulate|send|receive [--iface NAME] [--count N] [--rate HZ] [--seed S]
 #include <fmt/format.h>
 
 #include <cstring>
@@ -152,8 +152,7 @@ int receive(const Options& options) {
   impaired.seed = options.seed;
   impaired.receiver = kReceiver;
   impaired.start = clock.now();
-  ImpairedLink link(real, impaired, clock);  // the first sender that it receives is number 0 =
-                                             // kSender
+  ImpairedLink link(real, impaired, clock);  // the first received sender is 0 = kSender
   if (link.join(kGroup)) return 1;
   fmt::print(stderr, "ready\n");
   std::fflush(stderr);

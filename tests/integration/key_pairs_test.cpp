@@ -88,8 +88,7 @@ constexpr Switch kSwitches[]{
     {"dead_reckoning", "rule = \"seen_from\"\nviewer_distance = \"100 m\""},
     {"convergence", "curve = \"snap\""},
     {"convergence", "curve = \"quintic\""},
-    {"convergence", "prediction = \"adaptive\"", 2.5},  // the owner's threshold does not bound
-                                                        // other predictions
+    {"convergence", "prediction = \"adaptive\"", 2.5},  // without the owner's threshold
 };
 
 bool has(std::string_view text, std::string_view part) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One of many whole peers that come, cross cell borders and go, and that know the positions of all
 // others:
-// roamer INTERFACE NUMBER COUNT BEGIN SECONDS
+//   roamer INTERFACE NUMBER COUNT BEGIN SECONDS
 // NUMBER from 0 of COUNT; BEGIN: steady time at which the exercise begins [ns]. One JSON object at
 // the end: missed entities, and unrequested ones.
 #include <fmt/format.h>

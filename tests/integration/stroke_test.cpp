@@ -23,8 +23,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kBetween = 500;                     // [N/m]
-constexpr double kStroker = 300, kHolder = 150;      // [N/m], of the stroking and of the resting
-                                                     // hand
+constexpr double kStroker = 300, kHolder = 150;      // [N/m], stroking and resting hand
 constexpr double kGripDamping = 3, kHandMass = 0.1;  // [N s/m], [kg]
 constexpr double kDeep = 0.015, kAmplitude = 0.005;  // [m]
 constexpr double kStrokesFrom = 4, kMeasuredFrom = 6, kStrokesEnd = 10;  // [s]
