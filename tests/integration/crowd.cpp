@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // One side of a crowd, by the API alone, and its cost:
-//   crowd own INTERFACE COUNT SECONDS TRAFFIC owns COUNT vehicles, updated and checked at 60 Hz
-//   crowd hear INTERFACE COUNT SECONDS shows COUNT entities of others
+//   crowd own INTERFACE COUNT SECONDS TRAFFIC: owns COUNT vehicles, updated and checked at 60 Hz
+//   crowd hear INTERFACE COUNT SECONDS: shows COUNT entities of others
 // One JSON object at the end. TRAFFIC: vehicles_town_sumo.csv of the reference data.
 #include <sys/resource.h>
 
