@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon replay`: the behaviour that users and scripts rely on. All traffic stays on the loopback
-// interface.
+// `reckon replay`, as users and scripts call it. All traffic stays on the loopback interface.
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
