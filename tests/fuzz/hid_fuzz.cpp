@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any report descriptor, or that of a wheel with some octets changed, followed by any reports.
+// Any report descriptor, or a wheel's descriptor with some octets changed, followed by any reports.
 // Fields are read within the reports, written fields change only their own bits, no wall is stiffer
 // than requested, and nothing after the descriptor allocates heap.
 #include <algorithm>

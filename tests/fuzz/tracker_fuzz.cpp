@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Sequence numbers of up to 16 senders in 8 groups, some near the wrap and far apart, with
-// forgotten senders. While the tracker has evicted nothing, its verdicts and counts equal those of
-// the sets of received numbers. Its table stays within bounds and allocates no heap.
+// forgotten senders. While the tracker has evicted nothing, its verdicts and counts equal the
+// results from the sets of received numbers. Its table stays within bounds and allocates no heap.
 #include <algorithm>
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program (LD_PRELOAD), suppresses IP_MULTICAST_ALL = 0: its sockets then behave
-// like those of programs without this option.
+// as in programs without this option.
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A peer with a limited receive rate ([aoim] budget): it leaves the most distant cells, and
-// continues to feel what it touches.
+// continues to feel the entities that it touches.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -289,7 +289,7 @@ TEST(OwnedEntities, TenThousandAreShownWithinTwoSeconds) {
   run(200);
   EXPECT_EQ(one.size(), 10'000U);
   EXPECT_EQ(many.peer().counters().find("write_overflow")->value(), 0U);
-  // Each is in place: the sum over all equals that of the grid.
+  // Each is in place: the sum of all positions equals the sum over the grid.
   Vector3d sum = Vector3d::Zero();
   one.for_each([&](const peer::RemoteObject& object) { sum += object.shown(one.now()).position; });
   EXPECT_NEAR(sum.x(), -50.0 * 10'000, 1.0);

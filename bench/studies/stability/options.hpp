@@ -32,7 +32,7 @@ struct StabilityOptions {
 
 /// A recorded hand along the axis of its greatest extent, directed into the surface (downwards if
 /// the axis is z), scaled to at most 20 mm around about 4 mm of depth, after half a second of
-/// approach. Its grip is that of the tracking hand. @throws UsageError
+/// approach. It has the grip of the tracking hand. @throws UsageError
 [[nodiscard]] OperatorModel recorded_operator(const std::string& file);
 
 }  // namespace reckon::bench

@@ -31,7 +31,7 @@ StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& pl
   return results;
 }
 
-/// Runs what is missing and writes each result at once. @return whether all results are there
+/// Performs the missing runs and writes each result at once. @return whether all results are there
 bool run_missing(const StabilityPlan& plan, StabilityResults& results, SweepJournal& journal,
                  const tools::Console& console) {
   ProgressBar bar(console);

@@ -48,7 +48,7 @@ LocalFrame frame_at(const Vector3d& point) {
 }
 
 /// Whether the sender's timestamps are reliable: at least nine of ten increase from one update to
-/// the next, and their span is that of the capture within 5 % plus half a second.
+/// the next, and their span equals the capture's within 5 % plus half a second.
 bool stamps_run(const std::vector<ReceivedUpdate>& updates) {
   std::size_t grew = 0;
   for (std::size_t i = 1; i < updates.size(); ++i)

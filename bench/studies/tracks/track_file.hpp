@@ -42,9 +42,9 @@ struct TrackFile {
 [[nodiscard]] TrackFile read_track_table(const std::filesystem::path& path);
 
 /// Reads the Entity States of a capture (pcap, pcapng, also compressed; see open_recording), in a
-/// plane near the first one. Time is that of the DIS timestamps if these increase and keep pace
-/// with the capture, else that of the capture. Rates are as sent. The result is the motion as it
-/// was sent: motion between two updates is not in the file.
+/// plane near the first one. Times are the DIS timestamps if these increase and keep pace with the
+/// capture, else the capture's times. Rates are as sent. The result is the motion as it was sent:
+/// motion between two updates is not in the file.
 [[nodiscard]] TrackFile read_track_capture(const std::filesystem::path& path);
 
 }  // namespace reckon::bench

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The judge of touch: what it calls wrong, and what it accepts.
+// The judge of touch: the cases that it rejects, and the cases that it accepts.
 #include <gtest/gtest.h>
 
 #include <cmath>

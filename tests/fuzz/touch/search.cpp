@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The touch adversary: climbs from random scenarios to those that break a promise, or come nearest
-// to it. `./run fuzz touch`; docs/robustness.md lists the promises.
+// The touch adversary: climbs from random scenarios to scenarios that break a promise, or come
+// nearest to it. `./run fuzz touch`; docs/robustness.md lists the promises.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of keys: each is read and checked, its default equals that of the struct, and the
+// The list of keys: each is read and checked, its default equals the default in the struct, and the
 // documentation contains it.
 #include "reckon/peer/scene/scene_keys.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The end of a run: by how much the hands' forces were reduced, and whom they touched.
+// The end of a run: the reduction of the hands' forces, and the hands that they touched.
 #include "reckon/tools/exercise/hand_report.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon demo`: its DIS exercise, and its reports of what it leaves out.
+// `reckon demo`: its DIS exercise, and its reports about parts that it leaves out.
 #include <gmock/gmock.h>
 
 #include <fstream>

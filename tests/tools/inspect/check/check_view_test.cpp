@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect check`: the text of a finding, what is no fault over time, and recorded exercises
-// of a real product, whose only finding is a datagram that was cut.
+// `reckon inspect check`: the text of a finding, events that are not a fault over time, and
+// recorded exercises of a real product, whose only finding is a datagram that was cut.
 #include "reckon/tools/inspect/check/check_view.hpp"
 
 #include <gmock/gmock.h>
