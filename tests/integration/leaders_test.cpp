@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Whole peers with leaders of cells: one per cell, named by all; replaced within two seconds after
-// a death, at once after a farewell, and one again after a partition. Only the leader introduces a
-// newcomer.
+// a death, at once after a leave announcement, and one again after a partition. Only the leader
+// introduces a newcomer.
 #include <gtest/gtest.h>
 
 #include <cstdio>

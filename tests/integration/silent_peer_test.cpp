@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that fall silent without a farewell: how long they are felt, and how far they are
+// Peers that fall silent without a leave announcement: how long they are felt, and how far they are
 // extrapolated. A peer on a bad network must not be doubted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

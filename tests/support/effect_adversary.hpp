@@ -26,7 +26,7 @@ inline double any(Random& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
 
-/// The energy port of a hand in a scene. A test moves the hand; the energy books are the device's.
+/// The energy port of a hand in a scene. A test moves the hand; the device keeps the energy ledger.
 class BookedPort {
  public:
   /// @param place of the hand [m]  @param delay [samples], of the device
@@ -110,7 +110,7 @@ inline Vector3d motion(Random& random, int step, const Vector3d& force, const Ve
   return dx + 0.004 * (Vector3d(0.015, 0.012, 0.012) - device);
 }
 
-/// With the gate: the least value of the books, and the energy that late samples explain.
+/// With the gate: the least value of the ledger, and the energy that late samples explain.
 struct Least {
   double books, late;
 };
@@ -132,7 +132,7 @@ struct Least {
 
 /// A hand that puts in almost no energy in a region: it strays by microns about `start` [m, S],
 /// then follows the force, by the step that takes most out or by a random one. @return least of the
-/// books [J]
+/// ledger [J]
 [[nodiscard]] inline double stray_and_let_go(const EffectPlan& plan, const Vector3d& start,
                                              Random& random) {
   BookedPort port(plan, start);
@@ -155,7 +155,7 @@ struct Least {
 
 /// A hand that puts in almost no energy: it presses by microns from exactly the surface and
 /// releases by the step that takes most out. @param plan its first object is a box of 40 mm @return
-/// least of the books [J]
+/// least value of the ledger [J]
 [[nodiscard]] inline double press_and_let_go(const EffectPlan& plan, Random& random) {
   const PlannedObject& object = plan.objects()[0];
   const Vector3d start = object.to_scene({0.003, 0.001, 0.02 + 1e-6});

@@ -150,13 +150,13 @@ class InProcess {
     return clock_.utc_now() + place.ahead + nanoseconds(std::llround(gained));
   }
 
-  /// A clean end: farewell, then silence.
+  /// A clean end: leave announcement, then silence.
   void stop(std::size_t link) {
     places_[link].peer->stop(clock_.now(), host_utc(link));
     kill(link);
   }
-  /// kill -9: no farewell. Its sockets are closed: all memberships are left and queued datagrams
-  /// are lost.
+  /// kill -9: no leave announcement. Its sockets are closed: all memberships are left and queued
+  /// datagrams are lost.
   void kill(std::size_t link) {
     const peer::SceneFile& scene = *places_[link].scene;
     places_[link].peer.reset();

@@ -20,9 +20,9 @@ using std::chrono::nanoseconds;
 inline constexpr std::size_t kMostHosts = 12;
 
 enum class FaultKind : std::uint8_t {
-  kill,     ///< ends without a farewell
-  restart,  ///< ends without a farewell; a new process of the host starts at `until`
-  depart,   ///< ends with a farewell
+  kill,     ///< ends without a leave announcement
+  restart,  ///< ends without a leave announcement; a new process of the host starts at `until`
+  depart,   ///< ends with a leave announcement
   pause,    ///< the process is frozen until `until`; then it reads its socket
   split,    ///< the hosts of `side` and the others do not receive each other until `until`
   clock_step,
@@ -31,7 +31,7 @@ enum class FaultKind : std::uint8_t {
   leader_depart,   ///< departure of the scene leader
   leader_pause,    ///< pause of the scene leader
   forged_claim,    ///< a stranger claims in the host's name to lead everything since 1970
-  forged_leave,    ///< .. sends a farewell
+  forged_leave,    ///< .. sends a leave announcement
   forged_map,      ///< .. sends a map of groups
   forged_states,   ///< .. sends a snapshot of a state that never existed
 };

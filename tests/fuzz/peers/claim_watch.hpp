@@ -18,7 +18,8 @@
 
 namespace reckon::fuzz {
 
-/// The number under which a datagram announces its sender; none for other datagrams and farewells.
+/// The number under which a datagram announces its sender; none for other datagrams and leave
+/// announcements.
 [[nodiscard]] std::optional<aoim::PeerId> announced_in(std::span<const std::byte> datagram);
 
 /// Observes a trial: invariant I12.

@@ -28,7 +28,7 @@ struct Life {
   nanoseconds born{};
   std::unique_ptr<SimulatedPeer> peer;
   bool alive = true, frozen = false;
-  bool left = false;    ///< sent its farewell
+  bool left = false;    ///< sent its leave announcement
   nanoseconds ended{};  ///< when it departed or was killed
   nanoseconds frozen_at{};
   nanoseconds slept{}, slept_long{};  ///< total sleep; sleep in pauses that it must notice

@@ -23,15 +23,15 @@ inline constexpr std::size_t kNobody = ~std::size_t{0};
 
 /// Faults of peers between the first start and the calm.
 enum class FaultKind : std::uint8_t {
-  kill,     ///< ends without a farewell, for good
-  restart,  ///< ends without a farewell; a new process requests the same id at `until`
-  depart,   ///< ends with a farewell; a new process requests the same id at `until`
+  kill,     ///< ends without a leave announcement, for good
+  restart,  ///< ends without a leave announcement; a new process requests the same id at `until`
+  depart,   ///< ends with a leave announcement; a new process requests the same id at `until`
   pause,    ///< the process is frozen; then it reads its socket
   split,    ///< the peers of `side` and the others do not receive each other
   one_way,  ///< the peers of `side` do not receive `peer`, which receives them
   clock_step,
   flood,            ///< a stranger announces hundreds of forged peers
-  forged_farewell,  ///< a stranger sends a farewell in the name of `peer`
+  forged_farewell,  ///< a stranger sends a leave announcement in the name of `peer`
   forged_restart,   ///< .. announces a new epoch of it
   forged_elder,     ///< .. announces an epoch that started in 1970
   forged_leap,      ///< .. sends a bare trailer of its epoch, 2^30 ahead

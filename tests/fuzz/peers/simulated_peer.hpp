@@ -54,7 +54,7 @@ class SimulatedPeer : private aoim::ParticipantHandler {
                          nanoseconds now, const aoim::SourceAddress& from);
   /// The other work of the loop. Call it whenever next() is reached and after receive().
   void step(nanoseconds now, aoim::DatagramSink sink);
-  /// The last step: sends the farewell.
+  /// The last step: sends the leave announcement.
   void leave(nanoseconds now, aoim::DatagramSink sink);
   [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
   void set_clock(nanoseconds clock) noexcept;

@@ -120,7 +120,7 @@ bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_
   return came < now && now - came < kLately && old_heard->usable > came + kStraggler;
 }
 
-// Datagrams sent before a farewell may arrive after it.
+// Datagrams sent before a leave announcement may arrive after it.
 void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const std::size_t other = life_of(event.announced.epoch);
   if (other == kNobody || !lives_[other].left) return;

@@ -78,7 +78,7 @@ class BoardHandle final : public ModelHandle {
     }
   }
   [[nodiscard]] nanoseconds now() const override { return wired_.board.now(); }
-  // It does not separate its energy books.
+  // It has one energy ledger for both.
   [[nodiscard]] double port_work_now() const override { return work_now(); }
   [[nodiscard]] double work_now() const override { return wired_.board.books(); }
   [[nodiscard]] nanoseconds known_until() const override {

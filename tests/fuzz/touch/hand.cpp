@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr double kHeld = 0.1;      // [N]
 constexpr double kSettled = 1.5;   // [s]
 constexpr double kTakenOff = 100;  // steps
-constexpr double kSpoken = 1e-3;   // [J], threshold for the share of a model's books
+constexpr double kSpoken = 1e-3;   // [J], threshold for the share of a model's ledger
 // Share of the energy of samples whose reading failed: a light hand on a stiff grip turns round
 // within two samples.
 constexpr double kEstimated = 0.5;
@@ -273,7 +273,7 @@ void Hand::note_step(double dt) {
   held_ = snapshot_.force;
 }
 
-// The servo's reading is older than the books, and bodies are not in them.
+// The servo's reading is older than the ledger, which does not include bodies.
 void Hand::keep_model_books(double port, double dt) {
   const double allowed = allowance() + handle_->rounding();
   least_port_ = std::min(least_port_, port);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One hand of a scenario: its operator, device and servo, and the energy books that judge them.
+// One hand of a scenario: its operator, device and servo, and the energy ledger that checks them.
 #pragma once
 
 #include <array>
@@ -60,11 +60,11 @@ class Hand {
   [[nodiscard]] haptics::ServoLoop& servo() const { return *servo_; }
   /// Whether it stepped in the last call of step().
   [[nodiscard]] bool stepped() const { return stepped_; }
-  /// Work at the port and damping, of the device's own books [J].
+  /// Work at the port and damping, of the device's own ledger [J].
   [[nodiscard]] double work() const { return handle_->work(); }
   /// Greatest energy that late or failed samples may have left open [J].
   [[nodiscard]] double open() const { return late_cost_ + failed_cost_; }
-  /// Energy that encoder steps may have put into the servo's books, as the servo states it [J].
+  /// Energy that encoder steps may have put into the servo's ledger, as the servo states it [J].
   [[nodiscard]] double allowance() const;
   [[nodiscard]] const MovingBooks& bodies() const { return *moving_; }
   /// Largest force of a neighbour [N].

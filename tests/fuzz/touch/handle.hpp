@@ -20,13 +20,13 @@ class Handle {
   Handle& operator=(const Handle&) = delete;
 
   [[nodiscard]] virtual haptics::HapticDevice& device() = 0;
-  /// Energy that its forces took from the hand [J], by its own books.
+  /// Energy that its forces took from the hand [J], by its own ledger.
   [[nodiscard]] virtual double port_work() const = 0;
   /// The same, with the energy taken by its damping [J].
   [[nodiscard]] virtual double work() const = 0;
   /// Greatest work() since the instant of the servo's meter [J]; none if that is too long ago.
   [[nodiscard]] virtual double work_known() const { return work(); }
-  /// Greatest energy that whole force steps may have put into the servo's books [J].
+  /// Greatest energy that whole force steps may have put into the servo's ledger [J].
   [[nodiscard]] virtual double rounding() const { return 0; }
   /// Whether the next reading fails; its energy is then estimated.
   [[nodiscard]] virtual bool fails() const { return false; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The model of a device in the first hand: its own clock, its faults, and its energy books.
+// The model of a device in the first hand: its own clock, its faults, and its energy ledger.
 #pragma once
 
 #include <chrono>

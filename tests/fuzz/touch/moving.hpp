@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Moving objects beside the first hand of a scenario: a body that falls on it, a distant heap, and
-// a paddle that pinches a cube; with their energy books.
+// a paddle that pinches a cube; with their energy ledgers.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,9 @@ void add_moving(const Scenario& scenario, const Eigen::Vector3d& home, haptics::
 /// Motion of the bodies, step by step.
 class MovingBooks {
  public:
-  /// @param world null: no books @param stiffest [N/m] greatest stiffness of bodies that the hand's
-  ///     device shows
+  /// @param world null: no ledger @param stiffest [N/m] greatest stiffness of bodies that the
+  /// device
+  ///     of the hand shows
   MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world,
               double stiffest);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs a scenario through servos and simulated devices, with independent energy books.
+// Runs a scenario through servos and simulated devices, with an independent energy ledger.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ namespace reckon::fuzz {
 struct ModelBooks {
   double made = -1e9;     ///< [J], greatest energy given beyond the hand's input
   double left = 1e9;      ///< least remaining share of the greatest input so far, from 1 mJ
-  double claimed = -1e9;  ///< [J], greatest excess of the servo's meter over its books, from 1 mJ
+  double claimed = -1e9;  ///< [J], greatest excess of the servo's meter over its ledger, from 1 mJ
 };
 
-/// The result of a run. Energies are from the devices' own books, not from the servos' meters.
+/// The result of a run. Energies are from the devices' own ledgers, not from the servos' meters.
 struct Outcome {
   double least_port = 0;    ///< [J], of work + damping + received - given + loan, any port
   double least_held = 1e9;  ///< [J], of it under a held force of 0.1 N or more: for the climb
   double least_sum = 0;     ///< [J], of all ports and loans, without a liar
-  double meter = 0;         ///< [J], greatest excess of a servo's meter over the device's books
+  double meter = 0;         ///< [J], greatest excess of a servo's meter over the device's ledger
   double excess = -1e9;     ///< [N], greatest growth or turn of a force beyond the limit
   double rows = 0;          ///< greatest |felt / right - 1| at the end, of hands in a row
   double wrong = 0;         ///< relative error of the force of a resting hand

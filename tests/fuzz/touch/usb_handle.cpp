@@ -119,7 +119,7 @@ class UsbHandle final : public ModelHandle {
   [[nodiscard]] bool is_ready() const {
     return runs() && (plugged_.model.position() - wanted(0)).norm() < kThere;
   }
-  // Work of a device that has received no command for 10 ms is not in the servo's books: its own
+  // Work of a device that has received no command for 10 ms is not in the servo's ledger: its own
   // watchdog is slower.
   void book_own_work(nanoseconds now) {
     if (plugged_.model.commands() != std::exchange(commands_, plugged_.model.commands()))

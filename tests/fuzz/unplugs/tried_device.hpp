@@ -86,7 +86,7 @@ class TriedDevice {
   [[nodiscard]] virtual double asked(const haptics::ServoSnapshot& servo) const {
     return servo.force.norm();
   }
-  /// [J], own energy books, including the servo's debts and allowances
+  /// [J], own energy ledger, including the servo's debts and allowances
   [[nodiscard]] virtual double books(const haptics::ServoSnapshot& servo) const = 0;
 
   // --- the thread's loop

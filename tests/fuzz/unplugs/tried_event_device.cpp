@@ -169,7 +169,7 @@ class TriedEventDevice final : public TriedEventLoop {
 
   double force() const override { return std::hypot(model_.force(0), model_.force(1)); }
   std::uint64_t commands() const override { return calls_of_.commands; }
-  // Energy of its springs: the device's own books have no debts and no allowances.
+  // Energy of its springs: the device's own ledger has no debts and no allowances.
   double books(const haptics::ServoSnapshot&) const override { return model_.least_absorbed(); }
 
   unsigned tries() const override { return calls_of_.tries; }

@@ -43,7 +43,7 @@ class TriedHidDevice final : public TriedEventLoop {
 
   double force() const override { return std::hypot(model_.wheel.force(0), model_.wheel.force(1)); }
   std::uint64_t commands() const override { return model_.wheel.orders(); }
-  // Energy of its springs: the device's own books have no debts and no allowances.
+  // Energy of its springs: the device's own ledger has no debts and no allowances.
   double books(const haptics::ServoSnapshot&) const override {
     return model_.wheel.least_absorbed();
   }

@@ -205,7 +205,7 @@ std::optional<std::string> TriedUsbDevice<Kind>::surplus() const {
 }
 
 // A device that is pulled out holds its last force until its own watchdog acts. Its driver cannot
-// change that, and the servo relies on 10 ms: later work is not in its books.
+// change that, and the servo relies on 10 ms: later work is not in its ledger.
 template <class Kind>
 void TriedUsbDevice<Kind>::book_own_work(nanoseconds now) {
   if (model_.commands() != std::exchange(commands_, model_.commands())) commanded_at_ = now;
