@@ -24,9 +24,8 @@ void add_moving(const Scenario& scenario, const Eigen::Vector3d& home, haptics::
 /// Motion of the bodies, step by step.
 class MovingBooks {
  public:
-  /// @param world null: no ledger @param stiffest [N/m] greatest stiffness of bodies that the
-  /// device
-  ///     of the hand shows
+  /// @param world null: no ledger
+  /// @param stiffest [N/m] greatest stiffness of bodies that the hand's device shows
   MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world,
               double stiffest);
 

@@ -33,8 +33,8 @@ class Watch {
   /// Later commands to the device use another line.
   void plugged() { ran_at_.reset(); }
   void see(const Sight& sight);
-  /// @param asked [N], part of its shown force that the servo still requests @param books [J], of
-  ///     the device's own, including debts and allowances
+  /// @param asked [N], part of its shown force that the servo still requests
+  /// @param books [J], from the device's own ledger, including debts and allowances
   void see(const haptics::ServoSnapshot& servo, double asked, double books, nanoseconds now);
   void hear(const std::string& sentence, nanoseconds now);
   /// Counts events; each may cause one notice.
