@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon-bench`: the studies, which measure and compare what `reckon` does. Users meet
-// it as `reckon bench`, `reckon figures`, `reckon tune` and `reckon zwidth`.
+// The program `reckon-bench` with the studies, which measure and compare `reckon`. Users call it as
+// `reckon bench`, `reckon figures`, `reckon tune` and `reckon zwidth`.
 #pragma once
 
 #include <span>

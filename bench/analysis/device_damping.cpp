@@ -25,7 +25,7 @@ void require_sampled(double sample_period) {
       "device damping: the environment must be sampled; give it in z, with its period");
 }
 
-// -Re{VE/z}, of VE/z: what the hold makes of the environment is one sample late.
+// -Re{VE/z}, given VE/z: the hold delays the environment by one sample.
 DeviceDamping needed(const StateSpace& environment_one_late) {
   const PositiveRealReport report = judge_positive_real(environment_one_late);
   return {-report.least, report.angular_frequency};

@@ -14,7 +14,7 @@ namespace {
 double first_integral(double y) { return y == 0 ? 1.0 : -std::expm1(-y) / y; }
 double second_integral(double y) {
   if (std::abs(y) > 0.5) return (std::expm1(-y) + y) / (y * y);
-  // Series: the difference above would lose its digits.
+  // A series, because the difference above would lose its digits.
   double term = 0.5, sum = 0.5;
   for (int k = 3; k < 20; ++k) sum += term *= -y / k;
   return sum;
@@ -24,7 +24,7 @@ double acceleration(const MassDamper& body, const MotionState& s, double force) 
   return (force - body.damping * s.velocity) / body.mass;
 }
 
-// When the velocity is 0, for a body that slows down; infinite where it never is.
+// Time at which the velocity is 0, for a body that slows down; infinite if it never is.
 double turning_time(const MassDamper& body, const MotionState& s, double force) {
   const double a = acceleration(body, s, force);
   if (s.velocity == 0) return 0.0;
@@ -37,7 +37,8 @@ double turning_time(const MassDamper& body, const MotionState& s, double force) 
   return decay < 1 ? -std::log1p(-decay) / rate : std::numeric_limits<double>::infinity();
 }
 
-// The one root in [low, high] of a falling stretch, above the stop at `low` and not at `high`.
+// The single root in [low, high] on a falling section that is above the stop at `low` and not at
+// `high`.
 double root_between(const MassDamper& body, const MotionState& s, double force, double stop,
                     double low, double high) {
   double t = 0.5 * (low + high);
@@ -67,7 +68,8 @@ std::optional<double> first_contact(const MassDamper& body, const MotionState& s
   const double a = acceleration(body, s, force);
   const bool at_stop = s.position <= stop;
   if (at_stop && (s.velocity < 0 || (s.velocity == 0 && a < 0))) return 0.0;
-  // It falls from the start, or from the turning point on, and no further than a later one.
+  // The body falls from the start or from its turning point, and at most until its next turning
+  // point.
   const double turn = turning_time(body, s, force);
   const bool rising = s.velocity > 0 || (s.velocity == 0 && a > 0);
   if (rising && (a >= 0 || turn >= horizon)) return std::nullopt;
@@ -96,7 +98,7 @@ bool HybridMotion::rests(double force) const noexcept {
   return state_.position == stop_.position && state_.velocity == 0 && force <= 0;
 }
 
-// At the stop to the last bit: what the root is off by does not add up over many bounces.
+// Set to the stop exactly, so that the error of the root does not accumulate over many bounces.
 void HybridMotion::bounce() {
   const double before = state_.velocity;
   state_.position = stop_.position;

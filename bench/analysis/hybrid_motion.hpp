@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One degree of freedom between samples, exactly: a mass with damping under a force that is held,
-// and a stop on one side that it meets at an instant which is solved for. Thesis 3.3. Off-line
-// code.
+// Exact motion of one degree of freedom between samples: a mass with damping under a held force,
+// and a one-sided stop whose time of impact is computed. Thesis 3.3. Off-line code.
 #pragma once
 
 #include <optional>
@@ -20,19 +19,20 @@ struct MotionState {
   double velocity = 0.0;  ///< [m/s]
 };
 
-/// After `time` [s] >= 0 under a constant force [N]: closed form, to rounding for any b >= 0, 0 and
-/// next to it included.
+/// State after `time` [s] >= 0 under a constant force [N]: closed form, exact to rounding for any b
+/// >= 0, including 0 and values near 0.
 [[nodiscard]] MotionState advanced(const MassDamper& body, const MotionState& state, double force,
                                    double time) noexcept;
 
-/// First instant in [0, horizon] [s] at which a body that starts at or above `stop` comes down to
-/// it, or none. At the stop: 0 where it moves or is pushed down. To rounding: the path bends one
-/// way only, so that Newton's method inside a bracket cannot miss the crossing.
+/// First instant in [0, horizon] [s] at which a body that starts at or above `stop` reaches it from
+/// above, if there is one. A body at the stop: 0 if it moves or is pushed down. Exact to rounding:
+/// the path has curvature of one sign, so that Newton's method inside a bracket cannot miss the
+/// crossing.
 [[nodiscard]] std::optional<double> first_contact(const MassDamper& body, const MotionState& state,
                                                   double force, double stop,
                                                   double horizon) noexcept;
 
-/// A stop that the body cannot pass: position >= this.
+/// A stop that the body cannot pass: position >= this position.
 struct RigidStop {
   double position = 0.0;     ///< [m]
   double restitution = 1.0;  ///< speed after over speed before, 0 to 1
@@ -53,14 +53,14 @@ class HybridMotion {
 
   /// @param force [N]  @param duration [s] >= 0
   void run(double force, double duration);
-  /// Until the next impact is over. False, and nothing moves, where none comes within `horizon`
-  /// [s].
+  /// Moves until the next impact is over. Returns false without a motion if there is no impact
+  /// within `horizon` [s].
   bool run_to_impact(double force, double horizon);
 
   [[nodiscard]] const MotionState& state() const noexcept { return state_; }
   [[nodiscard]] double time() const noexcept { return time_; }
   [[nodiscard]] long impacts() const noexcept { return impacts_; }
-  /// Lost in impacts so far [J] >= 0.
+  /// Energy lost in impacts so far [J] >= 0.
   [[nodiscard]] double lost_in_impacts() const noexcept { return lost_; }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
-constexpr double kRounding = 1e-14;  // of a polynomial's coefficients
+constexpr double kRounding = 1e-14;  // of the coefficients of a polynomial
 
 TransferFunction wall_of(const PairParameters& p) {
   return virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading);
@@ -38,7 +38,7 @@ StateSpace for_both(const StateSpace& s) {
   return {twice(s.A), twice(s.B), twice(s.C), twice(s.D), s.sample_period};
 }
 
-// u - attenuation z^-d times the other's u.
+// u minus attenuation z^-d times the other's u.
 StateSpace difference_of(const PairParameters& p) {
   MatrixXd crossed(2, 2);
   crossed << 0, -p.attenuation, -p.attenuation, 0;
@@ -59,8 +59,8 @@ TransferFunction echo_of(const PairParameters& p, double factor) {
   return echo;
 }
 
-// A root at z = 1, up to rounding: 1 - 1.6 + 0.6 of (z - 1)(z - 0.6) is not 0. And the polynomial
-// without it.
+// Whether z = 1 is a root, up to rounding: 1 - 1.6 + 0.6 of (z - 1)(z - 0.6) is not exactly 0.
+// Below, the polynomial without this root.
 bool has_root_at_one(const std::vector<double>& polynomial) {
   double value = 0.0, size = 0.0;
   for (const double coefficient : polynomial) {
@@ -75,8 +75,8 @@ std::vector<double> without_root_at_one(std::vector<double> polynomial) {
   return polynomial;
 }
 
-// Both users in a mode of motion see the environment with an echo. Where the echo cancels the
-// integrator, the integrator's state is one that no motion of this mode reaches: it is taken out.
+// In each mode of motion both users have the environment with an echo. If the echo cancels the
+// integrator, no motion of this mode reaches the integrator's state, so the state is removed.
 double mode_radius(const PairParameters& p, TransferFunction environment, double factor) {
   TransferFunction echo = echo_of(p, factor);
   if (has_root_at_one(echo.numerator) && has_root_at_one(environment.denominator)) {
@@ -112,7 +112,7 @@ Eigen::Matrix2cd closed_pair(Complex device, Complex environment, Complex delay)
 StateSpace pair_loop(const PairParameters& p) {
   const StateSpace devices = for_both(device_of(p));
   const StateSpace environments = series(difference_of(p), for_both(to_state_space(wall_of(p))));
-  // The forces are read from the states of the loop: devices first, then environments.
+  // The forces are outputs of the states of the loop: devices first, then environments.
   StateSpace loop = feedback(devices, environments);
   const Eigen::Index n = devices.order(), all = loop.order();
   MatrixXd forces = MatrixXd::Zero(2, all);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tellegen's theorem as bookkeeping, thesis (4.11): the power that enters by the ports is what the
-// network stores and loses, and ideal junctions take none. Off-line code; the servo's own books are
-// EnergyPort.
+// Tellegen's theorem as an energy balance, thesis (4.11): the power that enters through the ports
+// equals the stored and dissipated power of the network, and ideal junctions take none. Off-line
+// code; EnergyPort has the balance of the servo.
 #pragma once
 
 #include <span>
@@ -23,32 +23,32 @@ enum class Junction {
 /// Sum of effort x flow [W]. 0 over an ideal junction, whatever its kind.
 [[nodiscard]] double power(std::span<const PortValue> ports);
 
-/// How far these ports are from an ideal junction: the largest difference of the common quantity
-/// and the sum of the other, whichever is more. [N] and [m/s] mixed: for a check against rounding.
+/// Deviation of these ports from an ideal junction: the greater of the largest difference of the
+/// common quantity and the sum of the other. [N] and [m/s] are mixed: for a check against rounding.
 [[nodiscard]] double junction_residual(Junction kind, std::span<const PortValue> ports);
 
-/// The books of a network, tick by tick.
+/// The energy balance of a network, tick by tick.
 ///
 ///     PowerLedger ledger(stored_at_start);
 ///     ledger.tick(ports, stored, dissipated, T);
-///     ledger.worst_imbalance();   // [J], about 0: the network does what its elements say
-///     ledger.made();              // [J], above 0: it gives more than it got
+///     ledger.worst_imbalance(); // [J], about 0: the network agrees with its elements
+///     ledger.made(); // [J], above 0: it supplied more than it received
 class PowerLedger {
  public:
   /// @param stored energy at the start [J]
   explicit PowerLedger(double stored) : start_(stored), stored_(stored) {}
 
-  /// @param ports by which power enters  @param stored energy at the end of the tick [J]
-  /// @param dissipated during it [J]  @param period length [s]
-  /// @returns what is unaccounted for: in - change of storage - dissipated [J]
+  /// @param ports through which power enters @param stored energy at the end of the tick [J]
+  /// @param dissipated during it [J] @param period length [s]
+  /// @returns the imbalance: in - change of storage - dissipated [J]
   double tick(std::span<const PortValue> ports, double stored, double dissipated, double period);
 
   /// Greatest |imbalance| of one tick [J].
   [[nodiscard]] double worst_imbalance() const noexcept { return worst_; }
-  /// Energy that came in by the ports so far [J].
+  /// Energy received through the ports so far [J].
   [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
-  /// Most that the ports ever got back beyond all that came in and was there at the start [J]; 0
-  /// for a passive network.
+  /// Greatest energy that the ports ever supplied beyond the energy received and stored at the
+  /// start [J]; 0 for a passive network.
   [[nodiscard]] double made() const noexcept { return made_; }
 
  private:

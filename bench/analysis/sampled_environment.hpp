@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An environment of a transfer function in time, and the same behind a surface that acts on one
-// side only. For simulations off-line.
+// An environment given by a transfer function, computed in time, and the same behind a one-sided
+// surface. For simulations off-line.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace reckon::bench {
 
-/// A force for each speed, at rest in the beginning.
+/// Computes a force for each speed; initially at rest.
 class SampledEnvironment {
  public:
   /// @param environment speed [m/s] to force [N], sampled and proper
@@ -31,12 +31,12 @@ class SampledEnvironment {
   Eigen::VectorXd state_;
 };
 
-/// Thesis Fig 3.3: acts on the depth behind a surface, never pulls, and nothing without depth.
+/// Thesis Fig 3.3: acts on the depth behind a surface, never pulls, and has no force without depth.
 class UnilateralEnvironment {
  public:
   explicit UnilateralEnvironment(const TransferFunction& environment) : inner_(environment) {}
 
-  /// @param depth [m], at or below 0: no contact  @returns force against it [N] >= 0
+  /// @param depth [m], at or below 0: no contact @returns force against the depth [N] >= 0
   double step(double depth) {
     const double now = std::max(0.0, depth), before = std::exchange(depth_, now);
     const double force = inner_.step((now - before) / inner_.sample_period());

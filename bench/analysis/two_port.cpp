@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Matrix2cd;
 
-// Which of (F1, V1, F2, V2) a form gives and takes, and the sign of the second that it takes.
+// The outputs and inputs of a form among (F1, V1, F2, V2), and the sign of its second input.
 struct FormRow {
   const char* name;
   std::array<Eigen::Index, 2> out, in;
@@ -41,8 +41,8 @@ Complex OnePort::admittance_at(double angular_frequency) const {
   return 1.0 / impedance_at(angular_frequency);
 }
 
-// Every form says two equations of the four quantities; solving them for two others is another
-// form.
+// Every form is two equations of the four quantities; solving them for two other quantities gives
+// another form.
 TwoPortMatrix converted(const TwoPortMatrix& two_port, PortForm form) {
   if (!two_port.matrix.allFinite()) {
     throw std::invalid_argument("two-port: an entry is not finite; is the frequency a pole?");
@@ -77,7 +77,7 @@ TwoPortMatrix cascade(const TwoPortMatrix& first, const TwoPortMatrix& second) {
 
 Complex driving_impedance(const TwoPortMatrix& two_port, Complex load) {
   const Matrix2cd c = converted(two_port, PortForm::chain).matrix;
-  // At the load F2 = load (-V2).
+  // At the load, F2 = load (-V2).
   return (c(0, 0) * load + c(0, 1)) / (c(1, 0) * load + c(1, 1));
 }
 

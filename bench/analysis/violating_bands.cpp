@@ -19,7 +19,7 @@ bool violates(const Margin& margin, double x) {
   return value < 0;
 }
 
-// Between a and b the verdict changes.
+// The sign of the margin changes between a and b.
 double edge(const Margin& margin, double a, double b) {
   const bool at_a = violates(margin, a);
   while (b - a > 1e-12 * b) {

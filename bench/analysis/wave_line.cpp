@@ -64,7 +64,7 @@ WaveLine::WaveLine(double impedance, int delay_samples, double sample_period)
 
 WaveLine::Ends WaveLine::step(const Ends& flows) {
   Ends& place = on_the_way_[oldest_];
-  const Ends arrived{place.b, place.a};  // at a, what left b
+  const Ends arrived{place.b, place.a};  // at a: the wave that left b
   place = {root_ * flows.a + arrived.a, root_ * flows.b + arrived.b};
   oldest_ = (oldest_ + 1) % on_the_way_.size();
   // F = Z V + 2 sqrt Z v.

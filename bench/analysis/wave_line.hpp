@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A junction with delay between two ports: effort and flow sent as they are, thesis (4.12), and the
-// lossless transmission line that carries waves instead, (4.14) to (4.16). Off-line code.
+// A junction with delay between two ports: effort and flow sent unchanged, thesis (4.12), and the
+// lossless transmission line that sends waves instead, (4.14) to (4.16). Off-line code.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,29 +16,30 @@ namespace reckon::bench {
 [[nodiscard]] TwoPortMatrix delayed_junction(double theta);
 
 /// Eigenvalues of P + P^H, ascending. (4.13) prints +-2j sin(wT) for the delayed junction; the
-/// matrix is Hermitian and they are real, +-2 sin(wT): active at every delay but where wT = n pi.
+/// matrix is Hermitian and they are real, +-2 sin(wT): active at every delay except for wT = n pi.
 [[nodiscard]] Eigen::Vector2d power_eigenvalues(const TwoPortMatrix& immittance);
 
-/// Line with mass M [kg] and stiffness as a spring K [N/m] in all: Z_0 = sqrt(M K), delay
-/// sqrt(M/K). (The thesis says K = k L for stiffness k per length; springs in series give k/L.)
+/// A line with total mass M [kg] and total stiffness K [N/m], as one spring: Z_0 = sqrt(M K), delay
+/// sqrt(M/K). (The thesis has K = k L for stiffness k per length; springs in series give k/L.)
 struct LineParameters {
   double impedance = 1.0;  ///< Z_0 [N s/m] > 0
   double delay = 0.0;      ///< one way [s]
 };
 [[nodiscard]] LineParameters line_of(double mass, double stiffness);
 
-/// Impedance matrix at s = j w: Z_0 [coth Ts, csch Ts; csch Ts, coth Ts]. Not finite where
-/// lambda^2 = e^{-2jwT} is 1: poles on the border, whose residues are >= 0, so that the line is
-/// lossless there too.
+/// Impedance matrix at s = j w: Z_0 [coth Ts, csch Ts; csch Ts, coth Ts]. Not finite if lambda^2 =
+/// e^{-2jwT} is 1: these are poles on the border with residues >= 0, so that the line is lossless
+/// there too.
 [[nodiscard]] TwoPortMatrix transmission_line(const LineParameters& line, double angular_frequency);
-/// (4.14), (4.15) as printed: minus that on the diagonal, for flows that are counted outwards
-/// there. It maps flows to efforts: an impedance matrix, though the thesis calls it hybrid.
+/// (4.14), (4.15) as printed: the diagonal has the opposite sign, because the flows are counted
+/// outwards there. It maps flows to efforts, so it is an impedance matrix, although the thesis
+/// calls it hybrid.
 [[nodiscard]] TwoPortMatrix printed_transmission_line(const LineParameters& line,
                                                       double angular_frequency);
 
-/// The line in time: flows in, efforts out, a whole number of samples late. Lossless whatever is
-/// done at its ends: what goes in is what is on the way. Waves u = (F + Z V)/(2 sqrt Z) out and
-/// v = (F - Z V)/(2 sqrt Z) in, with u^2 - v^2 = F V.
+/// The line in time: flows in, efforts out, a whole number of samples late. Lossless for any motion
+/// of its ends: the energy received and not yet returned is in transit. Waves u = (F + Z V)/(2 sqrt
+/// Z) out and v = (F - Z V)/(2 sqrt Z) in, with u^2 - v^2 = F V.
 class WaveLine {
  public:
   struct Ends {
@@ -51,13 +52,13 @@ class WaveLine {
 
   /// One sample: efforts [N] at both ends for the flows [m/s] into them.
   Ends step(const Ends& flows);
-  /// Energy on the way [J].
+  /// Energy in transit [J].
   [[nodiscard]] double stored() const;
 
  private:
   double root_;  // sqrt Z
   double sample_period_;
-  std::vector<Ends> on_the_way_;  // ring: what left each end
+  std::vector<Ends> on_the_way_;  // ring: the waves that left each end
   std::size_t oldest_ = 0;
 };
 

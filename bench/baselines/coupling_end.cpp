@@ -32,7 +32,7 @@ void check(const CouplingEndConfig& config) {
          "two hands press on a linear spring: take environment linear, or a server");
 }
 
-// The one at which the spring is, where it is at one end only.
+// The end that has the spring, if only one end has it.
 bool is_world(const CouplingEndConfig& config) { return config.side == CouplingSide::second; }
 
 bool is_server(const CouplingEndConfig& config) {
@@ -44,7 +44,7 @@ End junction_end(const CouplingEndConfig& config) {
   return std::make_unique<FlowEnd>();
 }
 
-// Two hands exchange where they are; a server sends the force.
+// Two hands exchange their positions; a server sends the force.
 End gain_cut_end(const CouplingEndConfig& config) {
   if (config.counterpart == Counterpart::server) return junction_end(config);
   return std::make_unique<LocalModelEnd>(config, config.gain, false);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One end of a coupling: what it makes of the own motion and of what arrived. One object per end;
-// the ends of a mode share nothing but the samples.
+// One end of a coupling: computes the force from the own motion and the samples that arrived. One
+// object for each end; the ends of a mode share only the samples.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace reckon::bench {
 
-/// The handle at a sample; of a server, where its world begins.
+/// The handle at a sample; for a server, the position at which its world begins.
 struct OwnMotion {
-  std::uint32_t number = 0;  ///< of the sample, from 0
+  std::uint32_t number = 0;  ///< number of the sample, from 0
   double position = 0.0;     ///< [m]
   double velocity = 0.0;     ///< [m/s]
 };
 
-/// What travels, whatever the mode; each uses what it needs and leaves the rest 0.
+/// The sample that is sent, for all modes; each mode uses the members that it needs and leaves the
+/// rest 0.
 struct CouplingSample {
-  std::uint32_t number = 0;  ///< of the sample at which it was sent
-  double position = 0.0;     ///< [m], of the handle, or of the surface of a model
+  std::uint32_t number = 0;  ///< number of the sample at which it was sent
+  double position = 0.0;     ///< [m], position of the handle, or of the surface of a model
   double velocity = 0.0;     ///< [m/s]
   double effort = 0.0;       ///< [N], or the wave [sqrt W]
-  double stiffness = 0.0;    ///< [N/m], of the model
+  double stiffness = 0.0;    ///< [N/m], stiffness of the model
   double given = 0.0;        ///< [J], running total: see RemoteHand
   double need = 0.0;         ///< [J]
   double spring_need = 0.0;  ///< [J]
@@ -34,20 +35,21 @@ struct CouplingSample {
   bool operator==(const CouplingSample&) const = default;
 };
 
-/// One end. Single thread; step() and sample() neither allocate nor lock.
+/// One end. Single thread; step() and sample() do not allocate or lock.
 class CouplingEnd {
  public:
   virtual ~CouplingEnd() = default;
 
-  /// One sample. @param arrived since the last one, in order of arrival, which need not be that of
-  /// sending  @returns the force on the own handle [N], held until the next step; 0 for a server
+  /// One sample. @param arrived samples since the last call, in order of arrival, which may differ
+  /// from the order of sending @returns the force on the own handle [N], held until the next step;
+  /// 0 for a server
   virtual double step(const OwnMotion& own, std::span<const CouplingSample> arrived) noexcept = 0;
-  /// What to send, asked for after step() where a sample is due.
+  /// The sample to send, called after step() if one is due.
   [[nodiscard]] virtual CouplingSample sample() noexcept = 0;
-  /// Work that changes of the world did on what is touched [J]; 0 where the end renders no world.
+  /// Work that changes of the world did on the touched object [J]; 0 if the end renders no world.
   [[nodiscard]] virtual double world_work() const noexcept { return 0.0; }
-  /// What its port was lent and has not paid back [J], see haptics::exchange_energy(); 0 where
-  /// nothing is lent.
+  /// Energy lent to its port and not yet repaid [J], see haptics::exchange_energy(); 0 if nothing
+  /// is lent.
   [[nodiscard]] virtual double loan() const noexcept { return 0.0; }
 
  protected:
@@ -56,23 +58,23 @@ class CouplingEnd {
   CouplingEnd& operator=(const CouplingEnd&) = default;
 };
 
-/// What is at the other end of the line from the first hand.
+/// The other end of the line, seen from the first hand.
 enum class Counterpart : std::uint8_t { server, hand };
 
-/// Which end. Hands overlap by the first one's position less the second one's.
+/// Which end. The overlap of two hands is the first one's position minus the second one's.
 enum class CouplingSide : std::uint8_t { first, second };
 
-/// What an end is made of.
+/// Settings of an end.
 struct CouplingEndConfig {
   CouplingMode mode = CouplingMode::reckon;
   CouplingSide side = CouplingSide::first;
   Counterpart counterpart = Counterpart::server;
   double period = 1e-3;    ///< T [s]
-  double damping = 1.0;    ///< sure damping of the own device [N s/m]
+  double damping = 1.0;    ///< guaranteed damping of the own device [N s/m]
   double mass = 0.1;       ///< [kg]
   double impedance = 0.5;  ///< of the transmission line [N s/m]
-  double gain = 1.0;       ///< of gain_cut: share of the stiffness that is shown
-  bool gate = true;        ///< of reckon: false lets the port hold whatever is wanted
+  double gain = 1.0;       ///< of gain_cut: share of the stiffness that is rendered
+  bool gate = true;        ///< of reckon: if false, the port may hold any force
   Environment environment{EnvironmentKind::linear, 500.0};
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Couplings of two ends of a delayed line, for studies. All but the last serve only for comparison:
-// docs/baselines.md explains each and where it fails.
+// Couplings of two ends over a delayed line, for studies. All but the last are only for comparison:
+// docs/baselines.md explains each and its failures.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 namespace reckon::bench {
 
 enum class CouplingMode : std::uint8_t {
-  velocity_exchange,       ///< thesis (4.1): own speed less the other's feeds a local environment
+  velocity_exchange,       ///< thesis (4.1): own speed minus the other's drives a local environment
   effort_flow,             ///< (4.12): flow is sent, effort returns, both delayed
   transmission_line,       ///< (4.14): the same as waves of a lossless line
   gain_cut,                ///< a stiffness low enough to be passive with the known delay
-  passivity_controller,    ///< printed dead reckoning with an energy observer and a damper
+  passivity_controller,    ///< dead reckoning as printed, with an energy observer and a damper
   printed_dead_reckoning,  ///< a received model, each update applied on arrival
   reckon,                  ///< the product: the same model behind the energy port
 };
@@ -42,7 +42,7 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
   return kNames[static_cast<std::size_t>(mode)];
 }
 
-/// Nothing if no mode has that name.
+/// No value if no mode has that name.
 [[nodiscard]] constexpr std::optional<CouplingMode> coupling_mode(std::string_view name) noexcept {
   for (const CouplingMode mode : kCouplingModes) {
     if (name_of(mode) == name) return mode;

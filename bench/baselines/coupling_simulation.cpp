@@ -121,7 +121,7 @@ void CouplingPeer::step() {
 
 namespace {
 
-// Everything that is measured of a run, sample by sample.
+// All measurements of a run, sample by sample.
 class Measures {
  public:
   Measures(const CouplingRun& run, std::uint32_t samples)
@@ -130,7 +130,7 @@ class Measures {
     for (auto& trace : outcome_.trace) trace.reserve(samples);
   }
 
-  /// @param truth [N], the undelayed force  @returns false where there is nothing left to simulate
+  /// @param truth [N], the undelayed force @returns false if the run has diverged and must end
   bool note(std::uint32_t number, const CouplingPeer& first, const CouplingPeer& second,
             double truth) {
     const bool two = second.has_hand();

@@ -11,7 +11,7 @@
 namespace reckon::bench {
 namespace {
 
-constexpr double kApproach = 0.003;  // [m], of the moving surface
+constexpr double kApproach = 0.003;  // [m], motion of the moving surface
 constexpr std::array<std::string_view, 4> kEnvironments{"linear", "hardening", "moving",
                                                         "switching"};
 constexpr std::array<std::string_view, 3> kOperators{"push", "soft", "tracking"};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is touched in a coupling study, along one axis, and the hand that touches it. Positions grow
-// into the surface, which is at 0 unless it moves; SI units.
+// The environment of a coupling study, along one axis, and the hand that touches it. Positions
+// increase into the surface, which is at 0 unless it moves; SI units.
 #pragma once
 
 #include <algorithm>
@@ -15,42 +15,41 @@ namespace reckon::bench {
 enum class EnvironmentKind : std::uint8_t {
   linear,     ///< K d
   hardening,  ///< k1 d + k3 d^3 with k1 = K/4 and twice the linear force at d = 1 N/k1
-  moving,     ///< K, and the surface 3 mm nearer in every second half of a period
-  switching,  ///< K/4 and K in turns
+  moving,     ///< K, with the surface 3 mm nearer in every second half of a period
+  switching,  ///< K/4 and K alternately
 };
 [[nodiscard]] std::string_view name_of(EnvironmentKind kind) noexcept;
 
-/// Linearisation as a server sends it: force stiffness (x - surface).
+/// Linearisation as a server sends it: force = stiffness (x - surface).
 struct Tangent {
   double stiffness = 0.0;  ///< [N/m]
   double surface = 0.0;    ///< [m]
 };
 
-/// The spring of an environment at one time; depths [m], no load for those below 0.
+/// The spring of an environment at one time; depths [m], no force for depths below 0.
 struct ContactLaw {
   double k1 = 0.0;       ///< [N/m]
   double k3 = 0.0;       ///< [N/m^3]
   double surface = 0.0;  ///< [m]
 
-  /// Against a probe at x [m]: [N] >= 0.
+  /// Force against a probe at x [m]: [N] >= 0.
   [[nodiscard]] double force(double x) const noexcept {
     const double d = std::max(0.0, x - surface);
     return (k1 + k3 * d * d) * d;
   }
-  /// Stored then [J].
+  /// Energy stored with a probe at x [J].
   [[nodiscard]] double energy(double x) const noexcept {
     const double d = std::max(0.0, x - surface);
     return (0.5 * k1 + 0.25 * k3 * d * d) * d * d;
   }
-  /// Of the force at x.
+  /// Linearisation of the force at x.
   [[nodiscard]] Tangent tangent(double x) const noexcept;
 };
 
 /// A one-sided spring whose law may depend on time.
 class Environment {
  public:
-  /// @param stiffness K [N/m] >= 0  @param period [s] of moving and switching; 0 takes 1 s and 0.6
-  /// s
+  /// @param stiffness K [N/m] >= 0 @param period [s] of moving and switching; 0 means 1 s and 0.6 s
   Environment(EnvironmentKind kind, double stiffness, double period = 0.0);
 
   /// @param t [s]
@@ -66,7 +65,7 @@ class Environment {
   double period_;
 };
 
-/// A hand: its spring and damper to a target, and what it pushes with.
+/// A hand: its spring and damper to a target, and its push.
 struct OperatorModel {
   double stiffness = 0.0;      ///< [N/m]
   double damping = 0.0;        ///< [N s/m]
@@ -80,10 +79,10 @@ enum class OperatorKind : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(OperatorKind kind) noexcept;
 [[nodiscard]] OperatorModel operator_model(OperatorKind kind);
-/// A hand that holds the handle where it begins, with a grip of 150 N/m and 3 N s/m.
+/// A hand that holds the handle at its start, with a grip of 150 N/m and 3 N s/m.
 [[nodiscard]] OperatorModel resting_operator();
 
 inline constexpr double kCouplingStart = -0.002;  ///< [m], outside
-inline constexpr double kCouplingWait = 1.0;      ///< [s], until the first updates are there
+inline constexpr double kCouplingWait = 1.0;      ///< [s], until the first updates have arrived
 
 }  // namespace reckon::bench

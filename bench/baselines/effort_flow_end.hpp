@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The naive junction, thesis (4.12): flow goes one way, effort comes back, both as they are. The
-// flow travels as its integral, so that a sample that is lost costs no motion.
+// The simple junction, thesis (4.12): flow is sent in one direction and effort in the other,
+// unchanged. The flow is sent as its integral, so that a lost sample loses no motion.
 #pragma once
 
 #include "reckon/bench/baselines/coupling_end.hpp"
 
 namespace reckon::bench {
 
-/// Sends where it is, shows the effort that it last heard of.
+/// Sends its position and renders the last effort that it received.
 class FlowEnd final : public CouplingEnd {
  public:
   double step(const OwnMotion& own, std::span<const CouplingSample> arrived) noexcept override;
@@ -19,8 +19,8 @@ class FlowEnd final : public CouplingEnd {
   double effort_ = 0.0;
 };
 
-/// Renders the environment, or the spring before its own hand, against where the other was, and
-/// sends the force.
+/// Renders the environment, or the spring in front of its own hand, against the last position of
+/// the other, and sends the force.
 class EffortEnd final : public CouplingEnd {
  public:
   explicit EffortEnd(const CouplingEndConfig& config) noexcept;

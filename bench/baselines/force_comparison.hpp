@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How right the forces of a run were.
+// Errors of the forces in a run.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@ namespace reckon::bench {
 
 struct CouplingOutcome;
 
-/// Gathers shown forces beside true ones. One thread; notes do not allocate up to twice `samples`.
+/// Collects rendered and true forces. One thread; notes do not allocate up to twice `samples`.
 class ForceComparison {
  public:
   explicit ForceComparison(std::size_t samples);
 
-  /// @param shown on a hand  @param truth undelayed, left out where both are 0  @param here of the
-  /// environment where the hands are; all [N], away from the contact
+  /// @param shown on a hand @param truth undelayed force; left out if both are 0 @param here force
+  ///     of the environment at the positions of the hands; all [N], away from the contact
   void note(double shown, double truth, double here);
   /// Writes error_rms, error_p95, truth_rms, truth_p95 and stiffness_kept.
   void finish(CouplingOutcome& outcome);

@@ -45,7 +45,8 @@ double PassivityControllerEnd::step(const OwnMotion& own,
   observed_ -= held_ * dx;
   held_ = LocalModelEnd::step(own, arrived);
 
-  // What the damper takes in the next sample at this speed is to bring the books to 0.
+  // The damper dissipates, in the next sample at this speed, as much energy as brings the balance
+  // to 0.
   const double square = dx * dx / period_;
   if (observed_ < 0 && square > 0)
     held_ -= std::min(most_damping_, -observed_ / square) * dx / period_;

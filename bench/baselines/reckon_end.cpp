@@ -13,7 +13,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kMostForce = 100.0;  // [N], of the study's devices
-constexpr double kEndless = 1e9;      // [N s/m], damping of a device whose gate is off
+constexpr double kEndless = 1e9;      // [N s/m], damping of a device without the gate
 constexpr nanoseconds kHandValidity = std::chrono::milliseconds(720);
 constexpr nanoseconds kServerValidity = std::chrono::hours(1);
 
@@ -84,7 +84,7 @@ double ReckonEnd::step(const OwnMotion& own, std::span<const CouplingSample> arr
   return handle_.force();
 }
 
-// As the model loop does: the newest wins.
+// As in the model loop: the newest wins.
 void ReckonEnd::take(const CouplingSample& sample) noexcept {
   haptics::RemoteHand& other = set_.hands[0];
   if (sample.number + 1 <= other.version) return;

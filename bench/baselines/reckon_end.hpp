@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The product's own servo as an end of a coupling study: nothing of it is copied here.
+// The servo of the product as an end of a coupling study; it is not a copy.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace reckon::bench {
 
-/// The handle as the servo is told of it, moved by the study.
+/// The handle as a device of the servo; the study moves it.
 class StudyHandle final : public haptics::HapticDevice {
  public:
   explicit StudyHandle(const haptics::DeviceLimits& limits) noexcept : limits_(limits) {}
@@ -29,9 +29,9 @@ class StudyHandle final : public haptics::HapticDevice {
   double force_ = 0.0;
 };
 
-/// A ServoLoop against a server's tangent or against another hand. Without the gate the servo is
-/// told of a device that damps without end: then the energy port answers for everything, while
-/// stiffness and rates stay limited as the true device asks for.
+/// A ServoLoop against a server's tangent or against another hand. Without the gate the servo gets
+/// a device with unlimited damping: then the energy port never limits the force, while stiffness
+/// and rates stay limited as for the true device.
 class ReckonEnd final : public CouplingEnd {
  public:
   explicit ReckonEnd(const CouplingEndConfig& config);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the samples of a coupling travel: by the law of impairment. What happens to each follows from
-// its number and the seed alone, so that two processes over sockets see what one process sees.
+// Transport of the samples of a coupling, with the law of impairment. The delay and loss of each
+// sample depend only on its number and the seed, so that two processes over sockets get the same
+// result as one process.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +15,15 @@
 
 namespace reckon::bench {
 
-/// Samples on their way to one side.
+/// Samples in transit to one side.
 class SampleQueue {
  public:
-  /// A sample is on its way for a period at least, whatever the law says.
-  /// @param period [s]  @param side to which they go  @throws std::invalid_argument by the law
+  /// A sample is in transit for at least one period, for any law.
+  /// @param period [s] @param side destination @throws std::invalid_argument for an invalid law
   SampleQueue(const peer::ImpairmentLaw& law, double period, std::uint64_t seed, CouplingSide side);
 
   void put(const CouplingSample& sample);
-  /// Those that come out at sample `number` or before, in order of arrival; valid until the next
+  /// Samples that arrive at sample `number` or before, in order of arrival; valid until the next
   /// call.
   [[nodiscard]] std::span<const CouplingSample> take(std::uint32_t number);
 
@@ -40,16 +41,16 @@ class SampleQueue {
   std::vector<CouplingSample> arrived_;
 };
 
-/// One side's way to the other. The calls for sample k are receive(k), then send(k, ..): in
+/// The link from one side to the other. The calls for sample k are receive(k), then send(k, ..), in
 /// lock-step, so that nothing sent at k is received before k + 1.
 class SampleLink {
  public:
   virtual ~SampleLink() = default;
 
-  /// @returns what arrived since the last call, valid until the next one
-  /// @throws std::runtime_error where the other side does not answer
+  /// @returns samples that arrived since the last call, valid until the next one
+  /// @throws std::runtime_error if the other side does not answer
   virtual std::span<const CouplingSample> receive(std::uint32_t number) = 0;
-  /// @param sample nothing where none is due
+  /// @param sample no value if none is due
   virtual void send(std::uint32_t number, const std::optional<CouplingSample>& sample) = 0;
 
  protected:
@@ -58,7 +59,7 @@ class SampleLink {
   SampleLink& operator=(const SampleLink&) = default;
 };
 
-/// Both sides in one process: each puts into the other's queue.
+/// Both sides in one process: each puts its samples into the other's queue.
 class QueueLink final : public SampleLink {
  public:
   QueueLink(SampleQueue& incoming, SampleQueue& outgoing)

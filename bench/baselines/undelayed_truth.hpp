@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the hands of a run would feel if there were no line, no sampling and no limit: the force to
-// compare with.
+// The force that the hands of a run would feel without a line, sampling and limits: the reference.
 #pragma once
 
 #include <array>
@@ -12,16 +11,16 @@ namespace reckon::bench {
 
 struct CouplingRun;
 
-/// The same operators and devices on the environment itself, which acts within the plant's own
-/// steps of 0.1 ms or less (semi-implicit).
+/// The same operators and devices on the environment itself, which acts in the plant's own steps of
+/// 0.1 ms or less (semi-implicit).
 class UndelayedTruth {
  public:
-  /// @param run outlives it
+  /// @param run must outlive it
   explicit UndelayedTruth(const CouplingRun& run);
 
-  /// Force between them now [N] >= 0.
+  /// Current force between them [N] >= 0.
   [[nodiscard]] double force() const noexcept;
-  /// One sample on.
+  /// Computes the next sample.
   void step() noexcept;
 
  private:

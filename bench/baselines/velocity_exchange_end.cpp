@@ -12,7 +12,7 @@ VelocityExchangeEnd::VelocityExchangeEnd(const CouplingEndConfig& config) noexce
 double VelocityExchangeEnd::step(const OwnMotion& own,
                                  std::span<const CouplingSample> arrived) noexcept {
   ContactLaw law = environment_.at(own.number * period_);
-  law.surface = 0.0;  // its motion is in the depth
+  law.surface = 0.0;  // its motion is included in the depth
   if (own.number == 0) {
     last_position_ = sent_position_ = own.position;
   } else {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two environments fed with the own speed less the other's, thesis (4.1), Figs 4.1 and 4.2.
+// Two environments driven by the own speed minus the other's, thesis (4.1), Figs 4.1 and 4.2.
 #pragma once
 
 #include "reckon/bench/baselines/coupling_end.hpp"
 
 namespace reckon::bench {
 
-/// Speeds travel as means since the last sample and are held until the next one: a sample that is
-/// lost is motion that is lost, and the two environments drift apart.
+/// Speeds are sent as means since the last sample and are held until the next one: a lost sample
+/// loses motion, and the two environments drift apart.
 class VelocityExchangeEnd final : public CouplingEnd {
  public:
   explicit VelocityExchangeEnd(const CouplingEndConfig& config) noexcept;
@@ -20,7 +20,7 @@ class VelocityExchangeEnd final : public CouplingEnd {
  private:
   Environment environment_;
   ContactLaw law_;
-  double direction_;  // +1 of the first hand, -1 of the second
+  double direction_;  // +1 for the first hand, -1 for the second
   double period_;
   double depth_ = kCouplingStart;  // [m], integral of the difference of speeds
   double other_speed_ = 0.0, world_work_ = 0.0;
@@ -28,7 +28,7 @@ class VelocityExchangeEnd final : public CouplingEnd {
   std::uint32_t number_ = 0, sent_ = 0;
 };
 
-/// The surface of a server, which has a speed too.
+/// The surface of a server, which also has a speed.
 class SurfaceSpeedServer final : public CouplingEnd {
  public:
   explicit SurfaceSpeedServer(const CouplingEndConfig& config) noexcept;

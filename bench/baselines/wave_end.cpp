@@ -36,14 +36,14 @@ WaveWorldEnd::WaveWorldEnd(const CouplingEndConfig& config) noexcept
       root_(std::sqrt(config.impedance)),
       period_(config.period) {}
 
-// Change of storage over the way: the force that makes the step's books exact.
+// Change of stored energy over the distance: this force makes the energy balance of the step exact.
 double WaveWorldEnd::mean_force(double from, double to) const noexcept {
   const double way = to - from;
   if (std::abs(way) < 1e-9) return law_.force(0.5 * (from + to));
   return (law_.energy(to) - law_.energy(from)) / way;
 }
 
-// Z w + F(w) = 2 sqrt(Z) v for the speed w of the point; F grows with w, so that halving finds it.
+// Solves Z w + F(w) = 2 sqrt(Z) v for the speed w of the point, by bisection; F grows with w.
 double WaveWorldEnd::speed(double depth) const noexcept {
   const double impedance = root_ * root_;
   double high = 2 * wave_ / root_;

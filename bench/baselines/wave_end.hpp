@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A lossless transmission line between two ends, thesis (4.14), over whatever carries samples: what
-// WaveLine is in one object. Waves u = (F + Z V)/(2 sqrt Z) out, v = (F - Z V)/(2 sqrt Z) in, with
-// u^2 - v^2 = F V [W].
+// A lossless transmission line between two ends, thesis (4.14), over any link for samples: WaveLine
+// does the same in one object. Waves u = (F + Z V)/(2 sqrt Z) out, v = (F - Z V)/(2 sqrt Z) in,
+// with u^2 - v^2 = F V [W].
 //
-// A wave travels as its mean since the last sample and is held until the next one. The mean has no
-// more energy than its parts: with constant delay and a constant rate the line makes none. A wave
-// that is held too long, for the next one is late or lost, is energy out of nothing.
+// A wave is sent as its mean since the last sample and is held until the next one. The mean has no
+// more energy than its parts, so with constant delay and a constant rate the line makes no energy.
+// A wave that is held too long, because the next one is late or lost, adds energy.
 #pragma once
 
 #include "reckon/bench/baselines/coupling_end.hpp"
@@ -27,8 +27,8 @@ class WaveMean {
   std::uint32_t count_ = 0;
 };
 
-/// At the hand: shows F = Z V + 2 sqrt(Z) v, held over the sample. The hold costs up to 2 Z V^2 T a
-/// sample, which the device pays where Z <= b/2.
+/// At the hand: renders F = Z V + 2 sqrt(Z) v, held over the sample. The hold costs up to 2 Z V^2 T
+/// a sample, which the device dissipates if Z <= b/2.
 class WaveHandEnd final : public CouplingEnd {
  public:
   explicit WaveHandEnd(const CouplingEndConfig& config) noexcept;
@@ -45,8 +45,9 @@ class WaveHandEnd final : public CouplingEnd {
   WaveMean leaving_;
 };
 
-/// At the world, or before the second hand: the end of the line is a point that the wave moves
-/// against the spring, solved so that a step takes from the wave just what the spring stores.
+/// At the world, or in front of the second hand: the end of the line is a point that the wave moves
+/// against the spring. Its motion is solved so that a step takes from the wave exactly what the
+/// spring stores.
 class WaveWorldEnd final : public CouplingEnd {
  public:
   explicit WaveWorldEnd(const CouplingEndConfig& config) noexcept;

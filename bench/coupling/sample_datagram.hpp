@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The samples of a coupling study as a standard Data PDU (type 20), each in one variable datum of
-// our own: any DIS tool steps over them.
+// The samples of a coupling study as a standard Data PDU (type 20), each in one variable datum with
+// an identifier of this project: any DIS tool skips them.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ namespace reckon::bench {
 
 inline constexpr std::uint32_t kSampleDatum = 0x48415010;  ///< "HAP", 16
 
-/// What one side did at one sample: 64 octets.
+/// Data of one side at one sample: 64 octets.
 struct SampleRecord {
   static constexpr std::uint8_t kVersion = 1;
 
   std::uint8_t version = kVersion;
-  std::uint8_t due = 0;  ///< 1: the numbers behind were sent, 0: none was due
+  std::uint8_t due = 0;  ///< 1: the following numbers were sent; 0: no sample was due
   std::uint16_t padding = 0;
   std::uint32_t number = 0;  ///< of the sample, from 0
-  double position = 0.0;     ///< these as CouplingSample has them
+  double position = 0.0;     ///< from here on the members of CouplingSample
   double velocity = 0.0;
   double effort = 0.0;
   double stiffness = 0.0;
@@ -53,14 +53,15 @@ constexpr void fields(Visitor& visitor, Record& record) {
                                      const std::optional<CouplingSample>& sample) noexcept;
 [[nodiscard]] std::optional<CouplingSample> from_record(const SampleRecord& record) noexcept;
 
-/// Room for a datagram of two records.
+/// Buffer for a datagram of two records.
 using SampleDatagram = std::array<std::byte, 256>;
 
-/// The newest two, so that one lost datagram loses nothing. @returns octets in `out`
+/// Encodes the newest two records, so that one lost datagram loses no sample. @returns octets in
+/// `out`
 [[nodiscard]] std::size_t encode_samples(std::span<const SampleRecord> records,
                                          SampleDatagram& out) noexcept;
 
-/// Up to two records of a datagram; none where it is no such Data PDU, damaged or of another
+/// Up to two records of a datagram; none if it is not such a Data PDU, is damaged or has another
 /// version.
 struct SampleRecords {
   std::array<SampleRecord, 2> records{};

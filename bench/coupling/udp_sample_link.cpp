@@ -65,15 +65,15 @@ void UdpSampleLink::send(std::uint32_t number, const std::optional<CouplingSampl
   say();
 }
 
-// What the kernel refuses is said again.
+// A datagram that the kernel does not accept is sent again later.
 void UdpSampleLink::say() noexcept {
   SampleDatagram datagram;
   const std::size_t size = encode_samples({said_.data(), said_count_}, datagram);
   static_cast<void>(::send(socket_.get(), datagram.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL));
 }
 
-// Until the samples 0 .. number - 1 of the other side are here. What it says that is not them, from
-// another run say, does not make it longer.
+// Waits until the samples 0 .. number - 1 of the other side have arrived. Other datagrams, for
+// example from another run, do not extend the wait.
 void UdpSampleLink::await(std::uint32_t number) {
   const peer::SteadyClock clock;
   const std::chrono::nanoseconds end = clock.now() + patience_;
@@ -93,7 +93,7 @@ void UdpSampleLink::await(std::uint32_t number) {
   }
 }
 
-// An error is that of a datagram of ours which met nobody: the other side is not there yet.
+// An error here reports a datagram that nobody received: the other side has not started yet.
 void UdpSampleLink::read() {
   SampleDatagram datagram;
   const auto size = ::recv(socket_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two processes of a coupling study in lock-step over UDP: one datagram a sample from each to the
-// other, and what the network of the study does to a sample is done where it arrives, by its
-// number. So both see, sample for sample, what one process would.
+// Two processes of a coupling study in lock-step over UDP, with one datagram a sample in each
+// direction. The network of the study acts on each sample at arrival, by its number. So both
+// processes get, sample for sample, the same result as one process.
 #pragma once
 
 #include <array>
@@ -18,23 +18,25 @@
 
 namespace reckon::bench {
 
-/// One side. For studies: it waits for the other side, which no loop of a peer may. A datagram that
-/// was lost is made good by the next one, which tells the last two samples, and is said again where
-/// nothing comes for 20 ms.
+/// One side. For studies only: it waits for the other side, which no loop of a peer may do. Each
+/// datagram contains the last two samples, so that it replaces a lost one. It is sent again if
+/// nothing arrives for 20 ms.
 class UdpSampleLink final : public SampleLink {
  public:
-  /// Binds. @param local address of this host, port 0 takes a free one  @param incoming what the
-  /// study's network does on the way to this side  @param patience for the other side, whole
+  /// Binds the socket. @param local address of this host, port 0 takes a free one @param incoming
+  /// the study's network towards this side @param patience longest wait for a sample of the other
+  /// side
   /// @throws std::system_error
   UdpSampleLink(const peer::IpEndpoint& local, SampleQueue incoming,
                 std::chrono::milliseconds patience = std::chrono::seconds(10));
 
-  /// Where it is bound, with its port.
+  /// The bound address, with its port.
   [[nodiscard]] peer::IpEndpoint local() const;
-  /// The other side; datagrams of anybody else are not read. @throws std::system_error
+  /// Sets the address of the other side; datagrams from other addresses are not read. @throws
+  /// std::system_error
   void connect(const peer::IpEndpoint& remote);
 
-  /// @throws std::runtime_error where the other side's last sample does not come in time
+  /// @throws std::runtime_error if the last sample of the other side does not arrive in time
   std::span<const CouplingSample> receive(std::uint32_t number) override;
   void send(std::uint32_t number, const std::optional<CouplingSample>& sample) override;
 
@@ -48,7 +50,7 @@ class UdpSampleLink final : public SampleLink {
   std::chrono::milliseconds patience_;
   std::array<SampleRecord, 2> said_{};  // the newest first
   std::uint32_t said_count_ = 0;
-  std::uint32_t heard_ = 0;  // samples of the other side, in their order
+  std::uint32_t heard_ = 0;  // number of samples received from the other side, in order
 };
 
 }  // namespace reckon::bench

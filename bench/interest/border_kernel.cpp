@@ -12,7 +12,7 @@
 namespace reckon::bench {
 namespace {
 
-// Not below and not above, so that NaN is between.
+// Written as "not below and not above", so that NaN counts as between.
 bool is_between(float squared, float least, float most) noexcept {
   return !(squared < least) && !(squared > most);
 }
@@ -32,7 +32,7 @@ std::size_t border_scalar(const BorderColumns& columns, std::uint32_t slot, cons
   std::size_t found = 0;
   for (std::size_t r = 0; r < run_count; ++r) {
     for (std::uint32_t i = runs[r].first; i < runs[r].last; ++i) {
-      // Written anyway and kept only where it is named: no branch to guess.
+      // Every pair is written, and `found` advances only if it is named: no branch to mispredict.
       out.own[found] = slot;
       out.other[found] = i;
       found += is_named<kSame>(columns, slot, i) ? 1U : 0U;
@@ -42,7 +42,7 @@ std::size_t border_scalar(const BorderColumns& columns, std::uint32_t slot, cons
 }
 
 #if defined(__x86_64__)
-// The same sums in the same order, and no fused ones: the same slots.
+// The same sums in the same order without fused operations, so that it names the same slots.
 template <bool kSame>
 __attribute__((target("avx2"))) std::size_t border_avx2(const BorderColumns& c, std::uint32_t slot,
                                                         const SlotRun* runs, std::size_t run_count,
@@ -77,7 +77,7 @@ __attribute__((target("avx2"))) std::size_t border_avx2(const BorderColumns& c, 
   return found;
 }
 
-// Of sixteen slots from i on, of which `valid` are in the run.
+// For sixteen slots from i on, of which `valid` are in the run.
 template <bool kSame>
 __attribute__((target("avx512f"), always_inline)) inline __mmask16 named_avx512(
     const BorderColumns& c, std::size_t i, __mmask16 valid, __m512 x, __m512 y, __m512 z,
@@ -107,7 +107,7 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
   const __m512 most = _mm512_set1_ps(kSame ? c.most_of_all : c.most[slot]);
   const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   std::size_t found = 0;
-  // A compressing store to memory is slow on some processors, one to a register on none.
+  // A compressing store to memory is slow on some processors; to a register it is fast on all.
   const auto put = [&](std::uint32_t first, __mmask16 named)
       __attribute__((target("avx512f"), always_inline)) {
     const __m512i slots = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), count);
@@ -115,7 +115,8 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
     found += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(named)));
   };
   for (std::size_t r = 0; r < run_count; ++r) {
-    // Two groups at once: most runs are shorter than that, and how much shorter is not guessed.
+    // Two groups at once: most runs are shorter than that, and so no branch depends on their
+    // length.
     for (std::uint32_t i = runs[r].first; i < runs[r].last; i += 32) {
       const unsigned valid = 0xFFFFFFFFU >> (32U - std::min(32U, runs[r].last - i));
       put(i, named_avx512<kSame>(c, i, static_cast<__mmask16>(valid), x, y, z, least, most));
@@ -124,7 +125,7 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
     }
   }
   const __m512i own = _mm512_set1_epi32(static_cast<int>(slot));
-  // The first without a look whether any is found, which is not guessed.
+  // The first group is written unconditionally, so that no branch depends on `found`.
   _mm512_storeu_si512(out.own, own);
   for (std::size_t i = 16; i < found; i += 16) _mm512_storeu_si512(out.own + i, own);
   return found;

@@ -11,14 +11,14 @@
 namespace reckon::bench {
 namespace {
 
-constexpr unsigned kHere = 1, kThere = 2;  // hears then
+constexpr unsigned kHere = 1, kThere = 2;  // bits: receives at that tick
 
-// Of one direction: is there a change, and what is it?
+// One direction of a pair: writes its change, if there is one.
 template <ChangeTold kTold>
 std::uint64_t* put(std::uint64_t* out, unsigned hears, std::uint32_t observer,
                    std::uint32_t entity) noexcept {
   constexpr bool kBoth = kTold == ChangeTold::both;
-  // Written anyway and kept only where it changed: no branch to guess.
+  // Every key is written, and the output advances only at a change: no branch to mispredict.
   *out = HearingChanges::key(observer, entity,
                              kBoth ? (hears & kHere) != 0 : kTold == ChangeTold::began);
   return out + (hears == kHere || (kBoth && hears == kThere) ? 1 : 0);
@@ -51,8 +51,8 @@ std::uint64_t* changes_scalar(const ChangeColumns& c, const std::uint32_t* own,
 }
 
 #if defined(__x86_64__)
-// The same sums in the same order, and no fused ones: the same keys. Here in the lower lane, there
-// in the upper.
+// The same sums in the same order without fused operations, so that it writes the same keys. `here`
+// is in the lower lane, `there` in the upper.
 template <ChangeTold kTold>
 __attribute__((target("avx2"))) std::uint64_t* changes_avx2(const ChangeColumns& c,
                                                             const std::uint32_t* own,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An entity of IncrementalInterest: where it is, what it hears, and how it is compared.
+// An entity of IncrementalInterest: its position, its radius of reception, and how it is compared.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace reckon::bench {
 
-/// Where an entity is, and up to where it hears.
+/// The position of an entity and its radius of reception.
 struct Hearer {
-  static constexpr double kNobody = -1.0;  ///< no square is below 0
+  static constexpr double kNobody = -1.0;  ///< receives nobody: no square is below 0
 
   aoim::Position position{std::numeric_limits<double>::quiet_NaN(), 0, 0};
   double squared_radius = kNobody;  ///< [m^2]
 
-  /// Whether it hears who is at this squared distance; nobody where that is NaN.
+  /// Whether it receives an entity at this squared distance; false if that is NaN.
   [[nodiscard]] bool hears(double squared) const noexcept { return squared <= squared_radius; }
 };
 
@@ -27,7 +27,7 @@ struct Hearer {
   return dx * dx + dy * dy + dz * dz;
 }
 
-/// Whether an entity is left out where slots are compared by runs, and why.
+/// Whether an entity is left out of the comparison by runs, and the reason.
 enum class Apart : std::uint8_t { no, leapt, far };
 
 }  // namespace reckon::bench

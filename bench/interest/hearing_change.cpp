@@ -9,9 +9,9 @@
 namespace reckon::bench {
 namespace {
 
-constexpr unsigned kDigitBits = 11;  // as many runs as a first-level cache has lines for
-constexpr std::size_t kFew = 64;     // that are sorted by comparing
-constexpr std::size_t kKept = std::size_t{1} << 14;  // room that is never given back
+constexpr unsigned kDigitBits = 11;  // as many runs as a first-level cache has lines
+constexpr std::size_t kFew = 64;     // up to this number a comparison sort is used
+constexpr std::size_t kKept = std::size_t{1} << 14;  // capacity that is never released
 constexpr int kSmallTicks = 16;
 
 }  // namespace
@@ -22,7 +22,7 @@ HearingChanges::HearingChanges(std::size_t names)
 }
 
 void HearingChanges::clear() {
-  // The tick in which all come has all pairs, fifty times as many as others.
+  // The tick at which all entities arrive has all pairs, fifty times as many as other ticks.
   const std::size_t enough = std::max(kKept, 2 * count_);
   small_ticks_ = keys_.size() > 8 * enough ? small_ticks_ + 1 : 0;
   if (small_ticks_ == kSmallTicks) {
@@ -33,8 +33,8 @@ void HearingChanges::clear() {
   count_ = 0;
 }
 
-// Digit by digit from the lowest, first by entity and then by observer: a sort that compares costs
-// more than all that was compared before.
+// Radix sort from the lowest digit, first by entity and then by observer. A comparison sort would
+// cost more than all comparisons of pairs before it.
 std::span<const HearingChange> HearingChanges::sorted() {
   const auto change_of = [](std::uint64_t key) {
     return HearingChange{static_cast<std::uint32_t>(key >> 32),

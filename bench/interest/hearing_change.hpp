@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What IncrementalInterest tells: who hears whom from now on, or no longer; and how that is sorted.
+// Output of IncrementalInterest: pairs that begin or cease to receive each other; and their sort.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace reckon::bench {
 
-/// `observer` hears `entity` from now on, or no longer.
+/// `observer` receives `entity` from now on if `heard`, else no longer.
 struct HearingChange {
   std::uint32_t observer = 0, entity = 0;
   bool heard = false;
@@ -18,16 +18,16 @@ struct HearingChange {
   bool operator==(const HearingChange&) const = default;
 };
 
-/// Changes of one tick: put in any order, read by observer and then entity. One thread. Memory: 28
-/// octets a change, as many as the busiest tick of late had.
+/// Changes of one tick: appended in any order, read by observer and then entity. One thread.
+/// Memory: 28 octets a change, for as many as the busiest recent tick had.
 class HearingChanges {
  public:
-  /// @param names observers and entities are below it, and it is at most 2^31.
+  /// @param names upper limit of observers and entities, at most 2^31.
   explicit HearingChanges(std::size_t names);
 
-  /// Forgets the last tick, and gives back room that it was far from using.
+  /// Removes the changes of the last tick, and releases memory of which little was used.
   void clear();
-  /// Where up to `most` further keys may be written; `used` of them are kept by commit().
+  /// Room for up to `most` further keys; commit() keeps `used` of them.
   [[nodiscard]] std::uint64_t* room(std::size_t most) {
     if (count_ + most > keys_.size()) keys_.resize(count_ + count_ / 2 + most);
     return keys_.data() + count_;
@@ -45,18 +45,18 @@ class HearingChanges {
            static_cast<std::uint64_t>(heard);
   }
 
-  /// All of them, sorted; good until clear().
+  /// All changes, sorted; valid until clear().
   [[nodiscard]] std::span<const HearingChange> sorted();
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
-  // put(place, key) of each, sorted by `width` bits from `shift` on, equal ones in their order.
+  // Calls put(place, key) for each key, sorted by `width` bits from `shift` on; the sort is stable.
   template <typename Put>
   void sort_by_digit(unsigned shift, unsigned width, Put&& put);
 
-  unsigned bits_;  // of an observer
+  unsigned bits_;  // bits of an observer
   std::size_t count_ = 0;
-  int small_ticks_ = 0;  // in a row, that needed little of the room
+  int small_ticks_ = 0;  // consecutive ticks that needed little of the capacity
   std::vector<std::uint64_t> keys_, spare_;
   std::vector<std::uint32_t> starts_;
   std::vector<HearingChange> changes_;

@@ -12,13 +12,13 @@
 namespace reckon::bench {
 namespace {
 
-constexpr double kLeastReach = 1e-3;  // [m], so that a cell has a side
+constexpr double kLeastReach = 1e-3;  // [m], so that the size of a cell is above 0
 constexpr double kLeastPace = 0.02;   // of the reach, so that a crowd at rest may begin to walk
-constexpr double kMostPace = 0.25;    // beyond it too many lie near the edge
-constexpr double kCostApart = 16.0;   // of one compared by itself, over one compared by layout
-constexpr std::size_t kAhead = 24;    // entities whose places are asked for before they are needed
+constexpr double kMostPace = 0.25;    // of the reach; above it too many lie near the edge
+constexpr double kCostApart = 16.0;   // cost of a separate comparison over one by layout
+constexpr std::size_t kAhead = 24;    // distance of prefetches, in entities
 
-// By powers of two of a square.
+// Counts values by powers of two of a unit.
 struct Bins {
   static constexpr std::size_t kCount = 64;
   std::array<double, kCount> greatest{};
@@ -84,7 +84,8 @@ std::span<const HearingChange> IncrementalInterest::step() {
   return changes_.sorted();
 }
 
-// Up to where those hear that are compared by layout: the radius by which all of it costs least.
+// Chooses the greatest radius of entities that are compared by layout: the radius of least total
+// cost.
 void IncrementalInterest::choose_reach() {
   came_or_went_ = 0;
   Bins bins;
@@ -110,8 +111,9 @@ void IncrementalInterest::choose_reach() {
   reach_ = std::max(kLeastReach, std::sqrt(best) * (1.0 + 1e-15));
 }
 
-// How far one may go in the next tick and be calm: the more, the more lie near an edge; the less,
-// the more leap. From some of those who went in this one.
+// Chooses the distance that an entity may move in the next tick and still count as calm. If it is
+// greater, more entities lie near an edge; if it is smaller, more leap. Judged by a sample of the
+// movements of this tick.
 void IncrementalInterest::choose_pace() {
   Bins bins;
   const std::uint32_t step = 1 + now_.size() / 1024;
@@ -149,7 +151,7 @@ void IncrementalInterest::plan() {
   apart_.clear();
 }
 
-// Axis by axis, from some of the entities.
+// Middle and extent for each axis, from a sample of the entities.
 Surroundings IncrementalInterest::surroundings() const {
   constexpr std::size_t kSome = 65;
   std::array<std::array<double, kSome>, 3> axes{};
@@ -170,7 +172,8 @@ Surroundings IncrementalInterest::surroundings() const {
   return {at(count / 2), at(0), at(count - 1)};
 }
 
-// Whether one that was there is calm: it went so little that only pairs near an edge may differ.
+// Whether an entity that was present before is calm: it moved so little that only pairs near an
+// edge may differ.
 Apart IncrementalInterest::judge(std::uint32_t slot, const Hearer& hearer) noexcept {
   const Hearer& before = before_.hearer(slot);
   if (before_.apart(slot) == Apart::far || !now_.fits(hearer)) return Apart::far;
@@ -244,7 +247,7 @@ void IncrementalInterest::lay_out(bool most_leapt) {
   for (std::size_t i = 0; i < arrived_.size(); ++i) put(count + i, arrived_[i], count);
 }
 
-// The same ones are apart in both layouts.
+// Marks the same entities as apart in both layouts.
 void IncrementalInterest::set_apart(bool most_leapt) {
   for (const std::uint32_t slot : gone_) {
     if (most_leapt && before_.apart(slot) != Apart::far) continue;
@@ -258,7 +261,7 @@ void IncrementalInterest::set_apart(bool most_leapt) {
   for (const Slots& slots : apart_) before_.set_apart(slots.before, Apart::leapt);
 }
 
-// Of each pair that is within the border here.
+// Compares each pair that is within the border in `here`.
 void IncrementalInterest::compare(const NeighbourLayout& here, const NeighbourLayout& there,
                                   const Link& link, ChangeTold told) {
   const ChangeKernel kernel = change_kernel(level_, told);
@@ -276,7 +279,7 @@ void IncrementalInterest::compare_near_edges() {
   compare(now_, before_, from_, ChangeTold::both);
 }
 
-// Whoever is within hearing now and was not, and then whoever was and is not.
+// First the pairs that receive now and did not before, then the pairs that did and do not now.
 void IncrementalInterest::compare_all() {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   now_.set_border(kAll, 0.0);
@@ -292,8 +295,9 @@ void IncrementalInterest::compare_apart() {
   }
 }
 
-// Whom one that is apart hears here and not there, and who hears it; two that are apart are told by
-// the one that hears.
+// Changes of an entity that is apart: the others that it receives here and not there, and the
+// reverse. If both entities of a pair are apart, the change is written from the side of the
+// receiver.
 void IncrementalInterest::compare_one(const NeighbourLayout& here, std::uint32_t slot,
                                       const NeighbourLayout& there, std::uint32_t slot_there,
                                       const Link& link, bool heard) {

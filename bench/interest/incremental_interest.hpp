@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who hears whom among entities that move, told as changes once a tick: for one that keeps an eye
-// on all of them, such as a relay, a leader of a crowded cell or a study.
+// Which entities receive which others while they move, as changes once a tick: for a program that
+// observes all of them, such as a relay, the leader of a crowded cell or a study.
 #pragma once
 
 #include <array>
@@ -16,40 +16,43 @@
 
 namespace reckon::bench {
 
-/// Incremental interest: `observer` hears `entity` while their distance (three axes) is at most the
-/// observer's radius. Exact to the rounding of the squared distance in double precision.
+/// Incremental interest: `observer` receives `entity` while their distance (three axes) is at most
+/// the observer's radius. Exact to the rounding of the squared distance in double precision.
 ///
-///   interest.add(7, position, 200.0);  interest.move(7, next);  interest.remove(7);
-///   for (const HearingChange& change : interest.step()) { ... }   // once a tick
+///   interest.add(7, position, 200.0); interest.move(7, next); interest.remove(7);
+///   for (const HearingChange& change : interest.step()) { ... } // once a tick
 ///
-/// All moves of a tick are applied first, then each pair that differs from the last tick is told
-/// once. Nothing is kept of a pair: it heard if it did at the places of the last tick. At each tick
-/// entities are sorted anew by where they stand. Only pairs whose distance differs from the radius
-/// by no more than both can have gone are compared; who leapt, came or went, or hears much farther
-/// than the others, is compared by itself, and where most did, all are.
+/// All moves of a tick are applied first, then each pair that differs from the last tick is
+/// reported once. No state is kept for a pair: its earlier state is computed from the positions of
+/// the last tick. At each tick the entities are sorted again by position. Only pairs whose distance
+/// differs from the radius by no more than both can have moved are compared. Entities that leapt,
+/// came, left, or have a much greater radius than the others are compared separately. If most
+/// entities leapt, all pairs are compared.
 ///
-/// One thread; allocates nothing once it has seen a tick of each kind. Memory: below 400 octets an
-/// entity, taken as they come; room for changes, 28 octets each, as many as a tick had of late.
+/// One thread; allocates nothing after one tick of each kind. Memory: below 400 octets an entity,
+/// allocated as entities are added; and 28 octets a change, for as many changes as a recent tick
+/// had.
 class IncrementalInterest {
  public:
-  /// @param capacity entities are named 0 .. capacity - 1, below 2^31.
+  /// @param capacity entities have the numbers 0 .. capacity - 1, below 2^31.
   explicit IncrementalInterest(std::size_t capacity, SimdLevel level = best_simd_level());
 
-  /// A name that is free. Where the position is not finite the entity hears and is heard by nobody
-  /// until it moves; a radius below 0 or NaN counts as hearing nobody. [m, S]
+  /// Adds an entity with a number that is free. If the position is not finite, the entity receives
+  /// nobody and is received by nobody until it moves. A radius below 0 or NaN: it receives nobody.
+  /// [m, S]
   void add(std::uint32_t entity, const aoim::Position& position, double radius);
   void remove(std::uint32_t entity) noexcept;
-  /// Of one that is there.
+  /// Moves an entity that is present.
   void move(std::uint32_t entity, const aoim::Position& position) noexcept;
 
-  /// What differs from the last step, by observer and then entity. Good until the next step.
+  /// Differences from the last step, by observer and then entity. Valid until the next step.
   [[nodiscard]] std::span<const HearingChange> step();
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool holds(std::uint32_t entity) const noexcept {
     return entity < present_.size() && present_[entity].squared_radius != kAbsent;
   }
-  /// Octets held now.
+  /// Memory held now [octets].
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
@@ -60,9 +63,9 @@ class IncrementalInterest {
     Apart apart = Apart::leapt;
   };
   struct Slots {
-    std::uint32_t now, before;  // those behind the last for who is not there
+    std::uint32_t now, before;  // one slot behind the last if the entity is absent in that layout
   };
-  using Link = std::vector<std::uint32_t>;  // slots of one layout in the other
+  using Link = std::vector<std::uint32_t>;  // for each slot of one layout, the slot in the other
 
   void choose_reach();
   void choose_pace();
@@ -85,23 +88,23 @@ class IncrementalInterest {
 
   SimdLevel level_;
   std::size_t size_ = 0;
-  std::vector<Hearer> present_;       // by entity; squared radius kAbsent: none
-  std::vector<std::uint8_t> listed_;  // by entity: in the layout before, or coming
+  std::vector<Hearer> present_;       // by entity; the squared radius kAbsent marks an absent one
+  std::vector<std::uint8_t> listed_;  // by entity: it is in the layout before, or arrives
   std::vector<std::uint32_t> coming_;
 
   NeighbourLayout now_, before_;
-  Link from_, into_;              // slots of now_ in before_, and back where anybody is apart
-  std::vector<Hearer> hearers_;   // of who was there before, then of who comes
-  std::vector<Sighted> sighted_;  // of the same
+  Link from_, into_;                           // slots of now_ in before_; reverse if any is apart
+  std::vector<Hearer> hearers_;                // entities that were present before, then arrivals
+  std::vector<Sighted> sighted_;               // for the same entities
   std::vector<std::uint32_t> arrived_, gone_;  // entities; slots of before_
   std::vector<Slots> apart_;
   PairColumns pairs_;
   HearingChanges changes_;
 
-  double reach_ = 0;              // [m], of the layouts
+  double reach_ = 0;              // [m], the reach of the layouts
   std::size_t came_or_went_ = 0;  // since the reach was chosen
-  double pace_ = 0;               // [m] a tick: who goes farther leaps
-  double farthest_squared_ = 0;   // that a calm one went this tick
+  double pace_ = 0;               // [m] a tick: an entity that moves farther leaps
+  double farthest_squared_ = 0;   // greatest squared movement of a calm entity in this tick
   std::size_t leapt_ = 0, placed_ = 0;
 };
 

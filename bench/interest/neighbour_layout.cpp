@@ -9,7 +9,7 @@ namespace reckon::bench {
 
 NeighbourLayout::Span NeighbourLayout::span_of(double x, double range, double per_unit,
                                                std::int64_t count) {
-  // More than what rounding takes.
+  // Widens the range by more than rounding can take.
   const double wide = range + 1e-15 * (std::abs(x) + range);
   const Span span{index(x - wide, per_unit), index(x + wide, per_unit)};
   if (span.last - span.first + 1 >= count) return {0, count - 1};
@@ -26,7 +26,7 @@ void NeighbourLayout::plan(std::size_t count, double reach, double slack,
   least_squared_ = std::numeric_limits<double>::infinity();
   most_squared_ = Hearer::kNobody;
   origin_ = around.middle;
-  // A little more for what rounding takes.
+  // A little more, for rounding.
   const double apart = 1.0001 * (reach + slack);
   per_y_ = apart > 0 ? static_cast<double>(kRowsUp) / apart : 1.0;
   per_x_ = apart > 0 ? static_cast<double>(kColumnsOut) / apart : 1.0;
@@ -37,14 +37,15 @@ void NeighbourLayout::plan(std::size_t count, double reach, double slack,
   for (auto* column : {&x_, &y_, &z_}) column->resize(count + kBorderPadding);
 }
 
-// As many as the surroundings have, and so many that no two are neighbours both ways round. Of
-// surroundings that have too many a part that is square all in all, where they are no narrower;
-// then most are brought around, so by powers of two.
+// As many cells as the surroundings need, and enough that no two cells are neighbours in both
+// directions around the torus. If the surroundings need too many cells, the cells cover a part,
+// which is square unless the surroundings are narrower. Most positions are then wrapped, so the
+// counts are powers of two.
 void NeighbourLayout::choose_cells(std::size_t count, const Surroundings& around) {
   const auto most = static_cast<std::int64_t>(std::bit_ceil(std::max<std::size_t>(count, 256)));
   const std::int64_t room = most + most / 4;
   const auto cells_of = [room](double length, std::int64_t out, std::int64_t least) {
-    constexpr double kWider = 1.0625;  // than where some of the entities are
+    constexpr double kWider = 1.0625;  // than the extent of the sampled entities
     const double cells = std::min(kWider * length, static_cast<double>(room));
     return std::max(static_cast<std::int64_t>(cells) + out, least);
   };
@@ -63,13 +64,14 @@ void NeighbourLayout::choose_cells(std::size_t count, const Surroundings& around
     rows_ = most / columns_;
     row_mask_ = rows_ - 1;
     column_mask_ = columns_ - 1;
-    corner_row_ = corner_column_ = 0;  // the same order at each tick
+    corner_row_ = corner_column_ = 0;  // so that the order is the same at each tick
   }
   starts_.reserve(static_cast<std::size_t>(room) + 2);
   starts_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
 }
 
-// Counts stand two cells behind their own: put() makes the start of the next cell of each.
+// Each count is stored two places after its cell. put() advances it from the start of the cell to
+// the start of the next.
 void NeighbourLayout::sort_cells() {
   std::inclusive_scan(starts_.begin(), starts_.end(), starts_.begin());
   hearers_[size()] = {};
@@ -77,7 +79,7 @@ void NeighbourLayout::sort_cells() {
 }
 
 void NeighbourLayout::set_border(double inside, double outside) {
-  // How far distances in single precision are from those in double precision.
+  // Greatest difference between distances in single and in double precision.
   const double away = std::max({std::abs(origin_.x), std::abs(origin_.y), std::abs(origin_.z)});
   const double error = 0x1p-21 * static_cast<double>(farthest_) + 0x1p-50 * away + 1e-18;
   const auto least = [wide = inside + error](double squared) {

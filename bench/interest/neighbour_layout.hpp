@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities in the order of the cells they stand in, at one tick: who may hear whom lies in few runs
-// side by side. IncrementalInterest makes one each tick.
+// Entities in the order of their cells, at one tick: the candidates of each entity lie in few
+// contiguous runs. IncrementalInterest builds one layout each tick.
 #pragma once
 
 #include <algorithm>
@@ -19,38 +19,38 @@
 
 namespace reckon::bench {
 
-/// Pairs of slots that are not compared yet.
+/// Pairs of slots that are not yet compared.
 struct PairColumns {
   std::vector<std::uint32_t> own, other;
 };
 
-/// Where most of the entities are [m].
+/// The region with most of the entities [m].
 struct Surroundings {
   aoim::Position middle, least, most;
 };
 
-/// Slots sorted by cell. Cells cover the surroundings, where memory that follows the number of
-/// slots allows it, else a part of them, and repeat over the plane as a torus: who is elsewhere but
-/// in the same cell is compared in vain. Each slot is compared with those behind it in its row and
-/// with those of the rows above, so each pair once. One thread; memory, 53 octets a slot and 4 a
-/// cell, is kept from one tick to the next.
+/// Slots sorted by cell. The cells cover the surroundings if memory proportional to the number of
+/// slots allows it, else a part of them, and repeat over the plane as a torus. Entities elsewhere
+/// that fall into the same cell are compared in vain. Each slot is compared with the later slots of
+/// its row and with the slots of the rows above, so that each pair is compared once. One thread.
+/// Memory is 53 octets a slot and 4 a cell, and is kept from one tick to the next.
 class NeighbourLayout {
  public:
   NeighbourLayout() { plan(0, 0.0, 0.0, {}); }
 
-  /// Begins a layout of up to `count` entities, of which those that hear up to `reach` [m] are
+  /// Begins a layout of up to `count` entities. Entities with a radius of up to `reach` [m] are
   /// compared, up to `slack` [m] beyond it.
   void plan(std::size_t count, double reach, double slack, const Surroundings& around);
-  /// The cell of a position, to be given to count() and then to put(), in the same order.
+  /// The cell of a position, to be passed to count() and then to put(), in the same order.
   [[nodiscard]] std::uint32_t cell_of(const aoim::Position& position) const noexcept {
     return static_cast<std::uint32_t>(cell_at(index(position.y, per_y_) - corner_row_,
                                               index(position.x, per_x_) - corner_column_));
   }
   void count(std::uint32_t cell) noexcept { ++starts_[cell + 2]; }
-  /// All are counted.
+  /// Called after all entities are counted.
   void sort_cells();
-  /// Whether it hears no farther than `reach` and is near enough to the origin to be compared in
-  /// single precision; who does not fit is put `apart`.
+  /// Whether its radius is at most `reach` and it is near enough to the origin to be compared in
+  /// single precision. An entity that does not fit is added as `apart`.
   [[nodiscard]] bool fits(const Hearer& hearer) const noexcept {
     const aoim::Position& at = hearer.position;
     return hearer.squared_radius <= reach_ * reach_ && std::abs(at.x - origin_.x) < extent_ &&
@@ -73,11 +73,12 @@ class NeighbourLayout {
     }
     return slot;
   }
-  /// All are put. Compared are pairs whose distance is up to `inside` [m] below or up to `outside`
-  /// above the radius of either; infinite `inside`: all that are within it.
+  /// Called after all entities are added. Pairs are compared if their distance is up to `inside`
+  /// [m] below or up to `outside` above the radius of either; if `inside` is infinite, all pairs
+  /// within the radius are.
   void set_border(double inside, double outside);
 
-  /// Slots; the one behind the last is nowhere and hears nobody.
+  /// Number of slots. The slot behind the last has no position and receives nobody.
   [[nodiscard]] std::uint32_t size() const noexcept { return starts_.back(); }
   [[nodiscard]] std::uint32_t entity(std::size_t slot) const noexcept { return entity_[slot]; }
   [[nodiscard]] const Hearer& hearer(std::size_t slot) const noexcept { return hearers_[slot]; }
@@ -87,13 +88,14 @@ class NeighbourLayout {
   void clear_apart() { std::fill(apart_.begin(), apart_.end(), Apart::no); }
   [[nodiscard]] double reach() const noexcept { return reach_; }
 
-  /// With a layout of another tick, and the slots in it of those here.
+  /// Columns for a comparison with a layout of another tick. @param link for each slot here, the
+  /// slot in `there`
   [[nodiscard]] ChangeColumns beside(const NeighbourLayout& there,
                                      const std::uint32_t* link) const noexcept {
     return {hearers_.data(), there.hearers_.data(), link, entity_.data(), apart_.data()};
   }
-  /// Calls compare(own, other, count) with columns of pairs of slots: all that are within the
-  /// border, each once, and some that are hardly beyond. `pairs` is for them.
+  /// Calls compare(own, other, count) with columns of pairs of slots: all pairs within the border,
+  /// each once, and some pairs just beyond it. `pairs` is the buffer for them.
   template <typename Compare>
   void for_each_border(SimdLevel level, PairColumns& pairs, Compare&& compare) const;
   /// Calls visit(slot) for all slots that may be within `range` [m] of a position.
@@ -114,7 +116,7 @@ class NeighbourLayout {
   struct Span {
     std::int64_t first, last;
   };
-  static constexpr std::int64_t kRowsUp = 2;  // in which neighbours lie
+  static constexpr std::int64_t kRowsUp = 2;  // rows above in which neighbours lie
   static constexpr std::int64_t kColumnsOut = 8;
   static constexpr std::int64_t kLeastRows = 8, kLeastColumns = 32;
   static constexpr std::size_t kMostRuns = 1 + 2 * (1 + kRowsUp);
@@ -138,8 +140,8 @@ class NeighbourLayout {
   }
   [[nodiscard]] static Span span_of(double x, double range, double per_unit, std::int64_t count);
   void choose_cells(std::size_t count, const Surroundings& around);
-  // Once around: by the mask where there are fewer cells than surroundings, else by a division that
-  // few need.
+  // Wraps an index around the torus: by the mask if there are fewer cells than the surroundings
+  // need, else by a division, which is rarely reached.
   [[nodiscard]] static std::int64_t around(std::int64_t at, std::int64_t count,
                                            std::int64_t mask) noexcept {
     at &= mask;
@@ -147,13 +149,14 @@ class NeighbourLayout {
     const std::int64_t rest = at % count;
     return rest < 0 ? rest + count : rest;
   }
-  // Rows and columns from the corner on.
+  // Rows and columns are counted from the corner.
   [[nodiscard]] std::size_t cell_at(std::int64_t row, std::int64_t column) const noexcept {
     return static_cast<std::size_t>(around(row, rows_, row_mask_) * columns_ +
                                     around(column, columns_, column_mask_));
   }
   void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Runs& runs) const noexcept;
-  // Whom the last slot of a cell is compared with; the others of it besides with those behind.
+  // Runs with which the last slot of a cell is compared; its other slots are also compared with the
+  // later ones of the cell.
   [[nodiscard]] Runs runs_of(std::int64_t row, std::int64_t column) const noexcept;
   [[nodiscard]] BorderColumns columns() const noexcept;
 
@@ -165,7 +168,8 @@ class NeighbourLayout {
   std::vector<Hearer> hearers_;
   std::vector<float> x_, y_, z_, least_, most_;
   std::vector<Apart> apart_;
-  // Of those that are not far: from the origin in single precision, and up to where they hear.
+  // Over the slots that are not far: greatest distance from the origin, for single precision, and
+  // the range of squared radii.
   float farthest_ = 0;
   double least_squared_ = 0, most_squared_ = 0;
   bool same_for_all_ = true;
@@ -184,7 +188,7 @@ inline NeighbourLayout::Runs NeighbourLayout::runs_of(std::int64_t row,
                                                       std::int64_t column) const noexcept {
   const std::size_t cell = cell_at(row, column);
   Runs runs;
-  // The rest of the cell is one run with what follows it, or a run of its own.
+  // The rest of the cell forms one run with the next cells, or a run by itself.
   runs.runs[0] = {starts_[cell + 1], starts_[cell + 1]};
   runs.count = 1;
   add_row(row, column + 1, column + kColumnsOut, runs);
@@ -201,7 +205,7 @@ inline NeighbourLayout::Runs NeighbourLayout::runs_of(std::int64_t row,
 template <typename Compare>
 void NeighbourLayout::for_each_border(SimdLevel level, PairColumns& pairs,
                                       Compare&& compare) const {
-  constexpr std::size_t kBatch = 1024;  // pairs: many enough for a loop, few enough for the cache
+  constexpr std::size_t kBatch = 1024;  // pairs: enough for a loop, few enough for the cache
   const BorderKernel kernel = border_kernel(level, same_for_all_);
   const BorderColumns with = columns();
   std::size_t count = 0;

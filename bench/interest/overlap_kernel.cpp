@@ -22,7 +22,7 @@ std::size_t overlap_scalar(const RegionColumns<D>& updates, std::size_t first, s
       both &= static_cast<unsigned>(updates.lower[axis][i] < subscription.upper[axis]) &
               static_cast<unsigned>(subscription.lower[axis] < updates.upper[axis][i]);
     }
-    // Written anyway and kept only where they overlap: no branch to guess.
+    // Every pair is written and kept only if it overlaps: no branch to mispredict.
     out[found] = {place, updates.place[i]};
     found += both;
   }
@@ -32,7 +32,7 @@ std::size_t overlap_scalar(const RegionColumns<D>& updates, std::size_t first, s
 #if defined(__x86_64__)
 static_assert(sizeof(RegionPair) == 8, "a pair is one 64-bit lane");
 
-// For each mask of four 64-bit lanes: which 32-bit halves move to the front.
+// For each mask of four 64-bit lanes: the 32-bit halves that move to the front.
 constexpr auto kCompress = [] {
   std::array<std::array<std::uint32_t, 8>, 16> table{};
   for (unsigned mask = 0; mask < 16; ++mask) {
@@ -94,7 +94,7 @@ __attribute__((target("avx512f,popcnt"))) std::size_t overlap_avx512(
     const __m256i places = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(updates.place + i));
     const __m512i wide = _mm512_maskz_cvtepu32_epi64(0xFF, places);
     const __m512i pairs = _mm512_or_si512(_mm512_maskz_slli_epi64(0xFF, wide, 32), own);
-    // A compressing store to memory is slow on some processors, one to a register on none.
+    // A compressing store to memory is slow on some processors; to a register it is fast on all.
     _mm512_storeu_si512(end, _mm512_maskz_compress_epi64(mask, pairs));
     end += std::popcount(static_cast<unsigned>(mask));
   }

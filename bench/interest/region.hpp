@@ -9,14 +9,14 @@
 
 namespace reckon::bench {
 
-/// Half-open on every axis: lower <= x < upper. A bound may be infinite: who does not care for a
-/// dimension takes all of it. A closed interval, such as a point, is given by
-/// std::nextafter(upper, infinity). Units are the user's, each axis its own.
+/// Half-open on every axis: lower <= x < upper. A bound may be infinite: infinite bounds leave a
+/// dimension unrestricted. A closed interval, such as a point, uses std::nextafter(upper, infinity)
+/// as its upper bound. Units are the user's, separately for each axis.
 template <std::size_t D>
 struct Region {
   std::array<double, D> lower{}, upper{};
 
-  /// Whether both have a point in common; false where either is empty.
+  /// Whether they have a point in common; false if either is empty.
   [[nodiscard]] friend bool overlap(const Region& a, const Region& b) noexcept {
     for (std::size_t axis = 0; axis < D; ++axis) {
       if (!(a.lower[axis] < b.upper[axis] && b.lower[axis] < a.upper[axis])) return false;
@@ -25,7 +25,8 @@ struct Region {
   }
 };
 
-/// A subscription region and an update region that overlap, by their places in what was passed.
+/// A subscription region and an update region that overlap, by their indices in the lists that were
+/// passed.
 struct RegionPair {
   std::uint32_t subscription = 0, update = 0;
 

@@ -9,24 +9,24 @@
 namespace reckon::bench {
 namespace {
 
-// So few are compared at once sooner than sorted.
+// Up to this number a direct comparison is faster than sorting.
 constexpr std::size_t kOneCell = 32;
-// Rows across the longest region: more compare less in vain and begin more runs.
+// Rows across the longest region: more rows avoid comparisons in vain but start more runs.
 constexpr double kRowsPerReach = 2.0;
-// The same along a row, where cells of a run lie side by side and cost nothing.
+// The same along a row, where the cells of a run are contiguous and cost nothing.
 constexpr double kCellsPerReach = 16.0;
 
 constexpr double kNoLimit = std::numeric_limits<double>::max();
 
 double finite(double x) noexcept { return std::clamp(x, -kNoLimit, kNoLimit); }
 
-// Difference that stays finite.
+// Difference, limited to a finite value.
 double span_of(double from, double to) noexcept { return std::min(to - from, kNoLimit); }
 
 template <std::size_t D>
 using Corners = std::vector<std::array<double, D>>;
 
-// Lower corners of some of the regions, evenly taken.
+// Lower corners of an evenly spaced sample of the regions.
 template <std::size_t D>
 Corners<D> sample(std::span<const Region<D>> regions, std::span<const std::uint32_t> places) {
   const double root = std::sqrt(static_cast<double>(places.size()));
@@ -40,7 +40,7 @@ Corners<D> sample(std::span<const Region<D>> regions, std::span<const std::uint3
   return corners;
 }
 
-// What most of the corners spread over, per axis; above 0.
+// Extent of most of the corners, for each axis; above 0.
 template <std::size_t D>
 std::array<double, D> spreads(const Corners<D>& corners) {
   std::array<double, D> spread{};
@@ -57,7 +57,7 @@ std::array<double, D> spreads(const Corners<D>& corners) {
   return spread;
 }
 
-// How many pairs of corners share a cell.
+// Number of pairs of corners that share a cell.
 template <std::size_t D>
 std::size_t shared(const Corners<D>& corners, const std::array<double, D>& sides,
                    std::vector<std::uint64_t>& keys) {
@@ -170,7 +170,7 @@ void RegionGrid<D>::build(std::span<const Region<D>> regions,
     cell_[i] = static_cast<std::uint32_t>(cell_of(regions[places[i]].lower));
     ++starts_[cell_[i]];
   }
-  // The start of each cell is counted down to as it fills, from its end.
+  // Each start is the end of its cell at first and is decremented as the cell fills.
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
 
   const std::size_t padded = places.size() + kOverlapPadding;
@@ -180,7 +180,7 @@ void RegionGrid<D>::build(std::span<const Region<D>> regions,
   }
   place_.resize(padded);
   for (std::size_t i = places.size(); i-- > 0;) place_[--starts_[cell_[i]]] = places[i];
-  // Read here and there, written in a row: the other way round a write waits for each column.
+  // Scattered reads and sequential writes: the reverse would make each write wait for a cache line.
   for (std::size_t to = 0; to < places.size(); ++to) {
     const Region<D>& region = regions[place_[to]];
     for (std::size_t axis = 0; axis < D; ++axis) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Update regions of similar size, sorted by the cell of their lower corner: what a subscription
-// region overlaps lies in few runs of them.
+// Update regions of similar size, sorted by the cell of their lower corner: the regions that a
+// subscription region overlaps lie in few runs.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,25 @@
 
 namespace reckon::bench {
 
-/// Cell sides by which few of `places` share a cell, unless that takes sides below `floor`. Judged
-/// by some 4 sqrt(count) of them, so that crowds count where they are. Infinite and equal bounds
-/// are allowed.
+/// Cell sizes at which few of `places` share a cell, but not below `floor`. Judged by a sample of
+/// about 4 sqrt(count) of them, so that crowds count by their place. Infinite and equal bounds are
+/// allowed.
 template <std::size_t D>
 [[nodiscard]] std::array<double, D> cell_sides(std::span<const Region<D>> regions,
                                                std::span<const std::uint32_t> places,
                                                const std::array<double, D>& floor);
 
-/// A grid over update regions. Where its cells would be more than twice its regions they repeat
-/// over space, as a torus; regions of other cells in the same place are then compared in vain, but
-/// none is missed. One thread; memory is kept from one build to the next.
+/// A grid over update regions. If it would have more than twice as many cells as regions, its cells
+/// repeat over space, as a torus. Regions that only share a wrapped cell are then compared in vain,
+/// but none is missed. One thread; memory is kept from one build to the next.
 template <std::size_t D>
 class RegionGrid {
  public:
-  /// Takes `regions[place]` for each of `places`: all of them valid, and fewer than 2^31.
+  /// Takes `regions[place]` for each of `places`; all are valid, and there are fewer than 2^31.
   void build(std::span<const Region<D>> regions, std::span<const std::uint32_t> places);
 
-  /// Calls run(first, count) for runs of columns() that hold all that overlaps `subscription`.
-  /// Runs do not share a region.
+  /// Calls run(first, count) for runs of columns() that contain all regions that overlap
+  /// `subscription`. Runs do not share a region.
   template <typename Run>
   void for_each_run(const Region<D>& subscription, Run&& run) const {
     std::array<Range, 3> ranges{};
@@ -50,7 +50,7 @@ class RegionGrid {
   }
 
   [[nodiscard]] RegionColumns<D> columns() const noexcept;
-  /// The cell in which a corner lies, below cell_count().
+  /// The cell of a corner, below cell_count().
   [[nodiscard]] std::size_t cell_of(const std::array<double, D>& corner) const noexcept {
     std::size_t cell = 0;
     for (std::size_t axis = D; axis-- > 0;) {
@@ -67,12 +67,12 @@ class RegionGrid {
   };
 
   struct Axis {
-    double origin = 0, per_unit = 1;  // cells begin at origin, so many a unit
-    double reach = 0;                 // the longest region
-    std::size_t count = 1;            // cells, a power of two where they repeat
+    double origin = 0, per_unit = 1;  // cells begin at origin, per_unit of them in a unit
+    double reach = 0;                 // size of the longest region
+    std::size_t count = 1;            // cells, a power of two if they repeat
     bool repeats = false;
 
-    // Never falls as x grows, which is all that exactness needs.
+    // Monotonic in x, which is the only condition for exactness.
     [[nodiscard]] std::int64_t index(double x) const noexcept {
       constexpr double kMost = 1LL << 40;
       const double cells = std::clamp((x - origin) * per_unit, -kMost, kMost);
@@ -88,9 +88,9 @@ class RegionGrid {
       return repeats ? static_cast<std::size_t>(cell) & (count - 1)
                      : static_cast<std::size_t>(cell);
     }
-    // The cells of the lower corners of all that overlaps [lower, upper).
+    // The cells of the lower corners of all regions that overlap [lower, upper).
     [[nodiscard]] Range range(double lower, double upper) const noexcept {
-      // More than what rounding takes from the difference.
+      // Subtracts more than rounding can take from the difference.
       const double farthest = lower - reach - 1e-15 * (std::abs(lower) + reach);
       if (!repeats) return {clamped(farthest), clamped(upper)};
       const auto most = static_cast<std::int64_t>(count);
@@ -124,7 +124,7 @@ class RegionGrid {
   }
 
   std::array<Axis, D> axes_{};
-  std::vector<std::uint32_t> starts_{0, 0};  // of each cell in the columns, and the end
+  std::vector<std::uint32_t> starts_{0, 0};  // start of each cell in the columns, and the end
   std::array<std::vector<double>, D> lower_, upper_;
   std::vector<std::uint32_t> place_, cell_;
 };

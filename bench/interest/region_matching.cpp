@@ -12,11 +12,12 @@
 namespace reckon::bench {
 namespace {
 
-// So many update regions are compared between two looks at the room for pairs.
+// Update regions compared between two checks of the room for pairs.
 constexpr std::size_t kChunk = 2048;
-// Fewer of a size than this share a grid with others: each grid costs every subscription a look.
+// Fewer regions of a size than this share a grid with others: each grid costs every subscription a
+// search.
 constexpr std::size_t kFewest = 32;
-// Sizes of a class differ by so much at most, but in the smallest and the largest class.
+// Sizes within a class differ at most by this factor, except in the smallest and the largest class.
 constexpr double kClassFactor = 8.0;
 constexpr std::size_t kClasses = 5;
 
@@ -31,7 +32,7 @@ RegionFault fault_of(const Region<D>& region) noexcept {
   return number ? RegionFault::empty : RegionFault::not_a_number;
 }
 
-// The places of the valid ones, in order.
+// Indices of the valid regions, in order.
 template <std::size_t D>
 RefusedRegions keep_valid(std::span<const Region<D>> regions, std::vector<std::uint32_t>& places) {
   if (regions.size() > (std::size_t{1} << 31)) {
@@ -52,7 +53,8 @@ RefusedRegions keep_valid(std::span<const Region<D>> regions, std::vector<std::u
   return refused;
 }
 
-// Up to these sizes all are alike: what the cells must be anyway, or some times the usual size.
+// Up to these sizes all regions are in one class: the least cell size, or a few times the usual
+// size.
 template <std::size_t D>
 std::array<double, D> small_sizes(std::span<const Region<D>> regions,
                                   std::span<const std::uint32_t> places) {
@@ -117,7 +119,7 @@ void RegionMatcher<D>::make_grids(std::span<const Region<D>> updates) {
   for (std::size_t i = 0; i < update_places_.size(); ++i) {
     ++members[size_class_[i] = class_of<D>(updates[update_places_[i]], small)];
   }
-  // One grid for each size of which there are many, and one for all others.
+  // One grid for each frequent size class, and one for all others.
   std::map<std::size_t, std::size_t> grid_of;
   grid_count_ = 0;
   std::size_t rest = members.size();
@@ -144,9 +146,9 @@ void RegionMatcher<D>::make_grids(std::span<const Region<D>> updates) {
 
 template <std::size_t D>
 void RegionMatcher<D>::order_subscriptions(std::span<const Region<D>> subscriptions) {
-  // Neighbours in turn read the same update regions.
+  // Neighbouring subscriptions are matched in sequence, because they read the same update regions.
   const RegionGrid<D>& grid = grids_[0];
-  std::vector<std::uint32_t>& cells = update_places_;  // no longer needed
+  std::vector<std::uint32_t>& cells = update_places_;  // not needed any more
   std::vector<std::uint32_t> starts(grid.cell_count() + 1, 0);
   cells.resize(subscription_places_.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -165,7 +167,7 @@ void RegionMatcher<D>::match_grid(const RegionGrid<D>& grid,
   const RegionColumns<D> columns = grid.columns();
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    // They lie anywhere: fetched before they are wanted.
+    // They are scattered in memory: prefetched.
     if (i + kAhead < order_.size()) __builtin_prefetch(&subscriptions[order_[i + kAhead]]);
     const std::uint32_t place = order_[i];
     const Region<D>& subscription = subscriptions[place];

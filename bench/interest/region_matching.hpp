@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which subscription regions overlap which update regions, of all of them at once: interest
-// management by regions as the High Level Architecture has it. Exact, each pair once.
+// Overlaps of all subscription regions with all update regions at once: interest management by
+// regions, as in the High Level Architecture. Exact; each pair is reported once.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace reckon::bench {
 
-/// Why a region matches nothing.
+/// Reason why a region matches nothing.
 enum class RegionFault : std::uint8_t {
   none,
   not_a_number,  ///< a bound is NaN
@@ -28,11 +28,11 @@ enum class RegionFault : std::uint8_t {
 /// Regions that were left out of a match.
 struct RefusedRegions {
   std::size_t count = 0;
-  std::size_t first = 0;                  ///< place of the first of them, where count > 0
-  RegionFault fault = RegionFault::none;  ///< of the first
+  std::size_t first = 0;                  ///< index of the first of them, if count > 0
+  RegionFault fault = RegionFault::none;  ///< fault of the first
 };
 
-/// What a match found.
+/// Result of a match.
 struct RegionMatch {
   std::uint64_t pairs = 0;
   RefusedRegions subscriptions, updates;
@@ -44,28 +44,28 @@ struct RegionMatch {
 ///   const RegionMatch found = matcher.match(subscriptions, updates,
 ///       [&](std::span<const RegionPair> pairs) { ... });
 ///
-/// Update regions are kept once each, by the cell of their lower corner, in grids by size, so that
-/// few large ones make no small one slow; a subscription looks at the cells from which one can
-/// reach it. Cells repeat over the plane where it is larger than what is in it, so memory follows
-/// the number of regions alone, whatever their sizes and places.
+/// Each update region is stored once, by the cell of its lower corner, in grids by size, so that a
+/// few large regions do not slow the small ones. A subscription searches the cells from which a
+/// region can reach it. Cells repeat over the plane if it is larger than its content, so that
+/// memory depends only on the number of regions, for any sizes and places.
 ///
-/// One thread. Memory is kept between calls: at most 24 D + 24 octets a region and 0.3 MiB.
-/// Cost on a busy 2.6 GHz core, a million regions in the plane: 75 ns a region where few overlap,
-/// and 4 ns a pair where many do (docs/area_of_interest_mechanisms.md). Where all small regions lie
-/// in one corner of very large ones, up to the product of both counts is compared.
+/// One thread. Memory is kept between calls: at most 24 D + 24 octets a region and 0.3 MiB. Cost on
+/// a busy 2.6 GHz core, for a million regions in the plane: 75 ns a region if few overlap, and 4 ns
+/// a pair if many do (docs/area_of_interest_mechanisms.md). If all small regions lie in one corner
+/// of very large ones, up to the product of both counts is compared.
 template <std::size_t D>
 class RegionMatcher {
   static_assert(D >= 1 && D <= 3);
 
  public:
-  /// Pairs given to the sink at once, at most.
+  /// Greatest number of pairs in one call of the sink.
   static constexpr std::size_t kMostAtOnce = 8192;
 
   explicit RegionMatcher(SimdLevel level = best_simd_level());
 
-  /// Gives every pair that overlaps to `sink(std::span<const RegionPair>)` once. The order is not
-  /// sorted and is the same for the same regions, whatever the processor.
-  /// @throws std::length_error above 2^31 regions of a kind  @throws whatever `sink` throws
+  /// Passes every overlapping pair to `sink(std::span<const RegionPair>)` once. The order is not
+  /// sorted. It is the same for the same regions on every processor.
+  /// @throws std::length_error above 2^31 regions of a kind @throws whatever `sink` throws
   template <typename Sink>
   RegionMatch match(std::span<const Region<D>> subscriptions, std::span<const Region<D>> updates,
                     Sink&& sink) {
@@ -76,7 +76,7 @@ class RegionMatcher {
                        }});
   }
 
-  /// Octets held now.
+  /// Memory held now [octets].
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:

@@ -59,7 +59,7 @@ def write_capture(path, frames):
 
 
 def run(command, core, wall):
-    """Seconds and output of one run."""
+    """Runs one program; returns its time in seconds and its output."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         begin = time.monotonic()
         child = subprocess.Popen(command, stdout=out, stderr=err,
@@ -94,7 +94,7 @@ def pdus_of_lines(text):
 
 
 def ports_of(reckon, path):
-    """UDP ports that DIS came to, as tshark is to be told."""
+    """UDP ports of the DIS traffic, for the command line of tshark."""
     text = subprocess.run([reckon, "inspect", path, "stats", "--by", "group", "--csv"], check=False,
                           capture_output=True, text=True).stdout
     return sorted({row["key"].rsplit(":", 1)[1] for row in csv.DictReader(io.StringIO(text))})
@@ -107,7 +107,7 @@ def has_view(reckon, view):
 
 
 def commands(reckon, tshark, path):
-    """(name, command, how PDUs are counted, kind of output) of each rival on one capture"""
+    """(name, command, function that counts the PDUs, kind of output) for each program on one capture"""
     decode = [word for port in ports_of(reckon, path) for word in ("-d", f"udp.port=={port},dis")]
     fields = [word for field in FIELDS for word in ("-e", field)]
     theirs = [tshark, "-n", "-r", path, *decode, "-T"]
@@ -125,7 +125,7 @@ def commands(reckon, tshark, path):
 
 
 def compare(title, paths, options):
-    """All rivals on all captures, in turn; the times of the captures are added up."""
+    """Runs all programs on all captures, in alternation; the times of the captures are summed."""
     captures = [commands(options.reckon, options.tshark, path) for path in paths]
     names = [(name, kind) for name, _, _, kind in captures[0]]
     seconds = [[] for _ in names]
@@ -138,7 +138,7 @@ def compare(title, paths, options):
                 time_of_one, text = run(command, options.core, options.wall)
                 spent += time_of_one
                 if count:
-                    seen[i] += count(text) - (1 if command[-1] == "tail" else 0)  # its titles
+                    seen[i] += count(text) - (1 if command[-1] == "tail" else 0)  # without its header
             seconds[i].append(spent)
     pdus = seen[names.index(("reckon inspect stats", "table"))]
     print(f"\n{title}: {pdus} PDUs, {options.rounds} rounds in turn on core {options.core}\n")

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to judge a received force model: positive realness and the device damping it needs,
-// by order. The models have a known answer, which is checked first and stands in the row as error.
+// Cost of judging a received force model, for each order: positive realness and the device damping
+// that it needs. The models have a known result, which is checked first and appears in the row as
+// error.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,8 +17,8 @@ namespace {
 using Eigen::MatrixXd;
 using namespace reckon::bench;
 
-// A ladder of n damped oscillators 1 - h_i b_i(s), b_i a band-pass with peak 1, side by side over
-// six decades and an n-th of each, so that the least real part is known to about the overlap.
+// A ladder of n damped oscillators 1 - h_i b_i(s), with b_i a band-pass of peak 1, over six decades
+// and each with an n-th of the total, so that the least real part is known up to the overlap.
 StateSpace band_passes(Eigen::Index modes) {
   const Eigen::Index n = 2 * modes;
   StateSpace s{MatrixXd::Zero(n, n), MatrixXd::Zero(n, 1), MatrixXd::Zero(1, n),

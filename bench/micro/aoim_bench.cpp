@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cost of the AOIM layer per update (the CPU column; one iteration = one update), beside what it
-// saves: octets and datagrams per update, added delay, groups joined and what is delivered beyond
-// the radius of interest.
+// Cost of the AOIM layer for each update (the CPU column; one iteration = one update), beside its
+// benefit: octets and datagrams per update, added delay, groups joined, and updates delivered from
+// beyond the radius of interest.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::array<std::byte, pdu::kHapticRecordLength> haptic_record() {
   return octets;
 }
 
-/// Counts what leaves; the first datagrams are read back, so that the rows time real bundles.
+/// Counts datagrams that are sent; the first ones are decoded, so that the rows time real bundles.
 struct Wire {
   std::uint64_t datagrams = 0, octets = 0, broken = 0;
   void operator()(GroupIndex, std::span<const std::byte> datagram) {
@@ -71,7 +71,8 @@ void report(benchmark::State& state, const Wire& wire, std::uint64_t updates) {
       static_cast<double>(std::max<std::uint64_t>(1, wire.datagrams));
 }
 
-/// Encode + route + aggregate one update: `deadline_ms` 0 = a datagram each, else bundled by size.
+/// Encodes, routes and aggregates one update: `deadline_ms` 0 = a datagram for each, else bundled
+/// by size.
 void route_and_aggregate(benchmark::State& state) {
   AreaOfInterestManager manager({}, presence());
   auto states = entities();
@@ -102,7 +103,7 @@ BENCHMARK(route_and_aggregate)
     ->Args({0, 1, 1})
     ->Args({1, 1, 1});
 
-/// The floor: the same octets encoded straight into a datagram of 8.
+/// Lower bound: the same octets encoded directly into a datagram of 8.
 void encode_alone(benchmark::State& state) {
   auto states = entities();
   std::array<std::byte, 8 * 144> buffer;
@@ -118,8 +119,8 @@ void encode_alone(benchmark::State& state) {
 }
 BENCHMARK(encode_alone);
 
-/// What a peer with many entities pays: each of them sends once within one step, through one group;
-/// then the bundles leave.
+/// Cost for a peer with many entities: each of them sends once within one step, through one group;
+/// then the bundles are sent.
 void add_in_one_step(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   std::vector<std::vector<std::byte>> updates(count);
@@ -158,7 +159,7 @@ void route(benchmark::State& state) {
 }
 BENCHMARK(route)->ArgName("hexagonal")->Arg(0)->Arg(1);
 
-/// The same by a peer's manager, and its foci as one moves.
+/// The same through a peer's manager, with its foci while one moves.
 void route_by_manager(benchmark::State& state) {
   AreaOfInterestConfig config;
   config.grid.scheme = state.range(0) == 0 ? CellScheme::square : CellScheme::hexagonal;
@@ -183,7 +184,7 @@ void set_foci_of_manager(benchmark::State& state) {
 }
 BENCHMARK(set_foci_of_manager)->ArgName("cell_m")->Arg(50)->Arg(200);
 
-/// Judging a datagram and one entity of it at the receiver.
+/// Checks a datagram and one of its entities at the receiver.
 void receive(benchmark::State& state) {
   AreaOfInterestManager manager({}, presence());
   const Focus focus{{0, 0, 0}, 0.0, kRadius};
@@ -245,7 +246,7 @@ BENCHMARK(subscribe)
     ->Args({1, 125})
     ->Args({1, 250});
 
-/// Few foci for many entities, scattered over 100 km or in one crowd.
+/// A few foci that cover many entities, scattered over 100 km or in one crowd.
 void cover_foci(benchmark::State& state) {
   std::mt19937_64 random(3);
   const double extent = state.range(1) == 0 ? 5e4 : 50.0;

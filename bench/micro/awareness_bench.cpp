@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Awareness: time of a pair by the shape of the focus and the number of occluders, beside how far
-// distances are from other formulas in longer numbers, and what each stage drops. Channels: time of
-// fitting a budget, a client.
+// Awareness: time for a pair by the shape of the focus and the number of occluders, with the
+// difference of distances from other formulas in longer numbers, and the pairs that each stage
+// removes. Channels: time to fit a budget, for each client.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace reckon::aoim;
 using Shape = AwarenessFocus::Shape;
-constexpr double kExtent = 400.0;  // [m] of the square that all are in
+constexpr double kExtent = 400.0;  // [m], side of the square with all entities
 
 struct Scene {
   std::vector<Observer> observers;
@@ -53,7 +53,7 @@ struct Scene {
   }
 };
 
-// By angles, where the evaluator turns the plane.
+// Computed with angles, where the evaluator rotates the plane.
 double by_angles(const AwarenessFocus& focus, const Position& point) {
   using Long = long double;
   const Long x = Long{point.x} - focus.position.x, y = Long{point.y} - focus.position.y,

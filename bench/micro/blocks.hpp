@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rivals that take turns in short blocks, so that whatever else the machine does hits all of them;
-// told are medians, and the ratios of blocks side by side.
+// Alternatives that alternate in short blocks, so that other load on the machine affects all of
+// them equally; results are medians, and ratios of neighbouring blocks.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -16,7 +16,7 @@
 
 namespace reckon::bench {
 
-/// Nanoseconds of one call, from a block of them that is short enough to be rarely interrupted.
+/// Nanoseconds of one call, averaged over a block that is short enough to be rarely interrupted.
 template <typename Call>
 double nanoseconds_of(Call&& call) {
   constexpr int kCalls = 500;
@@ -29,7 +29,7 @@ double nanoseconds_of(Call&& call) {
   return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / kCalls;
 }
 
-/// One number of each block; reported as median, 10th and 90th percentile.
+/// One number for each block; reported as median, 10th and 90th percentile.
 class Blocks {
  public:
   void add(double value) { values_.push_back(value); }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What bodies cost a servo step: a row of cubes on a floor, of which a hand holds down the first
-// one or none. Each row holds the time of a step and how far the force is from that of the two
-// springs in series, in newtons. Then, until the force is written, beside the same scene without
-// bodies, alternated.
+// Cost of bodies in a servo step: a row of cubes on a floor; a hand presses the first one, or none.
+// Each row has the time of a step and the difference of the force from two springs in series, in
+// newtons. The later rows have the time until the force is written, compared in alternation with
+// the same scene without bodies.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -29,10 +29,10 @@ using namespace reckon::haptics;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kPeriod{1'000'000};
-constexpr double kEdge = 0.04;      // [m]
+constexpr double kEdge = 0.04;      // [m], edge of a cube
 constexpr double kStiffness = 400;  // [N/m], of the cubes
 constexpr double kGrip = 300;       // [N/m], of the hand
-constexpr double kWanted = 0.005;   // [m], the hand into the cube
+constexpr double kWanted = 0.005;   // [m], target depth of the hand in the cube
 
 Scene row_of(std::size_t cubes, double mass) {
   Scene scene;
@@ -51,7 +51,7 @@ Scene row_of(std::size_t cubes, double mass) {
   return scene;
 }
 
-// Arguments: cubes, grams of each, whether the first one is held down.
+// Arguments: number of cubes, mass of each in grams, whether the first one is pressed.
 void servo_step_at_bodies(benchmark::State& state) {
   const bool holds = state.range(2) != 0;
   const Scene scene =
@@ -92,7 +92,7 @@ BENCHMARK(servo_step_at_bodies)
     ->Args({6, 50, 1})
     ->Args({27, 50, 0});
 
-/// Notes when its force is written.
+/// Stores the time at which its force is written.
 class StampedDevice : public SimulatedDevice {
  public:
   using SimulatedDevice::SimulatedDevice;
@@ -103,7 +103,7 @@ class StampedDevice : public SimulatedDevice {
   std::chrono::steady_clock::time_point written;
 };
 
-/// A hand that presses a wall, and balls that bounce for ever where it does not come.
+/// A hand that presses a wall, and balls that bounce for ever out of its reach.
 struct Bouncing {
   explicit Bouncing(std::size_t balls) {
     Scene scene = row_of(0, 0.0);
@@ -121,7 +121,7 @@ struct Bouncing {
     plan = std::make_shared<const EffectPlan>(scene);
     servo.emplace(*device, plan, ServoConfig{}, make_bodies(*plan, scene));
   }
-  /// Until the force is written, and the whole step [us].
+  /// Time until the force is written, and time of the whole step [us].
   std::pair<double, double> step() {
     using Micros = std::chrono::duration<double, std::micro>;
     const auto begin = std::chrono::steady_clock::now();
@@ -143,7 +143,7 @@ double share_of(std::vector<double>& times, double share) {
   return *nth;
 }
 
-// Argument: balls that are awake and not touched.
+// Argument: number of balls that are awake and not touched.
 void until_force_is_written(benchmark::State& state) {
   Bouncing with(static_cast<std::size_t>(state.range(0))), without(0);
   std::vector<double> times, bare, whole;
@@ -161,8 +161,8 @@ void until_force_is_written(benchmark::State& state) {
   state.counters["p999_ratio"] = share_of(times, 0.999) / share_of(bare, 0.999);
   state.counters["step_median_us"] = share_of(whole, 0.5);
 }
-// A step of all bodies while boxes fall into a pile, from drawn places, until all are asleep; and
-// how deep the two that overlap most do. Argument: boxes.
+// A step of all bodies while boxes fall into a pile from random places, until all are asleep; and
+// the greatest overlap of two of them. Argument: number of boxes.
 void pile_falls(benchmark::State& state) {
   Scene scene = row_of(0, 0.0);
   std::mt19937 random(3);
@@ -208,7 +208,7 @@ void pile_falls(benchmark::State& state) {
   state.counters["deepest_um"] = 1e6 * deepest;
 }
 
-/// A hand that presses a cube, or the floor beside it, and cubes that sleep where it does not come.
+/// A hand that presses a cube, or the floor beside it, and cubes that sleep out of its reach.
 struct Sleeping {
   Sleeping(std::size_t cubes, std::size_t asleep, bool at_cube) {
     Scene scene = row_of(cubes, 0.05);
@@ -247,7 +247,7 @@ struct Sleeping {
   nanoseconds now{1'000'000'000};
 };
 
-// Of means of 16 at a time, which tell less than the 10 ns of a clock's tick.
+// Median of means of 16 times each, because the clock has a resolution of only 10 ns.
 double median_of_means(const std::vector<double>& times) {
   const std::size_t of = std::min<std::size_t>(16, times.size());
   std::vector<double> means;
@@ -256,7 +256,7 @@ double median_of_means(const std::vector<double>& times) {
   return share_of(means, 0.5);
 }
 
-// A whole step of the servo beside the same without those that sleep. Arguments: how many of them,
+// A whole step of the servo, with and without sleeping cubes. Arguments: number of sleeping cubes,
 // whether the hand presses a cube of its own.
 void beside_those_asleep(benchmark::State& state) {
   const bool at_cube = state.range(1) != 0;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Region matching beside Boost's packed R-tree, in turn on the same regions: the tree is built of
-// the updates and asked for each subscription. Both write their pairs into the same ring. That both
-// find the same pairs is seen first, pair by pair. And who hears whom tick by tick, beside the same
-// tree made anew each tick and asked for each entity: the changes are compared one by one, each
-// tick. The counters hold the processor time of each, medians, and the median of the rounds'
-// ratios. Boost 1.74 tells of headers of its own that it still includes.
+// Region matching compared with Boost's packed R-tree, in alternation on the same regions: the tree
+// is built from the updates and queried for each subscription. Both write their pairs into the same
+// ring. The pairs of both are compared first, one by one. The second comparison is interest tick by
+// tick, with the same tree rebuilt each tick and queried for each entity; the changes are compared
+// one by one, each tick. The counters have the processor time of each, as medians, and the median
+// of the rounds' ratios. Boost 1.74 warns about its own headers, which it still includes.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <benchmark/benchmark.h>
 
@@ -87,7 +87,7 @@ double milliseconds_of(const Work& work) {
   return 1e3 / CLOCKS_PER_SEC * static_cast<double>(std::clock() - before);
 }
 
-/// Whether both find the same updates of each subscription.
+/// Whether both find the same updates for each subscription.
 template <std::size_t D>
 bool finds_the_same(bench::RegionMatcher<D>& matcher, const bench::RegionInstance<D>& made) {
   const std::span<const bench::Region<D>> subscriptions(made.subscriptions);
@@ -144,7 +144,7 @@ void sizes(benchmark::internal::Benchmark* row) {
 BENCHMARK_TEMPLATE(regions_beside_boost, 2)->Apply(sizes);
 BENCHMARK_TEMPLATE(regions_beside_boost, 3)->Apply(sizes);
 
-/// Whom each hears, by a tree of this tick's places.
+/// The entities in range of each entity, from a tree of this tick's positions.
 struct HearingsOfBoost {
   using Point = geometry::model::point<double, 2, geometry::cs::cartesian>;
   using Value = std::pair<Point, std::uint32_t>;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entity States in each compressed form: what they cost (the CPU column, one iteration = one
-// update), what is left of their octets, and how wrong copies are when some are lost. Recorded
-// cars, ships and pedestrians where RECKON_DATA has them; vehicles made here besides, some of them
-// for so long that keys are few.
+// Entity States in each compressed form: their cost (the CPU column, one iteration = one update),
+// their remaining octets, and the error of receivers when some are lost. Recorded cars, ships and
+// pedestrians if RECKON_DATA has them; also generated vehicles, some of them over so long a time
+// that keys are rare.
 #include <benchmark/benchmark.h>
 #include <zdict.h>
 #include <zstd.h>
@@ -27,16 +27,16 @@ using namespace reckon;
 using bench::SentState;
 
 constexpr std::size_t kPlain = 144, kMost = 300;
-constexpr std::uint32_t kLater = 3000;  // of the PDU around a body: 2.5 ms after the state
+constexpr std::uint32_t kLater = 3000;  // PDU around a body: 2.5 ms after the state
 using Octets = std::vector<std::byte>;
 
-// What the PDU around the bodies adds to one: its head of 3 octets, of which one is in the body
-// here, and its share of 20 octets in 1,264.
+// Octets of one body with its share of the PDU around the bodies: the head of 3 octets, one of
+// which is in the body here, and the share of 20 octets in 1,264.
 double in_company(std::size_t body) { return static_cast<double>(body + 2) * 1264.0 / 1244.0; }
 
-/// A body, or where it is empty the plain state.
+/// Writes a body; a size of 0 means the plain state.
 using Encoder = std::function<std::size_t(const SentState&, std::span<std::byte, 256>)>;
-/// False where it cannot be restored.
+/// False if the state cannot be restored.
 using Decoder = std::function<bool(std::size_t entity, std::span<const std::byte> body,
                                    std::uint32_t timestamp, pdu::EntityState& out)>;
 
@@ -46,8 +46,8 @@ struct Data {
   std::vector<SentState> sent;
 };
 
-/// One form: makes its two ends for so many entities. `plain` is told each plain state that
-/// arrives.
+/// One form: makes its two ends for a number of entities. `plain` is called with each plain state
+/// that arrives.
 struct Ends {
   Encoder encode;
   Decoder decode;
@@ -74,7 +74,8 @@ Ends compact(const Data&) {
           [](auto, const auto&) {}};
 }
 
-// The first state plain, then keys in the compact form after 1, 4, 16 updates and each `most`.
+// The first state is plain. Then keys in the compact form follow after 1, 4, 16 updates and after
+// each `most`.
 struct KeyPlan {
   std::size_t most = 32, since = 0, gap = 0;
   [[nodiscard]] bool is_due() const { return since >= gap; }
@@ -87,7 +88,7 @@ struct KeyPlan {
 struct DeltaEnd {
   std::array<std::byte, kPlain> key{};
   std::uint16_t check = 0;
-  KeyPlan plan{4};  // its keys are no longer than what leans on them
+  KeyPlan plan{4};  // its keys are not longer than the states that depend on them
 
   void note(const pdu::EntityState& state) {
     (void)pdu::encode(state, key);
@@ -225,7 +226,7 @@ Wire encode_all(const Data& data, const Ends& ends) {
   return wire;
 }
 
-/// What one receiver shows: the model of the last state of each entity.
+/// The state of one receiver: the model of the last state of each entity.
 struct Shown {
   struct Model {
     deadreckon::KinematicState state;
@@ -247,11 +248,12 @@ struct Shown {
   }
 };
 
-/// Errors just before each update that was sent, of copies that hear all but the lost ones.
+/// Errors just before each update that was sent, for receivers that get all updates but the lost
+/// ones.
 struct Run {
   double p99 = 0.0, plain_p99 = 0.0;  // [m]
-  double rounding = 0.0;              // [m] of what arrived, most
-  double waited = 0.0;                // share of what arrived
+  double rounding = 0.0;              // [m], greatest rounding of an arrived state
+  double waited = 0.0;                // share of the arrived updates that could not be restored
 };
 
 Run run(const Data& data, const Ends& ends, const Wire& wire, double loss) {

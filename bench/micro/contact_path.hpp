@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One recorded stroke over one generated torus, for whoever renders contact: ours in
-// contact_path_bench, any other library in a program of its own that includes this header or reads
-// the two files it writes. Both are then asked tick by tick, in turn.
+// One recorded stroke over one generated torus, for any contact renderer: ours in
+// contact_path_bench, another library in a program of its own that includes this header or reads
+// the two files that it writes. Both are then called tick by tick, in alternation.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@
 namespace reckon::bench {
 
 /// A hand at `speed` [m/s] and 1 kHz, 2 mm below the surface of a torus of 69,696 triangles and a
-/// diagonal of 0.2 m; there and back, so that rounds follow each other without a leap.
+/// diagonal of 0.2 m; forwards and back, so that rounds follow each other without a jump.
 struct ContactPath {
   static constexpr double kSize = 0.2;
   static constexpr double kDepth = 2e-3;
@@ -28,7 +28,7 @@ struct ContactPath {
 
   haptics::SurfaceMesh mesh = test::make_mesh(test::torus(264, 132), kSize);
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< outside
-  std::vector<Eigen::Vector3d> devices;             ///< one a tick
+  std::vector<Eigen::Vector3d> devices;             ///< one for each tick
 
   explicit ContactPath(double speed) {
     test::Stroke stroke(mesh, speed * 1e-3, kDepth, 7);
@@ -37,8 +37,8 @@ struct ContactPath {
     for (std::size_t i = devices.size(); i > 0; --i) devices.push_back(devices[i - 1]);
   }
 
-  /// torus.obj and path.txt: the start, then a line x y z [m] for each tick.
-  /// @throws std::runtime_error where the folder cannot be written.
+  /// Writes torus.obj and path.txt: the start, then a line x y z [m] for each tick.
+  /// @throws std::runtime_error if the folder cannot be written.
   void write(const std::filesystem::path& folder) const {
     test::MeshData data;
     for (const haptics::Triangle& t : mesh.triangles()) {
@@ -55,11 +55,11 @@ struct ContactPath {
   }
 };
 
-/// Nanoseconds of each tick of a path: the least of all rounds, for what other programs take off a
-/// shared core is not the tick's, less what the clock itself takes.
+/// Nanoseconds of each tick of a path: the minimum over all rounds, because delays by other
+/// programs are not part of the tick, minus the cost of the clock itself.
 class TickTimes {
  public:
-  /// One more round: tick(device) for each point of the path.
+  /// One more round: calls tick(device) for each point of the path.
   template <class Tick>
   void round(const ContactPath& path, Tick&& tick) {
     least_.resize(path.devices.size(), std::numeric_limits<double>::infinity());
@@ -72,7 +72,7 @@ class TickTimes {
     }
   }
 
-  /// Of all ticks: 0.5 is the median.
+  /// Quantile over all ticks: 0.5 is the median.
   [[nodiscard]] double share_below(double share) const {
     std::vector<double> ticks = least_;
     return bench::quantile(ticks, share) - clock_ns_;

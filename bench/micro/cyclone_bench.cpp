@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entity updates by CycloneDDS beside ours, in turn: 1,000 keys, best effort, multicast over
-// loopback in a network namespace, batches below the MTU. CPU of the whole process, for Cyclone has
-// threads of its own; ours has none here. Ours takes updates into the table of remote entities,
-// theirs are taken from a reader that keeps the last of each key.
+// Entity updates through CycloneDDS and through this library, in alternation: 1,000 keys, best
+// effort, multicast over loopback in a network namespace, batches below the MTU. CPU of the whole
+// process, because Cyclone has threads of its own; this library has none here. This library puts
+// updates into the table of remote entities; Cyclone's are read from a reader that keeps the last
+// of each key.
 #include <benchmark/benchmark.h>
 #include <cyclone_update.h>
 #include <dds/dds.h>
@@ -27,7 +28,7 @@ double process_cpu_ns() {
   return static_cast<double>(spent.tv_sec) * 1e9 + static_cast<double>(spent.tv_nsec);
 }
 
-// Two domains of one process that are one on the wire.
+// Two domains of one process that are one domain on the wire.
 std::string configuration() {
   return "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces>"
          "<AllowMulticast>true</AllowMulticast><MaxMessageSize>1372B</MaxMessageSize>"
@@ -64,7 +65,7 @@ class Cyclone {
   Cyclone(const Cyclone&) = delete;
   Cyclone& operator=(const Cyclone&) = delete;
 
-  /// CPU of an update that came through [ns], of a turn.
+  /// CPU for each received update [ns], over a turn.
   double turn() {
     const double begin = process_cpu_ns();
     std::size_t came = 0;
@@ -86,7 +87,7 @@ class Cyclone {
     check(came > 0, "CycloneDDS: nothing came through");
     return (process_cpu_ns() - begin) / static_cast<double>(came);
   }
-  /// Of the last turn.
+  /// Share received in the last turn.
   [[nodiscard]] double share() const { return share_; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a pose, a smoothed pose and a force cost, and how far off they are: time and error in one
-// row, with the plain way of doing the same beside it.
+// Cost and error of a pose, a smoothed pose and a force: time and error in one row, beside a plain
+// implementation of the same.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ using reckon::bench::textbook_rvb;
 
 Pose reckon_rvb(const KinematicState& s, double t) { return extrapolate(s, t); }
 
-// range(0): angular velocity in nanoradians a second.
+// range(0): angular velocity [nrad/s].
 template <Pose (*Extrapolate)(const KinematicState&, double)>
 void rvb(benchmark::State& bench) {
   const States all = states(Algorithm::rvb, 1e-9 * static_cast<double>(bench.range(0)));
@@ -59,8 +59,8 @@ BENCHMARK_TEMPLATE(rvb, reckon_rvb)->Name("rvb/reckon")->Apply(rates);
 BENCHMARK_TEMPLATE(rvb, textbook_rvb)->Name("rvb/textbook")->Apply(rates);
 BENCHMARK_TEMPLATE(rvb, straight_rvb)->Name("rvb/straight")->Apply(rates);
 
-// The eight moving models; error of RVB's row above holds for the body ones, the rest are
-// polynomials.
+// The eight moving models. The error of the RVB row above is valid for the body models; the others
+// are polynomials.
 void model(benchmark::State& bench) {
   const States all = states(static_cast<Algorithm>(bench.range(0)), 0.4);
   double worst = 0;
@@ -79,8 +79,8 @@ void model(benchmark::State& bench) {
 }
 BENCHMARK(model)->Name("model/drm")->DenseRange(2, 9);
 
-// A remote entity as drawn: prediction plus what is left of the error. The error is the largest
-// step in velocity that a viewer sees at the update.
+// The drawn pose of a remote entity: prediction plus the remaining error. The reported error is the
+// greatest step in velocity that a viewer sees at the update.
 template <ConvergenceCurve Curve>
 void smoothed(benchmark::State& bench) {
   const States all = states(Algorithm::rvb, 0.4);
@@ -118,7 +118,7 @@ ForceModel hardening(reckon::pdu::ForceModelKind kind) {
   return m;
 }
 
-// A probe 10 mm deep, and the force there to the last digit: 500 * 0.01 + 2e6 * 1e-6 = 7 N.
+// A probe 10 mm deep, with the exact force: 500 * 0.01 + 2e6 * 1e-6 = 7 N.
 constexpr double kTrueForce = 7.0;
 ProbeState probe_in(const ForceModel& m) {
   const bool round = m.kind == reckon::pdu::ForceModelKind::sphere;
@@ -139,8 +139,8 @@ void force(benchmark::State& bench) {
 }
 BENCHMARK(force)->Name("force/kind")->DenseRange(1, 4);
 
-// The plane and probe of a local tangent, k (n . (x0 - x)): what a linear model sent once costs and
-// gives when the probe is 1 mm deeper than where it was linearised.
+// The plane and probe of a local tangent, k (n . (x0 - x)): cost and force of a linear model sent
+// once, with the probe 1 mm deeper than the point of linearisation.
 void tangent(benchmark::State& bench) {
   const ForceModel m = hardening(reckon::pdu::ForceModelKind::plane);
   const double k = tangent_stiffness(m.k1, m.k3, 0.009);
@@ -155,7 +155,7 @@ void tangent(benchmark::State& bench) {
 }
 BENCHMARK(tangent)->Name("force/tangent");
 
-// What the servo does for a remote hand each millisecond: pose at now, then its force.
+// Work of the servo for a remote hand each millisecond: current pose, then its force.
 void predicted_force(benchmark::State& bench) {
   const ForceModel m = hardening(reckon::pdu::ForceModelKind::sphere);
   KinematicState hand;
@@ -174,7 +174,7 @@ void predicted_force(benchmark::State& bench) {
 }
 BENCHMARK(predicted_force)->Name("force/predictor");
 
-// Each row of the list on three updates of a circle of 10 m at 1 rad/s, half a second on.
+// Each row of the list on three updates of a circle of 10 m at 1 rad/s, half a second later.
 void history(benchmark::State& bench) {
   const Extrapolator& row = kExtrapolators[static_cast<std::size_t>(bench.range(0))];
   MotionHistory updates;
@@ -193,7 +193,7 @@ void history(benchmark::State& bench) {
 }
 BENCHMARK(history)->Name("history/row")->DenseRange(0, kExtrapolators.size() - 1);
 
-// The owner's question of each tick: is anybody wrong by more than the threshold?
+// The owner's check at each tick: whether any receiver is wrong by more than the threshold.
 void decide(benchmark::State& bench) {
   const States all = states(Algorithm::rvb, 0.4);
   UpdatePolicy policy({}, 5);
@@ -208,7 +208,7 @@ void decide(benchmark::State& bench) {
 }
 BENCHMARK(decide)->Name("policy/decide");
 
-// The owner's choice of model, a check of each tick of 1/60 s of a steady turn: 7 (RPB) is right.
+// The owner's choice of model, checked at each tick of 1/60 s of a steady turn: 7 (RPB) is right.
 void choose(benchmark::State& bench) {
   const auto on_circle = [](double t) {
     const Vector3d x(50 * std::cos(0.2 * t), 50 * std::sin(0.2 * t), 0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The same closest point, asked of Embree: a rival for the bench, built where its package is found.
+// The same closest point, computed by Embree: for comparison, built if its package is found.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -25,12 +25,12 @@ class EmbreeMesh {
     std::uint32_t triangle = 0;  ///< in the order of SurfaceMesh::triangles()
   };
 
-  /// @throws std::runtime_error where Embree gives no scene.
+  /// @throws std::runtime_error if Embree cannot create a scene.
   explicit EmbreeMesh(const haptics::SurfaceMesh& mesh);
 
-  /// rtcPointQuery with a callback that measures each triangle it is given.
+  /// rtcPointQuery with a callback that measures each triangle that it receives.
   [[nodiscard]] Nearest closest(const Eigen::Vector3f& p) const noexcept;
-  /// The same, within the distance of a triangle that is likely near.
+  /// The same, limited to the distance of a triangle that is probably near.
   [[nodiscard]] Nearest closest_from(const Eigen::Vector3f& p, std::uint32_t hint) const noexcept;
 
  private:

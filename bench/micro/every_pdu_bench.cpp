@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cost of every PDU type on its golden sample: two rows for each type of THE list. Each row first
-// checks that the sample comes back octet for octet, and that nothing was taken from the heap.
-// bench/wire_costs.py makes one table of them.
+// Cost of every PDU type on its golden sample: two rows for each type of the list. Each row first
+// checks that the sample is reproduced octet for octet, and that nothing was allocated on the heap.
+// bench/micro/wire_costs.py makes one table of them.
 #include <benchmark/benchmark.h>
 
 #include <span>

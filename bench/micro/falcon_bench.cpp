@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a reading of a Falcon costs: its place and Jacobian from three angles, and back. Each row
-// holds the time of one and the greatest error of the way there and back, in um.
+// Cost of a reading of a Falcon: position and Jacobian from three angles, and the inverse. Each row
+// has the time of one and the greatest error of the round trip, in um.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a datagram costs that is refused before it is queued, beside one that is queued. Each row
-// first checks what becomes of it. The kernel's share, about a microsecond, comes on top.
+// Cost of a datagram that is refused before it is queued, beside one that is queued. Each row first
+// checks the result for the datagram. The kernel's share, about a microsecond, is not included.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -28,7 +28,7 @@ using namespace reckon::peer;
 constexpr std::size_t kStateSize = pdu::kFixedSize<pdu::EntityState>;
 using Octets = std::array<std::byte, kStateSize>;
 
-/// A link on which the same datagram arrives whenever it is asked, one a step of `gap`.
+/// A link that returns the same datagram at each call, one for each step of `gap`.
 class Fire final : public Link {
  public:
   Fire(const Octets& octets, std::chrono::nanoseconds gap) : octets_(octets), gap_(gap) {}
@@ -67,7 +67,7 @@ Octets state(std::byte version) {
   return octets;
 }
 
-/// @param counter that grows by each datagram; none: it is queued
+/// @param counter that each datagram increments; none: it is queued
 void Read(benchmark::State& run, std::byte version, std::chrono::nanoseconds gap,
           std::string_view counter) {
   constexpr std::size_t kDatagrams = 64 * 64;
@@ -98,8 +98,8 @@ BENCHMARK_CAPTURE(Read, junk_refused, std::byte{0x7F}, kHonest, "refused_version
 BENCHMARK_CAPTURE(Read, muted, std::byte{7}, kFlood, "muted_in");
 BENCHMARK_CAPTURE(Read, queued, std::byte{7}, kHonest, "");
 
-/// States that wait, of as many entities as are in a datagram: all but those of the last datagram
-/// are overtaken. What each costs that is left out, its kernel, link and ring apart.
+/// Waiting states of as many entities as are in a datagram: all but those of the last datagram are
+/// overtaken. Cost of each state that is skipped, without its kernel, link and ring.
 void Overtaken(benchmark::State& run) {
   constexpr std::size_t kWaiting = 512;
   const auto states = static_cast<std::size_t>(run.range(0));
@@ -133,8 +133,8 @@ void Overtaken(benchmark::State& run) {
 }
 BENCHMARK(Overtaken)->Arg(1)->Arg(9);
 
-/// What a datagram's fate costs where a balance is kept: 1,000 of them noted by a loop, and taken
-/// by whoever keeps it, of which `balanced` tells alone.
+/// Cost of a datagram in the balance: a loop notes 1,000 of them, and the owner of the balance
+/// collects them. `balanced` times only the collection, else only the notes are timed.
 void Tapped(benchmark::State& run, bool balanced) {
   constexpr std::uint32_t kNoted = 1000;
   std::array<std::byte, pdu::kDatagramTrailerSize> octets;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a datagram of 7,000 octets costs that comes in five IP fragments, from frames of a capture
-// to its payload, and how many of those sent come out whole: in order, with the fragments of 16
-// datagrams mixed, and with a fragment of every hundredth datagram lost. Each row first compares
-// every octet with what was sent.
+// Cost of a datagram of 7,000 octets in five IP fragments, from frames of a capture to its payload,
+// and the number of datagrams that are reassembled: in order, with the fragments of 16 datagrams
+// mixed, and with a fragment of every hundredth datagram lost. Each row first compares every octet
+// with the sent ones.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::size_t kDatagrams = 960, kPayload = 7000, kMixed = 16, kLostEach 
 constexpr std::chrono::microseconds kSpacing{200};  // 5,000 datagrams a second
 constexpr std::size_t kUdpHeader = 8, kIdAt = 18;   // of IPv4 in Ethernet
 
-/// A fragment, and the datagram that it is of.
+/// A fragment, and its datagram.
 struct Piece {
   Bytes frame;
   std::size_t datagram = 0;
@@ -48,12 +48,12 @@ std::vector<Piece> pieces(bool mixed, bool lossy) {
   return all;
 }
 
-/// Feeds all pieces again and again, each time under the identifiers that follow, as a sender does.
+/// Feeds all pieces repeatedly, each time with the next identifiers, as a sender does.
 class Feed {
  public:
   explicit Feed(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
 
-  /// @param take is given the number and the payload of each whole datagram
+  /// @param take called with the number and the payload of each complete datagram
   template <typename Take>
   void run(Take&& take) {
     for (Piece& piece : pieces_) {

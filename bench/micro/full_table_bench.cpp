@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A table of many entities of which a tenth moves and another tenth can be felt: what an update
-// costs from its octets on, what a pass costs in which nothing comes, and the memory of each.
+// A table of many entities, of which a tenth moves and another tenth can be felt: cost of an update
+// from its octets on, cost of a pass without updates, and memory of each entity.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kMidnight = std::chrono::hours(500'000);  // UTC
-constexpr std::size_t kStates = 9, kBlock = 64;  // in a datagram; datagrams in a block
+constexpr std::size_t kStates = 9, kBlock = 64;  // states in a datagram; datagrams in a block
 constexpr std::size_t kStateSize = pdu::kFixedSize<pdu::EntityState>;
 constexpr double kSpacing = 20;  // [m]
 
@@ -53,10 +53,10 @@ class FullTable {
     fill();
   }
 
-  /// Of each entity [octets].
+  /// Memory of each entity [octets].
   [[nodiscard]] double memory() const { return memory_; }
 
-  /// From the octets on, of an update [ns]: of a block of those that move.
+  /// Time of an update from its octets on [ns], over a block of updates for moving entities.
   double take_block() {
     now_ += milliseconds(2);
     for (std::vector<std::byte>& datagram : block_) write(datagram);
@@ -72,7 +72,7 @@ class FullTable {
     return static_cast<double>(spent.count()) / (kBlock * kStates);
   }
 
-  /// What a pass costs in which nothing comes, with a hand [ns].
+  /// Time of a pass without updates, with a hand [ns].
   double idle_pass() {
     const auto begin = std::chrono::steady_clock::now();
     constexpr int kPasses = 10;
@@ -96,14 +96,14 @@ class FullTable {
     return settings;
   }
 
-  // Every tenth can be felt, another tenth is the one that moves.
+  // Every tenth entity can be felt, another tenth moves.
   void fill() {
     Inbound update;
     update.has_state = true;
     update.model.kind = pdu::ForceModelKind::sphere;
     update.model.k1 = 200;
     update.model.radius = 0.5F;
-    update.model.validity_ms = 60'000;  // how long it may be silent
+    update.model.validity_ms = 60'000;  // longest silence
     for (std::uint32_t i = 0; i < entities_; ++i) {
       update.state = state_of(i);
       update.entity = update.state.entity_id;
@@ -111,7 +111,7 @@ class FullTable {
       if (!remote_.take(update, arrival(), {})) throw std::runtime_error("no room");
     }
     memory_ = (bench::resident() - before_) / entities_;
-    // Looked at all at once at first, then in turn.
+    // The first passes check all entities at once, the later ones in turn.
     for (int i = 0; i < 400; ++i) static_cast<void>(idle_pass());
   }
 
@@ -132,7 +132,7 @@ class FullTable {
     return state;
   }
 
-  // The next ones, in an order without neighbours.
+  // Writes the next entities, in an order without neighbours.
   void write(std::vector<std::byte>& datagram) {
     const std::uint32_t moving = entities_ / 10;
     for (std::size_t i = 0; i < kStates; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The scene graph: rewriting what one leaf in a hundred changed, against everything (`ratio`, of
-// the medians; both are compared bit by bit first), a step in time of a machine with turning
-// parts, and searches by bounds.
+// The scene graph: rewriting after one leaf in a hundred has changed, against rewriting everything
+// (`ratio` of the medians; both are compared bit by bit first), a step in time of a machine with
+// turning parts, and searches by bounds.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void graph_changed_leaves(benchmark::State& state) {
   for (peer::NodeIndex node = 0; node < changed.size(); ++node)
     if (changed.kind(node) == peer::NodeKind::content) leaves.push_back(node);
   for (auto _ : state) {
-    // In turns, so that a change of the machine's speed meets both.
+    // In alternation, so that a change of the machine's speed affects both.
     changes.clear();
     for (std::size_t i = 0; i < leaves.size() / 100; ++i)
       changes.emplace_back(leaves[random.below(leaves.size())], random.pose());
@@ -83,7 +83,7 @@ BENCHMARK(graph_changed_leaves)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// A step of 1 ms: so many nodes turn or swing, each with three nodes that hang on it.
+/// A step of 1 ms: a number of nodes turn or swing, each with three nodes attached.
 void graph_step(benchmark::State& state) {
   test::RandomGraph random(2);
   std::vector<peer::GraphNode> nodes{{.name = "root"}};
@@ -106,7 +106,7 @@ void graph_step(benchmark::State& state) {
 }
 BENCHMARK(graph_step)->ArgName("moving")->Arg(1)->Arg(10)->Arg(100);
 
-/// Searches in a graph whose subtrees lie apart, as rooms of a building, or on each other.
+/// Searches in a graph whose subtrees are apart, like rooms of a building, or overlap.
 void graph_search(benchmark::State& state) {
   test::RandomGraph random(3);
   std::vector<peer::GraphNode> nodes{{.name = "root"}};

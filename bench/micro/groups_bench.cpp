@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a thousand joined groups cost: each datagram, and each change.
+// Cost of a thousand joined groups: for each datagram, and for each change.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace reckon::peer {
 namespace {
 
-/// A receiver in so many groups, and a sender to one of them, or to each in turn.
+/// A receiver in a number of groups, and a sender to one of them, or to each in turn.
 class Groups {
  public:
   explicit Groups(std::size_t count)
@@ -25,7 +25,7 @@ class Groups {
         octets_(1296) {
     for (std::size_t i = 0; i < count; ++i) check(!receiver_.join(pool_.address(i)), "join");
   }
-  /// CPU of a datagram [ns], 64 of them sent to so many groups.
+  /// CPU of a datagram [ns], over 64 datagrams sent to `spread` groups.
   double round(std::size_t spread) {
     const double begin = cpu_ns();
     for (std::size_t i = 0; i < kDatagrams; ++i) sender_.send(pool_.address(i % spread), octets_);
@@ -64,7 +64,7 @@ class Groups {
   std::array<Datagram, 64> batch_;
 };
 
-/// What changes cost, of either kind and all together.
+/// Cost of changes, for either kind and in total.
 struct Changes {
   /// CPU of leaving and of joining [ns].
   void add(const std::pair<double, double>& one) {
@@ -81,7 +81,7 @@ struct Changes {
   bench::Blocks join, leave, change;
 };
 
-/// What a thousand groups cost that are joined: each datagram, and each change.
+/// Cost of a thousand joined groups: for each datagram, and for each change.
 void thousand_groups(benchmark::State& state) {
   try {
     Cable::instance();
@@ -108,8 +108,9 @@ void thousand_groups(benchmark::State& state) {
 }
 BENCHMARK(thousand_groups);
 
-/// A change of any of them. The kernel looks for a membership from the newest to the oldest, twice
-/// as one is left, so above, where the oldest is left each time, is the dearest order.
+/// A change of any of them. The kernel searches for a membership from the newest to the oldest,
+/// twice when one is left. So the row above, where the oldest is left each time, is the most
+/// expensive order.
 void any_of_thousand_groups(benchmark::State& state) {
   try {
     Cable::instance();
@@ -117,7 +118,7 @@ void any_of_thousand_groups(benchmark::State& state) {
     std::mt19937_64 random(1);
     Changes changes;
     for (auto _ : state) {
-      many.round(64);  // between changes datagrams come
+      many.round(64);  // datagrams arrive between changes
       changes.add(many.change(random() % 1000));
     }
     changes.report(state);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cost and quality of contact: a hand strokes a 0.2 m object 2 mm below its surface at 1 kHz. Each
-// row holds the time of a tick and what it is worth: lag (way to where it settles if the device
-// waits), gap (SCP to surface, less the probe's radius) and pops (SCP found inside by the winding
+// row has the time of a tick and its quality: lag (distance to the settled position if the device
+// waits), gap (SCP to surface, minus the probe's radius) and pops (SCP inside by the winding
 // number).
 #include <benchmark/benchmark.h>
 
@@ -57,7 +57,7 @@ const std::vector<Subject>& subjects() {
   return all;
 }
 
-// Made at first use and kept, for the rows of one mesh follow each other.
+// Made at first use and kept, because the rows of one mesh follow each other.
 MeshPointer mesh_of(std::size_t subject) {
   static std::vector<MeshPointer> made(subjects().size());
   if (!made[subject])
@@ -65,7 +65,7 @@ MeshPointer mesh_of(std::size_t subject) {
   return made[subject];
 }
 
-/// A stroke there and back again, so that it can be repeated without a leap.
+/// A stroke forwards and back, so that it can be repeated without a jump.
 std::vector<Vector3d> path(const SurfaceMesh& mesh, double speed, Vector3d& start) {
   test::Stroke stroke(mesh, speed * 1e-3, kDepth, 7);
   start = stroke.start();
@@ -132,7 +132,7 @@ void contact_tick(benchmark::State& state, std::size_t subject, double speed, bo
   state.counters["p99_ns"] = quality.p99_ns;
 }
 
-// Points within 2 mm of the surface, as a servo would ask.
+// Points within 2 mm of the surface, as in queries of a servo.
 std::vector<Vector3d> near_points(const SurfaceMesh& mesh) {
   std::mt19937 random(5);
   std::uniform_int_distribution<std::size_t> pick(0, mesh.triangles().size() - 1);
@@ -157,8 +157,8 @@ void closest_point(benchmark::State& state, std::size_t subject) {
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
 
-// Along a stroke, as a servo asks from tick to tick: anew, from the last tick's triangle, and with
-// the triangles around it.
+// Along a stroke, as in a servo from tick to tick: without state, from the last tick's triangle,
+// and with the triangles around it.
 enum class Kept { nothing, triangle, list };
 
 void closest_on_stroke(benchmark::State& state, std::size_t subject, Kept kept) {
@@ -182,8 +182,8 @@ void closest_on_stroke(benchmark::State& state, std::size_t subject, Kept kept) 
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
 
-// Near the surface of a mesh of 1e5 or 1e6 triangles, by a precision in micrometres: what is saved,
-// and how much farther the point found is than the nearest.
+// Near the surface of a mesh of 1e5 or 1e6 triangles, for a precision in micrometres: time saved,
+// and the additional distance of the point found over the nearest.
 void closest_by_precision(benchmark::State& state) {
   static const std::array<SurfaceMesh, 2> meshes{test::make_mesh(test::torus(316, 158), kSize),
                                                  test::make_mesh(test::torus(1000, 500), kSize)};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost and quality of implicit surfaces of about 0.1 m: f and its gradient near the surface, a
 // sweep of 3 mm, and a tick of the contact point for a hand that strokes 2 mm below the surface at
-// 0.1 m/s. A tick's row also holds its error: f at the contact point, and lag, the way to where it
-// settles if the device waits.
+// 0.1 m/s. A tick's row also has its error: f at the contact point, and lag, the distance to the
+// settled position if the device waits.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using reckon::haptics::SweepHit;
 namespace test = reckon::test;
 
 constexpr double kDepth = 2e-3;
-constexpr double kStep = 1e-4;  // [m] a tick
+constexpr double kStep = 1e-4;  // [m] for each tick
 
 Vector3d random_point(std::mt19937& random, double reach) {
   std::uniform_real_distribution<double> x(-reach, reach);
@@ -40,7 +40,7 @@ const std::vector<test::NamedSolid>& solids() {
   return all;
 }
 
-// Within 2 mm of the surface.
+// Points within 2 mm of the surface.
 std::vector<Vector3d> near_points(const ImplicitSolid& solid) {
   std::mt19937 random(5);
   std::vector<Vector3d> points;
@@ -79,7 +79,7 @@ void sweep_3_mm(benchmark::State& state, std::size_t subject) {
   state.counters["hit_share"] = hits / static_cast<double>(state.iterations());
 }
 
-// A stroke that wanders over the surface, always 2 mm below the contact point.
+// A stroke that moves over the surface, always 2 mm below the contact point.
 class Stroke {
  public:
   explicit Stroke(std::size_t subject)
@@ -100,7 +100,7 @@ class Stroke {
   const ImplicitSolid& solid() const { return solid_; }
 
  private:
-  // From outside down to a point of the surface.
+  // Moves from outside down to a point of the surface.
   void begin() {
     SweepHit hit;
     Vector3d from;

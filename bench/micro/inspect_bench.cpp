@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rates of `reckon inspect` on a capture of 100,000 Entity States, one a datagram, of 100 entities:
-// the verb whole, from opening the file (which lies in the page cache) to the last octet written
-// to /dev/null. One row for each view and form of output, derived from the list of views; each row
-// checks that all PDUs were seen.
+// Rates of `reckon inspect` on a capture of 100,000 Entity States, one in a datagram, of 100
+// entities: the complete verb, from opening the file (which is in the page cache) to the last octet
+// written to /dev/null. One row for each view and output form, derived from the list of views; each
+// row checks that all PDUs were counted.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -29,7 +29,7 @@ using std::chrono::nanoseconds;
 constexpr std::uint64_t kFrames = 100'000;
 constexpr nanoseconds kStart = std::chrono::seconds(1'700'000'000);
 
-/// Entities that move as their velocity says, one update in 2 ms each.
+/// Entities that move by their velocity, each with one update in 2 ms.
 test::Octets datagram(std::uint64_t frame, nanoseconds time) {
   const auto entity = static_cast<std::uint16_t>(1 + frame % 100);
   const double seconds = std::chrono::duration<double>(time - kStart).count();
@@ -47,7 +47,7 @@ test::Octets datagram(std::uint64_t frame, nanoseconds time) {
   return octets;
 }
 
-/// The capture, written at the first call; goes away with the program.
+/// The capture, written at the first call; deleted at the end of the program.
 const std::string& capture_path() {
   static test::CaptureBuilder capture;
   static const std::string path = [] {
@@ -64,9 +64,9 @@ void set_rate(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kFrames));
 }
 
-// libpcap and the frame parser.
+// Only libpcap and the frame parser.
 void ReadFile(benchmark::State& state) {
-  (void)capture_path();  // is written now
+  (void)capture_path();  // writes the file
   for (auto _ : state) {
     const auto source = peer::open_capture(capture_path());
     peer::SourceDatagram datagram;
@@ -79,9 +79,9 @@ void ReadFile(benchmark::State& state) {
 }
 BENCHMARK(ReadFile)->Unit(benchmark::kMillisecond);
 
-// And each PDU decoded and examined: what every view stands on.
+// With each PDU decoded and examined: the basis of every view.
 void ReadFileAndDecode(benchmark::State& state) {
-  (void)capture_path();  // is written now
+  (void)capture_path();  // writes the file
   for (auto _ : state) {
     const auto source = peer::open_capture(capture_path());
     tools::DatagramInspector inspector;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Incremental interest: processor time of a tick, moves and sorted changes included, per entity:
-// the mean and the worst of the ticks after the first 40. And whether it tells what comparing all
-// with all tells.
+// Incremental interest: processor time of a tick, including moves and sorted changes, for each
+// entity: the mean and the maximum of the ticks after the first 40. Also checks the changes against
+// a comparison of all pairs.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ bool hears(const aoim::Position& a, const aoim::Position& b) {
   return x * x + y * y <= bench::MovingCrowd::kRadius * bench::MovingCrowd::kRadius;
 }
 
-// All pairs, each tick: those whose hearing differs from the last tick, in order.
+// All pairs, at each tick: the changes since the last tick, in order.
 void tick_beside_brute_force(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   bench::MovingCrowd crowd(count, 100);

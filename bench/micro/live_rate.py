@@ -26,7 +26,7 @@ UNITS_PER_HOUR = 2**31 - 1
 
 
 def entity_state(entity: int, seconds: float, fraction: float) -> bytes:
-    """An aircraft that circles, dead-reckoned with velocity and acceleration (RVW)."""
+    """An aircraft in a circle, with dead reckoning by velocity and acceleration (RVW)."""
     timestamp = int((START + seconds) % 3600 / 3600 * UNITS_PER_HOUR) << 1 | 1
     phase = 0.1 * seconds + fraction
     radius, rate = 1000.0, 0.1
@@ -42,7 +42,7 @@ def entity_state(entity: int, seconds: float, fraction: float) -> bytes:
 
 
 def write_capture(path: str, rate: int, seconds: float, entities: int) -> int:
-    """A pcap file of raw IP; returns its datagrams."""
+    """Writes a pcap file of raw IP; returns its datagrams."""
     count = int(rate * seconds)
     group = struct.unpack(">I", bytes(int(part) for part in GROUP.split(".")))[0]
     ip = struct.pack(">BBHHHBBHII", 0x45, 0, 172, 1, 0, 1, 17, 0, 0x0A000007, group)
@@ -58,7 +58,7 @@ def write_capture(path: str, rate: int, seconds: float, entities: int) -> int:
 
 
 def into_namespace() -> None:
-    """Starts this script again in a network namespace, so that nothing reaches the network."""
+    """Restarts this script in a network namespace, so that nothing reaches the network."""
     user = [] if os.geteuid() == 0 else ["--map-root-user"]
     command = ["unshare", "--net", *user, sys.executable, *sys.argv]
     os.environ["RECKON_LIVE_RATE"] = "1"
@@ -71,7 +71,7 @@ def measure(options: argparse.Namespace, capture: str, count: int) -> dict:
          "--for", f"{options.seconds + options.patience:g}s"],
         stdout=subprocess.PIPE if options.view == "top" else subprocess.DEVNULL,
         stderr=subprocess.PIPE, text=True)
-    said = listener.stderr.readline()  # it listens once it says so
+    said = listener.stderr.readline()  # it listens after this message
     if "listening" not in said:
         sys.exit(said)
     sender = subprocess.run([options.reckon, "replay", capture, "--iface", "lo"],

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities that move as recorded ones do, and the Entity States that dead reckoning makes of them.
+// Entities that move like recorded ones, and the Entity States that dead reckoning sends for them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,12 +23,12 @@
 
 namespace reckon::bench {
 
-/// Where one entity was and how fast; between two samples it follows the cubic through both.
+/// Positions and velocities of one entity; between two samples it follows the cubic through both.
 struct Mover {
   std::vector<double> t;
   std::vector<Eigen::Vector2d> p, v;
 
-  /// East and north [m], S, level, nose ahead.
+  /// Position east and north [m], S, level, nose ahead.
   [[nodiscard]] deadreckon::KinematicState at(double time) const {
     std::size_t i = 0;
     while (i + 2 < t.size() && t[i + 1] <= time) ++i;
@@ -54,7 +54,7 @@ struct Mover {
   }
 };
 
-/// Rows "t,id,..." of a recording; `read` gives place and velocity of the other columns.
+/// Rows "t,id,..." of a recording; `read` converts the other columns to position and velocity.
 template <class Read>
 std::vector<Mover> recorded(const std::string& file, std::size_t most, Read read) {
   std::ifstream in(file);
@@ -101,7 +101,7 @@ inline std::vector<Mover> pedestrians(const std::string& folder, std::size_t mos
                   });
 }
 
-/// Ships under way; each on a plane of its own, for they are far from each other.
+/// Ships under way; each in a tangent plane of its own, because they are far from each other.
 inline std::vector<Mover> ships(const std::string& folder, std::size_t most) {
   constexpr double kDegree = std::numbers::pi / 180, kEarth = 6371e3, kKnot = 1852.0 / 3600;
   return recorded(
@@ -117,7 +117,7 @@ inline std::vector<Mover> ships(const std::string& folder, std::size_t most) {
       });
 }
 
-/// Vehicles that never go straight for so many [s]: three swings each.
+/// Vehicles that never move straight for `seconds`: three sinusoids each.
 inline std::vector<Mover> made(std::size_t count, double seconds = 60.0) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -154,9 +154,9 @@ inline const deadreckon::LocalFrame& town() {
   return frame;
 }
 
-/// Looks ten times a second; sends where copies are off by `threshold` [m] or 3 degrees, or after
-/// 5 s; each for so many [s] at most. In the order of time. Motion is rounded to quanta as a peer's
-/// is that compresses.
+/// Checks ten times a second; sends if receivers are off by `threshold` [m] or 3 degrees, or after
+/// 5 s; for at most `seconds` for each entity. In order of time. Motion is rounded to quanta, as in
+/// a peer that compresses.
 inline std::vector<SentState> sent_states(const std::vector<Mover>& movers, double threshold,
                                           double seconds = 120.0) {
   std::vector<SentState> sent;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities in a square of the plane, 48 others within 200 m of each on average: each walks straight
-// on by 0.5 to 1.5 % of that radius a tick, turns now and then, and comes back at the other side.
+// Entities in a square of the plane, with 48 others within 200 m of each on average: each walks
+// straight by 0.5 to 1.5 % of that radius a tick, turns now and then, and re-enters at the opposite
+// side.
 #pragma once
 
 #include <cmath>
@@ -32,7 +33,7 @@ class MovingCrowd {
     }
   }
 
-  /// One tick; moved(i, position) of each that moves.
+  /// One tick; calls moved(i, position) for each entity that moves.
   template <typename Moved>
   void walk(Moved&& moved) {
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
@@ -63,7 +64,7 @@ class MovingCrowd {
   std::vector<double> pace_, step_x_, step_y_;
 };
 
-/// All of a crowd, as interest sees them once it has told who hears whom at the start.
+/// All entities of a crowd, after the initial changes have been reported.
 inline bench::IncrementalInterest interest_of(const MovingCrowd& crowd) {
   const std::vector<aoim::Position>& positions = crowd.positions();
   bench::IncrementalInterest interest(positions.size());

@@ -14,7 +14,7 @@ constexpr std::size_t kCheckSize = 2;
 
 constexpr std::size_t map_size(std::size_t groups) noexcept { return (groups + 7) / 8; }
 
-// Which of the 8 octets from `at` differ, the first one in the highest bit.
+// Mask of the 8 octets from `at` that differ, with the first one in the highest bit.
 unsigned difference(std::span<const std::byte> a, std::span<const std::byte> b,
                     std::size_t at) noexcept {
   const std::size_t count = std::min<std::size_t>(8, a.size() - at);
@@ -36,7 +36,7 @@ std::uint16_t key_check(std::span<const std::byte> key) noexcept {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
     hash ^= hash >> 29;
   }
-  hash *= 0x9E3779B97F4A7C15ULL;  // the highest octets of the last word too
+  hash *= 0x9E3779B97F4A7C15ULL;  // the highest octets of the last word are included
   return static_cast<std::uint16_t>(hash >> 48);
 }
 

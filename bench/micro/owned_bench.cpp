@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What owning entities costs a peer: the same row tells the time of a check, the share of a core at
-// 60 Hz, what was sent at thresholds of 1 m and 3 degrees, how far off a listener was, and the
-// memory of each.
+// Cost of owned entities for a peer: the same row has the time of a check, the share of a core at
+// 60 Hz, the updates sent at thresholds of 1 m and 3 degrees, the error of a receiver, and the
+// memory of each entity.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kFrame{16'666'667};  // 60 Hz
 
-// Circles of 50 to 150 m at 10 m/s, each begun elsewhere.
+// Circles of 50 to 150 m at 10 m/s, each with another start.
 EntityTruth drive(std::uint32_t index, nanoseconds now) {
   const double radius = 50.0 + index % 100;
   const double rate = 10.0 / radius;
@@ -49,7 +49,7 @@ EntityTruth drive(std::uint32_t index, nanoseconds now) {
   return truth;
 }
 
-// One peer without devices in a world of 20 km, whose datagrams go to link 1.
+// One peer without devices in a world of 20 km; its datagrams arrive at link 1.
 class Owner {
  public:
   explicit Owner(std::uint32_t count)
@@ -90,7 +90,7 @@ class Owner {
  private:
   static SimulatedNetworkOptions two_links() {
     SimulatedNetworkOptions options;
-    options.datagrams_in_flight = 8192;  // all entities, in one frame
+    options.datagrams_in_flight = 8192;  // all entities in one frame
     return options;
   }
   SceneFile scene_;
@@ -99,8 +99,7 @@ class Owner {
   Peer peer_;
 };
 
-// Ten thousand that drive, each told and checked 60 times a second, at thresholds of 1 m and 3
-// degrees.
+// Moving entities, each updated and checked 60 times a second, at thresholds of 1 m and 3 degrees.
 void owned_moving(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   Owner owner(count);
@@ -131,7 +130,7 @@ void owned_moving(benchmark::State& state) {
 }
 BENCHMARK(owned_moving)->Arg(100)->Arg(10'000)->Unit(benchmark::kMicrosecond);
 
-// The growth of the process by entities that stand, each with a truth that was sent.
+// Growth of the process for entities at rest, each with a state that was sent.
 void owned_room(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   double none = 0, all = 0;
@@ -150,7 +149,7 @@ void owned_room(benchmark::State& state) {
 }
 BENCHMARK(owned_room)->Arg(65'000)->Iterations(1);
 
-// A peer that hears the owner, and knows how far off it is.
+// A peer that receives the owner's updates and computes its own error.
 class Listener {
  public:
   explicit Listener(Owner& owner)
@@ -162,7 +161,7 @@ class Listener {
     peer_.model_step(owner_.now(), owner_.utc());
     peer_.write_step();
   }
-  // Largest and root mean square distance [m] from what is true, of what is shown.
+  // Greatest distance and sum of squared distances [m^2] between shown and true positions.
   void compare(std::span<const EntityTruth> truths, double& most, double& squares) const {
     for (const RemoteEntity& row : peer_.model().remote().rows()) {
       const double off =
@@ -184,8 +183,8 @@ class Listener {
   Peer peer_;
 };
 
-// The recorded vehicles of a town, repeated with offsets, each told and checked 60 times a second:
-// the time of the peer alone, a frame at a time.
+// The recorded vehicles of a town, repeated with offsets, each updated and checked 60 times a
+// second: time of the peer alone, for each frame.
 void owned_traffic(benchmark::State& state) {
   const char* folder = std::getenv("RECKON_DATA");
   const std::filesystem::path file =
@@ -233,7 +232,7 @@ void owned_traffic(benchmark::State& state) {
 }
 BENCHMARK(owned_traffic)->Arg(10'000)->Unit(benchmark::kMillisecond)->UseManualTime();
 
-// Entities that rest, heartbeats included: passes of 2 ms.
+// Entities at rest, including heartbeats: passes of 2 ms.
 void owned_resting(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   Owner owner(count);

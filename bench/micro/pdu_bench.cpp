@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cost of the wire format beside memcpy of the same octets in the same run. Every row first checks
-// that what it times gives the right octets.
+// that the timed code gives the right octets.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace reckon::pdu;
 
-constexpr std::size_t kDatagram = 1352;  // octets, what one datagram carries by default
+constexpr std::size_t kDatagram = 1352;  // octets, default capacity of one datagram
 using Buffer = std::array<std::byte, kDatagram>;
 
 const std::array<std::byte, 64>& four_parameters() {
@@ -59,7 +59,7 @@ void Memcpy(benchmark::State& state) {
 }
 BENCHMARK(Memcpy)->Arg(144)->Arg(208)->Arg(1296);
 
-// As the compiler writes it out where it knows the size.
+// In the form that the compiler generates for a constant size.
 template <std::size_t octets>
 void MemcpyOfKnownSize(benchmark::State& state) {
   Buffer from{};
@@ -112,9 +112,9 @@ void EntityStateDecode(benchmark::State& state) {
 }
 BENCHMARK(EntityStateDecode)->ArgName("parameters")->Arg(0)->Arg(4);
 
-// The bar: encode and decode at most 5 times memcpy of the same octets. The three take turns in
-// short blocks, so that whatever else the machine does hits all of them; the ratios are those of
-// blocks side by side, told as median and 10th and 90th percentile.
+// The limit: encode and decode take at most 5 times memcpy of the same octets. The three alternate
+// in short blocks, so that other load on the machine affects all of them equally; the ratios are
+// between neighbouring blocks, reported as median and 10th and 90th percentile.
 void EntityStateAgainstMemcpy(benchmark::State& state) {
   EntityState pdu = moving_entity(static_cast<std::size_t>(state.range(0)));
   EntityState back;
@@ -193,7 +193,7 @@ void AttributeWrite(benchmark::State& state) {
 }
 BENCHMARK(AttributeWrite);
 
-// Walk, check and read both records.
+// Traverses, checks and reads both records.
 void AttributeRead(benchmark::State& state) {
   Buffer datagram;
   const std::size_t octets = write_attribute(datagram, sphere());

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What clocks and tracks cost: the same row tells the time of a call and how wrong the answers
-// were.
+// Cost of clocks and tracks: the same row has the time of a call and the error of the results.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kUtc = std::chrono::hours(500'000);
 
-// Updates at 50 Hz through 20 ms and up to 10 ms more.
+// Updates at 50 Hz with a delay of 20 ms and up to 10 ms more.
 struct Update {
   nanoseconds sent, arrival;
   std::uint32_t stamp;
@@ -71,7 +70,7 @@ void map_timestamps(benchmark::State& state, bool absolute) {
       std::sqrt(squares / static_cast<double>(std::max<std::size_t>(counted, 1))) * 1e-6;
 }
 BENCHMARK_CAPTURE(map_timestamps, absolute, true);
-BENCHMARK_CAPTURE(map_timestamps, relative, false);  // errs by the least transit, 20 ms
+BENCHMARK_CAPTURE(map_timestamps, relative, false);  // error of the least transit, 20 ms
 
 void hear_a_peer(benchmark::State& state) {
   const auto peers = static_cast<std::uint32_t>(state.range(0));
@@ -103,8 +102,8 @@ void keep_utc(benchmark::State& state) {
 }
 BENCHMARK(keep_utc);
 
-// Where so many entities on a track of their own are, one after the other: circles of 20 m, 0.1 s a
-// sample. The error is that of the position against the circle.
+// Positions of a number of entities, each on a track of its own, in turn: circles of 20 m, 0.1 s
+// for each sample. The error is the distance of the position from the circle.
 void follow_tracks(benchmark::State& state, TrackTurn turn) {
   constexpr double kRadius = 20.0, kLap = 4.0 * std::numbers::pi;
   constexpr int kSteps = 126;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a reading of a Polhem costs: its place and Jacobian from three angles, and back, and all
-// that its driver does from the octets of a report to those of a command. The first two rows hold
-// the greatest error of the way there and back, in um.
+// Cost of a reading of a Polhem: position and Jacobian from three angles, and the inverse, and the
+// complete work of its driver from the octets of a report to the octets of a command. The first two
+// rows have the greatest error of the round trip, in um.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void polhem_inverse(benchmark::State& state) {
 }
 BENCHMARK(polhem_inverse);
 
-// From the start pose, which its button was pressed in.
+// From the start pose, in which its button was pressed.
 void polhem_exchange(benchmark::State& state) {
   PolhemDriver driver({0.17, 0.055});
   std::array<std::uint8_t, 14> octets{0, 0, 0, 0, 0x78, 0xEC};

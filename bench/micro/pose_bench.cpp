@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a pose costs against a plain way of getting it, in turns within one run: a query of RVB, and
-// the same smoothed. Error stands beside time.
+// Cost of a pose against a plain implementation, in alternation within one run: a query of RVB, and
+// the same smoothed. The error is in the same row as the time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using deadreckon::PoseConvergence;
 
 constexpr double kBlend = 0.1;  // [s] of smoothing
 
-// Largest error of 16 entities [m].
+// Greatest error of 16 entities [m].
 template <typename Query>
 double error_of(const States& all, Query&& query) {
   double worst = 0;
@@ -42,7 +42,7 @@ double time_of(const States& all, Query&& query) {
   });
 }
 
-// range(0): angular velocity in nanoradians a second.
+// range(0): angular velocity [nrad/s].
 void query_against_plain(benchmark::State& bench) {
   const States all = states(Algorithm::rvb, 1e-9 * static_cast<double>(bench.range(0)));
   const auto reckon = [](const KinematicState& s, double t) { return extrapolate(s, t); };
@@ -72,7 +72,7 @@ BENCHMARK(query_against_plain)
     ->Arg(400'000'000)
     ->Arg(5'000'000'000);
 
-// An update that came: what was shown by the old one, what the new one says.
+// An update: the state shown before it, and its own state.
 struct Correction {
   KinematicState before, after;
 };
@@ -87,7 +87,7 @@ Correction correction() {
   return c;
 }
 
-// The plain way: both predictions, and a straight line and an arc from one to the other.
+// Plain method: both predictions, and a straight line and an arc from one to the other.
 Pose blended(const Correction& c, double t) {
   const Pose from = textbook_rvb(c.before, t), to = textbook_rvb(c.after, t);
   const double u = std::min(t / kBlend, 1.0);
@@ -97,7 +97,7 @@ Pose blended(const Correction& c, double t) {
           from.angular_velocity + u * (to.angular_velocity - from.angular_velocity)};
 }
 
-// Largest difference of the drawn velocities just before and just after the update [m/s].
+// Greatest difference of the drawn velocities just before and just after the update [m/s].
 template <typename Shown>
 double velocity_step(const Correction& c, Shown&& shown) {
   constexpr double h = 1e-6;
@@ -106,7 +106,7 @@ double velocity_step(const Correction& c, Shown&& shown) {
   return ((shown(h).position - shown(0.0).position) / h - old_rate).norm();
 }
 
-// range(0): the row of kConvergenceCurves. The prediction alone and the plain blend take turns.
+// range(0): the row of kConvergenceCurves. The prediction alone and the plain blend alternate.
 void smoothed_against_plain(benchmark::State& bench) {
   const auto& row = kConvergenceCurves[static_cast<std::size_t>(bench.range(0))];
   const Correction c = correction();

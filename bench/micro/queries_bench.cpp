@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cost of queries between shapes: all pairs of moving boxes, each box moving by up to 0.02 of the
-// mean box a step, as many boxes to the volume whatever their count (thesis 2.5.6, I-COLLIDE); and
-// single pairs. Before it is timed, the grid has to find what the sweep finds.
+// mean box for each step, with equal density for any number of boxes (thesis 2.5.6, I-COLLIDE); and
+// single pairs. Before the timing, the grid must find the same pairs as the sweep.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ namespace test = reckon::test;
 
 constexpr double kMeanBox = 0.2;  // [m]
 
-/// Boxes whose sizes differ up to `ratio`, one to 0.2 m3.
+/// Boxes whose sizes differ by up to `ratio`, one in 0.2 m3.
 class Boxes {
  public:
   Boxes(std::size_t count, double ratio) {
@@ -58,7 +58,7 @@ class Boxes {
   std::vector<AlignedBox3d> all_;
 };
 
-/// Sweep and prune along x: the order of the last step is nearly that of this one.
+/// Sweep and prune along x: the order changes little from one step to the next.
 class Sweep {
  public:
   explicit Sweep(std::size_t count) : order_(count) {
@@ -137,7 +137,7 @@ BENCHMARK(sweep_and_prune)
     ->Args({10'000, 1'000})
     ->Unit(benchmark::kMicrosecond);
 
-// --- single pairs, some 0.2 m large and as far apart ---
+// --- single pairs, about 0.2 m in size and distance ---
 
 std::vector<Placement> drawn_placements(double reach) {
   std::mt19937_64 random(3);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What order reduction costs and how wrong its force is, beside the thesis' eigenvectors. N is the
-// number of states (two for each mass), r of those kept. Error: largest difference of the response
-// over frequency, in parts of the largest response (body: of the contact's stiffness 900 N/m);
-// twice_tail is the bound known before. Rows of one system stand together: time against error.
+// Cost of order reduction and the error of its force, compared with the thesis' eigenvectors. N is
+// the number of states (two for each mass), r the number kept. Error: greatest difference of the
+// response over frequency, as a share of the greatest response (body: of the contact's stiffness
+// 900 N/m); twice_tail is the a-priori bound. Rows of one system are adjacent: time against error.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ void choice_of_order(benchmark::State& state, int side, bool is_coupled) {
   state.counters["bound_N"] = choice.bound;
 }
 
-// A general system of `states` states to `order`.
+// Reduces a general system of `states` states to `order`.
 void general(benchmark::State& state, const StateSpace& system, int order, Method method) {
   StateSpace model;
   for (auto _ : state) {
@@ -107,8 +107,8 @@ void general(benchmark::State& state, const StateSpace& system, int order, Metho
   }
 }
 
-// Random passive bodies of `states` states: a chain held at one end, pressed at the other.
-// Median and worst error, and what a step of the reduced model costs.
+// Random passive bodies of `states` states: a chain held at one end, pressed at the other. Median
+// and greatest error, and the cost of a step of the reduced model.
 void random_bodies(benchmark::State& state, int states, int order) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> unit(0, 1);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to refuse a datagram that was made to cost much: the codec alone, and the row of
-// the inspector with its sentence. Each row first checks the rule by which the datagram is refused
-// and that the codec takes no heap. Bounds: docs/robustness.md.
+// Cost of refusing a datagram that was built to be expensive: the codec alone, and the row of the
+// inspector with its sentence. Each row first checks the rule that refuses the datagram and that
+// the codec does not allocate. Bounds: docs/robustness.md.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -21,8 +21,8 @@ using namespace reckon;
 
 using Octets = std::vector<std::byte>;
 
-/// A Data PDU of 40 octets and `datums` empty variable datums, the last of which claims 2^32 - 1
-/// bits.
+/// A Data PDU of 40 octets and `datums` empty variable datums, the last with a declared length of
+/// 2^32 - 1 bits.
 Octets datum_bomb(std::size_t datums) {
   Octets octets(40 + 8 * datums);
   (void)encode(pdu::Data{}, octets);
@@ -32,7 +32,7 @@ Octets datum_bomb(std::size_t datums) {
   return octets;
 }
 
-/// The bomb of 56 octets: its only datum claims 2^32 - 1 bits, 8 octets are there.
+/// A PDU of 56 octets: its only datum declares 2^32 - 1 bits, and 8 octets are there.
 Octets small_bomb() {
   Octets octets = datum_bomb(1);
   octets.resize(56);
@@ -40,7 +40,7 @@ Octets small_bomb() {
   return octets;
 }
 
-/// The first octets of an Entity State that says `length`.
+/// The first octets of an Entity State with the declared length `length`.
 Octets entity_state(std::size_t size, std::uint16_t length) {
   Octets octets(pdu::kFixedSize<pdu::EntityState>);
   (void)encode(pdu::EntityState{}, octets);
@@ -49,7 +49,7 @@ Octets entity_state(std::size_t size, std::uint16_t length) {
   return octets;
 }
 
-/// Reads the datagram as a receiver does; why its first PDU was refused.
+/// Reads the datagram like a receiver and returns the refusal of its first PDU.
 pdu::DecodeError refuse(const Octets& octets) {
   auto error = pdu::DecodeError::none;
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets)) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Region matching: the time of a whole match, pairs written, by dimensions, regions and alpha.
+// Region matching: the time of a complete match with written pairs, by dimensions, regions and
+// alpha.
 #include <benchmark/benchmark.h>
 
 #include "reckon/bench/interest/region_matching.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Regions as studies of region matching make them: half subscriptions, half updates, cubes of one
-// side, anywhere in the unit cube; alpha = regions x their volume over that of the world.
+// Regions as in studies of region matching: half subscriptions, half updates, cubes of one size
+// anywhere in the unit cube; alpha = regions x their volume / volume of the world.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct RegionInstance {
   }
 };
 
-/// Keeps pairs as a user would who works them off in blocks: 32 MiB, written over and over.
+/// Stores pairs like a user that processes them in blocks: 32 MiB, overwritten repeatedly.
 class PairRing {
  public:
   void put(const bench::RegionPair& pair) noexcept { pairs_[count_++ & (kRoom - 1)] = pair; }

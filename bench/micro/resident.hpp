@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a program takes of the memory, for rows of memory beside those of time.
+// Memory of a program, for rows of memory beside rows of time.
 #pragma once
 
 #include <unistd.h>

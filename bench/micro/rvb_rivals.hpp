@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the extrapolation of RVB is measured against: entities to extrapolate, a reference for the
-// error, and two plain ways of doing the same.
+// Comparison for the extrapolation of RVB: entities to extrapolate, a reference for the error, and
+// two plain implementations.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -69,7 +69,7 @@ class Reference {
  private:
   Vector rate(const Matrix& r, long double t) const { return r * (velocity_ + t * acceleration_); }
   void step(long double t, long double h) {
-    // Position needs the rotation at the start, middle and end of the step: Simpson's rule.
+    // The position needs the rotation at start, middle and end of the step: Simpson's rule.
     const Matrix middle = turned(rotation_, h / 2), end = turned(middle, h / 2);
     position_ += h / 6 * (rate(rotation_, t) + 4 * rate(middle, t + h / 2) + rate(end, t + h));
     rotation_ = end;
@@ -84,7 +84,7 @@ class Reference {
   Vector position_;
 };
 
-// The closed form as it is printed and commonly typed in: matrices, a guard for exactly zero.
+// The closed form as printed and commonly implemented: matrices, and a check for exactly zero.
 inline Pose textbook_rvb(const KinematicState& s, double t) {
   const Vector3d& w = s.angular_velocity;
   const double n = w.norm();
@@ -110,7 +110,7 @@ inline Pose textbook_rvb(const KinematicState& s, double t) {
   return pose;
 }
 
-// Velocity turned once at the update: what a second-order extrapolator without R1 and R2 does.
+// Velocity rotated once at the update, as in a second-order extrapolator without R1 and R2.
 inline Pose straight_rvb(const KinematicState& s, double t) {
   Pose pose;
   pose.position = s.position + s.orientation * (t * s.velocity + 0.5 * t * t * s.acceleration);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a sealed exercise costs: an update there beside one in plain DIS, over sockets; the envelope
-// alone; and refusing what is not genuine. Rows with forgeries and restarts count what must be 0.
-// Numbers: docs/security.md.
+// Cost of a sealed exercise: an update beside one in plain DIS, over sockets; the envelope alone;
+// and the refusal of forged datagrams. Rows with forgeries and restarts count events that must be
+// 0. Numbers: docs/security.md.
 #include <benchmark/benchmark.h>
 #include <time.h>
 #include <unistd.h>
@@ -63,7 +63,7 @@ class Ends {
     for (int i = 0; i < 60; ++i) meet(i < 40);
   }
 
-  // One bundle each way: encoded, sent, received, decoded. False where one was lost.
+  // One bundle in each direction: encoded, sent, received, decoded. False if one was lost.
   bool exchange() { return carry(0, 1) && carry(1, 0); }
 
  private:
@@ -71,7 +71,7 @@ class Ends {
     return static_cast<std::uint16_t>(20000 + (getpid() + offset) % 20000);
   }
 
-  // Time for greetings, and for what was said meanwhile.
+  // Time for greetings, and for datagrams sent meanwhile.
   void meet(bool speaks) {
     std::array<peer::Datagram, 16> batch;
     for (peer::Link* link : links_) {
@@ -116,7 +116,7 @@ class Ends {
   std::uint64_t turn_ = 0;
 };
 
-/// CPU time of one update, of a block that is short enough to be rarely interrupted.
+/// CPU time of one update, over a block that is short enough to be rarely interrupted.
 double update_ns(Ends& ends, bool& whole) {
   constexpr int kExchanges = 200;
   const double begin = thread_ns();
@@ -124,7 +124,7 @@ double update_ns(Ends& ends, bool& whole) {
   return (thread_ns() - begin) / (2.0 * kExchanges * kUpdates);
 }
 
-// CPU of sender, kernel and receiver for one update at 9 a datagram, in turns.
+// CPU of sender, kernel and receiver for one update at 9 in a datagram, in alternation.
 void SealedBesidePlain(benchmark::State& state) {
   Ends plain(0, false), sealed(1, true);
   reckon::bench::Blocks plain_ns, sealed_ns, ratio;
@@ -143,7 +143,7 @@ void SealedBesidePlain(benchmark::State& state) {
 }
 BENCHMARK(SealedBesidePlain)->Unit(benchmark::kMillisecond);
 
-// A datagram of `size` octets in all, and what it takes to seal or open it.
+// A datagram of `size` octets in total, with the objects that seal and open it.
 struct Envelope {
   explicit Envelope(const benchmark::State& state)
       : key(group_key(1,
@@ -190,7 +190,7 @@ void Open(benchmark::State& state) {
   }
 }
 
-/// Opens one genuine datagram, then times how often `bad` is refused by `verdict`.
+/// Opens one genuine datagram, then times the refusal of `bad` with `verdict`.
 void refuse(benchmark::State& state, Envelope& e, const Octets& bad, SealedVerdict verdict) {
   if (e.open(sealed(e.sealer, e.plain)) != SealedVerdict::opened || e.open(bad) != verdict)
     return state.SkipWithError("another verdict");
@@ -237,7 +237,7 @@ BENCHMARK(RefuseReplay)->Apply(sizes);
 BENCHMARK(RefusePlain)->Apply(sizes);
 
 // Flipped, cut, spliced, moved to another epoch, boot, stream and count, replayed. An iteration is
-// 100,000: ten million with --benchmark_filter=Forgeries --benchmark_min_time=10.
+// 100,000: for ten million use --benchmark_filter=Forgeries --benchmark_min_time=10.
 void Forgeries(benchmark::State& state) {
   constexpr std::uint64_t kForgeries = 100'000;
   const peer::GroupKey key = group_key(2, fast_suite());
@@ -255,7 +255,8 @@ void Forgeries(benchmark::State& state) {
 }
 BENCHMARK(Forgeries)->Unit(benchmark::kMillisecond);
 
-// 100,000 restarts of one member: (epoch, sealer, salt, stamp, stream, count) names key and nonce.
+// 100,000 restarts of one member: (epoch, sealer, salt, stamp, stream, count) identifies key and
+// nonce.
 void Restarts(benchmark::State& state) {
   constexpr int kRestarts = 1000;
   const peer::GroupKey key = group_key(1, fast_suite());

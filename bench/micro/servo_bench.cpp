@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a servo step costs: a simulated hand among n remote hands, all touching it, with and without
-// a wall under it, and over a scene of many objects out of reach. Each row holds the time of a step
-// and how far its force is from the closed form, in newtons, and the least energy of the port, in
-// joules. The motion filter's rows hold how far its velocity is from the true one, in m/s.
+// Cost of a servo step: a simulated hand among n remote hands, all touching it, with and without a
+// wall under it, and over a scene of many objects out of reach. Each row has the time of a step,
+// the difference of its force from the closed form, in newtons, and the least energy of the port,
+// in joules. The motion filter's rows have the error of its velocity, in m/s.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -31,13 +31,13 @@ constexpr nanoseconds kPeriod{1'000'000};
 constexpr double kRadius = 0.01;
 constexpr double kStiffness = 800.0;  // of all hands together, below the passive limit
 constexpr double kDepth = 0.001;
-constexpr double kFewest = 8.0;  // hands share the stiffness and the quarter ring from here on
+constexpr double kFewest = 8.0;  // from here on hands share the stiffness and the ring
 
 double stiffness_each(std::size_t hands) {
   return kStiffness / std::max(kFewest, static_cast<double>(hands));
 }
 
-// n hands around ours, each pressed in by kDepth; their forces add up to a closed form.
+// n hands around ours, each pressed in by kDepth; their forces have a closed-form sum.
 ContactSet ring(std::size_t hands) {
   ContactSet set;
   set.count = hands;
@@ -67,7 +67,7 @@ Vector3d expected(const ContactSet& set, const Vector3d& device) {
   return force;
 }
 
-// Presses, then trembles: a hand at perfect rest ends in denormal numbers, which no device gives.
+// Presses, then trembles: a hand at perfect rest ends in denormal numbers, which no device returns.
 HandTarget press(double t) {
   HandTarget target;
   target.position.z() = std::max(0.0, 0.02 - 0.02 * t) + 1e-5 * std::sin(30.0 * t);
@@ -110,7 +110,8 @@ void servo_step(benchmark::State& state) {
   state.counters["energy_min_j"] = last.port_energy_min;
 }
 
-// Gives what a simulated hand did, there and back again: what is left of a step is the servo's.
+// Replays the motion of a simulated hand, forwards and back: the remaining time of a step is the
+// servo's.
 class RecordedDevice : public HapticDevice {
  public:
   RecordedDevice(const DeviceLimits& limits, std::vector<DeviceSample> samples)
@@ -134,7 +135,7 @@ class RecordedDevice : public HapticDevice {
   std::size_t next_ = 0;
 };
 
-// Hands on what a device reads, and keeps it.
+// Returns the readings of a device and stores them.
 class Recorder : public HapticDevice {
  public:
   explicit Recorder(HapticDevice& device) : device_(device) {}
@@ -165,12 +166,12 @@ Scene rough_torus(const std::filesystem::path& file) {
 }
 
 // A hand that strokes a rough mesh 2 mm below its surface at 0.1 m/s: the whole step, with the
-// simulated hand or with its motion recorded.
+// simulated hand or with its recorded motion.
 void servo_step_on_mesh(benchmark::State& state) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "reckon_torus.obj";
   const auto plan = std::make_shared<const EffectPlan>(rough_torus(file));
   std::filesystem::remove(file);
-  // Round the top of the tube, whose middle circle has a radius of 1 / 1.4 of half the width.
+  // Around the top of the tube, whose middle circle has a radius of 1 / 1.4 of half the width.
   const double width = 0.2 / std::sqrt(2.0 * 2.8 * 2.8 + 0.8 * 0.8);
   SimulatedDeviceConfig config;
   config.start = Vector3d(width, 0.0, 0.5 * width);
@@ -250,7 +251,7 @@ void far_objects(benchmark::State& state) {
 }
 BENCHMARK(far_objects)->ArgName("objects")->Arg(1)->Arg(100)->Arg(10'000);
 
-// Starting anew, which looks at every object.
+// A restart, which searches every object.
 void reset_far_objects(benchmark::State& state) {
   const EffectPlan plan(far_boxes(static_cast<std::size_t>(state.range(0))));
   ContactSolver solver(plan);
@@ -293,7 +294,7 @@ void motion_filter(benchmark::State& state) {
 }
 BENCHMARK(motion_filter)->ArgName("resolution_um")->Arg(0)->Arg(10)->Arg(40);
 
-// What of it is the simulated hand, to be taken off the rows of servo_step.
+// The simulated hand alone, to be subtracted from the rows of servo_step.
 void simulated_device_alone(benchmark::State& state) {
   SimulatedDevice device({}, press);
   nanoseconds now{0};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the table of remote entities costs: an update, a pass over it, a picture, its memory.
+// Cost of the table of remote entities: an update, a pass over it, a picture, its memory.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kUtc = std::chrono::hours(500'000);
 
-// The incoming half of a peer in a world of 100 km, and what it hears: each entity drives at 10 m/s
-// from its own place of a square grid.
+// The receiving half of a peer in a world of 100 km, and the updates that it receives: each entity
+// drives at 10 m/s from its own place of a square grid.
 class World {
  public:
   World(std::uint32_t entities, pdu::DeadReckoningAlgorithm algorithm, double spacing,
@@ -59,14 +59,14 @@ class World {
     }
   }
 
-  // The next entity is heard; once around they are 200 ms older.
+  // The next entity's update arrives; after each round the updates are 200 ms later.
   void hear_next() {
     if (next_ == updates_.size()) next_ = 0, now_ += milliseconds(200);
     Inbound& update = updates_[next_++];
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
     remote_.take(update, {now_, kUtc + now_, now_, 0, {}}, {});
   }
-  // The next eight, of one datagram.
+  // The next eight updates, of one datagram.
   void hear_bundle() {
     const std::size_t first = next_ < updates_.size() ? next_ : 0;
     remote_.prefetch(
@@ -76,7 +76,7 @@ class World {
   void hear_all() {
     for (std::size_t i = 0; i < updates_.size(); ++i) hear_next();
   }
-  // From now on they tell how they feel.
+  // From now on the updates contain a force model.
   void make_touchable() {
     for (Inbound& update : updates_) {
       update.has_model = true;
@@ -118,7 +118,7 @@ void take_update(benchmark::State& state, pdu::DeadReckoningAlgorithm algorithm,
   if (world.remote().rows().size() != kEntities) return state.SkipWithError("no room");
   for (auto _ : state) world.hear_next();
 }
-// The same by eight in a datagram; per update.
+// The same with eight in a datagram; for each update.
 void take_bundle(benchmark::State& state, pdu::DeadReckoningAlgorithm algorithm) {
   World world(static_cast<std::uint32_t>(state.range(0)), algorithm, 100);
   world.hear_all();
@@ -143,7 +143,7 @@ void expire_nothing(benchmark::State& state) {
 }
 BENCHMARK(expire_nothing);
 
-// What is shown of all at one instant; per entity in `each_ns`.
+// Shown poses of all entities at one instant; for each entity in `each_ns`.
 void show_all(benchmark::State& state, Algorithm algorithm) {
   World world(kEntities, algorithm, 100);
   world.hear_all();
@@ -159,8 +159,8 @@ void show_all(benchmark::State& state, Algorithm algorithm) {
 BENCHMARK_CAPTURE(show_all, fpw, Algorithm::fpw)->ArgName("ms_after")->Arg(50)->Arg(1500);
 BENCHMARK_CAPTURE(show_all, rvb, Algorithm::rvb)->ArgName("ms_after")->Arg(50)->Arg(1500);
 
-// The search for what a hand could touch that moves at 1 m/s, at 500 Hz: by NearSearch, and as a
-// plain loop over all rows, in turns.
+// Search for objects in reach of a hand that moves at 1 m/s, at 500 Hz: by NearSearch, and as a
+// plain loop over all rows, in alternation.
 void search_near(benchmark::State& state) {
   World world(static_cast<std::uint32_t>(state.range(0)), Algorithm::fpw, 100);
   world.make_touchable();
@@ -197,9 +197,9 @@ void search_near(benchmark::State& state) {
 }
 BENCHMARK(search_near)->Arg(1'000)->Arg(10'000)->Arg(100'000);
 
-// Whether what stands and is shown still is to be, at 10 Hz, while our focus stands or drives by
-// 0.14 % of its radius each time, to and fro across the middle; and when it leaps away and back,
-// per entity that goes or comes.
+// Check, at 10 Hz, whether entities at rest should still be shown, while our focus rests or drives
+// by 0.14 % of its radius each time, to and fro across the middle; and when it jumps away, for each
+// entity that is removed.
 void look_shown(benchmark::State& state) {
   World world(static_cast<std::uint32_t>(state.range(0)), Algorithm::static_, 100);
   world.hear_all();
@@ -248,7 +248,8 @@ void choose_view(benchmark::State& state) {
 }
 BENCHMARK(choose_view)->Arg(64)->Arg(10'000)->Arg(100'000);
 
-// Memory of a table: empty, and each row in use. Grown resident memory, so pages count whole.
+// Memory of a table: empty, and for each row in use. Measured by resident memory, so in whole
+// pages.
 void room(benchmark::State& state, const char* sections) {
   double empty = 0, row = 0;
   for (auto _ : state) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entity updates end to end, beside bare loops that send and read octets and look at none: encode,
-// bundle and send; receive, decode and the table of remote entities. Rivals take turns, in CPU time
-// of one thread that does both sides, so that load elsewhere hits all alike. Over loopback and over
-// a cable between two network namespaces of its own (needs root). First each row looks whether all
-// arrived and the table has it.
+// Entity updates end to end, beside bare loops that send and read octets without decoding: encode,
+// bundle and send; receive, decode and the table of remote entities. They alternate, in CPU time of
+// one thread that does both sides, so that other load affects all equally. Over loopback and over a
+// cable between two network namespaces of its own (needs root). Each row first checks that all
+// updates arrived and are in the table.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace reckon::peer {
 namespace {
 
-/// What is measured in turns, by name.
+/// Measurements that alternate, by name.
 class Rows {
  public:
   bench::Blocks& operator[](const char* name) { return rows_[name]; }
@@ -57,7 +57,7 @@ void add_behind(Rows& rows, const Stages& late) {
   rows["newest_slower_side_Mps"].add(1e3 / std::max(late.out(), late.in()));
 }
 
-/// Bundles of nine with and without offload, one update a datagram, and the bare loops of both.
+/// Bundles of nine with and without offload, one update in a datagram, and the bare loops of both.
 void end_to_end(benchmark::State& state, const Way& way) {
   try {
     Cable::instance();

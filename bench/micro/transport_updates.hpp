@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The library's own way of an update, from an owner's state to the table of another peer.
+// The library's own path of an update, from an owner's state to the table of another peer.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace reckon::peer {
 
 inline constexpr std::chrono::nanoseconds kUtc = std::chrono::hours(500'000);
 
-/// What updates took at each stage [ns].
+/// Time of updates at each stage [ns].
 struct Stages {
   double bundle = 0, send = 0, receive = 0, table = 0;
   [[nodiscard]] double all() const { return out() + in(); }
@@ -68,7 +68,7 @@ class Updates {
 
   [[nodiscard]] const UdpMulticast& sender() const { return sender_; }
 
-  /// CPU of an update [ns], of a turn.
+  /// CPU for each update [ns], over a turn.
   Stages turn() {
     Stages sum;
     for (std::size_t i = 0; i < kRounds; ++i) {
@@ -77,16 +77,17 @@ class Updates {
     }
     return of_each(sum);
   }
-  /// The same where the receiver is behind by as many datagrams as its ring holds, as where updates
-  /// come faster than it takes them: it takes the newest of each entity, as the model loop does.
+  /// The same with a receiver that is behind by as many datagrams as its ring holds, as if updates
+  /// arrived faster than it handles them: it takes the newest of each entity, as the model loop
+  /// does.
   Stages turn_behind() {
     Stages sum;
-    // Ten million updates a second are one of each entity every 100 us.
+    // At ten million updates a second each entity has one every 100 us.
     for (std::size_t i = 0; i < kRoundsBehind; ++i) send_round(sum, std::chrono::microseconds(100));
     take_newest(sum);
     return of_each(sum, kRoundsBehind);
   }
-  /// Share of the states of turn_behind() that were taken, the rest was overtaken.
+  /// Share of the states of turn_behind() that were taken; the rest was overtaken.
   [[nodiscard]] double taken_share() const {
     return static_cast<double>(newest_taken_) / static_cast<double>(newest_seen_);
   }
@@ -126,7 +127,7 @@ class Updates {
     settings.capacity = kEntities;
     return settings;
   }
-  // Once around they are older by a period.
+  // After each round they are later by a period.
   void add_next(std::chrono::nanoseconds period) {
     if (next_ == kEntities) next_ = 0, now_ += period;
     pdu::EntityState& state = states_[next_++];
@@ -154,7 +155,7 @@ class Updates {
     }
   }
 
-  // By the ring between the loops, as a peer does.
+  // Through the ring between the loops, as in a peer.
   void take_newest(Stages& taken) {
     const double begin = cpu_ns();
     for (std::size_t left = kRoundsBehind * kDatagrams; left > 0;) {
@@ -203,7 +204,7 @@ class Updates {
   aoim::AreaOfInterestManager aoim_;
   RemoteEntities remote_;
   DatagramDecoder decoder_{scene_.network.exercise, counters_};
-  DatagramRing ring_{std::size_t{2} << 20};  // as a peer has
+  DatagramRing ring_{std::size_t{2} << 20};  // size as in a peer
   NetworkWriteLoop write_{sender_, ring_, out_counters_};
   haptics::ServoSnapshot servo_;
   std::vector<pdu::EntityState> states_;

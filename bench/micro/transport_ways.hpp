@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where rows of the transport run, and what they run beside: a cable between two network namespaces
-// and bare loops of system calls.
+// Paths for the rows of the transport, and their comparison: a cable between two network
+// namespaces, and bare loops of system calls.
 #pragma once
 
 #include <fcntl.h>
@@ -25,12 +25,12 @@
 namespace reckon::peer {
 
 inline constexpr std::size_t kUpdate = 144, kPerDatagram = 9, kDatagrams = 64;
-inline constexpr std::size_t kRounds = 8;         // in a turn, so that the caches are its own
+inline constexpr std::size_t kRounds = 8;         // in a turn, so that caches hold only its data
 inline constexpr std::size_t kRoundsBehind = 22;  // as many as the ring of a peer holds
 inline constexpr std::uint16_t kEntities = 1000;
-inline constexpr std::size_t kBuffer = std::size_t{8} << 20;  // a round fits
+inline constexpr std::size_t kBuffer = std::size_t{8} << 20;  // has room for a round
 
-/// CPU that this thread has spent [ns].
+/// CPU time of this thread [ns].
 inline double cpu_ns() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
@@ -43,7 +43,7 @@ inline void check(bool good, const char* what) {
 }
 
 /// Two namespaces with a cable from a0 to b0, and loopback in the first. The calling thread moves
-/// into the first, for good: nothing leaves it.
+/// into the first permanently: no traffic leaves it.
 class Cable {
  public:
   Cable() {
@@ -73,7 +73,7 @@ class Cable {
   int near_ = -1, far_ = -1;
 };
 
-/// Where a row runs.
+/// The path of a row.
 struct Way {
   const char *sender, *receiver;
   bool far;
@@ -89,7 +89,7 @@ inline UdpMulticastOptions options_of(const char* interface, bool offload) {
   return options;
 }
 
-/// sendto and recvmmsg, and nothing else.
+/// Only sendto and recvmmsg.
 class BareLoop {
  public:
   BareLoop(const Way& way, std::size_t size, const GroupAddress& group) : octets_(size) {
@@ -121,7 +121,7 @@ class BareLoop {
   BareLoop(const BareLoop&) = delete;
   BareLoop& operator=(const BareLoop&) = delete;
 
-  /// CPU of a datagram [ns], of a turn.
+  /// CPU for each datagram [ns], over a turn.
   double turn() {
     const double begin = cpu_ns();
     for (std::size_t i = 0; i < kRounds; ++i) round();
@@ -156,7 +156,7 @@ class BareLoop {
   std::array<mmsghdr, kDatagrams> messages_{};
 };
 
-/// Another group at each call.
+/// A different group at each call.
 inline GroupAddress next_group() {
   static std::uint32_t number = 0;
   return IpEndpoint::v4(0xefc04f01u + number++, 3100);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a datagram costs a whole peer, all its threads and wake-ups, beside a bare thread that
-// blocks in recvmmsg and looks at nothing. Both hear the same datagrams of nine updates on
-// loopback, in a network namespace of its own (needs root), and take turns. CPU of threads, from
-// the kernel's account of each; what a peer takes without traffic is taken off and told in a column
-// of its own.
+// Cost of a datagram for a whole peer with all its threads and wake-ups, beside a bare thread that
+// blocks in recvmmsg and ignores the data. Both receive the same datagrams of nine updates on
+// loopback, in a network namespace of its own (needs root), in alternation. CPU of threads from the
+// kernel's accounting; the cost of a peer without traffic is subtracted and reported in a column of
+// its own.
 #include <benchmark/benchmark.h>
 #include <net/if.h>
 #include <pthread.h>
@@ -39,13 +39,13 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kTurn = milliseconds(500);
-constexpr nanoseconds kIntroduction = milliseconds(50);  // of all entities: rows take memory once
+constexpr nanoseconds kIntroduction = milliseconds(50);  // of all entities: allocates the rows once
 constexpr std::string_view kScene =
     "[scene]\norigin = {latitude = \"47 deg\", longitude = \"8 deg\", height = \"430 m\"}\n"
     "[network]\ninterop = true\ngroup = \"239.192.79.7\"\nport = 3107\n"
     "[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n";
 
-/// CPU so far [ns] of the threads of this process whose names begin so.
+/// CPU time so far [ns] of the threads of this process whose names begin with `prefix`.
 double cpu_of_threads(std::string_view prefix) {
   double sum = 0;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -59,7 +59,7 @@ double cpu_of_threads(std::string_view prefix) {
 }
 
 /// Datagrams of nine Entity States, of 1,000 entities in turn, sent at an even pace by eight hosts:
-/// a peer mutes one host that sends all of it.
+/// a peer would mute a single host with that rate.
 class Traffic {
  public:
   explicit Traffic(const SceneFile& scene)
@@ -84,7 +84,7 @@ class Traffic {
   Traffic(const Traffic&) = delete;
   Traffic& operator=(const Traffic&) = delete;
 
-  /// Sends for so long; returns the number of datagrams.
+  /// Sends for `length`; returns the number of datagrams.
   std::size_t send(double per_second, nanoseconds length) {
     const auto gap =
         std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1 / per_second));
@@ -178,14 +178,14 @@ class BareReceiver {
   std::thread thread_;
 };
 
-/// What the peers under test touch.
+/// Objects near the peers under test.
 enum class Near : std::uint8_t {
-  no_device,  ///< one peer, which feels nothing
+  no_device,  ///< one peer without a device
   nothing,    ///< one peer with a device far from everything
-  each_other  ///< two peers whose hands are in reach of each other
+  each_other  ///< two peers with hands in reach of each other
 };
 
-/// Running peers of a plain DIS exercise that hear all.
+/// Running peers of a plain DIS exercise that receive everything.
 class HearingPeers {
  public:
   HearingPeers(const SceneFile& scene, Near near) {
@@ -226,7 +226,7 @@ struct Spent {
   std::size_t sent = 0, received = 0;
 };
 
-/// CPU of the threads so named while the traffic runs, and until it has been read.
+/// CPU of the threads with this name while the traffic runs, and until it has been read.
 template <typename Receiver>
 Spent spend(const Receiver& receiver, std::string_view threads, Traffic& traffic, double rate) {
   const std::uint64_t before = receiver.received();
@@ -306,7 +306,7 @@ class BareServo {
   std::jthread thread_;
 };
 
-/// CPU of threads so named in a turn without traffic [% of a core].
+/// CPU of the threads with this name in a turn without traffic [% of a core].
 double idle_percent_of(std::string_view threads) {
   std::this_thread::sleep_for(milliseconds(200));
   const double begin = cpu_of_threads(threads);

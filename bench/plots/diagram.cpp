@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRow = 15;  // of text
 constexpr double kLeft = 24;
-constexpr double kEdge = 16;  // below all
+constexpr double kEdge = 16;  // below everything
 constexpr std::string_view kStyle =
     "<style>.n{fill:#f6f8fa;stroke:#57606a;stroke-width:1.3}.w{fill:none;stroke:#24292f;stroke-"
     "width:1.3}.h{fill:#24292f}.f{fill:none;stroke:#8b949e;stroke-dasharray:5 "

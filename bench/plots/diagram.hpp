@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A block diagram as a self-contained SVG picture in the style of the curves: boxes, sums and the
-// ways between them, each where its description puts it.
+// lines between them, each at a given place.
 //
 //   Diagram diagram;
 //   const auto plant = diagram.box(300, 60, "1/(m s + b)");
@@ -24,7 +24,7 @@ class Diagram {
     double x = 0, y = 0;
   };
 
-  /// What ways end at.
+  /// End points of lines.
   struct Node {
     Place middle;
     double width = 0, height = 0;
@@ -38,20 +38,21 @@ class Diagram {
     }
   };
 
-  /// @param text lines; text of any octets will do
+  /// @param text lines of any text
   Node box(double x, double y, std::string_view text, double width = 120, double height = 44);
   Node ellipse(double x, double y, std::string_view text, double width = 96, double height = 40);
   Node sum(double x, double y);  ///< a circle with a plus
-  Node dot(double x, double y);  ///< where ways join or part
-  /// Around others, with a name at its upper edge.
+  Node dot(double x, double y);  ///< where lines join or split
+  /// A frame around others, with a name at its upper edge.
   Node frame(double x, double y, std::string_view name, double width, double height);
-  void text(double x, double y, std::string_view text);  ///< around x, first line on y
+  void text(double x, double y, std::string_view text);  ///< centred on x, first line at y
 
-  /// @param label at the middle of the longest piece: above a level one, right of an upright one
+  /// @param label at the middle of the longest piece: above a horizontal one, right of a vertical
+  ///     one
   void arrow(std::initializer_list<Place> way, std::string_view label = "");
   void line(std::initializer_list<Place> way, std::string_view label = "");
 
-  /// The whole file.
+  /// The complete file.
   [[nodiscard]] std::string svg(std::string_view title, std::span<const std::string> notes) const;
 
  private:

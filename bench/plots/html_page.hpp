@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The frame of a page that needs no other file: head, colours of light and dark and of print.
+// The frame of a page that needs no other file: head, and colours for light, dark and print.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace reckon::bench {
 
-/// `text` of any origin as HTML may hold it, in a tag's attribute too.
+/// `text` of any content, escaped for HTML, including attributes.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
-/// The whole page. @param style CSS behind that of all pages; `body` HTML below the title
+/// The complete page. @param style CSS after the CSS of all pages; `body` HTML below the title
 [[nodiscard]] std::string html_page(std::string_view title, std::string_view style,
                                     std::string_view body);
 

@@ -18,7 +18,7 @@ constexpr std::array kCoarse{1.0, 2.0, 5.0};
 constexpr std::array kFine{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
 constexpr std::array kFinest{1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8,
                              3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 8.0, 9.0};
-constexpr double kMany = 3e3;  // from the lowest to the highest, for powers of ten alone
+constexpr double kMany = 3e3;  // ratio of highest to lowest: powers of ten only
 
 std::vector<double> ticks_at(const LogAxis& axis, std::span<const double> steps) {
   std::vector<double> ticks;

@@ -17,7 +17,7 @@
 namespace reckon::bench {
 namespace {
 
-// Of the picture and of the area inside the axes.
+// Sizes of the picture and of the area inside the axes.
 constexpr double kWidth = 760;
 constexpr double kLeft = 76;
 constexpr double kRight = 740;
@@ -27,7 +27,8 @@ constexpr double kLegendRow = 20;
 constexpr double kLegendColumn = 166;
 constexpr std::size_t kLegendColumns = 4;
 
-/// Told apart on white and on black, and by most who see few colours (Okabe and Ito first).
+/// Distinguishable on white and on black, and by most colour-blind people (the first are from Okabe
+/// and Ito).
 constexpr std::array<std::string_view, LogPlot::kMostCurves> kColours{
     "#d55e00", "#0072b2", "#56b4e9", "#009e73", "#8bc34a",
     "#cc79a7", "#e69f00", "#999999", "#7e57c2", "#795548"};
@@ -46,7 +47,7 @@ bool is_drawn(const LogPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0 && point.y > 0;
 }
 
-/// A million and more by letter.
+/// Ticks from a million have a letter.
 std::string tick_text(double tick) {
   if (tick >= 1e9) return fmt::format("{:g} G", 1e-9 * tick);
   return tick >= 1e6 ? fmt::format("{:g} M", 1e-6 * tick) : fmt::format("{:g}", tick);
@@ -101,8 +102,8 @@ void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
   const double y = axes.y.at(mark.at.y);
   fmt::format_to(tools::end_of(out), "<circle class=\"k\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>\n",
                  x, y);
-  // Curves fall from the upper left: beside them there is room below to the left, above to the
-  // right.
+  // Curves fall from the upper left: there is free space below them to the left and above them to
+  // the right.
   const bool left = mark.below ? x > kLeft + 160 : x > kRight - 160;
   tools::append_svg_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
                          left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A page whose tables can be sorted, and rid of the rows that others dominate.
+// A page whose tables can be sorted, and whose dominated rows can be hidden.
 #pragma once
 
 #include <string>

@@ -105,7 +105,7 @@ BlockSchur split_spectrum(const MatrixXd& A, double border) {
   split.leading = move_to_front(form, chosen(form.T.diagonal(), border));
   if (split.leading == 0 || split.leading == n) return split;
 
-  // The space of conjugate eigenvalues has a real basis: that of its projector.
+  // The space of conjugate eigenvalues has a real basis, because its projector is real.
   const MatrixXcd front = form.U.leftCols(split.leading);
   const MatrixXd projector = (front * front.adjoint()).real();
   split.Q = Eigen::ColPivHouseholderQR<MatrixXd>(projector).householderQ();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which value of a list stands for a share of it: the one rule of all studies, that of the
-// product's histograms (peer::bucket_of_share).
+// Quantiles of a list: one rule for all studies, the same as in the product's histograms
+// (peer::bucket_of_share).
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,8 @@
 
 namespace reckon::bench {
 
-/// The smallest value with at least `share` (0 to 1) of all at or below it: index
-/// ceil(share n) - 1 of the sorted list. 0 where there are none. The order of `values` is lost.
-/// O(n).
+/// The smallest value such that at least `share` (0 to 1) of all values are at or below it: index
+/// ceil(share n) - 1 of the sorted list. 0 for an empty list. The order of `values` is lost. O(n).
 template <typename Value>
 [[nodiscard]] Value quantile(std::vector<Value>& values, double share) {
   if (values.empty()) return {};
@@ -24,7 +23,7 @@ template <typename Value>
   return *at;
 }
 
-/// The one in the middle, or the mean of both in the middle. 0 where there are none. The order of
+/// The middle value, or the mean of the two middle values. 0 for an empty list. The order of
 /// `values` is lost. O(n).
 [[nodiscard]] inline double median(std::vector<double>& values) {
   const double lower = quantile(values, 0.5);

@@ -16,7 +16,7 @@
 
 namespace reckon::bench {
 
-// One for each study, in its folder.
+// One function for each study, defined in its folder.
 std::unique_ptr<Study> accuracy_study();
 std::unique_ptr<Study> latency_study();
 std::unique_ptr<Study> stability_study();
@@ -91,7 +91,7 @@ class ScaleStudy final : public Study {
   ScaleWords words_;
 };
 
-/// THE list of studies, in the order in which help lists their flags.
+/// The list of studies, in the order of their flags in the help.
 constexpr std::array kStudies{
     StudyKind{"scale",
               "what many peers and entities cost and see, mechanism by mechanism, over a simulated "
@@ -127,17 +127,19 @@ constexpr std::array kStudies{
               "", "reckon bench latency --for 60s", latency_study},
 };
 
-/// Flags that only some studies have; each brings those that stand behind it with it.
+/// Flags of some studies only. A study with one of them also has the flags declared after it, up to
+/// the next one: --delay includes --jitter and --loss.
 constexpr std::string_view kShared = "--csv --report --delay";
 
-/// By name.
+/// The studies, sorted by name.
 std::vector<StudyKind> studies_by_name() {
   std::vector<StudyKind> kinds(kStudies.begin(), kStudies.end());
   std::ranges::sort(kinds, {}, &StudyKind::name);
   return kinds;
 }
 
-/// What `of` gives of each study that has the shared flag, by name; of all where none is named.
+/// `of` applied to each study that has the shared flag, joined by `between`, sorted by name; to all
+/// studies if no flag is given.
 template <typename Of>
 std::string joined(std::string_view shared, std::string_view between, Of&& of) {
   std::vector<std::string> parts;
@@ -146,7 +148,7 @@ std::string joined(std::string_view shared, std::string_view between, Of&& of) {
   return fmt::format("{}", fmt::join(parts, between));
 }
 
-/// The flags that several studies have, each with those that have it.
+/// Declares the flags that several studies share; only_for() lists the studies of each.
 void declare_shared(tools::CommandLine& line, std::string& study, SharedWords& shared) {
   std::vector<std::string> names;
   for (const StudyKind& kind : studies_by_name()) names.emplace_back(kind.name);
@@ -200,7 +202,7 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
   line.check_for(name);
   const auto place = std::ranges::find(kStudies, name, &StudyKind::name) - kStudies.begin();
   Study& study = *studies[static_cast<std::size_t>(place)];
-  shared.plot = study.shared().plot;  // is a flag of one study
+  shared.plot = study.shared().plot;  // a flag of one study
   study.shared() = shared;
   return run_study(study, {line.given(), tools::command_text("bench", arguments), console});
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A program with an effect of its own for a region: a simulated hand waves in a ball of fog, for
-// two seconds of simulated time. Exit status 0 when the hand is dragged as the effect says.
+// A program with an effect of its own for a region: a simulated hand waves in a ball of fog for two
+// seconds of simulated time. Exit status 0 if the drag on the hand follows the effect.
 #include "fog.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int main() {
       "sphere = \"20 cm\"\n"
       "fog = { thickness = 8 }\n",
       "cloud.toml", ".", haptics::custom_effects<Fog>());
-  // To and fro by 50 mm once a second.
+  // Moves back and forth by 50 mm once a second.
   haptics::SimulatedDevice hand({}, [](double t) {
     haptics::HandTarget target;
     target.position = {0.05 * std::sin(6.28 * t), 0.0, 0.0};

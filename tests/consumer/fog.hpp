@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An effect of somebody else's program: air that drags the more the faster a hand moves in it.
+// An effect of an external program: air whose drag grows with the speed of a hand.
 #pragma once
 
 #include "reckon/haptics/regions/region_custom.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A program with an effect of its own: a simulated hand strokes a table that has it, for two
-// seconds of simulated time. Exit status 0 when the hand is dragged as the effect says.
+// A program with an effect of its own: a simulated hand strokes a table with this effect for two
+// seconds of simulated time. Exit status 0 if the drag on the hand follows the effect.
 #include "honey.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ int main() {
       "table.toml", ".", haptics::custom_effects<Honey>());
   haptics::SimulatedDeviceConfig config;
   config.start = {0, 0, 0.01};
-  // Presses, and goes to and fro by 30 mm once a second.
+  // Presses, and moves back and forth by 30 mm once a second.
   haptics::SimulatedDevice hand(config, [](double t) {
     haptics::HandTarget target;
     target.position = {0.03 * std::sin(6.28 * t), 0.0, -0.01};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An effect of somebody else's program: a surface that drags more the harder it is pressed.
+// An effect of an external program: a surface whose drag grows with the pressing force.
 #pragma once
 
 #include "reckon/haptics/effects/effect_custom.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A module of Python with an effect of its own, as a user writes it.
+// A Python module with an effect of its own, as a user writes it.
 #include <pybind11/pybind11.h>
 
 #include "honey.hpp"

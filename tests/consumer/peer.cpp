@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A program of somebody else in some thirty lines: two peers with simulated hands in one process,
-// two seconds of simulated time. Exit status 0 when each has seen the other's hand.
+// An external program of some thirty lines: two peers with simulated hands in one process, two
+// seconds of simulated time. Exit status 0 if each has received the other's hand.
 #include "reckon/peer/peer.hpp"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A truck that drives in a circle, tells whom it sees, and stops when it is fired at.
+// A truck that drives in a circle, prints the entities it receives, and stops when it is fired at.
 #pragma once
 
 #include <cmath>

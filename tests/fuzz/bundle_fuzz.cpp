@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a datagram: the reader of bundles steps forward inside it, each row of the
-// inspector is explained by octets that are there, and every view writes a bounded amount of text.
+// Any octets as a datagram: the bundle reader advances inside it, each row of the inspector refers
+// to octets of the datagram, and every view writes a bounded amount of text.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -60,8 +60,8 @@ void check_row(const PduRow& row, std::size_t size) {
   require(row.rule.empty() || tools::find_check_rule(row.rule) != nullptr, "a rule is not listed");
 }
 
-/// Compressed states that are restored from a datagram; each is a plain one then. A lenient reader
-/// gives a PDU without a length all that follows.
+/// Counts the compressed states that are restored from a datagram; each becomes a plain Entity
+/// State. A lenient reader gives all remaining octets to a PDU without a length.
 std::size_t compressed_states(Octets received, bool lenient) {
   std::vector<std::byte> datagram(received.begin(), received.end());
   const auto without_length = lenient ? pdu::find_zero_length(datagram) : std::nullopt;
@@ -78,7 +78,7 @@ std::size_t compressed_states(Octets received, bool lenient) {
   return count;
 }
 
-/// Every row of the datagram, without text: what it takes of heap is bounded.
+/// Reads every row of the datagram, without text; its heap use is bounded.
 void check_rows(const peer::SourceDatagram& datagram, bool lenient) {
   const std::size_t states = compressed_states(datagram.bytes, lenient);
   const HeapMeter heap;
@@ -101,7 +101,7 @@ void check_lines(std::string_view lines, bool json) {
   }
 }
 
-/// Texts that grow once and not with each run, which would cost more than all else.
+/// Reused texts: allocating them in each run would cost more than all else.
 struct Texts {
   std::string json;
   std::string tree;
@@ -114,7 +114,7 @@ Texts& emptied_texts() {
   return texts;
 }
 
-/// All that the inspector can write about one datagram, row by row.
+/// Writes all texts of the inspector about one datagram, row by row.
 void check_text(const peer::SourceDatagram& datagram) {
   Texts& texts = emptied_texts();
   tools::DatagramInspector inspector;
@@ -133,7 +133,7 @@ void check_text(const peer::SourceDatagram& datagram) {
   }
 }
 
-/// A view that remembers, over the datagram four times: at the ends of the time that sources give,
+/// Shows a datagram four times in a view with memory: at both ends of the time range of sources,
 /// and twice within a second.
 void check_view(tools::View& view, peer::SourceDatagram datagram) {
   constexpr std::chrono::nanoseconds kStart{};
@@ -152,7 +152,7 @@ void check_view(tools::View& view, peer::SourceDatagram datagram) {
   view.finish(inspector.tally(), out);
 }
 
-/// Forces are sampled over time, so that their text is bounded by that and not by the datagram.
+/// Forces are sampled over time, so the time bounds their text, not the datagram.
 tools::HapticsView haptics_view() {
   tools::InspectOptions options;
   options.step = 1s;
@@ -174,7 +174,7 @@ void check_views(const peer::SourceDatagram& datagram) {
   check_view(haptics, datagram);
 }
 
-/// Other IDs and another place: no octet is added or lost, and what was whole is whole.
+/// Maps IDs and shifts the place: no octet is added or lost, and a valid PDU stays valid.
 void check_map(Octets octets) {
   static const tools::IdMap ids({"*:*:*=300:2:*"});
   static const tools::PlaceShift shift(deadreckon::LocalFrame(0.8, 0.2, 500),
@@ -189,7 +189,7 @@ void check_map(Octets octets) {
   }
 }
 
-/// The table of emitters, which stands still in size and gives lines of JSON.
+/// The table of emitters keeps its size and writes lines of JSON.
 void check_emissions(Octets octets) {
   constexpr std::size_t kRows = 24;
   peer::EmissionTable table(kRows);

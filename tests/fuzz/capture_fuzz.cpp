@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a capture file: it opens or is refused by std::runtime_error, then gives frames
-// until its end, their datagrams inside the frames. The octets also go to the frame parser alone,
-// as one frame of each link layer.
+// Any octets as a capture file: it opens or is refused with std::runtime_error, then returns frames
+// until its end, with their datagrams inside the frames. The octets also go to the frame parser
+// alone, as one frame of each link layer.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -44,7 +44,7 @@ void check_frame(Octets frame) {
   }
 }
 
-/// The file of all runs, in memory; its name is the one of the descriptor.
+/// The in-memory file of all runs; it is named by its descriptor.
 int file_descriptor() {
   static const int kFile = memfd_create("reckon", MFD_CLOEXEC);
   return kFile;
@@ -61,7 +61,7 @@ void read_all(peer::DatagramSource& source, std::size_t octets) {
   std::uint64_t last = 0;
   peer::SourceDatagram datagram;
   while (source.next(datagram, {}) == peer::SourceEvent::datagram) {
-    // What was given up comes later than what came after it.
+    // Fragments that were given up come later than their successors.
     const bool is_in_order =
         datagram.portion == peer::Portion::whole || datagram.portion == peer::Portion::cut;
     require(!is_in_order || datagram.frame > last, "frames are not counted upwards");
@@ -70,7 +70,7 @@ void read_all(peer::DatagramSource& source, std::size_t octets) {
     require(holds(datagram.captured, datagram.bytes), "a datagram lies outside its frame");
   }
   const peer::SourceReport& report = source.report();
-  // What is compressed has room for more.
+  // Compressed files contain more octets than they have.
   const std::uint64_t room = std::max<std::uint64_t>(octets, report.compressed_content);
   require(report.frames <= room / 16, "more frames than the file has room for");
   const peer::FragmentCounts& fragments = report.fragments;

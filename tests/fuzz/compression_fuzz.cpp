@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets as a Compressed States PDU: read by the restorer of each form, which knows one entity. It
-// never reads beyond them, and what it gives can be sent again.
+// Octets as a Compressed States PDU, read by the restorer of each form, which has one entity. It
+// never reads beyond them, and the restored states can be sent again.
 #include <array>
 #include <span>
 

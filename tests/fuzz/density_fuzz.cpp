@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a sample of places: finite ones, no more than a quad-tree takes, or a sentence.
+// Any octets as a sample of positions: finite ones, at most as many as a quad-tree takes, or an
+// error text.
 #include <algorithm>
 #include <string_view>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets as edits of genuine sealed datagrams, or as datagrams themselves: an opener that has taken
-// the genuine ones takes nothing more, makes no entry for a forgery, and needs no heap. The octets
-// are read as a greeting too.
+// Octets as edits of genuine sealed datagrams, or as datagrams themselves. An opener that has taken
+// the genuine ones takes no other, makes no entry for a forgery, and allocates no heap. The octets
+// are also read as a greeting.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -31,7 +31,7 @@ peer::GroupKey group() {
   return key;
 }
 
-// The same in each run, so that findings repeat.
+// Constant random octets, so that findings can be replayed.
 bool fixed(std::span<std::byte> out) noexcept {
   std::ranges::fill(out, std::byte{0x5A});
   return true;
@@ -66,8 +66,8 @@ const std::vector<Octets>& genuine() {
   return kAll;
 }
 
-/// The first octet names what is edited, then come pairs of place and change; of the fifth kind
-/// are the octets as they stand.
+/// The first octet selects the datagram to edit; pairs of position and change follow. The last
+/// selection takes the octets unchanged.
 Octets edited(std::span<const std::byte> input) {
   if (input.empty()) return {};
   const auto which = std::to_integer<std::size_t>(input[0]) % (kGenuine + 1);
@@ -79,7 +79,7 @@ Octets edited(std::span<const std::byte> input) {
   return out;
 }
 
-/// One opener for all runs, as its table is large: it has taken the genuine ones already.
+/// One opener for all runs, because its table is large; it has already taken the genuine datagrams.
 peer::EnvelopeOpener& opener() {
   static peer::EnvelopeOpener kOpener(key(), {});
   static const bool kHasTaken = [] {

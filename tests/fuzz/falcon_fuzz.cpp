@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets of any kind from a Falcon's line, one by one: what is read does not
-// depend on what came before, says what its octets say, and costs no heap. Its
-// counts give a place of these very angles, or none.
+// Any octets from the line of a Falcon, one by one: a report does not depend on earlier octets,
+// equals its octets, and costs no heap. Its counts give a position with exactly these angles, or
+// none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ using haptics::FalconReport;
 using haptics::FalconReportParser;
 using Input = std::span<const std::uint8_t>;
 
-/// As the device writes it, but for the spare octet.
+/// The octets as the device writes them, except the spare octet.
 std::array<std::uint8_t, haptics::kFalconPacket> written(const FalconReport& report) {
   auto octets = haptics::octets_of({report.counts, 0, false});
   octets[13] = static_cast<std::uint8_t>('A' + (report.homed << 4 | report.buttons));
@@ -43,7 +43,7 @@ void check_place(const FalconReport& report) {
   }
 }
 
-/// Reports as the last sixteen octets show them: each that ends at an octet of the input.
+/// The report that ends at an octet of the input, read from the last sixteen octets.
 std::optional<FalconReport> ending_at(Input input, std::size_t end) {
   if (end + 1 < haptics::kFalconPacket) return std::nullopt;
   FalconReportParser parser;

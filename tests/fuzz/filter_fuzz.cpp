@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Any text as a filter of --where: it compiles or throws FilterError with a column inside the text,
-// in bounded memory; what compiles matches every kind of row without fault, the same each time, and
-// its negation matches the others.
+// in bounded memory. A compiled filter matches every kind of row without fault, the same each time,
+// and its negation matches the other rows.
 #include <deque>
 #include <optional>
 #include <string>
@@ -20,11 +20,11 @@ namespace {
 using tools::Filter;
 using tools::PduRow;
 
-/// What filters are asked for, made once: rows refer to the octets of their datagrams.
+/// The rows to filter, made once; rows refer to the octets of their datagrams.
 class Subjects {
  public:
   Subjects() {
-    // One PDU of every type, and four datagrams that hold none.
+    // One PDU of every type, and four datagrams without a PDU.
     octets_ = {{}, {std::byte{7}}, std::vector<std::byte>(40), std::vector<std::byte>(9)};
     add_all(pdu::PduTypes{});
     for (std::size_t i = 0; i < octets_.size(); ++i) look_at(i);
@@ -62,7 +62,7 @@ class Subjects {
   }
 
   std::vector<std::vector<std::byte>> octets_;
-  std::deque<tools::DatagramInspector> inspectors_;  // one a datagram: its row points into it
+  std::deque<tools::DatagramInspector> inspectors_;  // one per datagram: its row points into it
   std::vector<Subject> rows_;
 };
 
@@ -94,7 +94,7 @@ void check(std::span<const std::byte> input) {
   std::vector<bool> answers = matches(*filter);
   require(answers == matches(*filter), "a filter changed its mind");
 
-  // Longer and deeper by one, it may pass those limits.
+  // The negation is longer and deeper by one, so it may exceed those limits.
   const auto negation = compile("not (" + std::string(text) + ")");
   if (!negation) return;
   answers.flip();

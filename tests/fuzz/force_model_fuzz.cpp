@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An Entity State and the records of an Attribute PDU as they reach the servo: a model that is
-// taken from the wire is finite, passes the same checks on the way back, and gives a finite force
-// that never pulls, wherever the probe is. No heap.
+// An Entity State and the records of an Attribute PDU as they reach the servo. A model from the
+// wire is finite, passes the same checks when sent back, and gives a finite force that never pulls,
+// at any probe position. No heap.
 #include <array>
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any series of IP fragments: what comes out whole is what each octet's place or a planted lie
-// says, memory stays within its bounds, and every fragment is in a count.
+// Any series of IP fragments: a reassembled datagram contains the true octets or the injected false
+// ones, memory stays within its bounds, and every fragment is counted.
 //
 // Five octets of the input are one fragment: identifier and flags, offset, size, a time step, and
-// what its octets are shifted by (mostly nothing: the truth).
+// an offset added to its octets (mostly zero: true octets).
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -25,7 +25,7 @@ constexpr peer::ReassemblyLimits kLimits{std::chrono::seconds(5), 6000, 4};
 constexpr std::size_t kHeader = 20;
 constexpr std::size_t kUdpPort = 3000;
 
-/// The octet at a place of the one true datagram: a UDP header of 600 octets, then numbers.
+/// The true octet at a position of the datagram: a UDP header of 600 octets, then numbers.
 std::byte truth(std::size_t at) {
   constexpr std::array<unsigned, 8> kHead{
       kUdpPort >> 8, kUdpPort & 0xff, kUdpPort >> 8, kUdpPort & 0xff, 600 >> 8, 600 & 0xff, 0, 0};

@@ -13,7 +13,7 @@
 namespace reckon::fuzz {
 namespace {
 
-// Frees of what was taken before the meter count too, hence the sign.
+// Freeing memory from before the meter counts too, so the sum is signed.
 struct HeapCount {
   std::size_t allocations = 0;
   std::ptrdiff_t held = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What all fuzz targets share: the entry point of the engine, a check that ends the run with a
-// sentence, and a meter of the heap. docs/robustness.md says what is checked and how to run them.
+// Common parts of all fuzz targets: the entry point of the engine, a check that ends the run with a
+// sentence, and a heap meter. docs/robustness.md lists the checks and how to run them.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace reckon::fuzz {
 
-/// Ends the program with `sentence` where `holds` is false: the engine keeps the input.
+/// Ends the program with `sentence` unless `holds`; the engine keeps the input.
 void require(bool holds, std::string_view sentence) noexcept;
 
 /// Checks one input of the engine. Each target defines it.
@@ -28,10 +28,10 @@ void check(std::span<const std::byte> input);
   return {reinterpret_cast<const std::uint8_t*>(input.data()), input.size()};
 }
 
-/// A file in memory that has the octets of one input after the other.
+/// An in-memory file that holds the octets of one input after the other.
 class InputOnDisk {
  public:
-  /// @param ending of its name, as ".obj"
+  /// @param ending of its name, as in ".obj"
   explicit InputOnDisk(std::string_view ending);
   ~InputOnDisk();
   InputOnDisk(const InputOnDisk&) = delete;
@@ -43,24 +43,24 @@ class InputOnDisk {
   std::string name_;
 };
 
-/// Counts what this thread takes from the heap while the meter lives; one at a time.
+/// Counts the heap allocations of this thread while the meter lives; one at a time.
 class HeapMeter {
  public:
   HeapMeter() noexcept;
   /// Allocations since construction.
   [[nodiscard]] std::size_t allocations() const noexcept;
-  /// Most octets held at one time since construction, beyond those held before.
+  /// Greatest number of octets held at one time since construction, beyond those held before.
   [[nodiscard]] std::size_t peak() const noexcept;
 };
 
-/// What a datagram may cost of heap beyond the codec, which takes none: 4 times its size, and for
-/// small ones as much as a sentence about them needs.
+/// Heap that a datagram may cost beyond the codec, which allocates none: 4 times its size, and at
+/// least the size of an error sentence.
 [[nodiscard]] constexpr std::size_t heap_bound(std::size_t octets) noexcept {
   constexpr std::size_t kSentence = 1024;
   return octets * 4 < kSentence ? kSentence : octets * 4;
 }
 
-/// Octets of text that any one datagram may become, as JSON with all fields or as a tree.
+/// Limit in octets of the text of one datagram, as JSON with all fields or as a tree.
 [[nodiscard]] constexpr std::size_t text_bound(std::size_t octets) noexcept {
   return 64 * octets + 1024;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any report descriptor, or that of a wheel with some octets changed, and any reports after it:
-// what is read lies within the reports, what is told stands where it is read and nowhere else, no
-// wall is stiffer than it is meant, and nothing after the descriptor takes heap.
+// Any report descriptor, or a wheel's descriptor with some octets changed, followed by any reports.
+// Fields are read within the reports, written fields change only their own bits, no wall is stiffer
+// than requested, and nothing after the descriptor allocates heap.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -29,7 +29,8 @@ Input taken(Input& input, std::size_t octets) {
   return out;
 }
 
-// An even octet, then a length and a descriptor; or an odd one, and changes of the wheel's.
+// An even octet, then a length and a descriptor; or an odd octet, then changes of the wheel's
+// descriptor.
 std::vector<std::uint8_t> descriptor_of(Input& input) {
   const Input head = taken(input, 1);
   if (head.empty() || head[0] % 2 == 0) {

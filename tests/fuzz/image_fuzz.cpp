@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a picture: it has the pixels that its head states, each from black to white, or is
-// refused with a sentence. The heap stays within what the largest picture takes.
+// Any octets as an image: it has the number of pixels stated in its header, each from black to
+// white, or is refused with a sentence. The heap stays within the needs of the largest image.
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
@@ -12,7 +12,7 @@
 namespace reckon::fuzz {
 namespace {
 
-// Pixels as numbers and as octets, and libpng's own.
+// Pixels as numbers and as octets, and libpng's own buffers.
 constexpr std::size_t kMostHeap = haptics::kMostPixels * haptics::kMostPixels * 12 + (32 << 20);
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Built without the engine's counters: what it steers by is our own code.
+// Compiled without the engine's coverage counters, so that it is steered by our own code only.
 #include "reckon/tests/fuzz/json_check.hpp"
 
 #include <nlohmann/json.hpp>

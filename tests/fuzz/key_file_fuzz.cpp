@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a key file: it gives a key that is written and read back as the same, or is refused
-// with a sentence that shows nothing of the text, for the secret may stand anywhere in it.
+// Any text as a key file: it gives a key that reads back unchanged after writing, or is refused
+// with a sentence without any part of the text, because the secret may be anywhere in it.
 #include <string>
 
 #include "reckon/peer/sealing/key_file.hpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs of any octets in the names of two peers that are known, into the manager of interest areas
+// PDUs of any octets in the names of two known peers, as input of the area of interest manager
 // where cells have leaders: claims, maps of groups, snapshots, states. Its tables stay within
-// bounds, what it sends and what it was told reads back, its next step is due in time.
+// bounds, sent and accepted PDUs read back, and its next step is due in time.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -19,8 +19,9 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kPool = 6;
-constexpr std::size_t kHead = 5;  // octets before each PDU: what to do, group, time, length
-// Of what one record of the input may make the manager hold: maps and snapshots are 64 KiB at most.
+constexpr std::size_t kHead = 5;  // octets before each PDU: action, group, time, length
+// Memory that one record of the input may make the manager hold: maps and snapshots are 64 KiB at
+// most.
 constexpr std::size_t kMostHeld = std::size_t{8} << 20;
 
 pdu::Presence presence_of(std::uint16_t application) {

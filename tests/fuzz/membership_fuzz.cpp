@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams of any octets from few sources, on any group, between steps of any length, into the
-// manager of interest areas: its tables stay within bounds, it takes no heap once it runs, what it
-// sends reads back, its next step is due in time.
+// Datagrams of any octets from few sources, on any group, between steps of any length, as input of
+// the area of interest manager. Its tables stay within bounds, it allocates no heap once it runs,
+// its datagrams read back, and its next step is due in time.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -32,7 +32,7 @@ aoim::LocaleMap rooms() {
   return aoim::LocaleMap({{{0, 0, 0}, 0.0, 30, 30, {1}}, {{60, 0, 0}, 0.5, 30, 30, {0}}});
 }
 
-// Cells of each scheme, by the first octet of a session.
+// A cell scheme, chosen by the first octet of a session.
 aoim::AreaOfInterestConfig config(unsigned scheme) {
   aoim::AreaOfInterestConfig config;
   if (scheme % 3 == 1) config.cells.emplace(tree());

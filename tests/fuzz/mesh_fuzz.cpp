@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a mesh file, the first of them its format: a surface with finite triangles, or a
-// sentence. The heap stays within what its octets can be triangles of.
+// Any octets as a mesh file whose first octet selects the format: a surface with finite triangles,
+// or an error sentence. The heap stays within a multiple of the octets.
 #include <array>
 #include <stdexcept>
 #include <string_view>
@@ -12,7 +12,7 @@
 namespace reckon::fuzz {
 namespace {
 
-// A triangle takes 8 octets of an OBJ, and some 600 of memory.
+// A triangle takes 8 octets of an OBJ file, and some 600 of memory.
 constexpr std::size_t kMostHeapOfOctet = 200, kMostHeap = 1 << 16;
 
 void check_mesh(const InputOnDisk& file, std::string_view octets) {

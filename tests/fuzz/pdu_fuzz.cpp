@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One PDU of any type in the list: what decodes is written back octet for octet, reads back as the
-// same values and prints within bounds, all of it without heap.
+// One PDU of any listed type: a decoded PDU is encoded octet for octet, reads back as the same
+// values and prints within bounds, without heap.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -20,7 +20,7 @@ using Octets = std::span<const std::byte>;
 std::array<std::byte, pdu::kMaxPduSize> written_octets;
 std::array<char, text_bound(pdu::kMaxPduSize)> text;
 
-/// Family and length are the encoder's to write; octets of a later revision may be left out.
+/// The encoder writes family and length; octets of a later revision may be omitted.
 bool is_kept(Octets written, Octets from) {
   return written.size() <= from.size() &&
          std::equal(written.begin(), written.begin() + 3, from.begin()) &&

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Transfers of any length and octets from a Polhem's line: one is a report of a form just where it
-// has its length, says what its octets say, and costs no heap. Its counts give a place of these
-// very angles, or none, with a tool that is turned by a unit quaternion.
+// Transfers of any length and octets from the line of a Polhem: a transfer is a report of a form
+// exactly if it has the length of the form; it equals its octets and costs no heap. Its counts give
+// a position with exactly these angles, or none, and a unit quaternion for the tool.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ void check_report(PolhemForm form, Input transfer) {
   check_place(*report);
 }
 
-// Each command says what its octets say to a device that reads them so.
+// Each command reads back from its octets as a device reads them.
 void check_command(Input octets) {
   haptics::PolhemCommand command;
   for (std::size_t i = 0; i < 3; ++i)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Announcements of few ids, lives and sources, so that they meet, between steps of any length: the
-// table stays within its bounds and takes no heap, no life and no id stands in it twice, the next
-// step is due in time.
+// Announcements of few ids, epochs and sources, so that they conflict, between steps of any length.
+// The table stays within its bounds and allocates no heap, contains no epoch and no id twice, and
+// the next step is due in time.
 #include <algorithm>
 #include <chrono>
 

@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import seeds  # noqa: E402
 from search import plant  # noqa: E402
 
-# Longest input of each [octets]; a limit on time would fire on a busy machine, so it is wide.
+# Greatest input size of each target [octets]; a time limit would fail on a busy machine, so it is large.
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 1 << 20,
                "capture": 8192, "fragments": 600, "envelope": 600, "key_file": 1024, "compression": 1400,
                "presence": 2048, "tracker": 2048, "membership": 8192, "leading": 4096, "unicast": 2048,
@@ -48,7 +48,7 @@ def seeded_program(target, folder):
 
 
 def run_seeds(target, folder, first, number):
-    """Runs so many seeds from the first on in two processes; what run() returns, without files."""
+    """Runs `count` seeds from the first in two processes; returns the same as run(), without files."""
     folder.mkdir(parents=True, exist_ok=True)
     logs = [folder / f"{target}.{half}.log" for half in (1, 2)]
     halves = []
@@ -68,7 +68,7 @@ def run_seeds(target, folder, first, number):
 
 
 def run_touch(folder, seconds, options):
-    """Searches, and prints the worst of each objective; what run() returns, without files."""
+    """Searches and prints the worst result of each objective; returns the same as run(), without files."""
     folder.mkdir(parents=True, exist_ok=True)
     log = folder / f"{TOUCH}.log"
     with log.open("w") as out:
@@ -85,7 +85,7 @@ def run_touch(folder, seconds, options):
 
 
 def run(folder, target, options):
-    """Runs one target; returns its row of the table and the files it found at fault."""
+    """Runs one target; returns its row of the table and the files that caused a fault."""
     seconds = options.seconds
     if target == TOUCH:
         return run_touch(folder, seconds, options)
@@ -104,7 +104,7 @@ def run(folder, target, options):
     log = folder / f"{target}.log"
     with log.open("w") as out:
         status = subprocess.run(command, stdout=out, stderr=out, check=False).returncode
-    # A slow input is told by the engine too, but only a time-out is a fault.
+    # The engine also reports slow inputs, but only a time-out is a fault.
     found = sorted(p for p in set(findings.iterdir()) - before if not p.name.startswith("slow-"))
     return row(target, log.read_text(errors="replace"), len(found) or int(status != 0)), found, log
 
@@ -118,7 +118,7 @@ def row(target, text, findings):
 
 
 def tell(target, found, log):
-    """What went wrong, and how to see it again."""
+    """Describes a fault, and the command that reproduces it."""
     lines = log.read_text(errors="replace").splitlines()
     say(f"{target}: a finding; the whole story is in {log}")
     for line in [x for x in lines if re.search("reckon fuzz:|again:|ERROR:|runtime error|SUMMARY", x)][:6]:

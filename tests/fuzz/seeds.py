@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the seeds of the fuzz targets from the project's own samples, and from the captures of
-RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and the dictionaries
-FOLDER/TARGET.dict.
+"""Makes the seeds of the fuzz targets from the project's own samples, and from the captures of RECKON_DATA if there
+are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and the dictionaries FOLDER/TARGET.dict.
 """
 import bz2
 import gzip
@@ -16,10 +15,10 @@ import sys
 import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST_DATAGRAMS = 400  # of each capture, one for each type and length
+MOST_DATAGRAMS = 400  # from each capture, one for each type and length
 
 
-# A copy below a node that moves, and a choice.
+# A copy below a moving node, and a choice.
 NODES = b"""[[node]]
 name = "a"
 scale = 2
@@ -84,7 +83,7 @@ def fragments_of(payload, number, v6=False, piece=64):
 
 
 def mixed_pcapng(payloads):
-    """Fragments, on interfaces of several link types."""
+    """Fragments, on interfaces with several link types."""
     out = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
     for link_type, length in ((1, 65535), (101, 262144), (113, 96)):
         out += block(1, struct.pack("<HHI", link_type, 0, length))
@@ -122,7 +121,7 @@ def block(kind, body):
 
 
 def pcapng(payloads, resolution):
-    """Times in units of 10^-resolution seconds."""
+    """@param resolution times have units of 10^-resolution seconds"""
     section = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
     interface = block(1, struct.pack("<HHIHHBxxxI", 1, 0, 65535, 9, 1, resolution, 0))
     frames = (frame_of(p) for p in payloads)
@@ -131,7 +130,7 @@ def pcapng(payloads, resolution):
 
 
 def payloads_of(capture):
-    """UDP payloads of a classic capture of Ethernet and IPv4; others give none."""
+    """UDP payloads of a classic capture of Ethernet and IPv4; empty for other captures."""
     octets = capture.read_bytes()
     order = {b"\xd4\xc3\xb2\xa1": "<", b"\x4d\x3c\xb2\xa1": "<", b"\xa1\xb2\xc3\xd4": ">"}.get(octets[:4])
     at = 24
@@ -144,7 +143,7 @@ def payloads_of(capture):
 
 
 def captured():
-    """Captures of RECKON_DATA, and the datagrams in them that differ in type or length."""
+    """Captures of RECKON_DATA, and their datagrams, one for each type and length."""
     folder = pathlib.Path(os.environ.get("RECKON_DATA", ROOT.parent / "shared/data"))
     files = sorted((folder / "dis-captures").rglob("*.pcap"))
     datagrams = {}
@@ -156,7 +155,7 @@ def captured():
 
 
 def announcement(own, application, epoch):
-    """The sample of a Presence as another peer's, with its trailer: the first of its datagrams."""
+    """The sample of a Presence as another peer sends it, with its trailer, from its first datagram."""
     presence, trailer = bytearray(own["presence"]), bytearray(own["datagram_trailer"])
     presence[1] = trailer[1] = 1  # the exercise
     struct.pack_into(">HHI", presence, 12, 7, application, epoch)
@@ -165,7 +164,8 @@ def announcement(own, application, epoch):
 
 
 def membership_seeds(own):
-    """Sequences of datagrams, each behind kind, group, source, time and length; by the first kind on equal cells, a tree, locales."""
+    """Sequences of datagrams, each after its kind, group, source, time and length. The first octet selects equal
+    cells, a tree or locales."""
     def session(kind, *datagrams):
         return b"".join(struct.pack(">4BH", kind, group, source, 30, len(octets)) + octets
                         for group, source, octets in datagrams)
@@ -178,8 +178,8 @@ def membership_seeds(own):
 
 
 def leading_seeds(own):
-    """Sequences of PDUs of the peers 2 and 3, each behind what to do, group, time and length; the first octet: whether groups are
-    handed out."""
+    """Sequences of PDUs of the peers 2 and 3, each after an action, group, time and length. The first octet enables
+    the distribution of groups."""
     scene = -2**31
 
     def of(peer, kind, body):
@@ -208,7 +208,8 @@ def leading_seeds(own):
 
 
 def viewer_seeds():
-    """A request for a stream with frames of each kind of request behind it, one for a file, and the messages alone."""
+    """A request for a stream followed by frames of each kind of request, a request for a file, and the messages
+    alone."""
     host = b"127.0.0.1:8642"
     stream = (b"GET /stream?word=0123456789abcdef HTTP/1.1\r\nHost: " + host + b"\r\nOrigin: http://" + host +
               b"\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
@@ -221,7 +222,7 @@ def viewer_seeds():
 
 
 def image_seeds():
-    """Small pictures: PNG of 8 and 16 bits, grey and in colours, and PGM as text and as octets."""
+    """Small pictures: PNG with 8 and 16 bits, grey and colour, and PGM as text and binary."""
     def png(bits, kind, octets_a_row):
         def chunk(name, content):
             return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
@@ -252,7 +253,7 @@ def mesh_seeds():
 
 
 def words(paths):
-    """Lower-case names in quotes: the words of lists in the sources."""
+    """Lower-case names in quotes: the words of the lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
     return sorted(set(re.findall(r'"([a-z][a-z0-9_.:]*)"', text)))
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets of any kind from the line of a serial board, in pieces, while time passes and a servo
-// writes: what is taken for a frame is one, whoever reads it; a frame that is damaged costs itself
-// and the next at most; of a board that has greeted, nothing takes heap, and its readings go on in
-// their order.
+// Any octets from the line of a serial board, in pieces, while time passes and a servo writes.
+// Every accepted frame is valid for any reader; a damaged frame costs itself and at most the next
+// one. After the greeting no input allocates heap, and readings keep their order.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -29,7 +28,7 @@ using std::chrono::nanoseconds;
 
 bool is_same(Input one, Input other) { return std::ranges::equal(one, other); }
 
-// Each octet of a frame that is taken makes the very frame again.
+// The octets of an accepted frame encode to the same frame again.
 void check_frames(Input input) {
   SerialFrameParser parser;
   for (const std::uint8_t octet : input) {
@@ -47,7 +46,7 @@ void check_frames(Input input) {
   }
 }
 
-// Whatever came before it, a frame is read after one that was damaged.
+// After any octets and a damaged frame, the frame after it is read.
 void check_recovery(Input input) {
   SerialFrameParser parser;
   for (const std::uint8_t octet : input) static_cast<void>(parser.take(octet));
@@ -73,8 +72,8 @@ haptics::SerialFrame greeting_to(Input question) {
   return haptics::serial_frame(octets);
 }
 
-// The first octet of each piece says how long it is, how much time passes, whether it is whole
-// frames: then its octets are what a frame carries.
+// The first octet of each piece gives its length, the time that passes, and whether it consists of
+// whole frames: its octets are then the content of a frame.
 void check_session(Input input) {
   haptics::UsbExchange exchange;
   haptics::DeviceLimits limits;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One step of a manager of interest areas, checked as in every target that feeds one.
+// One step of an area of interest manager, checked the same way in every target that feeds one.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace reckon::fuzz {
 
-/// Steps it: what leaves reads back and goes to the base group or one of the `pool`, and the next
+/// Steps it: sent datagrams read back and go to the base group or one of the `pool`, and the next
 /// step is due after this one.
 inline void step_soundly(aoim::AreaOfInterestManager& aoim, std::size_t pool,
                          std::chrono::nanoseconds now) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any octets as a table of a motion: a track that leads somewhere at each time, and a hand trace,
-// or a sentence with a place.
+// Any octets as a motion table: a track with a finite state at each time, and a hand trace, or an
+// error sentence with a place.
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -38,7 +38,7 @@ void check(std::span<const std::byte> input) {
   read_or_refuse(name, [&] {
     try {
       (void)peer::read_hand_trace(name);
-    } catch (const std::invalid_argument&) {  // what a hand cannot do
+    } catch (const std::invalid_argument&) {  // beyond the abilities of a hand
     }
   });
 }

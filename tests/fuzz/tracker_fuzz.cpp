@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sequence numbers of up to 16 senders in 8 groups, near the wrap and far apart too, and what is
-// forgotten of them. While the tracker has given
-// nothing up, its verdicts and counts are those of the sets of numbers that came; its table stays
-// within bounds and takes no heap.
+// Sequence numbers of up to 16 senders in 8 groups, some near the wrap and far apart, with
+// forgotten senders. While the tracker has evicted nothing, its verdicts and counts equal the
+// results from the sets of received numbers. Its table stays within bounds and allocates no heap.
 #include <algorithm>
 #include <array>
 
@@ -15,7 +14,7 @@ namespace reckon::fuzz {
 namespace {
 
 constexpr std::size_t kStep = 4;         // octets an operation
-constexpr std::int32_t kMost = 1 << 18;  // of the numbers without their base: four of the farthest
+constexpr std::int32_t kMost = 1 << 18;  // range of numbers without base: four times the farthest
 constexpr std::size_t kPairs = 16 * 8;
 
 void check_counts(const aoim::SequenceCounts& counts, const aoim::SequenceCounts& right) {
@@ -27,7 +26,7 @@ void check_counts(const aoim::SequenceCounts& counts, const aoim::SequenceCounts
   require(counts.leaps == right.leaps, "datagrams far from all others are counted wrong");
 }
 
-/// What an operation says: who, where, and how far from the number before.
+/// An operation: sender and group, and the distance from the number before.
 struct Operation {
   std::uint8_t kind, pair;
   std::int32_t ahead;
@@ -36,7 +35,7 @@ struct Operation {
 Operation operation_of(std::span<const std::byte> octets) noexcept {
   const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(octets[i]); };
   const std::int32_t ahead = static_cast<std::int16_t>(at(2) << 8 | at(3));
-  // Mostly within the window, else around its borders, or around what is too far to be missing.
+  // Mostly within the window, else around its borders, or around the limit of missing numbers.
   const std::int32_t step = at(0) % 8 < 5 ? ahead % 256 : at(0) % 8 == 7 ? 4 * ahead : ahead;
   return {static_cast<std::uint8_t>(at(0)), static_cast<std::uint8_t>(at(1) % kPairs), step};
 }

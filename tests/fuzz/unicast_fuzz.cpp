@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams of any octets into a link that sends to a list of addresses: what comes up is of a
-// group that is joined, is a part of what came in, and what it sends reads back; no heap. The
-// octets are read as a list of addresses too, which is read again as it is written.
+// Datagrams of any octets as input of a link with a unicast list. A returned datagram belongs to a
+// joined group and is a part of the input, sent datagrams read back, and no heap is allocated. The
+// octets are also read as a list of addresses, which reads back as it is written.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -21,7 +21,7 @@ using Octets = std::span<const std::byte>;
 
 constexpr std::size_t kPool = 6;
 
-/// A link that hears one datagram, and keeps the last one that it sends.
+/// A link that receives one datagram, and keeps the last one that it sends.
 class OneDatagram final : public peer::Link {
  public:
   bool send(const peer::IpEndpoint&, Octets bytes) noexcept override {
@@ -48,7 +48,7 @@ class OneDatagram final : public peer::Link {
   Octets sent;
 };
 
-/// One for all runs, as its buffers are large: the base group and half of the pool are joined.
+/// One for all runs, because its buffers are large: the base group and half of the pool are joined.
 struct Listener {
   Listener() {
     static_cast<void>(link.join(pool.base()));
@@ -82,7 +82,7 @@ void hear(Listener& listener, Octets input) {
   require(bytes.size() <= input.size() && std::ranges::equal(bytes, input.last(bytes.size())),
           "what came up is not the end of what came in");
 
-  // Said on as it was heard, it comes back the same.
+  // Sent again as it was received, it comes back unchanged.
   if (bytes.size() > listener.link.max_payload()) return;
   const peer::GroupAddress group = out[0].group;
   require(listener.link.send(group, bytes), "not sent");

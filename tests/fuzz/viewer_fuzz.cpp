@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a connection of the viewer's server may be sent: a request, then frames of a page. Any
-// octets are read within bounds and without the heap; what is cut is waited for; what a page asks
-// is finite and in range; nobody who does not say an own address and the word is let in.
+// Input of the viewer's server from a connection: a request, then frames of a page. Any octets are
+// read within bounds and without heap; the server waits for the rest of truncated input; the values
+// of page requests are finite and in range. No client without an own address and the password is
+// admitted.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -41,7 +42,7 @@ void check_access(const HttpRequest& request) {
   require(access().is_word(word) == (word == access().word()), "another word is taken");
 }
 
-/// The octets of the head; 0 where there is none.
+/// The octets of the header; 0 if there is none.
 std::size_t check_request(std::string_view text) {
   HttpRequest request, cut;
   const RequestVerdict verdict = read_request(text, request);

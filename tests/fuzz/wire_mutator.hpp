@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Most changes that the engine makes to a datagram break a header, and then nothing behind it is
-// reached. These repairs, made to most but not all inputs, let it dig in the bodies.
+// Most of the engine's changes break a header, so that nothing behind it is reached. These repairs,
+// made to most but not all inputs, let it reach the bodies.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace reckon::fuzz {
 
-/// PDU type number `i` of the list, counted around.
+/// PDU type number `i` of the list, modulo its length.
 template <typename... T>
 [[nodiscard]] pdu::PduType listed_type(std::size_t i, pdu::TypeList<T...>) noexcept {
   constexpr std::array kTypes{T::kPduType...};
@@ -23,14 +23,14 @@ template <typename... T>
   return listed_type(i, pdu::PduTypes{});
 }
 
-/// Gives the PDU at `octets` a version that is read and a length field of all its octets; nothing
-/// where there is no room for a header.
+/// Gives the PDU at `octets` a supported version and the correct length field; does nothing without
+/// room for a header.
 void repair_header(std::span<std::byte> octets) noexcept;
 
-/// Lets the last PDU of a datagram end where the datagram ends.
+/// Makes the last PDU of a datagram end at the end of the datagram.
 void repair_last_length(std::span<std::byte> datagram) noexcept;
 
 }  // namespace reckon::fuzz
 
-/// Of the engine: changes `data` at random, returns the new size.
+/// Function of the engine: changes `data` at random, returns the new size.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before a program (LD_PRELOAD), takes IP_MULTICAST_ALL = 0 away from it: its sockets then
-// behave as those of programs that do not know the option.
+// Preloaded into a program (LD_PRELOAD), suppresses IP_MULTICAST_ALL = 0: its sockets then behave
+// as in programs without this option.
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -92,7 +92,7 @@ TEST(Loops, AllocateNothingOnAMeshWithFriction) {
   expect_none(loops.run(20'000));
 }
 
-TEST(Loops, AllocateNothingOnABadNetworkWherePeersGoAndComeBack) {
+TEST(Loops, AllocateNothingOnLossyNetworksWithReturningPeers) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   peer::ImpairmentLaw law;
   law.delay = milliseconds(50);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers kilometres apart: one follows the beacon of an entity of another one, and sees it
-// wherever it goes.
+// Whole peers kilometres apart: one follows the beacon of another peer's entity, and shows it
+// anywhere.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ namespace {
 
 constexpr std::size_t kFollower = 0, kOwner = 1, kBystander = 2, kRival = 3;
 constexpr double kFar = 10'000.0;  // [m]
-// The threshold of 1 m, and what 4 ms under way add at 40 m/s.
+// The threshold of 1 m, and the effect of 4 ms delay at 40 m/s.
 constexpr double kMost = 1.2;  // [m]
 
 std::string handing_out() {
   return with(kField, "leaders = true\n", "leaders = true\nhand_out = true\n");
 }
 
-// Three posts in a row, 10 km apart, and a truck of the second peer that carries a beacon.
+// Three posts in a row, 10 km apart, and a truck of the second peer with a beacon.
 class FollowedTruck : public testing::Test {
  protected:
   FollowedTruck() : field_(4, handing_out()), following_(field_.scene_) {
@@ -60,7 +60,7 @@ class FollowedTruck : public testing::Test {
   [[nodiscard]] const peer::LeadersView::Followed& followed() {
     return field_.world_.view(kFollower).leaders.followed[0];
   }
-  /// The truck drives to the east for so long [s].
+  /// Drives the truck to the east for `length` [s].
   void drive(double speed, std::size_t length) {
     for (std::size_t ms = 0; ms < 1000 * length; ms += 10) {
       east_ += 0.01 * speed;
@@ -104,8 +104,8 @@ TEST_F(FollowedTruck, IsSeenFromTenKilometresAway) {
               testing::HasSubstr(R"("followed":[{"beacon":"gate","cell":"0,0","group":)"));
 }
 
-TEST_F(FollowedTruck, IsSeenOnABorderOrACornerOfCells) {
-  const double edge = 50.0;  // [m] from the middle of a cell
+TEST_F(FollowedTruck, IsShownOnBordersAndCornersOfCells) {
+  const double edge = 50.0;  // [m] from the centre of a cell
   std::uint32_t life = 500;
   for (const auto& [east, north] : {std::pair{edge, 0.0}, {edge, edge}, {edge + 9900, -edge}}) {
     SCOPED_TRACE(testing::Message() << east << " m, " << north << " m");
@@ -120,7 +120,7 @@ TEST_F(FollowedTruck, IsSeenOnABorderOrACornerOfCells) {
   }
 }
 
-TEST_F(FollowedTruck, IsSeenInEachCellThatItComesTo) {
+TEST_F(FollowedTruck, IsShownInEachCellThatItEnters) {
   start_owner();
   field_.world_.run(6000);
   ASSERT_NE(seen(kFollower), nullptr);
@@ -151,7 +151,7 @@ TEST_F(FollowedTruck, IsGoneWithItsOwner) {
   EXPECT_NE(seen(kFollower, kRival + 1), nullptr);
 }
 
-TEST_F(FollowedTruck, OfAnotherOwnerWaitsUntilTheFirstIsGone) {
+TEST_F(FollowedTruck, SecondOwnerOfABeaconWaitsForFirst) {
   start_owner();
   field_.world_.run(6000);
   start_owner(kRival, 2100.0);
@@ -166,7 +166,7 @@ TEST_F(FollowedTruck, OfAnotherOwnerWaitsUntilTheFirstIsGone) {
   EXPECT_NE(seen(kFollower, kRival + 1), nullptr);
 }
 
-// A Cell Roles PDU and a trailer of the life `epoch`: its beacon is far away.
+// A Cell Roles PDU and a trailer with `epoch`: its beacon is far away.
 std::vector<std::byte> forged_beacon(std::uint32_t epoch, std::uint32_t sequence) {
   pdu::CellRole role;
   role.column = 5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies of a scene are its first peer's: what others send of them moves nothing and presses
-// nobody.
+// The first peer owns the bodies of a scene: other peers' states of them move nothing and press no
+// hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ haptics::HandTarget wait_at(double x) {
 }
 
 /// A first peer whose hand is far from its cube, a second whose hand waits 0.1 m beside it, and a
-/// thief that puts a cube of its own into that hand.
+/// thief that puts a cube of its own into the second hand.
 class Exercise {
  public:
   explicit Exercise(const std::string& network = "")

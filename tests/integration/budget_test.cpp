@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer that accepts only so many octets a second ([aoim] budget): it leaves what is farthest, and
-// goes on feeling what it touches.
+// A peer with a limited receive rate ([aoim] budget): it leaves the most distant cells, and
+// continues to feel the entities that it touches.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr double kTurn = 3.0, kSpeed = 6.0;  // of the cars [m], [m/s]
-constexpr int kCars = 10;                    // at each place
+constexpr int kCars = 10;                    // at each position
 
 peer::SceneFile town(bool tiers) {
   peer::SceneFile scene = *peer::dis_exercise(1, 0.3, 0.145);
@@ -53,8 +53,8 @@ peer::EntityTruth car_at(const Vector3d& place, double phase, nanoseconds now) {
   return truth;
 }
 
-// The first federate stands in the middle of a cell. Others have ten cars each that go round in the
-// middles of other cells.
+// The first federate rests in the centre of a cell. Others have ten cars each that circle in the
+// centres of other cells.
 class Town {
  public:
   Town(const peer::SceneFile& scene, double budget, const std::vector<double>& away)
@@ -87,13 +87,13 @@ class Town {
         notices_.emplace_back(notices.front()->text.data());
     });
   }
-  /// What the first one hears in `span` [B/s].
+  /// Receive rate of the first federate in `span` [B/s].
   double heard(nanoseconds span) {
     const std::uint64_t before = federates_.count(0, "octets_in");
     run(span);
     return static_cast<double>(federates_.count(0, "octets_in") - before) / pdu::to_seconds(span);
   }
-  /// Cars shown to the first one, by owner from 1.
+  /// Cars shown to the first federate, by owner from 1.
   std::vector<int> shown() {
     std::vector<int> shown(federates_.size(), 0);
     federates_[0].for_each(
@@ -130,7 +130,7 @@ class Town {
 
 const std::vector<double> kStreet{0, 50, 100, 150, 200, 250};
 
-TEST(Budget, LeavesTheFarthestCellsAndShowsAllThatIsNear) {
+TEST(Budget, LeavesTheFarthestCellsAndShowsTheNearest) {
   Town all(town(false), 0, kStreet);
   all.run(10s);
   const double whole = all.heard(20s);
@@ -145,7 +145,7 @@ TEST(Budget, LeavesTheFarthestCellsAndShowsAllThatIsNear) {
     std::printf(
         "[ residual ] %.0f of %.0f B/s heard, %.0f without a budget; shown %d %d %d %d %d %d\n",
         heard, share * whole, whole, shown[0], shown[1], shown[2], shown[3], shown[4], shown[5]);
-    // From time to time it looks whether there is more room.
+    // From time to time it checks whether there is more room.
     EXPECT_LE(heard, 1.1 * share * whole);
     EXPECT_EQ(shown[0], kCars);
     EXPECT_EQ(shown[5], 0);
@@ -156,7 +156,7 @@ TEST(Budget, LeavesTheFarthestCellsAndShowsAllThatIsNear) {
   }
 }
 
-TEST(Budget, KeepsTheOwnCellAndReportsOnceWhatIsHeardNevertheless) {
+TEST(Budget, KeepsItsCellAndReportsAnExceededBudget) {
   Town place(town(false), 200, kStreet);
   place.run(60s);
   const std::vector<int> shown = place.shown();
@@ -168,7 +168,7 @@ TEST(Budget, KeepsTheOwnCellAndReportsOnceWhatIsHeardNevertheless) {
   EXPECT_EQ(unmet, 1);
 }
 
-TEST(Budget, ShowsTheFarOnesAgainWhenTheCrowdRests) {
+TEST(Budget, ShowsDistantEntitiesAgainAfterTheCrowdRests) {
   Town place(town(false), 6000, kStreet);
   place.run(40s);
   ASSERT_EQ(place.shown().back(), 0);
@@ -189,8 +189,8 @@ TEST(Budget, BindsBesideTiersToo) {
   }
 }
 
-// Both hands press each other over a border of cells.
-TEST(Budget, NeverCostsWhatIsFelt) {
+// Both hands press each other across a border of cells.
+TEST(Budget, NeverCostsTheContact) {
   const std::string scene = R"(
 [scene]
 name = "border"

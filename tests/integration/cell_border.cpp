@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a listener that drives towards cells misses of an entity just behind each cell's border:
+// Datagrams that a listener misses of an entity just behind each cell border that it approaches:
 //   cell_border send INTERFACE BEGIN
 //   cell_border hear INTERFACE BEGIN LOOKAHEAD_MS
 // BEGIN: steady time of the start [ns]. The entities are sent at 200 Hz, each to the group of its
-// cell. The listener prints a JSON object: datagrams missed from the moment at which the entity was
-// within its radius, over all cells.
+// cell. The listener prints a JSON object: datagrams missed from the moment the entity was within
+// its radius, over all cells.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,17 +31,17 @@ using std::chrono::nanoseconds;
 constexpr int kCells = 14;
 constexpr double kSide = 50, kSpeed = 40, kRadius = 100;  // [m], [m/s], [m]
 constexpr double kBehind = 0.01;                          // [m], of the entity behind the border
-constexpr nanoseconds kPeriod = 5ms, kFoci = 50ms;        // peers look at their foci so often
-constexpr double kBefore = 0.3, kAfter = 1.0;  // [s] of sending around an entity's coming
+constexpr nanoseconds kPeriod = 5ms, kFoci = 50ms;        // kFoci: update period
+constexpr double kBefore = 0.3, kAfter = 1.0;             // [s] of sending around an entity's entry
 
 struct Mark {
   int cell = 0;
-  int since = 0;  // datagrams sent since it came within the radius; below 0: before
+  int since = 0;  // datagrams sent since it entered the radius; below 0: before
 };
 
 aoim::CellGrid grid() { return aoim::CellGrid({aoim::CellScheme::square, kSide, 256}); }
 aoim::Position entity(int cell) { return {kSide * (cell + 4) + kBehind, kSide / 2, 0}; }
-/// When it comes within the radius of the listener [s].
+/// When it enters the radius of the listener [s].
 double coming(int cell) { return (entity(cell).x - kRadius) / kSpeed; }
 
 peer::UdpMulticastOptions on(const char* interface) {

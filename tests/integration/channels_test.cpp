@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene thins updates out by distance ([[aoim.tier]]), and whom they are aware
-// of.
+// Whole peers whose scene thins updates by distance ([[aoim.tier]]), and their awareness.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +21,8 @@ using std::chrono::nanoseconds;
 
 constexpr double kTurn = 20.0, kSpeed = 10.0;  // [m], [m/s]
 constexpr double kThreshold = 0.01;            // [m]
-// In the second until the next update a car that turns is off by its jerk alone: v^3 t^3 / 6 r^2,
-// and a tenth is the delay and converging.
+// In the second until the next update the prediction of a turning car errs by its jerk alone: v^3
+// t^3 / 6 r^2. A tenth more is for the delay and convergence.
 constexpr double kFarError = 1.1 * kSpeed * kSpeed * kSpeed / (6 * kTurn * kTurn);
 
 peer::SceneFile country(bool channels) {
@@ -53,8 +52,8 @@ peer::EntityTruth standing_at(const Vector3d& place, nanoseconds now) {
   return truth;
 }
 
-// The first federate has a car that goes round; each other one has something that stands and looks
-// on. A pass each 10 ms.
+// The first federate has a car that circles; each other one has an entity at rest and watches. One
+// pass each 10 ms.
 class Roundabout {
  public:
   explicit Roundabout(const peer::SceneFile& scene)
@@ -88,7 +87,7 @@ class Roundabout {
     federates_[0].update_attributes(car_, standing_at(place, now()));
   }
 
-  /// Of the first federate in `span`, a second.
+  /// Rate of a counter of the first federate over `span` [1/s].
   double rate(const char* counter, nanoseconds span) {
     const std::uint64_t before = count(0, counter);
     for (auto& worst : worst_) worst = 0;
@@ -98,7 +97,7 @@ class Roundabout {
   std::uint64_t count(std::size_t federate, const char* counter) {
     return federates_.count(federate, counter);
   }
-  /// Greatest error of what a federate showed of the car since rate() was asked for [m].
+  /// Greatest error of the car as a federate showed it since rate() was called [m].
   double worst(std::size_t watcher) const { return worst_[watcher]; }
   std::size_t shown(std::size_t watcher) { return federates_[watcher].size(); }
   peer::Federate& operator[](std::size_t i) { return federates_[i]; }
@@ -126,7 +125,7 @@ class Roundabout {
   double worst_[4] = {};
 };
 
-TEST(Channels, AreFullForWhoIsNearAndOneUpdateASecondForWhoIsFar) {
+TEST(Channels, NearReceiversGetAllUpdatesDistantOnesFew) {
   Roundabout all(country(false)), thinned(country(true));
   for (Roundabout* place : {&all, &thinned}) {
     place->join_at({600, 0, 0});
@@ -152,7 +151,7 @@ TEST(Channels, AreFullForWhoIsNearAndOneUpdateASecondForWhoIsFar) {
   EXPECT_LT(thinned.worst(1), 2 * kThreshold + 0.06) << "the stream is one";
 }
 
-TEST(Channels, SayNothingElseToThoseWhoAreNear) {
+TEST(Channels, DoNotChangeUpdatesForNearReceivers) {
   Roundabout all(country(false)), thinned(country(true));
   for (Roundabout* place : {&all, &thinned}) {
     place->join_at({30, 20, 0});
@@ -163,7 +162,7 @@ TEST(Channels, SayNothingElseToThoseWhoAreNear) {
   EXPECT_EQ(thinned.count(0, "updates_held_back"), 0u);
 }
 
-TEST(Channels, FollowAReceiverThatComesNearWithinAFifthOfASecond) {
+TEST(Channels, FollowAnApproachingReceiverWithinTwoHundredMilliseconds) {
   Roundabout place(country(true));
   place.join_at({600, 0, 0});
   place.run(10s);
@@ -172,11 +171,11 @@ TEST(Channels, FollowAReceiverThatComesNearWithinAFifthOfASecond) {
   EXPECT_GT(place.rate("updates_out", 5s), 2.0);
 }
 
-TEST(Channels, TellAtLastWhatWasHeldBack) {
+TEST(Channels, SendHeldBackStatesInTheEnd) {
   Roundabout place(country(true));
   place.join_at({600, 0, 0});
   place.run(10s);
-  // It stands somewhere else, just after an update, and nobody tells the peer anything more.
+  // It rests elsewhere, just after an update, and gets no further truth.
   const std::uint64_t before = place.count(0, "updates_out");
   while (place.count(0, "updates_out") == before) place.run(10ms);
   place.stop_the_car({3, 0, 0});
@@ -192,14 +191,14 @@ TEST(Channels, GiveLessToAReceiverWithLessBudget) {
   peer::SceneFile poor = country(true);
   poor.aoim.awareness.budget = 1000.0;
   Roundabout place(poor);
-  place.join_at({0, 0, 45});  // always as far away
+  place.join_at({0, 0, 45});  // at a constant distance
   place.run(5s);
   const double rate = place.rate("updates_out", 20s);
   std::printf("[ residual ] %.2f updates/s to one that takes 1,000 B/s, 49 m away\n", rate);
   EXPECT_LT(rate, 1.2);
 }
 
-TEST(Awareness, ShowsTheKindsThatAreWantedWithinTheAuraAndInFrontOfWalls) {
+TEST(Awareness, ShowsWantedKindsWithinTheAuraBeforeWalls) {
   const auto shown = [](const auto& change) {
     peer::SceneFile scene = country(false);
     change(scene.aoim.awareness);
@@ -222,7 +221,7 @@ TEST(Awareness, ShowsTheKindsThatAreWantedWithinTheAuraAndInFrontOfWalls) {
   EXPECT_EQ(shown(wall(100)), 1u) << "it stands aside";
 }
 
-TEST(Awareness, AWatcherThatWalksRoundAWallSeesWhatWasBehindIt) {
+TEST(Awareness, WalkingRoundAWallRevealsEntitiesBehindIt) {
   peer::SceneFile scene = country(false);
   scene.aoim.awareness.occluders.push_back({Vector3d(300, -50, -50), Vector3d(301, 50, 50)});
   Roundabout place(scene);

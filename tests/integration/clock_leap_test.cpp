@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Hosts whose clocks are apart, drift and leap, in whole peers: nothing that is shown jumps.
+// Whole peers on hosts whose clocks differ, drift and leap: no shown pose jumps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,7 @@ namespace {
 
 using std::chrono::microseconds;
 
-// The hand that moves and the one that listens do not touch, so that only time can tell two runs
-// apart.
+// The moving hand and the receiving one do not touch, so that two runs differ only by time.
 std::string two_hands_apart() {
   return with(
       with(kTwoHandsOnAWall, "position = [0.015, 0.0, 0.001]", "position = [0.5, 0.0, 0.001]"),
@@ -46,7 +45,7 @@ class Hosts : public testing::Test {
     world.start(0, scene_);
     world.start(1, scene_);
   }
-  // What the second peer shows of the hand of the first.
+  // The first peer's hand as shown by the second peer.
   static const peer::RemoteEntity* row(InProcess& world) {
     const auto rows = world.peer(1).model().remote().rows();
     return rows.empty() ? nullptr : &rows[0];
@@ -54,8 +53,7 @@ class Hosts : public testing::Test {
   static Eigen::Vector3d shown(InProcess& world) {
     return row(world)->shown(world.clock().now()).position;
   }
-  // By how much the time given to the newest update is wrong; `ahead` of the first peer's UTC
-  // against the true one.
+  // Error of the time of the newest update; `ahead` is the offset of the first peer's UTC.
   static double time_error(InProcess& world, nanoseconds ahead) {
     const nanoseconds utc = world.clock().utc_now() + ahead;
     const nanoseconds age = utc - pdu::nearest_instant(row(world)->timestamp, utc);
@@ -66,9 +64,9 @@ class Hosts : public testing::Test {
   peer::SceneFile scene_;
 };
 
-// 0.8 s apart and drifting by 50 ppm, both calling themselves UTC. On their word alone the hand
-// would be shown 0.8 s wrong: some 80 mm.
-TEST_F(Hosts, ThatAreApartAndDriftShowTheSameAsThoseThatAreNot) {
+// 0.8 s apart and drifting by 50 ppm, both declaring UTC. Trusting them would show the hand 0.8 s
+// wrong: some 80 mm.
+TEST_F(Hosts, WithDriftingClocksShowTheSameAsOthers) {
   const int steps = tries(60'000, 120'000);
   for (const auto ahead : {milliseconds(800), milliseconds(-800)}) {
     InProcess alike(2), apart(2);
@@ -95,7 +93,7 @@ TEST_F(Hosts, ThatAreApartAndDriftShowTheSameAsThoseThatAreNot) {
   }
 }
 
-TEST_F(Hosts, WhoseClockLeapsBy10SecondsAndBackShowNoJump) {
+TEST_F(Hosts, WithA10SecondLeapShowNoJump) {
   for (const std::size_t link : {std::size_t{0}, std::size_t{1}}) {
     InProcess still(2), leaping(2);
     begin(still);
@@ -135,8 +133,8 @@ TEST_F(Hosts, WhoseClockLeapsBy10SecondsAndBackShowNoJump) {
   }
 }
 
-// While its host's clock is not what it goes by, a peer does not call its time UTC.
-TEST_F(Hosts, SayRelativeTimeAfterALeap) {
+// While a peer does not follow its host's clock, it does not declare its time UTC.
+TEST_F(Hosts, SendRelativeTimeAfterALeap) {
   InProcess world(2);
   world.listen(scene_);
   world.start(0, scene_);
@@ -153,18 +151,18 @@ TEST_F(Hosts, SayRelativeTimeAfterALeap) {
   for (const auto& trailer : trailers) EXPECT_FALSE(pdu::is_absolute(trailer.header.timestamp));
 }
 
-TEST_F(Hosts, ExchangeTimesWithTheFirstWordsAndThenEverySecond) {
+TEST_F(Hosts, ExchangeTimesAtOnceAndThenEverySecond) {
   InProcess world(2);
   world.listen(scene_);
   begin(world);
   world.run(300);
   EXPECT_GE(world.count(0, "time_exchanges"), 1u);
   EXPECT_GE(world.count(1, "time_exchanges"), 1u);
-  world.run(1'700);  // who begins announces itself more often
+  world.run(1'700);  // a new peer announces itself more often
   world.heard().clear();
   world.run(10'000);
   const auto exchanges = world.heard_pdus<pdu::TimeExchange>();
-  EXPECT_GE(exchanges.size(), 18u);  // 9 to 11 of each, as the window falls
+  EXPECT_GE(exchanges.size(), 18u);  // 9 to 11 of each, depending on the window
   EXPECT_LE(exchanges.size(), 22u);
   for (const Heard& datagram : world.heard()) {
     std::array<bool, 256> types{};
@@ -175,7 +173,7 @@ TEST_F(Hosts, ExchangeTimesWithTheFirstWordsAndThenEverySecond) {
   }
 }
 
-// A plain DIS vehicle at 20 m/s, absolute, whose own host leaps: on the wire this time.
+// A plain DIS vehicle at 20 m/s with absolute time whose own host leaps: this time on the wire.
 TEST_F(Hosts, OfPlainDisThatLeapMakeNoJump) {
   InProcess world(1);
   world.network().impair(usual_network());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene asks for compressed states: what one says is what the others show.
+// Whole peers with compressed states: the others show what a peer sends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,9 +31,9 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kTrucks = 5;
 constexpr double kRadius = 40.0, kSpeed = 12.0;  // [m], [m/s]
-// A place rounded to 1 mm on each axis, and 1 cm/s for at most a second.
+// A position rounded to 1 mm on each axis, and a velocity to 1 cm/s for at most a second.
 constexpr double kRounding = 0.02;  // [m]
-// What is shown beyond this was lost: the threshold, and what 20 ms and converging add.
+// Greater errors mean a loss: the threshold, plus the effect of 20 ms delay and convergence.
 constexpr double kMost = 1.3;  // [m]
 
 peer::SceneFile country(CompressedForm form) {
@@ -56,13 +56,13 @@ peer::EntityTruth truth_of(std::size_t truck, nanoseconds now) {
   return truth;
 }
 
-// A host at an address of its own that says where the trucks of another are, and hears all.
+// A host at its own address that sends states of another host's trucks, and receives everything.
 class Liar {
  public:
   enum class Lie {
     key,          ///< a plain state, 60 m off
     compact_key,  ///< the same as a compact state
-    leaning,      ///< what the owner said last that leans on a key, said again as one's own
+    leaning,      ///< the owner's last state that depends on a key, resent under the liar's name
   };
 
   Liar(peer::Link& link, CompressedForm form) : link_(link), scene_(country(form)) {
@@ -78,7 +78,7 @@ class Liar {
       }
     }
   }
-  // Of all trucks.
+  // Forges states of all trucks.
   void lie(Lie what, nanoseconds utc) {
     if (what == Lie::leaning) return say(leaning_);
     for (const auto& [truck, state] : states_) {
@@ -143,7 +143,7 @@ class Liar {
   Octets leaning_;
 };
 
-// The first federate has the trucks, the others look on; a pass each 10 ms.
+// The first federate has the trucks, the others watch; one pass each 10 ms.
 class Country {
  public:
   explicit Country(double loss) : federates_(4, Federates::delayed(20ms, loss), 7) {}
@@ -164,7 +164,7 @@ class Country {
     federates_.run(span, 10ms, drive, all_look);
   }
 
-  /// The same while a liar lies about all trucks, each `period`.
+  /// The same while a liar forges states of all trucks, each `period`.
   void run_beside(Liar& liar, Liar::Lie lie, nanoseconds span, nanoseconds period) {
     for (const nanoseconds end = federates_.now() + span; federates_.now() < end;) {
       run(period);
@@ -172,10 +172,10 @@ class Country {
       liar.lie(lie, federates_[0].utc());
     }
   }
-  /// Of a host that is nobody's.
+  /// The link of a host without a federate.
   [[nodiscard]] peer::Link& free_link() { return federates_.link(3); }
   [[nodiscard]] peer::Federate& operator[](std::size_t i) { return federates_[i]; }
-  /// How far what a federate shows is off, sorted [m], since the last call.
+  /// Errors of the shown trucks of a federate since the last call, sorted [m].
   [[nodiscard]] std::vector<double> take_errors(std::size_t federate) {
     std::vector<double> errors = std::exchange(errors_[federate], {});
     std::sort(errors.begin(), errors.end());
@@ -185,7 +185,7 @@ class Country {
     return federates_.count(federate, counter);
   }
 
-  /// Whether a notice of a federate has these words.
+  /// Whether a notice of a federate contains these words.
   [[nodiscard]] bool is_told(std::size_t federate, std::string_view words) {
     auto& ring = federates_[federate].peer().notices();
     bool found = false;
@@ -232,7 +232,7 @@ class CompressedExercise : public ::testing::TestWithParam<CompressedForm> {
   }
 };
 
-// Errors of what the second federate shows.
+// Errors of the trucks that the second federate shows.
 std::vector<double> errors_of(CompressedForm form, Country& country, nanoseconds span) {
   country.join(form);
   country.join(form);
@@ -260,7 +260,7 @@ TEST_P(CompressedExercise, ShowsAllWithinTheThresholdAndARounding) {
   EXPECT_EQ(country.count(1, "malformed_in"), 0U);
 }
 
-TEST_P(CompressedExercise, LosesLittleMoreThanPlainOneWhereATenthIsLost) {
+TEST_P(CompressedExercise, LosesLittleMoreThanPlainStatesDo) {
   Country plain_country(0.1), country(0.1);
   const auto plain = errors_of(CompressedForm::none, plain_country, 60s);
   const auto errors = errors_of(GetParam(), country, 60s);
@@ -272,8 +272,8 @@ TEST_P(CompressedExercise, LosesLittleMoreThanPlainOneWhereATenthIsLost) {
   EXPECT_LE(share_above(errors, kMost), share_above(plain, kMost) + 0.03);
 }
 
-// An update of its own that leans on a key does not count as what a newcomer is told.
-TEST_P(CompressedExercise, TellsWhoComesAtAnyTimeAtOnce) {
+// A compressed update of a newcomer's own does not count as its introduction.
+TEST_P(CompressedExercise, IntroducesANewcomerAtAnyMoment) {
   for (int moment = 0; moment < 40; ++moment) {
     Country country(0.0);
     country.join(GetParam());
@@ -285,7 +285,7 @@ TEST_P(CompressedExercise, TellsWhoComesAtAnyTimeAtOnce) {
   }
 }
 
-TEST_P(CompressedExercise, ShowsWhoComesLateTheSame) {
+TEST_P(CompressedExercise, ShowsTheSameToALateNewcomer) {
   Country country(0.0);
   country.join(GetParam());
   country.join(GetParam());
@@ -300,7 +300,7 @@ TEST_P(CompressedExercise, ShowsWhoComesLateTheSame) {
   EXPECT_GT(country.count(2, "compressed_in"), 20U);
 }
 
-TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
+TEST_P(CompressedExercise, IsAnotherSceneForPeersWithoutCompression) {
   Country country(0.0);
   country.join(GetParam());
   country.join(CompressedForm::none);
@@ -311,8 +311,8 @@ TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
   EXPECT_TRUE(country.is_told(1, "runs another scene"));
 }
 
-// Once and ten times a second: poison, compact keys, echoes.
-TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
+// Once and ten times a second: forged plain keys, compact keys, echoes.
+TEST_P(CompressedExercise, ForgedStatesNeitherMoveNorHideIt) {
   for (const Liar::Lie lie : {Liar::Lie::key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
     for (const nanoseconds period : {nanoseconds(1s), nanoseconds(100ms)}) {
       Country country(0.0);
@@ -332,7 +332,7 @@ TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
       EXPECT_LE(errors.back(), kMost);
       EXPECT_EQ(country.count(1, "keys_awaited"), 0U);
       const bool needs_key = GetParam() != CompressedForm::compact;
-      if (lie == Liar::Lie::leaning && !needs_key) continue;  // there is nothing that leans
+      if (lie == Liar::Lie::leaning && !needs_key) continue;  // there are no dependent states
       EXPECT_GE(country.count(1, "disputed_in"), 15U);
       EXPECT_TRUE(country.is_told(1, "speaks in its name (refused)"));
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene gives what is felt groups of its own ([[aoim.tier]] to = "touch").
+// Whole peers whose scene gives contacts groups of their own ([[aoim.tier]] to = "touch").
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,10 +14,10 @@
 namespace reckon::test {
 namespace {
 
-constexpr double kThreshold = 5e-3;  // [m], of this scene; a force is told from 50 mN on
-constexpr double kFastest = 0.2;     // [m/s], of the hands here, and more
+constexpr double kThreshold = 5e-3;  // [m], of this scene; force updates from 50 mN on
+constexpr double kFastest = 0.2;     // [m/s], upper limit of the hands here
 
-// Two hands that meet on a wall, and one 100 m away that hears their cell.
+// Two hands that meet on a wall, and one 100 m away that receives their cell.
 std::string plaza(bool touch_tier) {
   std::string aoim = "[dead_reckoning]\nposition = \"5 mm\"\n[aoim]\nscheme = \"hexagonal\"\n";
   aoim += "cell = \"50 m\"\nradius = \"150 m\"\npool = 64\n";
@@ -29,10 +29,10 @@ std::string plaza(bool touch_tier) {
 
 struct Hearing {
   std::uint64_t datagrams = 0;
-  double worst = 0.0;  // [m], of what it shows of the hand that moves
+  double worst = 0.0;  // [m], error of the moving hand as shown to it
 };
 
-// What the third peer hears of ten seconds in which the others touch.
+// What the third peer receives in ten seconds in which the others touch.
 class Plaza {
  public:
   explicit Plaza(bool touch_tier, std::uint64_t seed = 1, double loss = 0.0)
@@ -53,7 +53,7 @@ class Plaza {
     hearing.datagrams = world_.count(2, "datagrams_in") - before;
     return hearing;
   }
-  /// Of what one peer shows of another's hand [m], with what that moves while it is under way.
+  /// Error of another's hand as one peer shows it [m], including its motion during the delay.
   double error(std::size_t watcher, std::size_t owner) {
     const peer::ModelLoop& model = world_.peer(owner).model();
     const peer::RemoteEntity* row = world_.peer(watcher).model().remote().find(model.own_id());
@@ -69,7 +69,7 @@ class Plaza {
   InProcess world_;
 };
 
-TEST(ContactGroups, SpareABystanderWhatIsFeltAndShowItAsWell) {
+TEST(ContactGroups, ReduceABystandersTrafficWithoutMoreError) {
   Plaza apart(true), together(false);
   const Hearing before = together.hear(10'000), after = apart.hear(10'000);
   std::printf(
@@ -98,9 +98,9 @@ TEST(ContactGroups, LoseNobodyAtFivePercentLoss) {
   }
 }
 
-// Who comes late, and whom they come late to, feel each other as those who were there, whether
-// owners or leaders tell them what there is.
-TEST(ContactGroups, TellALateComerWhatIsFelt) {
+// A newcomer and the others feel each other as peers that were present before, whether owners or
+// leaders introduce them.
+TEST(ContactGroups, LateNewcomersFeelTheContact) {
   for (const bool leaders : {false, true}) {
     peer::SceneFile scene = scene_of(plaza(true));
     scene.aoim.leaders = leaders;
@@ -120,7 +120,7 @@ TEST(ContactGroups, TellALateComerWhatIsFelt) {
   }
 }
 
-// The copy that those near have of what is felt is no worse than without.
+// The near peers' copy of a contact is no worse than without the tier.
 void expect_the_same_feel(const char* what, const peer::SceneFile& scene) {
   peer::Spread force[2], pose[2];
   double packets[2];
@@ -149,16 +149,16 @@ void expect_the_same_feel(const char* what, const peer::SceneFile& scene) {
   EXPECT_LE(pose[1].p99, 1.05 * pose[0].p99 + 1e-5);
 }
 
-TEST(ContactGroups, LeaveTheFeelOfRecordedHandsAsItIs) {
+TEST(ContactGroups, DoNotChangeTheFeelOfRecordedHands) {
   expect_the_same_feel("recorded", shipped_scene());
 }
 
-TEST(ContactGroups, LeaveTheFeelOfAPushAsItIs) {
+TEST(ContactGroups, DoNotChangeTheFeelOfAPush) {
   expect_the_same_feel("push", scene_of(kTwoHandsOnAWall));
 }
 
-// Somebody says again, from another address, what was heard in a contact group.
-TEST(ContactGroups, RefuseWhatAnotherAddressSaysInThem) {
+// A stranger resends datagrams of a contact group from another address.
+TEST(ContactGroups, RefuseDatagramsFromAnotherAddress) {
   Plaza plaza(true);
   plaza.world_.listen(plaza.scene_);
   plaza.world_.run(2000);

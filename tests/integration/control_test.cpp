@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What others say to a peer: stop, go on, "I have another scene", "that is my number".
+// Control by others: stop, resume, a different scene, a conflicting number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr pdu::EntityId kManager{9, 9, 0};
 
-// Two peers that know each other and a manager on the listener's link.
+// Two peers that know each other, and a manager on the listener's link.
 class Control : public testing::Test {
  protected:
   Control() : scene_(managed_by("9:9", scene_of(kTwoHandsOnAWall))), world_(2) {
@@ -40,7 +40,7 @@ class Control : public testing::Test {
     world_.say(message, scene_);
     world_.run(100);
   }
-  // Of the states of a peer that were heard since the last order, how many have the frozen bit.
+  // The states of a peer received since the last order: with the frozen bit, and all.
   [[nodiscard]] std::pair<int, int> frozen_and_all(std::size_t link) {
     std::pair<int, int> count;
     for (const auto& state : world_.heard_pdus<pdu::EntityState>()) {
@@ -66,7 +66,7 @@ class Control : public testing::Test {
   InProcess world_;
 };
 
-TEST_F(Control, StopFreezeSetsTheFrozenBitAndIsAcknowledged) {
+TEST_F(Control, StopFreezeSetsFrozenBitAndIsAcknowledged) {
   order<pdu::StopFreeze>(world_.peer(0).own_id(), 41);
   expect_answer(0, pdu::AcknowledgeFlag::stop_freeze, 41);
   const auto [frozen, all] = frozen_and_all(0);
@@ -77,7 +77,7 @@ TEST_F(Control, StopFreezeSetsTheFrozenBitAndIsAcknowledged) {
   EXPECT_TRUE(world_.view(1).rows[0].frozen);
 }
 
-TEST_F(Control, StartResumeClearsTheFrozenBitAndIsAcknowledged) {
+TEST_F(Control, StartResumeClearsFrozenBitAndIsAcknowledged) {
   order<pdu::StopFreeze>(world_.peer(0).own_id(), 41);
   order<pdu::StartResume>(world_.peer(0).own_id(), 42);
   expect_answer(0, pdu::AcknowledgeFlag::start_resume, 42);
@@ -104,7 +104,7 @@ TEST_F(Control, StopFreezeForAnotherIsNotObeyed) {
   EXPECT_EQ(world_.heard_pdus<pdu::Acknowledge>().size(), 1u);
 }
 
-TEST(SceneMismatch, IsToldOnceAndNotJoined) {
+TEST(SceneMismatch, IsReportedOnceAndNotJoined) {
   const peer::SceneFile one = scene_of(kTwoHandsOnAWall);
   const peer::SceneFile other = scene_of(with(kTwoHandsOnAWall, "800 N/m", "700 N/m"));
   ASSERT_NE(one.hash, other.hash);
@@ -118,7 +118,7 @@ TEST(SceneMismatch, IsToldOnceAndNotJoined) {
     EXPECT_EQ(told.size(), 1u);
     EXPECT_NE(told.at(0).find("another scene"), std::string::npos);
     EXPECT_EQ(world.view(link).entities, 0u);
-    // A state that arrived before the announcement was dropped when that came.
+    // A state that arrived before the announcement was dropped after it.
     EXPECT_LE(world.count(link, "updates_in"), 1u);
     EXPECT_EQ(world.view(link).servo().count, 0u);
   }

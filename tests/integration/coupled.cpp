@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A coupling study whole in one process, or one side of it against the other over UDP; prints what
-// its hands did, sample by sample, in hexadecimal floating point.
+// A coupling study in one process, or one side of it against the other over UDP; prints the hands'
+// motion, sample by sample, in hexadecimal floating point.
 //   coupled whole MODE server|hand
 //   coupled first|second MODE server|hand OWN_ADDRESS:PORT OTHER_ADDRESS:PORT
 #include <chrono>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One side of a crowd, by the API alone, and what it cost:
-//   crowd own INTERFACE COUNT SECONDS TRAFFIC   owns COUNT vehicles, each told and checked at 60 Hz
-//   crowd hear INTERFACE COUNT SECONDS          sees COUNT entities of others
+// One side of a crowd, by the API alone, and its cost:
+//   crowd own INTERFACE COUNT SECONDS TRAFFIC: owns COUNT vehicles, updated and checked at 60 Hz
+//   crowd hear INTERFACE COUNT SECONDS: shows COUNT entities of others
 // One JSON object at the end. TRAFFIC: vehicles_town_sumo.csv of the reference data.
 #include <sys/resource.h>
 
@@ -35,7 +35,7 @@ double cpu_seconds(int whose) {
          1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-// What is all to be seen, numbered datagrams included.
+// Options with which everything can be observed, including numbered datagrams.
 peer::FederateOptions options(const char* interface) {
   peer::FederateOptions options;
   options.name = "CROWD";
@@ -99,7 +99,7 @@ int hear(const char* interface, std::size_t number, double seconds) {
   for (nanoseconds now = begun; now < end; now = federate.now()) {
     std::this_thread::sleep_for(kFrame);
     federate.step();
-    // The picture of a viewer: all of them, at this instant.
+    // The snapshot of a viewer: all of them, at this instant.
     federate.for_each(
         [&](const peer::RemoteObject& object) { shown += object.shown(now).position.x(); });
     if (first < 0ns && federate.size() > 0) first = now - begun;

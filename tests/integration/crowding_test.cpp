@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Strangers' bodies around two hands that touch: the hands go on feeling each other.
+// Strangers' bodies around two touching hands: the hands continue to feel each other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-// One hand presses against another, and both hold still.
+// One hand presses against another, and both rest.
 constexpr std::string_view kHeld = R"(
 [scene]
 name = "two hands that hold each other"
@@ -49,7 +49,7 @@ position = [0.010, 0.0, 0.0]
 stiffness = "150 N/m"
 )";
 
-// What a stranger surrounds the hands with, drawn anew for each seed.
+// The strangers' bodies around the hands, drawn for each seed.
 struct Guests {
   explicit Guests(std::uint32_t seed) : random(seed) {
     count = static_cast<std::uint16_t>(std::lround(33 * std::pow(12.0, uniform(0, 1))));
@@ -89,7 +89,7 @@ class Crowding : public testing::Test {
     state_.variable_parameters = {};
     world_.heard().clear();
   }
-  // [N], of the other hand.
+  // Force of the other hand [N].
   [[nodiscard]] double felt(std::size_t link) {
     const haptics::ServoSnapshot& servo = world_.view(link).servo();
     for (std::size_t i = 0; i < servo.count; ++i) {
@@ -98,7 +98,7 @@ class Crowding : public testing::Test {
     }
     return 0.0;
   }
-  // Longest time in which one feels less than half of the usual [ms].
+  // Longest time in which a hand feels less than half of its usual force [ms].
   std::size_t gap(std::size_t length) {
     std::size_t longest = 0;
     std::array<std::size_t, 2> since{};
@@ -151,7 +151,7 @@ class Crowding : public testing::Test {
 
 class CrowdingSeeds : public Crowding, public testing::WithParamInterface<std::uint32_t> {};
 
-TEST_P(CrowdingSeeds, OfGuestsTakesNoContactAwayAndIsToldWithItsAddress) {
+TEST_P(CrowdingSeeds, KeepsTheContactAndReportsTheGuests) {
   const peer::SceneFile scene = scene_of(kHeld);
   ASSERT_NO_FATAL_FAILURE(begin(scene));
   static_cast<void>(world_.notices(0));
@@ -183,7 +183,7 @@ TEST_F(Crowding, BeforeAHandComesLeavesItAPlace) {
   EXPECT_LE(world_.run_until(feel, 3000), 3000u);
 }
 
-TEST_F(Crowding, WhoMayNotTouchIsNotFeltAndIsTold) {
+TEST_F(Crowding, PeersThatMayNotTouchAreReportedUnfelt) {
   const peer::SceneFile scene = scene_of(with(kHeld, "\"all\"", "[\"1:1\", \"1:2\"]"));
   ASSERT_NO_FATAL_FAILURE(begin(scene));
   static_cast<void>(world_.notices(0));
@@ -200,7 +200,7 @@ TEST_F(Crowding, WhoMayNotTouchIsNotFeltAndIsTold) {
                                  " is not felt: see touch in the scene")));
 }
 
-TEST_F(Crowding, AModelIsBelievedForNoLongerThanTheScenesOwn) {
+TEST_F(Crowding, ModelsExpireByTheScenesValidity) {
   const peer::SceneFile scene = scene_of(kHeld);
   ASSERT_NO_FATAL_FAILURE(begin(scene));
   Guests guests(1);

@@ -16,9 +16,9 @@ import sys
 MODULES = ["usb/common/usb-common", "usb/core/usbcore", "usb/usbip/usbip-core", "usb/usbip/vhci-hcd", "hid/hid",
            "hid/hid-generic", "hid/usbhid/usbhid", "input/evdev"]
 MEMORY = "768M"
-# Its time goes by what its processor has done, and not by this machine's clock: a nanosecond an instruction.
+# The guest's time follows its executed instructions instead of this machine's clock: one nanosecond for each.
 CLOCK = "shift=0,sleep=off"
-LONGEST = 540  # [s] of this machine, for all of it
+LONGEST = 540  # [s] on this machine, for the complete run
 CURSOR = re.compile(r"\x1b(\[[0-9;?]*[A-Za-z]|c)")  # of a terminal
 TROUBLE = re.compile(r"(BUG:|WARNING:|Oops|Call Trace|general protection|Kernel panic|queue full|blocked for more than)")
 
@@ -110,7 +110,7 @@ def unpacked(package, folder):
 
 
 def copy_program(program, target, root):
-    """With the libraries that it is linked to."""
+    """Copies the program with its shared libraries."""
     shutil.copy(program, target)
     listed = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
     for library in re.findall(r"(/[^ ]+)", listed):
@@ -146,7 +146,7 @@ def make_root(arguments, drivers, folder):
 
 
 def boot(image, archive, log):
-    """What the machine says, line by line; it ends by itself."""
+    """Boots the machine and returns its console output, line by line; the machine ends by itself."""
     command = ["timeout", str(LONGEST), "qemu-system-x86_64", "-accel", "tcg", "-icount", CLOCK, "-cpu", "max", "-smp", "1", "-m", MEMORY,
                "-nographic", "-no-reboot", "-nic", "none", "-kernel", str(image), "-initrd", str(archive),
                "-append", "console=ttyS0 quiet panic=1"]
@@ -176,7 +176,7 @@ def main():
     for line in faults:
         print(line)
     is_whole = "reckon-vm: end" in lines
-    counted = any(re.match(r"\[  PASSED  \] [1-9]", line) for line in lines)  # a pattern may match none
+    counted = any(re.match(r"\[  PASSED  \] [1-9]", line) for line in lines)  # a pattern may match no test
     good = lines.count("reckon-vm: status 0") == len(arguments.tests)
     passed = counted and good and not any("[  SKIPPED ]" in line for line in lines)
     if not is_whole:

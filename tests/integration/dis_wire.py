@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""As much of DIS (IEEE 1278.1-2012) and pcap as the integration tests need, written with struct alone
-so that it shares no code with what it tests."""
+"""The parts of DIS (IEEE 1278.1-2012) and pcap that the integration tests need, written with struct alone so that no
+code is shared with the tested programs."""
 import math
 import socket
 import struct
@@ -21,7 +21,7 @@ WGS84_E2 = 6.69437999014e-3
 
 
 def udp_of_frame(frame):
-    """(sender, group, payload) of an Ethernet frame with IPv4 and UDP; None for all else."""
+    """(sender, group, payload) of an Ethernet frame with IPv4 and UDP; None for other frames."""
     if len(frame) < 42 or frame[12:14] != b"\x08\x00" or frame[23] != 17:
         return None
     at = 14 + 4 * (frame[14] & 15)
@@ -31,7 +31,7 @@ def udp_of_frame(frame):
 
 
 def igmp_reports_of_frame(frame):
-    """Groups that an Ethernet frame with IPv4 and IGMP (2 or 3) asks a switch for."""
+    """Groups that an Ethernet frame with IPv4 and IGMP (2 or 3) requests from a switch."""
     if len(frame) < 34 or frame[12:14] != b"\x08\x00" or frame[23] != 2:
         return []
     igmp = frame[14 + 4 * (frame[14] & 15):]
@@ -40,14 +40,14 @@ def igmp_reports_of_frame(frame):
     groups, at = [], 8
     while igmp[0] == 0x22 and at + 8 <= len(igmp):
         kind, more, sources = struct.unpack_from(">BBH", igmp, at)
-        if kind in (2, 4):  # all sources, or from now on
+        if kind in (2, 4):  # from all sources, or newly so
             groups.append(socket.inet_ntoa(igmp[at + 4:at + 8]))
         at += 8 + 4 * (more + sources)
     return groups
 
 
 def pdus(payload):
-    """(type, octets) of each PDU of a datagram, by the length fields; ValueError for a broken tail."""
+    """(type, octets) of each PDU of a datagram, by the length fields; ValueError for a damaged tail."""
     at = 0
     while at < len(payload):
         rest = payload[at:]
@@ -64,7 +64,7 @@ def pdus(payload):
 
 
 def trailer(payload):
-    """(sequence, epoch) of a datagram between Reckon peers; None where it has no trailer."""
+    """(sequence, epoch) of a datagram between Reckon peers; None if it has no trailer."""
     last = payload[-24:]
     if len(last) < 24 or last[2] != TRAILER or struct.unpack_from(">H", last, 8)[0] != 24:
         return None
@@ -89,7 +89,7 @@ class EntityState:
         self.marking = octets[129:140].rstrip(b"\0").decode("ascii")
 
     def problems(self):
-        """What a plain DIS listener would object to."""
+        """Faults that a plain DIS receiver would report."""
         if self.version not in (6, 7) or self.family != 1 or self.type != ENTITY_STATE:
             yield f"header {self.version} {self.type} {self.family}"
         if self.length != 144 + 16 * self.variable_records:
@@ -112,7 +112,7 @@ def fire(firing, target, location):
 
 
 def struck(octets):
-    """The entity that a Collision-Elastic PDU says was struck."""
+    """The struck entity in a Collision-Elastic PDU."""
     return struct.unpack_from(">HHH", octets, 18)
 
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a remote entity emits, as its peers know it.
+// The emissions of a remote entity as its peers know them.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(EmissionsOfAPeer, AreSeenUntilTheirHeartbeatsFail) {
+TEST(EmissionsOfAPeer, ArePresentUntilTheirHeartbeatsFail) {
   const peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
   Federates world(3, {});
   const auto pass = [&](std::chrono::nanoseconds span) {
@@ -28,7 +28,7 @@ TEST(EmissionsOfAPeer, AreSeenUntilTheirHeartbeatsFail) {
   pass(1s);
   const pdu::EntityId ship = owner.id_of(handle);
 
-  // Somebody else speaks in its name, and is not believed.
+  // A stranger sends in its name, and is refused.
   const std::vector<std::byte> forged = emission_pdu(ship, {{7}});
   ASSERT_TRUE(world.link(2).send(scene.network.group, forged));
   const std::vector<std::byte> octets = emission_pdu(ship, kThreeSystems);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Programs that take part by the API: what one says of its entities is what another sees.
+// Programs that use the API: one program sends its entities, and another one receives them.
 #include "reckon/peer/federate.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ peer::EntityDescription truck() {
   return description;
 }
 
-// A world for vehicles in which peers know Reckon.
+// A world for vehicles among peers with Reckon.
 peer::SceneFile country() {
   peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
   scene.network.interop = false;
@@ -156,7 +156,7 @@ TEST_P(Federates, SeeEachOthersEntitiesWithinTheirThresholds) {
   EXPECT_EQ(world[1].size(), 0U);
 }
 
-TEST_P(Federates, HearInteractionsThatTheySubscribeTo) {
+TEST_P(Federates, ReceiveSubscribedInteractions) {
   World world(scene());
   std::vector<pdu::Fire> fires;
   std::size_t comments = 0;
@@ -178,7 +178,7 @@ TEST_P(Federates, HearInteractionsThatTheySubscribeTo) {
   EXPECT_EQ(comments, 0U);
 }
 
-TEST_P(Federates, ThatComeLateAreToldOfWhatRests) {
+TEST_P(Federates, LateNewcomersReceiveEntitiesAtRest) {
   World world(scene(), 3);
   world[0].publish(EntityClass{kTruck});
   const auto handle = world[0].register_object(truck(), {});
@@ -189,7 +189,7 @@ TEST_P(Federates, ThatComeLateAreToldOfWhatRests) {
   EXPECT_LE(seen->shown(world.clock().now()).position.norm(), 1e-6);
 }
 
-TEST(FederateDeclarations, AreAskedForBeforeAnythingIsSaid) {
+TEST(FederateDeclarations, ArePreconditionsOfSending) {
   World world(country());
   EXPECT_THROW(world[0].register_object(truck(), {}), std::logic_error);
   EXPECT_THROW(world[0].send(pdu::Fire{}), std::logic_error);
@@ -213,7 +213,7 @@ TEST(FederateObjects, ThatAreGoneCannotBeChanged) {
   EXPECT_NE(world[0].register_object(truck(), {}), handle);
 }
 
-TEST(FederateObjects, SayWhatWasWishedLastBeforeTheyResign) {
+TEST(FederateObjects, SendTheirLastStateBeforeTheyResign) {
   World world(country());
   std::size_t fires = 0;
   world[1].subscribe<pdu::Fire>([&](const pdu::Fire&) { ++fires; });
@@ -238,7 +238,7 @@ TEST(FederateDeclarations, OfAClassDiscoverNoOther) {
   EXPECT_FALSE(EntityClass{kTruck}.contains(kShip));
 }
 
-TEST(FederateTruth, ThatIsNotFiniteIsNotSaid) {
+TEST(FederateTruth, IsNotSentUnlessFinite) {
   World world(country());
   world[0].publish(EntityClass{kTruck});
   const auto handle = world[0].register_object(truck(), {});
@@ -252,7 +252,7 @@ TEST(FederateTruth, ThatIsNotFiniteIsNotSaid) {
   EXPECT_TRUE(seen->shown(world.clock().now()).position.isZero(1e-6));
 }
 
-TEST(FederateTime, FollowsTheOrdersOfThoseWhomTheSceneAllows) {
+TEST(FederateTime, FollowsOrdersOfPermittedPeers) {
   peer::SceneFile scene = country();
   scene.network.management = peer::ManagementRule::parse("members").value();
   World world(scene);
@@ -275,8 +275,8 @@ TEST(FederateTime, FollowsTheOrdersOfThoseWhomTheSceneAllows) {
   EXPECT_NEAR(pdu::to_seconds(world[1].exercise_time()), 100 * 3600.0 + 1.0, 0.03);
 }
 
-// Beside threads of their own over loopback: what the program says and hears crosses by letters.
-TEST(FederateThreads, SeeHearAndLeave) {
+// With own threads over loopback: calls and callbacks of the program cross by message queues.
+TEST(FederateThreads, DiscoverSendAndResign) {
   FederateOptions options;
   options.scene = country();
   options.scene->network.exercise = 77;

@@ -21,13 +21,13 @@ namespace reckon::test {
 
 class Federates {
  public:
-  /// @param most that may join  @param law of every way between them
+  /// @param most that may join @param law of each direction between them
   Federates(std::size_t most, const peer::ImpairmentLaw& law, std::uint64_t seed = 1)
       : clock_(std::chrono::seconds(1), std::chrono::hours(1)),
         network_(options(most, seed), clock_) {
     network_.impair(law);
   }
-  /// A law that delays, and may lose and disorder.
+  /// A law that delays, and may lose and reorder.
   [[nodiscard]] static peer::ImpairmentLaw delayed(std::chrono::nanoseconds delay,
                                                    double loss = 0.0,
                                                    std::chrono::nanoseconds jitter = {}) {
@@ -38,7 +38,8 @@ class Federates {
     return law;
   }
 
-  /// The next one, which publishes and subscribes to all; its application is its place from 1.
+  /// Joins the next federate, which publishes and subscribes to all; its application number is its
+  /// index from 1.
   peer::Federate& join(const peer::SceneFile& scene) {
     const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
     peer::FederateOptions options;
@@ -52,8 +53,8 @@ class Federates {
     return *federates_.back();
   }
 
-  /// Passes of `each` until `span` is over: time goes on, drive() says what is true then, all step,
-  /// look() sees what they show.
+  /// Passes of `each` until `span` is over: time advances, drive() sets the truth, all step, look()
+  /// reads the shown entities.
   template <class Drive, class Look>
   void run(std::chrono::nanoseconds span, std::chrono::nanoseconds each, Drive&& drive,
            Look&& look) {
@@ -66,7 +67,7 @@ class Federates {
   }
 
   [[nodiscard]] std::size_t size() const { return federates_.size(); }
-  /// Where nobody has joined yet: a host of its own.
+  /// A link without a federate: a host of its own.
   [[nodiscard]] peer::Link& link(std::size_t number) { return network_.link(number); }
   [[nodiscard]] peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
   [[nodiscard]] std::chrono::nanoseconds now() const { return clock_.now(); }
@@ -75,7 +76,7 @@ class Federates {
     const peer::Counter* found = federates_[i]->peer().counters().find(counter);
     return found == nullptr ? 0 : found->value();
   }
-  /// By the id of its first entity.
+  /// The ID of its first entity.
   [[nodiscard]] pdu::EntityId id_of(std::size_t i) {
     return federates_[i]->peer().model().own_id();
   }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer with the simulated hands of a scene that tells fifty times a second what it feels:
+// A peer with the simulated hands of a scene that prints its forces fifty times a second:
 //   feeler SCENE INTERFACE OPERATOR NAME SECONDS
-// A JSON line each time: seconds since the start, force [N] of the hand felt most and place [m] of
-// the first remote entity where there is one; lines with "notice"; then what the link lost, and the
-// last line of `reckon peer --json`.
+// A JSON line each time: seconds since the start, force [N] of the hand with the greatest force,
+// and position [m] of the first remote entity, if any; lines with "notice"; then the losses of the
+// link, and the last line of `reckon peer --json`.
 #include <fmt/format.h>
 
 #include <cstdio>

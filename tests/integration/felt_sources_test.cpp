@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What arrives from those whose bodies are in reach of a hand is looked at once; the rest may wait.
+// Datagrams of peers whose bodies are in reach of a hand are read at once; others may wait.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,13 +12,13 @@
 namespace reckon::test::felt_sources_test {
 namespace {
 
-TEST(FeltSources, AreThoseOfBodiesInReachOfAHand) {
+TEST(FeltSources, AreOwnersOfBodiesWithinAHandsReach) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   InProcess world(2);
   world.listen(scene);
   world.start(0, scene);
   world.start(1, scene);
-  world.run(2000);  // they have found each other, and touch now and then
+  world.run(2000);  // they know each other, and touch from time to time
 
   // A truck a kilometre away sends each millisecond.
   pdu::EntityState truck = world.heard_pdus<pdu::EntityState>().back();
@@ -42,7 +42,7 @@ TEST(FeltSources, AreThoseOfBodiesInReachOfAHand) {
   EXPECT_GT(from_other, 10u);
   EXPECT_EQ(felt, from_other);
 
-  world.kill(1);  // its hand stays for as long as presence holds it, then nothing is felt
+  world.kill(1);  // its hand stays until its presence expires, then nothing is felt
   world.run(7000);
   world.say(truck, scene);
   world.run(1);

@@ -13,7 +13,7 @@
 
 namespace reckon::test {
 
-// Cells of 100 m; device 60 is nobody's, so that no peer has a hand.
+// Cells of 100 m; no peer has device 60, so that none has a hand.
 inline constexpr std::string_view kField = R"(
 [scene]
 name = "field"
@@ -34,7 +34,7 @@ peer = 60
 operator = 1
 )";
 
-inline const Eigen::Vector3d kMiddle(50.0, 50.0, 0.0);  // of a cell
+inline const Eigen::Vector3d kMiddle(50.0, 50.0, 0.0);  // centre of a cell
 
 struct Leader {
   std::string scene, cell;
@@ -45,7 +45,7 @@ inline std::string name_of(const pdu::SimulationAddress& id) {
   return std::to_string(id.site) + ':' + std::to_string(id.application);
 }
 
-// Peers with entities that stand in one cell.
+// Peers with entities at rest in one cell.
 class Field {
  public:
   explicit Field(std::size_t links, std::string_view text = kField)
@@ -53,7 +53,7 @@ class Field {
     world_.listen(scene_);
   }
 
-  /// @param east of the middle of cell 0,0 [m]
+  /// @param east of the centre of cell 0,0 [m]
   void start(std::size_t link, std::size_t entities = 1, bool haptic = false, double east = 0.0) {
     world_.start(link, scene_);
     alive_[link] = true;
@@ -88,12 +88,12 @@ class Field {
     return truth;
   }
 
-  /// Who leads, as one peer's picture has it.
+  /// The leaders that one peer's snapshot names.
   [[nodiscard]] Leader leader(std::size_t link) {
     const peer::LeadersView& view = world_.view(link).leaders;
     return {name_of(view.scene), view.count == 1 ? name_of(view.rows[0].leader) : "-"};
   }
-  /// What all who live say, where they say the same.
+  /// The leaders that all live peers name, if they agree.
   [[nodiscard]] std::optional<Leader> agreed() {
     std::optional<Leader> all;
     for (std::size_t link = 0; link < alive_.size(); ++link) {
@@ -105,7 +105,7 @@ class Field {
     const bool known = all && all->scene != "0:0" && all->cell != "0:0" && all->cell != "-";
     return known ? all : std::nullopt;
   }
-  /// Lets time pass until all name one leader that is not `not_this`; how long [ms].
+  /// Advances time until all name one leader other than `not_this`; returns how long [ms].
   std::size_t until_agreed(std::size_t limit, const std::string& not_this = "") {
     return world_.run_until(
         [&] {

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sender that floods a multicast group from one socket:
 //   flood ADDRESS GROUP PORT RATE SECONDS KIND
-// ADDRESS of the interface to send by; RATE datagrams a second, or max: as fast as it can, without
-// the rests below; KIND crowd: bundles of nine states of a thousand entities, stamped as they are
-// sent, from eight sockets in turn, so that none is a flood by itself; hosts: the same from the
-// eight addresses above ADDRESS, which no address is muted for; runs: whole states, 64 in a
-// run that the kernel cuts; junk: octets that no rule of DIS allows; states: whole Entity States of
-// exercise 1 with invented IDs; another word: a file of sealed datagrams, a line of hex each, which
-// are sent as they are, flipped, cut, or with another epoch, boot, stream or count. One JSON line:
-// how many were sent, and how fast. It rests a fifth of its time: at real-time priority it would
-// otherwise make the kernel stop all such threads of its core, servos among them, for 50 ms in each
-// second, as no flooder on another machine could.
+// ADDRESS of the sending interface; RATE datagrams a second, or max: as fast as possible, without
+// the rests below. KIND crowd: bundles of nine states of a thousand entities, stamped when sent,
+// from eight sockets in turn, so that none is a flood by itself; hosts: the same from the eight
+// addresses above ADDRESS, so that no address is muted; runs: whole states, 64 in a run that the
+// kernel segments; junk: octets that violate DIS; states: whole Entity States of exercise 1 with
+// forged IDs; another word: a file of sealed datagrams, one line of hex each, sent unchanged,
+// flipped, cut, or with another epoch, boot, stream or count. Prints one JSON line: count and rate.
+// It rests a fifth of the time: at real-time priority the kernel would otherwise stop all real-time
+// threads of its core, servos among them, for 50 ms in each second, which a flooder on another
+// machine could not cause.
 #include <arpa/inet.h>
 #include <netinet/udp.h>
 #include <sys/socket.h>
@@ -41,7 +41,7 @@ using namespace reckon;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kSize = pdu::kFixedSize<pdu::EntityState>, kBatch = 64;
-constexpr double kBusy = 0.8;  // of the time
+constexpr double kBusy = 0.8;  // share of the time
 using Octets = std::vector<std::byte>;
 
 std::uint64_t next_number() {
@@ -65,7 +65,7 @@ Octets state() {
   return octets;
 }
 
-// Nine states of the next entities of a thousand, as they are now.
+// Nine current states of the next entities of a thousand.
 Octets bundle() {
   constexpr std::size_t kStates = 9;
   static std::uint16_t next = 0;
@@ -83,7 +83,7 @@ Octets bundle() {
   return octets;
 }
 
-constexpr std::size_t kLeastSealed = 41;  // envelope and tag, and something in them
+constexpr std::size_t kLeastSealed = 41;  // envelope, tag and content
 
 std::vector<Octets> read_recording(const char* file) {
   std::vector<Octets> recording;
@@ -102,12 +102,12 @@ void flip_within(Octets& octets, std::size_t first, std::size_t count) {
   octets[first + next_number() % count] ^= std::byte{1} << (next_number() % 8);
 }
 
-// One of the recording, as an attacker without the key would send it again.
+// A recorded datagram, as an attacker without the key would resend it.
 Octets forged(const std::vector<Octets>& recording) {
   Octets octets = recording[next_number() % recording.size()];
   switch (next_number() % 8) {
     case 0:
-      break;  // as it was
+      break;  // unchanged
     case 1:
       octets.resize(next_number() % octets.size());
       break;
@@ -134,7 +134,7 @@ Octets forged(const std::vector<Octets>& recording) {
 
 using Maker = std::function<Octets()>;
 
-// What makes one after another; an empty function where there is nothing to forge.
+// The function that makes the datagrams; empty if there is nothing to forge.
 Maker maker_of(std::string_view kind) {
   if (kind == "junk") return junk;
   if (kind == "states" || kind == "runs") return state;
@@ -152,8 +152,8 @@ bool bind_to(int out, const in_addr& by, std::uint32_t host) {
   return bind(out, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
 }
 
-// By the interface of `from`. @param host so many addresses above `from` it says to be, 0: the
-// kernel's choice
+// A socket on the interface of `from`. @param host offset of the source address above `from`; 0:
+// the kernel's choice
 int socket_to(const char* from, const char* group, const char* port, std::uint32_t host) {
   const int out = socket(AF_INET, SOCK_DGRAM, 0);
   in_addr by{};
@@ -167,7 +167,7 @@ int socket_to(const char* from, const char* group, const char* port, std::uint32
   return good ? out : -1;
 }
 
-// All of a batch, cut by the kernel where it has to be. How many went.
+// Sends a batch, segmented by the kernel where needed. Returns how many were sent.
 std::uint64_t send_run(int out, std::array<iovec, kBatch>& vectors) {
   msghdr message{};
   message.msg_iov = vectors.data();
@@ -199,7 +199,7 @@ int run(char** words) {
   const double busy = all_it_can ? 1e12 : kBusy;
   const Maker make = maker_of(words[6]);
   if (!make) return std::fprintf(stderr, "flood: nothing in '%s'\n", words[6]), 1;
-  // One batch is enough of what does not change.
+  // A single batch is enough for constant content.
   const bool same = make.target<Octets (*)()>() != nullptr && !crowd;
   std::array<Octets, kBatch> octets;
   std::array<iovec, kBatch> vectors{};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What other people's decoders make of every PDU that peers send, each alone in a datagram. Skipped
-// where such a decoder is not installed.
+// Other decoders read every PDU that peers send, each alone in a datagram. Skipped where such a
+// decoder is not installed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ Octets encoded(const T& message) {
   return octets;
 }
 
-// All PDUs of a run in which hands touch, one leaves, and all are stopped and go on.
+// All PDUs of a run in which hands touch, one peer departs, and all are stopped and resumed.
 std::vector<Octets> pdus_of_a_run(const peer::SceneFile& scene) {
   InProcess world(3);
   world.listen(scene);
@@ -71,7 +71,7 @@ std::vector<Octets> all_pdus() {
 
 int type_of(const Octets& pdu) { return std::to_integer<int>(pdu[2]); }
 
-// Little-endian pcap with Ethernet, IPv4 and UDP to port 3000 in front of each PDU.
+// Little-endian pcap with Ethernet, IPv4 and UDP headers to port 3000 before each PDU.
 void write_pcap(const std::filesystem::path& path, const std::vector<Octets>& pdus) {
   std::ofstream file(path, std::ios::binary);
   const auto put = [&](auto value) {
@@ -112,7 +112,7 @@ Outcome run_program(const std::string& command) {
   return outcome;
 }
 
-// A file that is gone after the test.
+// A file that is removed after the test.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name)
@@ -162,7 +162,7 @@ TEST(ForeignDecoder, TsharkFlagsNoPduThatIsSent) {
   }
 }
 
-TEST(ForeignDecoder, TsharkReadsTheEntityStatesAsTheyWereMeant) {
+TEST(ForeignDecoder, TsharkReadsTheSentEntityStates) {
   if (std::system("command -v tshark >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "needs tshark (Debian: tshark)";
   }
@@ -181,8 +181,8 @@ TEST(ForeignDecoder, TsharkReadsTheEntityStatesAsTheyWereMeant) {
   EXPECT_EQ(ids, (std::set<std::string>{"1 1 1", "1 2 1", "1 3 1"}));
 }
 
-// The script prints "ok N" or a line for each PDU that it cannot read; 77 where there is no
-// package.
+// The script prints "ok N" or a line for each unreadable PDU; it exits with 77 if the package is
+// missing.
 TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
   if (std::system("command -v node >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs node";
   const TemporaryFile list("reckon_pdus.hex");
@@ -190,7 +190,7 @@ TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
   {
     std::ofstream file(list.path());
     for (const Octets& pdu : all_pdus()) {
-      if (type_of(pdu) >= 129 || type_of(pdu) == 72) continue;  // not known to it
+      if (type_of(pdu) >= 129 || type_of(pdu) == 72) continue;  // unknown to it
       ++count;
       std::array<char, 3> hex{};
       for (const std::byte octet : pdu) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What others say in the name of an entity's owner: it changes nothing, and the user is told.
+// Datagrams of others in the name of an entity's owner: they change nothing, and the user is
+// informed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Two peers that know each other, and two hosts that are no peers: links 2 and 3.
+// Two peers that know each other, and two hosts without peers: links 2 and 3.
 class Forgery : public testing::Test {
  protected:
   explicit Forgery(bool interop = false)
@@ -40,7 +41,7 @@ class Forgery : public testing::Test {
     static_cast<void>(world_.notices(0));
   }
 
-  // The last state that a peer sent of its hand, as another would say it now.
+  // The last state that a peer sent of its hand, with the current time.
   [[nodiscard]] pdu::EntityState state_of(std::size_t link) {
     pdu::EntityState last;
     for (const pdu::EntityState& state : world_.heard_pdus<pdu::EntityState>()) {
@@ -56,7 +57,7 @@ class Forgery : public testing::Test {
     ASSERT_EQ(pdu::encode(message, octets), octets.size());
     ASSERT_TRUE(world_.network().link(link).send(scene_.network.group, octets));
   }
-  // Of the state of the second peer's hand, changed, said by link 2 ten times in half a second.
+  // Link 2 sends the second peer's hand state ten times in half a second, changed by `change`.
   void forge(const std::function<void(pdu::EntityState&)>& change) {
     for (int i = 0; i < 10; ++i) {
       pdu::EntityState forged = state_of(1);
@@ -104,13 +105,13 @@ TEST_F(Forgery, OfAMarkingIsRefused) {
   EXPECT_EQ(row(world_.peer(1).own_id())->marking[0], 'H');
 }
 
-TEST_F(Forgery, OfAnEntityThatAPeerDoesNotHaveIsRefused) {
+TEST_F(Forgery, OfAnUnknownEntityIsRefused) {
   forge([](pdu::EntityState& state) { state.entity_id.entity = 77; });
   EXPECT_EQ(world_.view(0).entities, 1U);
   expect_refused_and_told();
 }
 
-TEST_F(Forgery, UnderTheNumberOfAPeerThatComesLaterIsDroppedWhenItComes) {
+TEST_F(Forgery, UnderALaterPeersNumberIsDropped) {
   pdu::EntityState squatter = state_of(1);
   squatter.entity_id = {1, 3, 9};
   say_from(3, squatter);
@@ -122,7 +123,7 @@ TEST_F(Forgery, UnderTheNumberOfAPeerThatComesLaterIsDroppedWhenItComes) {
   EXPECT_NE(row(world_.peer(2).own_id()), nullptr);
 }
 
-TEST_F(Forgery, OfAnotherGuestIsRefusedUntilThatOneIsSilent) {
+TEST_F(Forgery, OfAnotherGuestIsRefusedUntilItsSilence) {
   pdu::EntityState guest = state_of(1);
   guest.entity_id = {5, 6, 7};
   guest.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
@@ -134,7 +135,7 @@ TEST_F(Forgery, OfAnotherGuestIsRefusedUntilThatOneIsSilent) {
     say_from(link, guest);
     world_.run(100);
   };
-  for (int i = 0; i < 60; ++i) {  // 12 s, with a heartbeat of 5 s of the genuine one
+  for (int i = 0; i < 60; ++i) {  // 12 s; the genuine one has a heartbeat of 5 s
     if (i % 25 == 0) say(3, 1);
     say(2, pdu::kAppearanceDeactivated);
     world_.run(100);
@@ -149,7 +150,7 @@ TEST_F(Forgery, OfAnotherGuestIsRefusedUntilThatOneIsSilent) {
   EXPECT_EQ(row({5, 6, 7})->appearance, 2U);
 }
 
-TEST_F(Forgery, OfAnOrderIsRefusedAndTold) {
+TEST_F(Forgery, OfAnOrderIsRefusedAndReported) {
   pdu::StopFreeze order;
   order.receiving_entity_id = {0xFFFF, 0xFFFF, 0xFFFF};
   for (const pdu::EntityId& by : {pdu::EntityId{9, 9, 0}, world_.peer(1).own_id(),
@@ -164,7 +165,7 @@ TEST_F(Forgery, OfAnOrderIsRefusedAndTold) {
               Contains(HasSubstr("9:9:0 at " + endpoint(2) + " orders to freeze")));
 }
 
-TEST_F(Forgery, OfAnOrderOfAPeerThatMayGiveItIsRefused) {
+TEST_F(Forgery, OfAPermittedPeersOrderIsRefused) {
   const peer::SceneFile allowing = managed_by("members", scene_);
   InProcess world(2);
   world.listen(allowing);
@@ -191,8 +192,8 @@ TEST_F(Forgery, SentToOneHostAloneIsRefused) {
   EXPECT_EQ(world_.count(0, "unicast_refused"), 1U);
 }
 
-// Site, application or entity 0 is nobody, 65535 all, and entity 65534 asks for a number.
-TEST_F(Forgery, UnderAnIdThatNoEntityHasMakesNone) {
+// Site, application or entity 0 is none, 65535 is all, and entity 65534 requests an ID.
+TEST_F(Forgery, UnderAReservedIdCreatesNoEntity) {
   const pdu::EntityId reserved[] = {{0, 0, 0},     {0, 6, 7},     {5, 0, 7},
                                     {5, 6, 0},     {65535, 6, 7}, {5, 65535, 7},
                                     {5, 6, 65535}, {5, 6, 65534}, {65535, 65535, 65535}};
@@ -210,7 +211,7 @@ TEST_F(Forgery, UnderAnIdThatNoEntityHasMakesNone) {
   EXPECT_EQ(world_.view(0).entities, 2U);
 }
 
-// Without presence a sender is known by its address and port alone.
+// Without presence a sender is identified by its address and port alone.
 class InteropForgery : public Forgery {
  protected:
   InteropForgery() : Forgery(true) {}
@@ -222,8 +223,8 @@ TEST_F(InteropForgery, OfADeactivationIsRefusedToo) {
   expect_refused_and_told();
 }
 
-// Nobody has to give way, for plain DIS has no word for it; but nobody shares an ID in silence.
-TEST_F(InteropForgery, InOurOwnNameIsToldWithTheRemedy) {
+// Plain DIS cannot resolve a conflict of IDs, but a shared ID must be reported.
+TEST_F(InteropForgery, UnderOurIdIsReportedWithTheRemedy) {
   for (int i = 0; i < 10; ++i) {
     say_from(2, state_of(0));
     world_.run(50);

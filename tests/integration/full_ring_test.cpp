@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A write loop that stands still: what finds no room in the ring is told to the books, and the rest
-// goes.
+// A stalled write loop: datagrams that do not fit the ring are recorded by the tap, the rest is
+// sent.
 #include <gtest/gtest.h>
 
 #include "reckon/peer/network/datagram_balance.hpp"
@@ -10,7 +10,7 @@
 namespace reckon::test {
 namespace {
 
-TEST(FullRing, IsToldToTheBooks) {
+TEST(FullRing, IsRecordedByTheTap) {
   const peer::SceneFile scene = scene_of(R"(
 [[entity]]
 peer = 1

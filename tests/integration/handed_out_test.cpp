@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers in a world of more cells than groups: who leads the scene hands the groups out, cells
-// without one speak to the base group, and nobody loses a state while that changes.
+// Whole peers in a world with more cells than groups: the scene leader hands out the groups, cells
+// without one use the base group, and no state is lost during changes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,9 +18,9 @@ namespace reckon::test::handed_out_test {
 namespace {
 
 constexpr std::size_t kCells = 6, kGroups = 4;
-constexpr double kApart = 300.0;               // [m], of inhabited cells
+constexpr double kApart = 300.0;               // distance of occupied cells [m]
 constexpr double kRadius = 8.0, kSpeed = 4.0;  // of the circle that each car drives [m], [m/s]
-// The threshold of 1 m, and what 4 ms under way add.
+// The threshold of 1 m, and the effect of 4 ms delay.
 constexpr double kMost = 1.1;  // [m]
 
 std::string handed_out_field(std::string_view extra = "hand_out = true\n") {
@@ -28,7 +28,7 @@ std::string handed_out_field(std::string_view extra = "hand_out = true\n") {
               "pool = 4\nleaders = true\n" + std::string(extra));
 }
 
-// In each of six cells a car and a watcher, a peer each.
+// A car and a watcher in each of six cells, a peer each.
 class ManyCells : public testing::Test {
  protected:
   explicit ManyCells(const std::string& scene = handed_out_field(), std::uint64_t = 1)
@@ -55,7 +55,7 @@ class ManyCells : public testing::Test {
     field_.kill(link);
     lives_[link] = false;
   }
-  /// Drives on, and looks at what all watchers show from `after` [ms] on.
+  /// Drives on, and checks the shown cars of all watchers from `after` [ms] on.
   void drive(std::size_t ms, std::size_t after = 0) {
     for (std::size_t i = 0; i < ms; i += 10) {
       for (std::size_t cell = 0; cell < kCells; ++cell) {
@@ -79,7 +79,7 @@ class ManyCells : public testing::Test {
       worst_ = std::max(worst_, (car->predicted(now).position - truth(cell).position).norm());
     }
   }
-  /// Cells whose states the listener has heard in each group since then.
+  /// The cells whose states the listener has received in each group since then.
   [[nodiscard]] std::map<std::string, std::set<std::size_t>> cells_by_group(nanoseconds since) {
     std::map<std::string, std::set<std::size_t>> cells;
     for (const Heard& heard : field_.world_.heard()) {
@@ -100,9 +100,9 @@ class ManyCells : public testing::Test {
   double worst_ = 0.0;  // [m]
 };
 
-TEST_F(ManyCells, HaveAGroupEachUntilNoneIsLeftAndTheRestSpeakToTheBase) {
+TEST_F(ManyCells, HaveAGroupEachOrUseTheBase) {
   start_all();
-  drive(50'000, 3000);  // before they had their cars, peers looked elsewhere: those groups are idle
+  drive(50'000, 3000);  // without cars peers were interested in other cells: those groups are idle
   const nanoseconds since = field_.world_.clock().now();
   drive(10'000);
   const auto cells = cells_by_group(since);
@@ -138,8 +138,8 @@ TEST_F(ManyCellsByTile, ShareTheGroupsOfTheTile) {
   EXPECT_GE(most, 3U) << "cells two apart share one of the 2 x 2 groups";
 }
 
-// Who leads the scene is killed, and the next one says good-bye.
-TEST_F(ManyCells, LoseNoStateWhileTheSceneHasNoLeader) {
+// The scene leader is killed, and the next one departs.
+TEST_F(ManyCells, LoseNoStateWithoutASceneLeader) {
   start_all();
   drive(12'000, 3000);
   EXPECT_EQ(field_.leader(2).scene, "1:1");
@@ -155,10 +155,10 @@ TEST_F(ManyCells, LoseNoStateWhileTheSceneHasNoLeader) {
   std::printf("two leaders of the scene gone: error at most %.3f m in %zu looks\n", worst_, looks_);
 }
 
-TEST_F(ManyCells, GiveAGroupBackThatIsAnothersAfterTheQuarantine) {
+TEST_F(ManyCells, ReassignAGroupAfterTheQuarantine) {
   start_all();
   drive(50'000, 3000);
-  // Who leaves: the two of a cell that has a group; the scene's leader is in the first.
+  // Both peers of a cell with a group depart; the scene leader is in the first cell.
   const nanoseconds since = field_.world_.clock().now();
   drive(3000);
   std::size_t goes = 0;
@@ -194,7 +194,7 @@ TEST_F(ManyCells, GiveAGroupBackThatIsAnothersAfterTheQuarantine) {
   EXPECT_LT(worst_, kMost);
 }
 
-TEST_F(ManyCells, TellANewcomerOfItsCellAloneWithinASecond) {
+TEST_F(ManyCells, IntroduceANewcomerWithinASecond) {
   start_all(kCells + 1);
   drive(12'000, 3000);
   start(kCells + 1);
@@ -208,7 +208,7 @@ TEST_F(ManyCells, TellANewcomerOfItsCellAloneWithinASecond) {
   EXPECT_LT(worst_, kMost);
 }
 
-// Half a minute cut off: each side hands out groups, the same ones to other cells.
+// Cut off for half a minute: each side hands out groups, the same ones to different cells.
 TEST_F(ManyCells, LoseNoStateWhenTwoSidesMeetAgain) {
   peer::ImpairmentLaw cut;
   cut.outages = {{seconds(1), seconds(25)}};

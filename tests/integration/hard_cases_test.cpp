@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hard cases of dead reckoning as a peer's table of remote entities meets them. The rest of the
-// list is in tests/deadreckon/hard_cases_test.cpp.
+// Hard cases of dead reckoning in a peer's table of remote entities. The others are in
+// tests/deadreckon/hard_cases_test.cpp.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,14 +22,15 @@ using std::chrono::seconds;
 
 constexpr pdu::EntityId kEntity{7, 8, 9};
 
-// The table of a peer, and a sender of relative time whose clock is a test's own.
+// The table of a peer, and a sender of relative time whose clock the test sets.
 struct Listener {
   Listener() {
     const std::array<aoim::Focus, 1> everywhere{{{{0, 0, 0}, 0.0, 1e6}}};
     static_cast<void>(manager.listen(aoim::kCellTier, everywhere, nanoseconds(0)));
   }
 
-  // A state that moves at 10 m/s along the geocentric x, from the scene's origin at sender time 0.
+  // A state that moves at 10 m/s along the geocentric x axis, from the scene's origin at sender
+  // time 0.
   pdu::EntityState state(nanoseconds sender) const {
     pdu::EntityState pdu;
     pdu.header.timestamp = pdu::to_dis_timestamp(sender, false);
@@ -71,7 +72,7 @@ struct Listener {
 
 class HardCases : public testing::Test, protected Listener {};
 
-TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
+TEST_F(HardCases, ExtrapolationStopsAtTheTimeOut) {
   hear(seconds(1), seconds(100));
   const Eigen::Vector3d start = row().predicted(row().state_time).position;
   const Eigen::Vector3d end = row().predicted(row().state_time + seconds(12)).position;
@@ -85,7 +86,7 @@ TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
   EXPECT_TRUE(remote.rows().empty());
 }
 
-TEST_F(HardCases, DoublesAndLateUpdatesChangeNothingAndAreCounted) {
+TEST_F(HardCases, DuplicateAndLateUpdatesAreOnlyCounted) {
   hear(seconds(1), seconds(100));
   hear(seconds(2), seconds(101));
   const deadreckon::Pose before = row().shown(seconds(101));
@@ -99,8 +100,8 @@ TEST_F(HardCases, DoublesAndLateUpdatesChangeNothingAndAreCounted) {
   EXPECT_EQ(row().shown(seconds(101)).velocity, before.velocity);
 }
 
-// A tool that says its last packet again and again, as a heartbeat. Its clock has not leapt.
-TEST_F(HardCases, ARepeatKeepsTheEntityAndIsNoLeap) {
+// A tool that repeats its last packet as a heartbeat. Its clock has not leapt.
+TEST_F(HardCases, RepeatKeepsTheEntityAndIsNoLeap) {
   for (const bool absolute : {false, true}) {
     for (const auto gap : {milliseconds(100), milliseconds(250), milliseconds(1000),
                            milliseconds(5000), milliseconds(11'000)}) {
@@ -126,7 +127,7 @@ TEST_F(HardCases, ARepeatKeepsTheEntityAndIsNoLeap) {
       EXPECT_EQ(listener.count("updates_in"), 1u);
       EXPECT_EQ(listener.count("sender_leaps"), 0u);
       EXPECT_EQ(listener.count("stale_in"), 0u);
-      // And on it goes, after up to 73 minutes.
+      // It continues after up to 73 minutes.
       now += milliseconds(100);
       const nanoseconds sent = seconds(1) + now - seconds(100);
       pdu::EntityState next = listener.state(sent);
@@ -137,7 +138,7 @@ TEST_F(HardCases, ARepeatKeepsTheEntityAndIsNoLeap) {
   }
 }
 
-// Two entities of one sender, the updates of one said three times each: it is shown as the other.
+// Two entities of one sender; each update of one is sent three times. Both are shown alike.
 TEST_F(HardCases, RepeatsBetweenHonestUpdatesChangeNothing) {
   Listener plain, repeated;
   nanoseconds leap{0};
@@ -160,7 +161,7 @@ TEST_F(HardCases, RepeatsBetweenHonestUpdatesChangeNothing) {
   EXPECT_GE(repeated.count("repeats_in"), 2 * 595u);
 }
 
-// What is old does not become a leap by being said often.
+// An old state does not become a leap by repetition.
 TEST_F(HardCases, CopiesOfAnOldUpdateAreNoLeap) {
   for (const auto gap :
        {milliseconds(10), milliseconds(100), milliseconds(300), milliseconds(2000)}) {
@@ -178,8 +179,8 @@ TEST_F(HardCases, CopiesOfAnOldUpdateAreNoLeap) {
   }
 }
 
-// A sender without a clock: each packet bears the same stamp. Taken by arrival.
-TEST_F(HardCases, AClockThatStandsIsNoLeap) {
+// A sender without a clock: each packet has the same timestamp. Arrival times are used.
+TEST_F(HardCases, StoppedClockIsNoLeap) {
   Listener listener;
   for (int i = 0; i < 300; ++i) {
     pdu::EntityState state = listener.state(i * milliseconds(100));
@@ -201,11 +202,11 @@ TEST_F(HardCases, TheOrderOfUpdatesHoldsAcrossTheHour) {
   hear(hours(1) - milliseconds(20), milliseconds(100'110));  // overtaken
   EXPECT_EQ(count("updates_in"), 2u);
   EXPECT_EQ(count("stale_in"), 1u);
-  // One that moves as told is shown where it is, before and after.
+  // An entity that moves as predicted is shown at its true position, before and after.
   EXPECT_LE(row().jump_m, 1e-4);
 }
 
-TEST_F(HardCases, AnUpdateThatIsNotANumberLeavesTheRowAsItWas) {
+TEST_F(HardCases, NonFiniteUpdatesDoNotChangeTheRow) {
   hear(seconds(1), seconds(100));
   const deadreckon::Pose before = row().shown(seconds(102));
   for (const float bad :
@@ -225,7 +226,7 @@ TEST_F(HardCases, AnUpdateThatIsNotANumberLeavesTheRowAsItWas) {
   EXPECT_EQ(row().shown(seconds(102)).position, before.position);
 }
 
-TEST_F(HardCases, AFifthOfAHertzWithOneLossInARowIsKeptAndShownWithoutAStep) {
+TEST_F(HardCases, SlowLossyUpdatesAreShownWithoutAStep) {
   nanoseconds now = seconds(100);
   hear(now, now);
   for (int i = 1; i < 100; ++i) {
@@ -235,7 +236,7 @@ TEST_F(HardCases, AFifthOfAHertzWithOneLossInARowIsKeptAndShownWithoutAStep) {
     if (i % 3 == 0) continue;  // lost
     const deadreckon::Pose before = row().shown(now);
     pdu::EntityState update = state(now);
-    update.location.y += i % 2;  // a metre off, every other time
+    update.location.y += i % 2;  // a metre of error, every other time
     hear(update, now);
     ASSERT_LE((row().shown(now).position - before.position).norm(), 1e-8) << i;
     ASSERT_TRUE(deadreckon::is_finite(row().shown(now + milliseconds(50))));

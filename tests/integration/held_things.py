@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What hands feel of a light thing and of one that two of them hold, in simulated time, from the trace of the servo.
-held_things.py RECKON"""
+"""Forces on hands that hold a light object, and on two hands that hold the same one, in simulated time, from the
+trace of the servo. held_things.py RECKON"""
 import csv
 import json
 import pathlib
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 FORCE = ("fx_N", "fy_N", "fz_N")
-K, GRIP, IN = 500.0, 300.0, 0.012  # [N/m], of the cube and of a hand; [m], the goal below the surface
+K, GRIP, IN = 500.0, 300.0, 0.012  # [N/m], of the cube and of a hand; [m], target depth
 RIGHT = IN / (1 / K + 1 / GRIP)  # [N], springs in series
 
 
@@ -36,7 +36,7 @@ def forces(rows):
 
 
 def squeeze_of(edge, peers):
-    """Two fingers of the default radius, of one peer or of two, that go 12 mm below both sides of a cube."""
+    """Two fingers of the default radius, of one peer or of two, with targets 12 mm inside both sides of a cube."""
     goal = 1e3 * (0.5 * edge - IN)
     hands = "".join(f"""
 [[operator]]
@@ -57,7 +57,7 @@ surface = {{stiffness = {K}}}
 
 
 def squeezes(reckon):
-    """Each finger feels the cube, and nothing of the other finger."""
+    """Each finger feels the cube and not the other finger."""
     faults = []
     for edge in (0.02, 0.03, 0.04):
         hands, _, _ = run(reckon, squeeze_of(edge, 1), 1, 2)
@@ -103,7 +103,7 @@ damping = "2 N s/m"
 
 
 def turned(rows):
-    """Greatest force that two steps in turn have changed there and back by [N]."""
+    """Greatest change of the force that one step makes and the next reverses [N]."""
     worst, force = 0.0, forces(rows)
     for axis in range(3):
         steps = [b[axis] - a[axis] for a, b in zip(force, force[1:])]
@@ -114,7 +114,7 @@ def turned(rows):
 
 
 def strokes(reckon):
-    """Drag does not turn a light body around within a period."""
+    """Drag does not reverse a light body within a period."""
     faults = []
     for shape in ("box = [0.04, 0.04, 0.04]", "sphere = 0.02", "box = [0.2, 0.06, 0.04]"):
         for mass in (0.002, 0.004, 0.02, 0.2):
@@ -127,7 +127,7 @@ def strokes(reckon):
 
 
 def pushes_of(mass, damping, speed):
-    """Two hands in turn push a cube over a floor, 4 mm beside its middle."""
+    """Two hands alternately push a cube over a floor, 4 mm beside its centre."""
     hands = "".join(f"""
 [[operator]]
 sweep = {{from = "{way * 34} {way * -4} 2 mm", to = "{way * 10} {way * -4} 2 mm", period = "{period * 0.0754 / speed:.4f} s"}}
@@ -153,7 +153,7 @@ surface = {{stiffness = 500, damping = {damping}}}
 
 
 def pushes(reckon):
-    """Damping of the surface reverses no light body within a period."""
+    """Surface damping reverses no light body within a period."""
     faults = []
     for mass in (0.004, 0.02):
         for speed, damping in ((0.1, 10), (0.3, 30)):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a third host says on a LAN that lies: attacks without a key from an address of its own, each made of what it hears."""
+"""Attacks of a third host on the LAN: without a key, from an address of its own, each built from the received
+traffic."""
 import random
 import struct
 import time
@@ -11,16 +12,16 @@ from namespaces import BASE_GROUP
 
 ALICE, BOB = 1, 2  # hosts under attack
 STOP_FREEZE, PRESENCE = 14, 140
-DEACTIVATED = 1 << 23  # of an appearance
+DEACTIVATED = 1 << 23  # bit of an appearance
 
 
 def now_stamp():
-    """An absolute DIS timestamp of this instant."""
+    """An absolute DIS timestamp of the current time."""
     return int(time.time() % 3600 / 3600 * 2**31) << 1 | 1
 
 
 def patched(octets, *changes):
-    """A copy with values packed over it; each change is (offset, format, value ...)."""
+    """A copy with some values overwritten; each change is (offset, format, value ...)."""
     copy = bytearray(octets)
     for offset, form, *values in changes:
         struct.pack_into(form, copy, offset, *values)
@@ -32,7 +33,7 @@ def without_trailer(payload):
 
 
 class Heard:
-    """What an attacker on the LAN knows of the victims: all that they sent."""
+    """Everything that an attacker on the LAN receives: all datagrams of the victims."""
 
     def __init__(self, sniffer):
         self._sniffer = sniffer
@@ -50,35 +51,35 @@ class Heard:
         raise testbed.Failure(f"host {host} never sent a PDU of type {kind}")
 
     def announcement(self, host):
-        """The last datagram with its Presence."""
+        """The last datagram of a victim with its Presence."""
         for _, _, _, payload in reversed(self.datagrams(host)):
             if any(kind == PRESENCE for kind, _ in dis.pdus(payload)):
                 return payload
         raise testbed.Failure(f"host {host} never announced itself")
 
     def states(self, host):
-        """All Entity States that it sent."""
+        """All Entity States that a victim sent."""
         return [dis.EntityState(octets) for _, _, _, payload in self.datagrams(host)
                 for kind, octets in dis.pdus(payload) if kind == dis.ENTITY_STATE]
 
 
 class Attack:
-    """One attack: a sentence, how often a second it is repeated, and what it sends each time."""
+    """One attack: a sentence, its rate a second, and a function that sends it."""
 
     def __init__(self, sentence, rate, send, newcomer=False, told=True, leaders=False, believed=False, aoim=(),
                  network=(), objects=""):
         self.sentence, self.rate, self.send = sentence, rate, send
-        self.leaders = leaders    # whether the cells of the scene have leaders, who hand out groups
-        self.aoim = aoim          # what the scene says more under [aoim]
-        self.network = network    # the same under [network]
+        self.leaders = leaders    # whether the cells of the scene have leaders, which distribute groups
+        self.aoim = aoim          # further settings of the scene under [aoim]
+        self.network = network    # further settings under [network]
         self.objects = objects    # further objects of the scene
-        self.believed = believed  # whether another leader is to be expected
-        self.newcomer = newcomer  # whether a genuine peer that comes meanwhile must be seen
-        self.told = told          # whether the user of a victim must be told
+        self.believed = believed  # whether another leader is expected
+        self.newcomer = newcomer  # whether a genuine peer that joins during the attack must be shown
+        self.told = told          # whether a victim must report the attack
 
 
 def announce(payload, epoch, started, simulation=None, name=None):
-    """An announcement with other contents: Presence first, its trailer last."""
+    """An announcement with changed contents: Presence first, its trailer last."""
     changes = [(16, ">I", epoch), (92, ">I", started), (len(payload) - 8, ">I", epoch),
                (len(payload) - 12, ">I", int(1000 * time.monotonic()))]
     if simulation:
@@ -89,7 +90,7 @@ def announce(payload, epoch, started, simulation=None, name=None):
 
 
 def only_presence(heard, host):
-    """Its Presence and a trailer alone in a datagram."""
+    """Its Presence and a trailer as a separate datagram."""
     payload = heard.announcement(host)
     octets = next(octets for kind, octets in dis.pdus(payload) if kind == PRESENCE)
     return octets + payload[-24:]
@@ -136,7 +137,7 @@ def replay(heard, begin, say):
 
 
 def change_accounts(octets, change):
-    """An Attribute PDU whose energy accounts are changed: change(given) gives given and need."""
+    """An Attribute PDU with changed energy accounts: change(given) returns given and need."""
     copy, at = bytearray(octets), 32
     for _ in range(struct.unpack_from(">H", octets, 30)[0]):
         count = struct.unpack_from(">H", octets, at + 6)[0]
@@ -169,7 +170,7 @@ def fake_ids(heard, begin, say, count=[0]):
         count[0] += 9
 
 
-PEERS = 1024  # that are remembered
+PEERS = 1024  # capacity of the list of peers
 
 
 def fake_presences(heard, _, say):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two peers that touch each other, what a third host does to them, and what they report."""
+"""Two peers that touch each other, the effects of a third host on them, and their reports."""
 import math
 import pathlib
 import re
@@ -13,17 +13,17 @@ from hostile_leaders import FORGED, LEADER_ATTACKS
 from namespaces import PORT
 from testbed import check
 
-MALLORY, CAROL = 3, 4  # hosts beside ALICE and BOB
-FROZEN = 1 << 21  # of an appearance
-ESTABLISHED = 2.0     # [s] until a peer holds its number against whoever claims to be older
-HANDED_OUT = 7.0      # [s] until leaders are elected, and groups handed out and in use
-BEFORE = 1.5          # [s] of contact looked at before each attack
-FILLING = 10.0        # [s] longer where a table is to be filled first
-SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
-LONGEST = 0.5         # [s] for which an attack may take the contact away
-HEALED = 1.0          # [s] after it within which all is as before
-MEMORY = 64.0         # [MiB] by which a peer may grow meanwhile
-LINES = 3.0           # a second, to the user of a victim
+MALLORY, CAROL = 3, 4  # further hosts beside ALICE and BOB
+FROZEN = 1 << 21  # bit of an appearance
+ESTABLISHED = 2.0     # [s] until a peer keeps its number against a claim with an earlier start
+HANDED_OUT = 7.0      # [s] until leaders are elected, and groups are distributed and in use
+BEFORE = 1.5          # [s] of contact that are measured before each attack
+FILLING = 10.0        # [s] more if a table is to be filled first
+SEEN = 2.5            # [s] within which a newcomer is shown during an attack
+LONGEST = 0.5         # [s], longest interruption of the contact by an attack
+HEALED = 1.0          # [s] after the attack until everything is as before
+MEMORY = 64.0         # [MiB], greatest growth of a peer during an attack
+LINES = 3.0           # a second, for the user of a victim
 FORGED_PER_S = 50_000
 RECORDED = 3.0        # [s]
 ATTACKS |= LEADER_ATTACKS
@@ -60,7 +60,7 @@ sweep = {from = "0 300 0 mm", to = "0 310 0 mm", period = "1 s"}
 """
 
 
-# A hand that goes to and fro by a millimetre each 1.1 s.
+# A hand that moves to and fro by a millimetre with a period of 1.1 s.
 PRESS = "t_s,px_m,py_m,pz_m\n" + "".join(f"{0.01 * i:.3f},{0.0005 * (1 - math.cos(2 * math.pi * i / 110)):.7f},0,0\n"
                                          for i in range(111))
 
@@ -69,7 +69,7 @@ WITH_LEADERS = "pool = 16\nleaders = true\nhand_out = true"
 
 
 class Contact:
-    """Two peers that touch each other, and what their lines told."""
+    """Two peers that touch each other, and their output."""
 
     def __init__(self, bed, scene, heard=True, leaders=False):
         self._bed, self._scene = bed, scene
@@ -85,16 +85,16 @@ class Contact:
         return self._bed.peer(host, self._scene, name, host if host < CAROL else 3, ["--felt"])
 
     def say(self, group, octets, source=0):
-        """From one of the ports of the attacker, by its number."""
+        """Sends from one of the ports of the attacker, given by its number."""
         if source not in self._senders:
             self._senders[source] = self._bed.multicast_sender(MALLORY)
         try:
             self._senders[source].sendto(octets, (group, PORT))
         except OSError:
-            pass  # a full queue of its own is the attacker's trouble
+            pass  # its own queue is full: only the attacker is affected
 
     def forces(self, peer, begin, end):
-        """(monotonic time, force [N]) that its hand felt of others."""
+        """(monotonic time, force [N]) of other hands on a peer's hand."""
         found = []
         for event in peer.events("felt"):
             when = peer.started + event["when"]
@@ -103,13 +103,13 @@ class Contact:
         return found
 
     def median(self, begin, end):
-        """Of the one that feels less."""
+        """The lesser of the median forces of both."""
         return min(statistics.median([f for _, f in self.forces(p, begin, end)] or [0.0])
                    for p in self.peers.values())
 
     def longest_gap(self, begin, end):
-        """Longest time [s] for which one of them felt less than half of the least, or half more than the most, that it
-        felt before."""
+        """Longest time [s] for which the force of one of them was outside its earlier range, widened by half on both
+        sides."""
         longest = 0.0
         for peer in self.peers.values():
             before = [force for _, force in self.forces(peer, begin - BEFORE, begin)] or [0.0]
@@ -123,7 +123,7 @@ class Contact:
         return longest
 
     def memory(self):
-        """Of the larger of both [MiB]."""
+        """Memory of the larger of both [MiB]."""
         return max(int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{p.process.pid}/status").read_text())[1])
                    for p in self.peers.values()) / 1024
 
@@ -132,7 +132,7 @@ class Contact:
                 if peer.started + event["when"] >= begin]
 
     def wrongs(self, begin):
-        """What the victims themselves said or did since `begin` that they would not have."""
+        """Abnormal states and events of the victims since `begin`."""
         wrongs = []
         for (name, peer), host, other in zip(self.peers.items(), (ALICE, BOB), (BOB, ALICE)):
             said = self.heard.states(host)
@@ -146,17 +146,18 @@ class Contact:
         return wrongs
 
     def groups(self):
-        """Groups that each victim has joined, as its kernel says."""
+        """Groups that each victim has joined, from its kernel."""
         return {host: set(re.findall(r"^\s+([0-9A-F]{8})\s", self._bed.system(host, "cat /proc/net/igmp"), re.M))
                 for host in (ALICE, BOB)}
 
     def led(self, begin):
-        """What the victims said of leaders since then."""
+        """Messages of the victims about leaders since `begin`."""
         return [text for text in self.notices(begin) if " led by " in text]
 
     def attack(self, attack, seconds):
-        """(normal force, force meanwhile, force after, longest gap, sentences told, newcomer seen or None, wrongs). What
-        was told of the attacker before stays told: a quiet minute makes it news again."""
+        """Runs the attack. Returns (normal force, force during it, force after it, longest gap, messages, newcomer
+        seen or None, wrongs). An earlier report about the attacker suppresses a new one until a minute has been
+        quiet."""
         if attack.newcomer:
             seconds += FILLING
         time.sleep(BEFORE)
@@ -185,7 +186,7 @@ class Contact:
                 self.longest_gap(begin, end + HEALED + BEFORE), self.notices(begin) + self.notices(0), seen, wrongs)
 
     def misled(self, begin, groups, newcomers):
-        """Leaders, joins and entities that are there because of what was forged."""
+        """Leaders, joins and entities that exist because of forged data."""
         wrongs = [f"another leader: {text}" for text in self.led(begin)]
         for host, joined in self.groups().items():
             if joined != groups[host]:

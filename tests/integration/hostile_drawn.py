@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Families of attacks: each run draws the numbers of a family anew from a seed. What they send is well formed, so that its
-meaning alone is wrong."""
+"""Families of attacks: each run draws the numbers of a family from a seed. The datagrams are well formed; only their
+contents are wrong."""
 import math
 import random
 import re
@@ -15,7 +15,7 @@ from namespaces import BASE_GROUP
 HAPTIC = struct.Struct(">IHBBBBHHHffff3f3fffff")
 KINDS = {"plane": 1, "sphere": 2, "field": 3, "region": 4}
 NUMBERS = (0, 1, 2, 255, 256, 32767, 32768, 65534, 65535)
-NAMES = '["14089:1", "13886:1"]'  # of ALICE and BOB, by their addresses
+NAMES = '["14089:1", "13886:1"]'  # IDs of ALICE and BOB, derived from their addresses
 REALS = (0.0, -0.0, 1e-30, 1e-9, 1.0, -1.0, 1e9, -1e30, 3e38, math.inf, -math.inf, math.nan)
 
 
@@ -39,7 +39,7 @@ def attribute(simulation, sets):
 
 
 def rows(own_group):
-    """Tiers by distance, those that may have one with a group of their own."""
+    """Rows of tiers by distance, some of them with a group of their own."""
     own = ", own_group = true" if own_group else ""
     return ('tier = [{farthest = "1 m", active = "1 kHz", passive = "1 kHz", octets = 232, kept = true}, '
             f'{{farthest = "50 m", active = 30, passive = 0.2, octets = 232{own}}}, '
@@ -51,12 +51,13 @@ AOIM = ((), ('tier = [{to = "touch"}]',), (rows(False),), (rows(True),))
 
 
 def guests(draw):
-    """Bodies that surround the hands: more and deeper than any other, of guests or of who has joined."""
+    """Bodies around the hands, in greater number and depth than any other, of guests or of joined peers."""
     return crowd(draw, draw.choice((0.0, 1e-30, 1e-9, 1e-3)), draw.choice(AOIM), ())
 
 
 def pushers(draw):
-    """The same, as stiff as hands. Joined peers would be felt, so the two name each other in the scene."""
+    """The same with the stiffness of hands. Bodies of joined peers would be felt, so the two list each other in the
+    scene."""
     return crowd(draw, drawn_log(draw, 30, 2000), draw.choice(AOIM), (f"touch = {NAMES}",))
 
 
@@ -70,7 +71,7 @@ def crowd(draw, k1, aoim, network):
     sequence = [0] * ports
 
     def numbered(payload, source):
-        """With the next sequence number in its trailer."""
+        """Inserts the next sequence number into its trailer."""
         sequence[source] += 1
         return patched(payload, (len(payload) - 12, ">I", sequence[source]))
 
@@ -99,7 +100,7 @@ def crowd(draw, k1, aoim, network):
 
 
 def one_shot(draw):
-    """Stiff guests of one datagram: they appear inside a hand, or come out of the air and stay in it."""
+    """Stiff guests in one datagram: they appear inside a hand, or approach in free space and stay in it."""
     count, kind = draw.choice((1, 1, 2, 9, 33)), draw.choice(("sphere", "region"))
     k1, radius, comes = drawn_log(draw, 90, 700), draw.uniform(0.02, 0.06), draw.random() < 0.5
     everybody = draw.random() < 0.7
@@ -149,7 +150,7 @@ operator = 2
 
 
 def bodies(draw):
-    """A joined stranger has the body of the scene, which its first peer owns."""
+    """A joined stranger sends the body of the scene that its first peer owns."""
     number, rate = draw.choice((1, 3, 200)), drawn_log(draw, 5, 100)
     life, speed = draw.randrange(1, 2**32), draw.uniform(0.0, 0.5)
     sequence = [0]
@@ -173,7 +174,7 @@ def bodies(draw):
 
 
 def coming_and_going(draw):
-    """Strangers who join and leave, or come from another scene."""
+    """Strangers that join and leave, or come from another scene."""
     a_turn, other_scene = draw.choice((5, 20, 100)), draw.random() < 0.5
 
     def send(heard, _, say):
@@ -190,7 +191,7 @@ def coming_and_going(draw):
 
 
 def mutant(draw, octets):
-    """A PDU of right length whose fields have other values."""
+    """A PDU of correct length with changed field values."""
     changes = []
     for _ in range(draw.randrange(1, 5)):
         form, size, values = draw.choice(((">H", 2, NUMBERS), (">I", 4, NUMBERS), (">f", 4, REALS), (">d", 8, REALS)))
@@ -198,14 +199,14 @@ def mutant(draw, octets):
         if places:
             changes.append((draw.choice(places), form, draw.choice(values)))
     copy = patched(octets, *changes)
-    if draw.random() < 0.5:  # in a name of its own
+    if draw.random() < 0.5:  # under an identity of its own
         copy = patched(copy, (12, ">HH", 700, draw.randrange(1, 9)))
     return patched(copy, (4, ">I", draw.choice((now_stamp(), draw.getrandbits(32)))))
 
 
 def mutants(draw):
-    """Valid datagrams of the victims with another meaning. Bodies that come so would be felt, so the two name each other in
-    the scene."""
+    """Valid datagrams of the victims with changed meaning. Bodies in them would be felt, so the two list each other
+    in the scene."""
     a_turn, joined = draw.choice((20, 100)), draw.random() < 0.5
     life = draw.randrange(1, 2**32)
 
@@ -227,7 +228,7 @@ def mutants(draw):
 
 
 def invented(draw):
-    """Entities without end, which touch nobody."""
+    """An unlimited number of entities that touch nobody."""
     haptic, a_turn = draw.random() < 0.5, draw.choice((50, 150, 300))
     count = [0]
 
@@ -253,8 +254,8 @@ PLACE = re.compile(r"(<!-- table of families -->\n).*?(<!-- end of it -->)", re.
 
 
 def show_summary(results, page):
-    """Prints the worst of each family, from (gap, memory, lines, held) of each of its attacks, and writes the table into a
-    page; None: into none."""
+    """Prints the worst result of each family, from (gap, memory, lines, held) of each of its attacks, and writes the
+    table into a page; None: no page."""
     rows = [HEAD]
     for name, attacks in results.items():
         gap, memory, lines, _ = (max(column) for column in zip(*attacks))
@@ -273,5 +274,5 @@ FAMILIES = {"guests": guests, "pushers": pushers, "one_shot": one_shot, "bodies"
 
 
 def of(name, seed):
-    """The attack that a seed draws."""
+    """The attack for a seed."""
     return FAMILIES[name](random.Random(f"{name} {seed}"))

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""A LAN that lies: two peers touch each other while a third host, at an address of its own, attacks without knowing a
-key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `leaders` those
-on a pair whose cells have leaders; `relay` against a quiet peer; `families` draws the numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
+"""A hostile LAN: two peers touch each other while a third host, at an address of its own, attacks without a key.
+`table` runs every attack against a fresh pair and prints the result; `short` runs some attacks against one pair;
+`leaders` runs those for a pair whose cells have leaders; `relay` runs against a quiet peer; `families` draws the
+numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair
+with a key."""
 import json
 import random
 import subprocess
@@ -22,7 +24,7 @@ from testbed import check
 
 
 def short_of(attack, result, contact):
-    """What this attack has done that it must not; empty where it failed."""
+    """Requirements that this attack violated; empty if the victims passed."""
     normal, _, after, gap, told, seen, problems = result
     if gap > LONGEST:
         problems.append(f"contact interrupted for {gap:.1f} s")
@@ -58,7 +60,7 @@ def scene_in(setup, aoim="pool = 16", network=(), objects=""):
 
 
 def attack_all(setup, names, seconds, fresh):
-    """Each by a fresh pair, or all by one."""
+    """Runs each attack against a fresh pair, or all against one."""
     failed = []
     print(HEAD, flush=True)
 
@@ -97,7 +99,7 @@ def hostile_leaders(setup):
     attack_all(setup, LEADER_ATTACKS, 4.0, fresh=True)
 
 
-OWN_FAMILIES = {"page": hostile_page.attack, "relay": hostile_relay.attack}  # without a contact
+OWN_FAMILIES = {"page": hostile_page.attack, "relay": hostile_relay.attack}  # they need no contact
 
 
 def hostile_families(setup):
@@ -155,11 +157,11 @@ REFUSED = ("unsealed_in", "sealed_other_suite_in", "sealed_unknown_epoch_in", "s
 
 
 def forge(setup, wanted):
-    """So many datagrams of a sealed pair in contact, altered or as they were. An accepted one would be one that is neither
-    refused nor dropped by the kernel."""
+    """Sends `wanted` datagrams of a sealed pair in contact, altered or unchanged. An accepted datagram is one that is
+    neither refused nor dropped by the kernel."""
     with setup.testbed(CAROL) as bed:
         contact = Contact(bed, sealed_scene(setup), heard=False, leaders=True)
-        # What a peer missed, before it came, say, is no replay to it but a late datagram.
+        # A datagram that a peer missed, for example before it joined, is late for it and not a replay.
         since = time.monotonic()
         time.sleep(RECORDED)
         said = [payload for when, _, _, payload in list(contact.sniffer.datagrams) if when > since]
@@ -170,7 +172,7 @@ def forge(setup, wanted):
         groups = contact.groups()
         begin, sent = time.monotonic(), 0
         while sent < wanted:
-            seconds = max((wanted - sent) / FORGED_PER_S, 0.1)  # a shorter flood may be over before it sends
+            seconds = max((wanted - sent) / FORGED_PER_S, 0.1)  # a shorter flood may end before it sends
             flood = bed.run(MALLORY, [setup.flood, testbed.Testbed.address(MALLORY), BASE_GROUP, str(PORT + 1),
                                       str(FORGED_PER_S), str(seconds), str(recording)])
             flood.wait(seconds + 20)
@@ -216,7 +218,7 @@ CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostil
 
 
 def one_attack(name):
-    """A case of its own."""
+    """Declares the attack as a case."""
     def case(setup):
         attack_all(setup, (name,), 4.0, fresh=True)
     case.__doc__ = ATTACKS[name].sentence

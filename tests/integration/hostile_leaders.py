@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a third host says on a LAN that lies where cells have leaders: claims of the lead, maps of groups and snapshots, in the
-names of the victims and of a life that nobody knows, and as a stranger who joined."""
+"""Attacks of a third host on a LAN where cells have leaders: claims of leadership, maps of groups and snapshots,
+under the identities of the victims, under an unknown life, and as a stranger that joined."""
 import struct
 import time
 
@@ -13,14 +13,14 @@ from testbed import Failure
 CELL_ROLES, GROUP_MAP, CELL_SNAPSHOT = 145, 146, 147
 LEADS = 1
 WHOLE_SCENE = (-2**31, -2**31)
-UNKNOWN = ((700, 7), 0x0BADCAFE)   # number and life of nobody
-JOINED = ((700, 1), 0x0BADF00D)    # of the stranger who announces himself
-FORGED = b"FORGED"                 # marking of what only a forged snapshot tells
+UNKNOWN = ((700, 7), 0x0BADCAFE)   # number and life of no peer
+JOINED = ((700, 1), 0x0BADF00D)    # of the stranger that announces itself
+FORGED = b"FORGED"                 # marking of an entity that only forged snapshots contain
 POOL = 16
 
 
 def role_records(heard, host):
-    """(column, row, flags) of each role that a host said last of its cells."""
+    """(column, row, flags) of each role in a host's last message about its cells."""
     found = {}
     for _, _, _, payload in heard.datagrams(host)[-400:]:
         for kind, octets in dis.pdus(payload):
@@ -46,7 +46,7 @@ def liars(heard):
 
 
 def signed(heard, life, kind, body):
-    """A PDU of this life in a datagram of its own."""
+    """A PDU with the trailer of this life, as a separate datagram."""
     simulation, epoch = life
     octets = dis.HEADER.pack(7, 1, kind, dis.FIRST_EXPERIMENTAL, now_stamp(), 20 + len(body), 0, 0) \
         + struct.pack(">HHI", *simulation, epoch) + body
@@ -55,7 +55,7 @@ def signed(heard, life, kind, body):
 
 
 def claim(heard, life, say):
-    """Leads all cells of the victims since 1970."""
+    """Claims to lead all cells of the victims since 1970."""
     cells = list(role_records(heard, BOB))
     for first in range(0, len(cells), 25):
         part = cells[first:first + 25]
@@ -64,14 +64,14 @@ def claim(heard, life, say):
 
 
 def hand_out(heard, life, say):
-    """A map of the victims' cells, the groups the other way round."""
+    """A map of the victims' cells with the groups in reverse order."""
     cells = [cell for cell in role_records(heard, BOB) if cell != WHOLE_SCENE][:POOL]
     entries = b"".join(struct.pack(">iiIHH", *cell, 0, POOL - number, 0) for number, cell in enumerate(cells))
     say(BASE_GROUP, signed(heard, life, GROUP_MAP, struct.pack(">IHHHH", 2**31, 0, 1, POOL, len(cells)) + entries))
 
 
 def tell(heard, life, say):
-    """Snapshots of the victims' cells with an entity that nobody has."""
+    """Snapshots of the victims' cells with an entity that does not exist."""
     simulation, epoch = life_of(heard, BOB)
     _, octets = heard.last(BOB, dis.ENTITY_STATE)
     state = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (12, ">HHH", *simulation, 999), (19, ">B", 0),
@@ -91,7 +91,7 @@ def of_all(forge):
 
 
 def join_and_lie(heard, begin, say):
-    """Announces itself, and leads since 1970, with a map."""
+    """Announces itself, claims to lead since 1970, and sends a map."""
     (simulation, epoch) = JOINED
     say(BASE_GROUP, announce(only_presence(heard, BOB), epoch, int(time.time()), simulation, b"MALLORY"))
     if time.monotonic() - begin > 0.5:

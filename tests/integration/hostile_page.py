@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page of a peer under attack, by numbers that a seed draws: tabs that never read or read all, with no word or a wrong
-one; heads that never end; from the LAN and from the peer's own host. Its user opens tabs with the word meanwhile."""
+"""The page of a peer under attack, with numbers drawn from a seed: tabs that never read or read everything, with a
+wrong word or none; requests that never end; from the LAN and from the peer's own host. Meanwhile its user opens tabs
+with the right word."""
 import random
 import re
 import selectors
@@ -17,12 +18,12 @@ from testbed import Testbed, check
 NAME = "page"
 ALICE, MALLORY = 1, 3
 SECONDS = 6.0
-FIRST_PICTURE = 0.5  # [s] within which the user's tab has one, whatever strangers do
+FIRST_PICTURE = 0.5  # [s] until the user's tab has one, during any attack
 EVERY = 0.3          # [s] between two tabs of the user
-AT_ONCE = 20         # connections that strangers open, then they pause
+AT_ONCE = 20         # connections that strangers open before a pause
 PAUSE = 0.005        # [s]
 MARKING = "ALICE"
-PICTURE = b"RKV2"  # how one begins
+PICTURE = b"RKV2"  # start of a picture
 
 
 class Drawn:
@@ -50,7 +51,7 @@ def request(address, word):
 
 
 class Strangers(threading.Thread):
-    """Their connections, each renewed when it is closed."""
+    """The attackers' connections, each replaced after it is closed."""
 
     def __init__(self, bed, drawn, address):
         super().__init__(daemon=True)
@@ -68,14 +69,14 @@ class Strangers(threading.Thread):
             self._step()
 
     def _step(self):
-        """Opens some of those that are closed, and reads what there is for those that read."""
+        """Opens some connections that are closed, and reads the available data for those that read."""
         for _ in range(min(AT_ONCE, len(self._waiting))):
             self._begin(self._waiting.pop(0))
         for key, _ in self._readable.select(0):
             self._take(key.fileobj)
 
     def end(self):
-        """Stops, and reads what silent ones were sent."""
+        """Stops, and reads the data that was sent to silent connections."""
         self._ended.set()
         self.join()
         for sock in list(self._open):
@@ -127,7 +128,7 @@ def secured(sock):
 
 
 def first_picture(bed, drawn, address, word, host):
-    """Seconds from the user's connection to the first picture; None where none comes."""
+    """Seconds from the user's connection to the first picture; None if none arrives."""
     begin = time.monotonic()
     sock = bed.socket(host, socket.AF_INET, socket.SOCK_STREAM)
     with sock:
@@ -145,7 +146,7 @@ def first_picture(bed, drawn, address, word, host):
 
 
 def start(setup, bed, drawn):
-    """(peer, address, word) of the page that is attacked."""
+    """(peer, address, word) of the attacked page."""
     more = ["--view=0", "--listen", "0.0.0.0"]
     if drawn.has_key:
         key = setup.folder / "page.key"
@@ -167,7 +168,7 @@ def start(setup, bed, drawn):
 
 
 def attack(setup, seed):
-    """What an attack of this seed did that it must not; empty where it failed."""
+    """Requirements that the attack of this seed violated; empty if the page passed."""
     drawn = Drawn(seed)
     with setup.testbed(MALLORY) as bed:
         peer, address, word = start(setup, bed, drawn)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""A relay: a third host sends the announcements of a quiet peer again from its own address, and its states 50 m off, while
-datagrams of the peer are lost at a listener. Its Entity States are not: of a quiet entity two lost heartbeats in a row are
-a time-out without any attack. A seed draws loss and delay."""
+"""A relay: a third host sends the announcements of a quiet peer again from its own address, and its states with an
+offset of 50 m, while datagrams of the peer are lost at a receiver. Its Entity States are not lost: for a quiet entity
+two lost heartbeats in a row are a time-out without any attack. A seed draws loss and delay."""
 import random
 import struct
 import time
@@ -32,13 +32,13 @@ sweep = {from = "500 0 0 mm", to = "500.001 0 0 mm", period = "9 s"}
 
 
 def off(state):
-    """The same Entity State 50 m away, later."""
+    """The same Entity State with an offset of 50 m and a later time."""
     x, y, z = struct.unpack_from(">ddd", state, 48)
     return patched(state, (4, ">I", now_stamp()), (48, ">ddd", x + 29, y + 29, z + 29))
 
 
 def relay(bed, sniffer, delay, end):
-    """Sends again what host BOB sends. @return announcements sent again"""
+    """Relays the datagrams of host BOB. @return number of relayed announcements"""
     sender, done, count = bed.multicast_sender(MALLORY), len(sniffer.datagrams), 0
     while time.monotonic() < end:
         new = list(sniffer.datagrams)[done:]
@@ -65,7 +65,7 @@ def attack(setup, seed):
         alice, bob = (bed.peer(host, scene, name, host) for host, name in ((ALICE, "ALICE"), (BOB, "BOB")))
         check(alice.wait_event("appeared", 5, "BOB"), f"BOB was never shown; {alice.error_text()}")
         time.sleep(QUIET)
-        no_state = f"@th,80,8 != {dis.ENTITY_STATE}"  # the type of the first PDU, behind 8 octets of UDP
+        no_state = f"@th,80,8 != {dis.ENTITY_STATE}"  # the type of the first PDU, after 8 octets of UDP
         bed.firewall(ALICE, "input", f"ip saddr {Testbed.address(BOB)} udp dport {PORT} {no_state} numgen random mod 100 < {loss} drop")
         count = relay(bed, sniffer, delay, time.monotonic() + ATTACKED)
         told = [event["text"] for event in alice.events("notice")]

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A bad network for a minute: no energy is made, the servo never waits, and outages heal.
+// A bad network for a minute: no energy is made, the servo never waits, and contacts recover after
+// outages.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -61,7 +62,7 @@ TEST(BadNetwork, MakesNoEnergyOnTheShippedScene) {
   EXPECT_GT(run_a_minute(shipped_scene(), 1), 1.0);
 }
 
-// 10 s without a single datagram: both drop the other; when it ends they meet again.
+// 10 s without a datagram: both drop the other; afterwards they meet again.
 TEST(Outage, HandsSeeEachOtherAgain) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   InProcess world(2);
@@ -75,7 +76,7 @@ TEST(Outage, HandsSeeEachOtherAgain) {
   world.run(9900);
   EXPECT_EQ(world.view(0).entities, 0u);
   EXPECT_EQ(world.view(1).entities, 0u);
-  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // it went on; less one picture
+  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // it continued; minus one snapshot
   const auto both = [&] { return world.view(0).entities == 1 && world.view(1).entities == 1; };
   const std::size_t until = world.run_until(both, 3000);
   EXPECT_LE(until, 200u + 1100u) << "the next announcement ends it";
@@ -83,7 +84,7 @@ TEST(Outage, HandsSeeEachOtherAgain) {
   EXPECT_TRUE(world.view(0).rows[0].haptic);
 }
 
-// Short holes, below the time-out: nothing is dropped, the contact heals.
+// Short outages, below the time-out: no peer is dropped, the contact recovers.
 TEST(Outage, ShortOnesDropNobody) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   InProcess world(2);
@@ -98,8 +99,8 @@ TEST(Outage, ShortOnesDropNobody) {
   EXPECT_GE(world.view(0).servo().port_energy_min, kNoEnergyMade);
 }
 
-// A random loss of announcements alone must not make a living peer vanish for ever.
-TEST(Loss, HandsThatKeepTalkingAreThereAtTheEnd) {
+// Random loss of announcements must not remove a live peer for ever.
+TEST(Loss, LivePeersArePresentAtTheEnd) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   peer::ImpairmentLaw law;
   law.loss = 0.3;
@@ -120,7 +121,7 @@ TEST(Loss, HandsThatKeepTalkingAreThereAtTheEnd) {
     EXPECT_LT(away, 60u) << "away for " << 0.05 * static_cast<double>(away) << " s of 60 s";
     all += away;
   }
-  // Who is dropped, by one run in five, is back with the next announcement that arrives.
+  // A peer that is dropped, in one run of five, returns with its next announcement that arrives.
   EXPECT_LT(all, seeds * 24u) << "away for more than 2 % of the time";
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A stream of numbered datagrams through the impairment law, on a real link or in process; prints
-// what the law did to it as one JSON object.
+// the effect of the law as one JSON object.
 //   impaired_stream simulate|send|receive [--iface NAME] [--count N] [--rate HZ] [--seed S]
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ const GroupAddress kGroup = GroupAddress::v4(0xEFC00101, 3000);
 constexpr std::size_t kOctets = 144;
 constexpr std::uint64_t kSender = 0;
 constexpr std::uint64_t kReceiver = 1;
-constexpr nanoseconds kQuiet = std::chrono::seconds(3);  // then the stream is over
+constexpr nanoseconds kQuiet = std::chrono::seconds(3);  // silence that ends the stream
 
 struct Options {
   std::string iface = "lo";
@@ -56,7 +56,7 @@ std::array<std::byte, kOctets> encode(const Message& message) {
   return octets;
 }
 
-// What arrived: numbers seen, copies, order, delays.
+// The received datagrams: numbers, copies, order, delays.
 class Tally {
  public:
   explicit Tally(std::uint64_t count) : seen_(count, false) {}
@@ -76,8 +76,8 @@ class Tally {
   }
   [[nodiscard]] std::uint64_t arrived() const { return arrived_; }
 
-  // `loss`: share of numbers never seen; `delay_s`: mean until due by the law; `handed_over_s`:
-  // mean until the receiver had it.
+  // `loss`: share of numbers never received; `delay_s`: mean delay by the law; `handed_over_s`:
+  // mean time until the receiver had it.
   void print(const Options& options) const {
     std::uint64_t distinct = 0;
     for (const bool seen : seen_) distinct += seen ? 1 : 0;
@@ -152,12 +152,12 @@ int receive(const Options& options) {
   impaired.seed = options.seed;
   impaired.receiver = kReceiver;
   impaired.start = clock.now();
-  ImpairedLink link(real, impaired, clock);  // the first sender that it hears is number 0 = kSender
+  ImpairedLink link(real, impaired, clock);  // the first received sender is 0 = kSender
   if (link.join(kGroup)) return 1;
   fmt::print(stderr, "ready\n");
   std::fflush(stderr);
   Tally tally(options.count);
-  nanoseconds last = clock.now() + std::chrono::seconds(10);  // patience for the first one
+  nanoseconds last = clock.now() + std::chrono::seconds(10);  // longest wait for the first one
   while (clock.now() < last + kQuiet) {
     const std::uint64_t before = tally.arrived();
     link.wait(milliseconds(100));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Fires and all else that is no state, said in the name of another: no program hears it, and the
-// user is told. What is heard comes with its sender.
+// Fires and other PDUs besides states, sent in the name of another: no program receives them, and
+// the user is informed. Received ones come with their sender.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -27,7 +27,7 @@ namespace {
 using namespace std::chrono_literals;
 using peer::InteractionSender;
 
-/// The first federate hears, the second has a truck; the last link is a stranger's.
+/// The first federate receives, the second has a truck; the last link is a stranger's.
 class ForgedInteractions : public ::testing::TestWithParam<bool> {
  protected:
   static constexpr std::size_t kStranger = 3;
@@ -90,7 +90,7 @@ class ForgedInteractions : public ::testing::TestWithParam<bool> {
   std::vector<InteractionSender> heard_;
 };
 
-TEST_P(ForgedInteractions, AreNotHeardAndTold) {
+TEST_P(ForgedInteractions, AreRefusedAndReported) {
   pdu::Fire fire;
   fire.firing_entity_id = truck_;
   expect_refused(fire);
@@ -118,14 +118,14 @@ TEST_P(ForgedInteractions, AreNotHeardAndTold) {
   expect_refused(offer);
 }
 
-TEST_P(ForgedInteractions, InTheNameOfWhoHearsThemAreNotHeardAndTold) {
+TEST_P(ForgedInteractions, InTheReceiversNameAreRefusedAndReported) {
   pdu::Fire fire;
   fire.firing_entity_id = {1, 1, 1};
   expect_refused(fire);
   EXPECT_TRUE(is_told("somebody at " + endpoint(kStranger) + " speaks in our name, 1:1 (refused)"));
 }
 
-TEST_P(ForgedInteractions, AreToldFromThoseOfTheOwner) {
+TEST_P(ForgedInteractions, AreDistinguishedFromTheOwners) {
   world_[1].publish<pdu::Fire>();
   pdu::Fire fire;
   fire.firing_entity_id = truck_;
@@ -139,7 +139,7 @@ TEST_P(ForgedInteractions, AreToldFromThoseOfTheOwner) {
   EXPECT_EQ(refused(), 0U);
 }
 
-TEST_P(ForgedInteractions, InAMadeUpNameComeWithoutAnOwner) {
+TEST_P(ForgedInteractions, UnderAnUnknownIdHaveNoOwner) {
   pdu::Fire fire;
   fire.firing_entity_id = {9, 9, 9};
   say_as_stranger(fire);
@@ -149,7 +149,7 @@ TEST_P(ForgedInteractions, InAMadeUpNameComeWithoutAnOwner) {
   EXPECT_EQ(peer::AddressText(heard_[0].address).view(), endpoint(kStranger));
 }
 
-TEST_P(ForgedInteractions, ToTheOwnerOfWhatTheyNameAreHeard) {
+TEST_P(ForgedInteractions, AddressedToTheNamedEntityAreReceived) {
   hear<pdu::ResupplyOffer>(world_[0]);
   pdu::ResupplyOffer offer;
   offer.receiving_entity_id = truck_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What it costs 64 peers in one town, on a network that loses nothing and joins at once, to come,
-// to drive and to join the cells on their way.
+// The cost of 64 peers in a town, on a network without loss and with immediate joins: to arrive, to
+// drive and to join the cells on their way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ peer::SceneFile town() {
       "town.toml");
 }
 
-// A post, and three that drive to and fro along a street of 400 m.
+// A post, and three vehicles that drive back and forth along a street of 400 m.
 peer::EntityTruth place(std::size_t number, std::size_t entity, nanoseconds now) {
   peer::EntityTruth truth;
   truth.time = now;
@@ -93,9 +93,9 @@ Cost cost_of(nanoseconds span) {
   return cost;
 }
 
-// With nothing said again but what changed, after 1 s, these are 6,475 datagrams of 1,649,220
+// If only changed states were repeated after 1 s, these would be 6,475 datagrams of 1,649,220
 // octets, 4,943 updates.
-TEST(JoinCost, IsHardlyMoreThanWithoutQuestionsAndAnswersSaidAgain) {
+TEST(JoinCost, RepeatedRequestsAndAnswersAddLittle) {
   const Cost cost = cost_of(20s);
   std::printf("  64 peers, 20 s: %lu joins, %lu datagrams of %lu octets, %lu updates\n", cost.joins,
               cost.datagrams, cost.octets, cost.updates);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Switches of [aoim], [network], [dead_reckoning] and [convergence] by twos. Whatever two of them
-// are on: what rests costs its heartbeats, a newcomer is shown all within two seconds, and what
-// moves, over borders of cells too, stays shown where it is.
+// Pairs of switches of [aoim], [network], [dead_reckoning] and [convergence]. For any pair:
+// entities at rest cost their heartbeats, a newcomer is shown all within two seconds, and moving
+// entities stay shown in place, also across borders of cells.
 //
-// RECKON_SOAK=1 tries all pairs that the scene file accepts, otherwise 12 drawn by a seed;
-// RECKON_SEEDS=N tries N drawn pairs, each with places and a network of its own.
+// RECKON_SOAK=1 tries all pairs that the scene file accepts, otherwise 12 random ones;
+// RECKON_SEEDS=N tries N random pairs, each with positions and a network of its own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,17 +34,18 @@ using std::chrono::nanoseconds;
 
 struct Switch {
   std::string_view table, text;
-  double coarser = 1.0;  ///< factor of the error that receivers may have
-  double later = 0.0;    ///< a change is shown by so much later [s]
+  double coarser = 1.0;  ///< factor of the permitted error of receivers
+  double later = 0.0;    ///< additional delay until a change is shown [s]
 };
 
 constexpr double kThreshold = 0.2, kCell = 10.0;  // [m]
 constexpr double kHeartbeat = 5.0;                // [s]
 
-// An update waits in a bundle for so long, and the shown pose converges to it half as long again.
+// An update waits in a bundle for `hold`, and the shown pose converges to it within half as long
+// again.
 constexpr double shown_after(double hold) { return 1.5 * hold; }
 
-// THE list. A key that stands in two switches makes no pair.
+// THE list. Switches that share a key make no pair.
 constexpr Switch kSwitches[]{
     {"aoim", "scheme = \"square\""},
     {"aoim",
@@ -87,7 +88,7 @@ constexpr Switch kSwitches[]{
     {"dead_reckoning", "rule = \"seen_from\"\nviewer_distance = \"100 m\""},
     {"convergence", "curve = \"snap\""},
     {"convergence", "curve = \"quintic\""},
-    {"convergence", "prediction = \"adaptive\"", 2.5},  // the owner's threshold bounds no other
+    {"convergence", "prediction = \"adaptive\"", 2.5},  // without the owner's threshold
 };
 
 bool has(std::string_view text, std::string_view part) {
@@ -115,7 +116,7 @@ bool share_a_key(const Switch& a, const Switch& b) {
   return std::ranges::any_of(of_a, [&](auto key) { return std::ranges::count(of_b, key) > 0; });
 }
 
-// Keys first, then tables below theirs.
+// Keys first, then the tables below them.
 std::string text_of(const Switch& a, const Switch& b) {
   std::map<std::string_view, std::pair<std::string, std::string>> tables;
   const auto add = [&](std::string_view table, std::string_view text) {
@@ -144,7 +145,7 @@ std::string text_of(const Switch& a, const Switch& b) {
   return text;
 }
 
-/// The scene of two switches; none where they exclude one another.
+/// The scene of two switches; none if they exclude each other.
 std::optional<peer::SceneFile> scene_of_two(const Switch& a, const Switch& b) {
   try {
     return peer::parse_scene_file(text_of(a, b), "pair");
@@ -158,8 +159,8 @@ std::optional<peer::SceneFile> scene_of_two(const Switch& a, const Switch& b) {
   }
 }
 
-// One owner of four things: one stays where it is, one goes round, one to and fro over a border of
-// cells, one along. Two watchers from the start, one that comes later.
+// One owner of four entities: one at rest, one on a circle, one back and forth across a border of
+// cells, one straight on. Two watchers from the start, and a newcomer.
 class Yard {
  public:
   Yard(const peer::SceneFile& scene, std::uint64_t seed)
@@ -197,7 +198,7 @@ class Yard {
     return shown;
   }
   std::size_t watchers() const { return federates_.size() - 1; }
-  /// Since the last call, over all watchers [m].
+  /// Greatest error since the last call, over all watchers [m].
   double take_worst() { return std::exchange(worst_, 0.0); }
   std::size_t take_fewest() { return std::exchange(fewest_, 4); }
 
@@ -277,7 +278,7 @@ void try_pair(const Switch& a, const Switch& b, const peer::SceneFile& scene, st
   yard.drive();
   yard.run(20s);
   EXPECT_EQ(yard.take_fewest(), 4u) << "in motion";
-  // The threshold, and the way until a change of motion has arrived and is shown.
+  // The threshold, and the travel until a change of motion has arrived and is shown.
   const double unseen = 0.05 + (0.1 + a.later + b.later) * yard.speed();
   EXPECT_LE(yard.take_worst(), a.coarser * b.coarser * (kThreshold + unseen)) << "in motion";
   yard.halt();
@@ -302,7 +303,7 @@ std::vector<Pair> all_pairs() {
   return pairs;
 }
 
-TEST(KeyPairs, RestSilentlyMoveRightlyAndShowAllToNewcomers) {
+TEST(KeyPairs, KeepRestQuietMotionAccurateAndNewcomersIntroduced) {
   std::vector<Pair> pairs = all_pairs();
   std::mt19937_64 random(7);
   std::shuffle(pairs.begin(), pairs.end(), random);

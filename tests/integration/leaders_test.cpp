@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene asks for leaders of cells: one of each, named by all; another within two
-// seconds of a death, at once after a good-bye, and one again after a partition. Who comes late is
-// told by the leader alone.
+// Whole peers with leaders of cells: one per cell, named by all; replaced within two seconds after
+// a death, at once after a leave announcement, and one again after a partition. Only the leader
+// introduces a newcomer.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -25,7 +25,7 @@ std::size_t link_of(const std::string& name) { return std::stoul(name.substr(2))
 
 class LeadersOfPeers : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(LeadersOfPeers, AreOneForTheSceneAndOneForTheCellWhomAllName) {
+TEST_P(LeadersOfPeers, AreOneForTheSceneAndCell) {
   Field field(GetParam());
   for (std::size_t link = 0; link < GetParam(); ++link) field.start(link);
   EXPECT_LE(field.until_agreed(4000), 2500U);
@@ -58,7 +58,7 @@ TEST_P(LeadersOfPeers, AreReplacedWithinTwoSecondsOfADeath) {
   Field field(GetParam());
   for (std::size_t link = 0; link < GetParam(); ++link) field.start(link);
   field.world_.run(5000);
-  // Killed at any place between two heartbeats; two in a row where there are enough.
+  // Killed at any time between two heartbeats; two in a row if there are enough peers.
   for (std::size_t deaths = 0; deaths + 1 < std::min<std::size_t>(GetParam(), 3); ++deaths) {
     const auto before = field.agreed();
     ASSERT_TRUE(before);
@@ -85,7 +85,7 @@ TEST_P(LeadersOfPeers, HandOverWithTheirGoodbye) {
 
 INSTANTIATE_TEST_SUITE_P(Of, LeadersOfPeers, testing::Values(2, 4, 8));
 
-TEST(Leaders, OfBothSidesOfAPartitionAreOneAgainOnceItHeals) {
+TEST(Leaders, OfBothSidesUniteAfterAPartition) {
   Field field(6);
   peer::ImpairmentLaw cut;
   cut.outages = {{seconds(5), seconds(8)}};
@@ -102,20 +102,20 @@ TEST(Leaders, OfBothSidesOfAPartitionAreOneAgainOnceItHeals) {
   for (std::size_t link = 0; link < 6; ++link) {
     EXPECT_EQ(field.leader(link).cell, link < 3 ? "1:1" : "1:4") << "of peer " << link + 1;
   }
-  field.world_.run(1100);  // it is whole again since 13 s
+  field.world_.run(1100);  // it is connected again since 13 s
   const std::size_t took = field.until_agreed(4000);
   std::printf("two leaders after a partition: one again %zu ms after it healed\n", took);
   EXPECT_LT(took, 2000U);
   EXPECT_EQ(field.agreed()->cell, "1:1") << "who came first";
 }
 
-TEST(Leaders, ArePassedByWhoWandersToAnotherCell) {
+TEST(Leaders, ChangeWhenOneMovesToAnotherCell) {
   Field field(2);
   field.start(0);
   field.start(1);
   field.world_.run(3000);
   ASSERT_EQ(field.leader(1).cell, "1:1");
-  // The first one goes on to the next cell but one; the second one leads where it stays.
+  // The first peer moves on by two cells; the second one leads the cell in which it stays.
   for (int i = 0; i < 30; ++i) {
     peer::EntityTruth truth = field.truth(Eigen::Vector3d(kSpeed * i, 0, 0));
     truth.velocity.x() = kSpeed;
@@ -127,7 +127,7 @@ TEST(Leaders, ArePassedByWhoWandersToAnotherCell) {
   EXPECT_EQ(field.leader(0).cell, "1:1");
 }
 
-// What each sender said in a time, by its link.
+// The datagrams that each sender sent in a time, by its link.
 struct Said {
   std::size_t datagrams = 0, octets = 0, states = 0, snapshots = 0, snapshot_octets = 0;
 };
@@ -137,7 +137,7 @@ std::map<std::size_t, Said> said_since(InProcess& world, nanoseconds since) {
   for (const Heard& heard : world.heard()) {
     if (heard.time <= since) continue;
     Said& one = said[heard.sender.octets[3] - 1U];
-    const std::size_t size = heard.octets.size() + 28;  // with IP and UDP
+    const std::size_t size = heard.octets.size() + 28;  // with IP and UDP headers
     ++one.datagrams;
     one.octets += size;
     bool tells = false;
@@ -152,11 +152,11 @@ std::map<std::size_t, Said> said_since(InProcess& world, nanoseconds since) {
   return said;
 }
 
-TEST(LateJoiner, OfACellOfAThousandIsToldByItsLeaderAloneWithinASecond) {
+TEST(LateJoiner, OnlyTheLeaderIntroducesACellOfThousand) {
   constexpr std::size_t kOwners = 4, kEach = 250;
   Field field(kOwners + 1);
   for (std::size_t link = 0; link < kOwners; ++link) field.start(link, kEach);
-  field.world_.run(11'000);  // what stands is repeated after 9 s, then after 17 s
+  field.world_.run(11'000);  // states at rest are repeated after 9 s, then after 17 s
   for (std::size_t link = 0; link < kOwners; ++link) {
     ASSERT_EQ(field.world_.view(link).entities, (kOwners - 1) * kEach);
   }
@@ -167,7 +167,7 @@ TEST(LateJoiner, OfACellOfAThousandIsToldByItsLeaderAloneWithinASecond) {
 
   const nanoseconds came = field.world_.clock().now();
   field.start(kOwners, 0);
-  // It owns nothing and looks at the origin; from 50 m off.
+  // It owns nothing and watches the origin, from 50 m away.
   peer::EntityDescription eye;
   eye.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 0, 0, 0};
   field.world_.peer(kOwners).model().add(1, eye, field.truth(Eigen::Vector3d(0, 1, 0)));
@@ -191,7 +191,7 @@ TEST(LateJoiner, OfACellOfAThousandIsToldByItsLeaderAloneWithinASecond) {
     if (link >= kOwners) continue;
     EXPECT_EQ(before[link].states, 0U) << "a quiet time to compare with";
     EXPECT_EQ(said.states, 0U) << "introduced by peer " << link + 1;
-    // Presence answers who comes, with and without leaders.
+    // Presence is answered to a newcomer with and without leaders.
     EXPECT_LE(said.datagrams - said.snapshots, before[link].datagrams + 3);
     EXPECT_LE(said.octets - said.snapshot_octets, before[link].octets + 600);
   }
@@ -204,7 +204,7 @@ TEST(LateJoiner, OfACellOfAThousandIsToldByItsLeaderAloneWithinASecond) {
   EXPECT_GT(field.world_.count(kWitness, "snapshot_parts_out"), 100U);
 }
 
-TEST(LateJoiner, FeelsAtOnceWhatTheLeaderToldAndItsOwnerIsSilent) {
+TEST(LateJoiner, FeelsAtOnceEntitiesOfSilentOwners) {
   Field field(3);
   field.start(0);
   field.start(1, 1, true);
@@ -219,9 +219,9 @@ TEST(LateJoiner, FeelsAtOnceWhatTheLeaderToldAndItsOwnerIsSilent) {
   EXPECT_EQ(post->model.k1, 500.0);
 }
 
-// Its last update is old, its model is still right: who comes late shows it where it is, and takes
-// the next updates as if it had heard all.
-TEST(LateJoiner, ShowsWhatMovesWhereItIs) {
+// The last update is old, but its motion model is still right: a newcomer shows the entity in
+// place, and takes the next updates as if it had received all.
+TEST(LateJoiner, ShowsMovingEntitiesInPlace) {
   for (const bool absolute : {true, false}) {
     SCOPED_TRACE(absolute);
     Field field(3);
@@ -250,14 +250,14 @@ TEST(LateJoiner, ShowsWhatMovesWhereItIs) {
     EXPECT_NEAR(car->shown(now).position.x(), there, 0.1);
     EXPECT_EQ(field.world_.count(2, "states_relayed_in"), 2U);
     EXPECT_EQ(field.world_.count(2, "stale_in"), 0U);
-    drive(3000, 1.5);  // it leaps and goes on faster
+    drive(3000, 1.5);  // it jumps and continues faster
     EXPECT_NEAR(remote.find({1, 2, 1})->shown(field.world_.clock().now()).position.x(),
                 kMiddle.x() + 1.5 * 9.9, 0.2);
     EXPECT_EQ(field.world_.count(2, "stale_in"), 0U);
   }
 }
 
-TEST(Leaders, SayNothingWhereTheSceneHasNone) {
+TEST(Leaders, AreSilentInAScenesWithoutLeaders) {
   const std::string none = with(kField, "leaders = true\n", "");
   EXPECT_NE(scene_of(kField).hash, scene_of(none).hash) << "peers of the one do not join the other";
   EXPECT_EQ(scene_of(none).hash, scene_of(with(kField, "leaders = true", "leaders = false")).hash);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that go, die, and come back.
+// Peers that depart, die, and return.
 #include <gtest/gtest.h>
 
 #include "reckon/pdu/reckon/presence_pdu.hpp"
@@ -48,7 +48,7 @@ TEST_F(Leaving, SendsADeactivatedStateAndAGoodbye) {
   EXPECT_EQ(goodbyes, 1);
 }
 
-TEST_F(Leaving, RemovesTheRowOfOneThatStopsAtOnce) {
+TEST_F(Leaving, RemovesADepartedPeersRowAtOnce) {
   world_.stop(1);
   EXPECT_LE(ms_until_entities(0, 1, 100), kPicture / milliseconds(1) + 4);
   EXPECT_EQ(world_.count(0, "left"), 1u);
@@ -58,7 +58,7 @@ TEST_F(Leaving, RemovesTheRowOfOneThatStopsAtOnce) {
 TEST_F(Leaving, DropsOneThatDiesWithinThePresenceTimeout) {
   world_.kill(1);
   const std::size_t after = ms_until_entities(0, 1, 10'000);
-  // It was last heard at most one announcement before it died.
+  // Its last announcement was at most one second before its death.
   EXPECT_GE(after, (kPresenceTimeout - seconds(1)) / milliseconds(1));
   EXPECT_LE(after, (kPresenceTimeout + kPicture) / milliseconds(1) + 2);
   EXPECT_EQ(world_.count(0, "timed_out"), 1u);
@@ -87,7 +87,7 @@ TEST_F(Leaving, SurvivorsLoseNothingOfOneAnother) {
   }
 }
 
-TEST_F(Leaving, OneThatRestartsBeforeItIsMissedIsSeenInItsNewLife) {
+TEST_F(Leaving, RestartedPeerIsKnownInItsNewEpoch) {
   world_.kill(1);
   world_.run(200);
   static_cast<void>(world_.notices(0));
@@ -101,7 +101,7 @@ TEST_F(Leaving, OneThatRestartsBeforeItIsMissedIsSeenInItsNewLife) {
 }
 
 TEST_F(Leaving, NothingOfAFormerLifeIsUsed) {
-  // Record what peer 1 says, then replay it after its restart.
+  // Records the datagrams of peer 1, then replays them after its restart.
   world_.heard().clear();
   world_.run(1000);
   std::vector<Heard> former;

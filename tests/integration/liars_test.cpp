@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs of every type, of right length and wrong meaning, beside two hands that hold each other:
-// what the hands' own peers said with other values, and what nobody said. No contact is lost,
-// nobody is moved, hidden or frozen, and the user is told in few lines. RECKON_SOAK=1 tries 1,000
-// seeds.
+// PDUs of every type, correct in length but false in content, beside two hands that hold each
+// other: PDUs of the hands' own peers with other values, and random ones. No contact is lost, no
+// hand is moved, hidden or frozen, and the user gets few notices. RECKON_SOAK=1 tries 1,000 seeds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +52,7 @@ position = [0.010, 0.0, 0.0]
 stiffness = "150 N/m"
 )";
 
-// Changes some fields of a PDU, and more often those that say whose it is.
+// Changes some fields of a PDU, most often its IDs.
 class OtherMeaning {
  public:
   OtherMeaning(std::mt19937& random, std::span<const pdu::EntityId> names)
@@ -141,7 +140,7 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
     known_ = world_.heard();
     for (const std::size_t link : {0u, 1u}) static_cast<void>(world_.notices(link));
   }
-  // What the peers know of each other and how they say it.
+  // Random options of interest and network.
   peer::SceneFile drawn() {
     struct Ways {
       std::string aoim, network;
@@ -167,14 +166,15 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
     }
     return 0.0;
   }
-  // [m], of the other hand as a peer shows it from where it is; infinite where it does not.
+  // Distance of the other hand as a peer shows it from its true position [m]; infinite if it is not
+  // shown.
   [[nodiscard]] double off(std::size_t link) {
     const auto* row = world_.peer(link).model().remote().find(world_.peer(1 - link).own_id());
     if (row == nullptr) return std::numeric_limits<double>::infinity();
     return (row->shown(world_.clock().now()).position - world_.view(1 - link).servo().scp).norm();
   }
 
-  // A PDU that a peer has said, with another meaning.
+  // Resends a PDU of a peer with changed values.
   void say_again() {
     const auto& heard = known_[random_() % known_.size()];
     std::vector<pdu::BundledPdu> said;
@@ -186,7 +186,7 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
       send(heard.group, other);
     }));
   }
-  // A PDU of any type, whatever is in it.
+  // Sends a PDU of any type with random content.
   void say_new() {
     const std::size_t chosen = random_() % pdu::PduTypes::kSize;
     std::size_t at = 0;
@@ -235,7 +235,7 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
   bool frozen_ = false;
 };
 
-TEST_P(Liars, TakeNoContactAwayAndMoveHideAndFreezeNobody) {
+TEST_P(Liars, NeitherEndContactsNorMoveOrHideHands) {
   constexpr std::size_t kSeconds = 3;
   ASSERT_GT(usual_, 0.1);
   for (std::size_t i = 0; i < kSeconds * 1000; ++i) {

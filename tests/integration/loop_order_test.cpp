@@ -14,11 +14,11 @@
 namespace reckon::test {
 namespace {
 
-// A program that says when it was called, and what was known then.
+// A program that records its calls and the data available then.
 class Program final : public peer::ModelGuest {
  public:
   std::vector<std::string> calls;
-  nanoseconds hand{0};  // of its newest state, in the actions of the last pass
+  nanoseconds hand{0};  // time of the hand's newest state, in the actions of the last pass
 
   void begin_pass(peer::ModelLoop& loop) noexcept override {
     calls.emplace_back("act");
@@ -46,7 +46,7 @@ class LoopOrder : public testing::Test {
   InProcess world_{2};
 };
 
-TEST_F(LoopOrder, IsTheSameInEachPassAndSeenInATrace) {
+TEST_F(LoopOrder, IsConstantInEachPassAndItsTrace) {
   peer::LoopRing ring(1000);
   world_.peer(0).trace_loop(&ring);
   world_.run(200);  // a pass each 2 ms
@@ -74,7 +74,7 @@ TEST_F(LoopOrder, IsTheSameInEachPassAndSeenInATrace) {
   EXPECT_EQ(steps, 4U * 100);
 }
 
-TEST_F(LoopOrder, ProgramsActOnWhatHasArrivedByThen) {
+TEST_F(LoopOrder, ProgramsActOnAllArrivals) {
   pdu::Comment comment;
   comment.header.exercise_id = scene_.network.exercise;
   comment.originating_entity_id = {4711, 1, 1};

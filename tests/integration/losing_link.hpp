@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A link that loses one datagram, named by its place among those that it counts.
+// A link that loses one datagram, identified by its index among the counted ones.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace reckon::test {
 
-/// Which of its datagrams a link counts, and which of these is lost.
+/// The datagrams that a link counts, and the one it loses.
 struct OneLost {
   enum class Way { received, sent } way = Way::received;
-  std::optional<peer::IpEndpoint> from;  ///< of those received: from this one alone
+  std::optional<peer::IpEndpoint> from;  ///< of received ones: only from this one
   std::size_t place = 0;                 ///< the first is 0
 };
 
-/// Hands on what `link` does, but for one datagram.
+/// Forwards everything to `link`, except one datagram.
 class LosingLink final : public peer::Link {
  public:
   explicit LosingLink(peer::Link& link) : link_(link) {}
 
-  /// Counts from now on, and loses that one.
+  /// Counts from now on, and loses the given one.
   void lose(const OneLost& lost) {
     lost_ = lost;
     counted_ = 0;

@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the machine itself keeps back or loses, whoever's fault it is. Standard library."""
+"""Delays and losses of the machine itself, for any cause. Standard library."""
 import bisect
 import threading
 import time
 
 
 class Stalls:
-    """Notices when this machine keeps a process waiting that asks for little."""
+    """Detects when this machine delays a process that needs little time."""
 
     PERIOD = 0.01  # [s]
 
     def __init__(self):
-        self.worst = 0.0  # [s] beyond the period
+        self.worst = 0.0  # [s] above the period
         threading.Thread(target=self._run, daemon=True).start()
 
     def _run(self):
@@ -23,10 +23,10 @@ class Stalls:
 
 
 class Backlog:
-    """Frames that this machine dropped between interfaces, for want of room in a processor's queue
-    (net.core.netdev_max_backlog): of all namespaces together, and of other programs in them."""
+    """Frames that this machine dropped between interfaces because a processor's queue was full
+    (net.core.netdev_max_backlog): over all namespaces, and by other programs in them."""
 
-    SOON = 1.0  # [s] after which a look has noted them
+    SOON = 1.0  # [s] within which look() has counted them
 
     def __init__(self):
         self._times, self._totals = [0.0], [self._read()]

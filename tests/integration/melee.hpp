@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Federates in a field whose scene thins updates out by distance, with something each that moves
-// along a path, and what each shows of the others held against what its row of the channels allows.
+// Federates in a field whose scene thins updates by distance, each with an entity that moves along
+// a path. The shown entities are compared with the limits of their tiers.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@
 
 namespace reckon::test {
 
-/// Where something is at a time [s], in S [m].
+/// Position at a time [s], in S [m].
 using Path = std::function<Eigen::Vector3d(double)>;
 
-/// Slowly through the field, and to and fro meanwhile, as people do in a melee: its velocity tells
-/// where it will be for a third of a second.
+/// Slowly through the field with a superimposed swing, as people move in a melee: the velocity
+/// predicts the position for a third of a second.
 inline Path wander(std::mt19937& random, double side) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto swing = [&] {
@@ -37,19 +37,19 @@ inline Path wander(std::mt19937& random, double side) {
   const auto x = swing(), y = swing();
   return [=](double t) { return Eigen::Vector3d(x(t), y(t), 0.0); };
 }
-/// So many of them in a square.
+/// `count` such paths in a square.
 inline std::vector<Path> crowd(std::size_t count, double side, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Path> paths;
   for (std::size_t i = 0; i < count; ++i) paths.push_back(wander(random, side));
   return paths;
 }
-/// A weave about a line: what is told of it at any instant leads away from it.
+/// A weave about a line: any update at any instant leads away from it.
 inline Path weave(double reach, double speed) {
   return [=](double t) { return Eigen::Vector3d(speed * t, reach * std::sin(3.0 * t), 0.0); };
 }
-/// Straight on, but for a bump to one side now and then: too small for the far to be told of, and
-/// what the near are told in it leads away.
+/// Straight on, with an occasional bump to one side: too small for the distant tiers' thresholds,
+/// while updates to the near tiers during a bump lead away.
 inline Path bump(double reach, double speed) {
   return [=](double t) {
     const double phase = std::min(std::fmod(t, 3.0), 1.0),
@@ -57,7 +57,7 @@ inline Path bump(double reach, double speed) {
     return Eigen::Vector3d(speed * t, reach * wave * wave, 0.0);
   };
 }
-/// Straight on, and to one side or the other for some seconds, which the far need not know.
+/// Straight on, with sidesteps of some seconds, which the distant tiers need not know.
 inline Path sidestep(double reach, double speed) {
   return [=](double t) {
     const double at = std::fmod(t, 10.0), share = std::clamp(at < 5.0 ? at : 6.0 - at, 0.0, 1.0);
@@ -68,10 +68,10 @@ inline Path stand(const Eigen::Vector3d& place) {
   return [=](double) { return place; };
 }
 
-/// Of what one peer shows of others.
+/// Errors of the shown entities of others.
 struct Looks {
   std::size_t all = 0, missing = 0, beyond = 0, near_beyond = 0;
-  double worst = 0.0;       ///< error over what its row allows
+  double worst = 0.0;       ///< error relative to the limit of its tier
   double near_worst = 0.0;  ///< error [m] in the nearest row
 };
 
@@ -80,11 +80,10 @@ class Melee {
   static constexpr double kThreshold = 0.2;  ///< [m]
   static constexpr double kSenses = 200.0, kEnd = 40.0, kMiddle = 100.0;
   static constexpr std::chrono::milliseconds kStep{20};
-  /// What was heard outside the radius and comes in is seen to be there a little later, at 100 m/s
-  /// too.
+  /// An entity received from outside the radius is shown shortly after it enters, even at 100 m/s.
   static constexpr double kEntering = 30.0;  // [m]
-  /// What is under way for 5 ms, decided once in 20 ms and sent thirty times a second at most is
-  /// off by so much more [m], as sharply as anything turns here.
+  /// Additional error of an update that is 5 ms under way, decided once in 20 ms and sent at most
+  /// thirty times a second [m], for the sharpest turns here.
   static constexpr double kSlack = 0.15;
 
   static peer::SceneFile scene(bool own_groups) {
@@ -119,7 +118,7 @@ class Melee {
     };
     federates_.run(span, kStep, drive, all_look);
   }
-  /// From now on what is shown is looked at in each step.
+  /// From now on the shown entities are checked in each step.
   void begin() {
     looks_ = true;
     seen_ = {};
@@ -137,8 +136,8 @@ class Melee {
   }
   void set_path(std::size_t i, Path path) { paths_[i] = std::move(path); }
   [[nodiscard]] double time() const { return federates_.time(); }
-  /// An azimuth of the thing of one, and what another shows of it [rad]; far off where it knows
-  /// none.
+  /// Sets the azimuth of one federate's entity; returns its error as another shows it [rad], large
+  /// if unknown.
   void turn(std::size_t i, double azimuth, double rate) {
     parts_[i].set({kTurret, 0, deadreckon::PartMetric::azimuth, 0, azimuth, rate});
     federates_[i].update_parts(things_[i], parts_[i]);
@@ -148,7 +147,7 @@ class Melee {
         federates_.id_of(other), federates_.now());
     return shown.empty() ? 1e9 : shown[0].value;
   }
-  /// Of what `watcher` has of another [m].
+  /// Error of another's entity at `watcher` [m].
   [[nodiscard]] double error(std::size_t watcher, std::size_t other) {
     const peer::RemoteEntity* row = row_of(watcher, other);
     if (row == nullptr) return 1e9;

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the memory of a program stands still. Standard library."""
+"""Checks that the memory of a program does not grow. Standard library."""
 import pathlib
 
 from testbed import Failure, check
 
 
 def resident(program):
-    """[KiB] of the program under `ip netns exec`, which became it."""
+    """[KiB] of the program started by `ip netns exec`, which replaces itself by it."""
     for line in pathlib.Path(f"/proc/{program.process.pid}/status").read_text().splitlines():
         if line.startswith("VmRSS"):
             return int(line.split()[1])
@@ -15,8 +15,8 @@ def resident(program):
 
 
 def judge(name, rows, settled, growth):
-    """Tells what a program had, as (seconds, KiB), and fails where that grew by more than `growth` [KiB] once it had `settled` [s].
-    None: the run was too short for that, which is told."""
+    """Prints the memory of a program, from (seconds, KiB), and fails if it grew by more than `growth` [KiB] after
+    `settled` [s]. None: the run was too short for a check, which is printed."""
     kept = [kib for seconds, kib in rows if seconds >= (settled or 0)]
     if not kept:
         return

@@ -18,14 +18,14 @@ import testbed
 from testbed import Skip, Testbed, check
 
 BASE_GROUP, PORT = "239.192.1.0", 3000
-SEEN_WITHIN = 1.0          # [s], acceptance: a remote entity is shown
+SEEN_WITHIN = 1.0          # [s], acceptance limit until a remote entity is shown
 PRESENCE_TIMEOUT = 6.1     # [s], six missed announcements and 100 ms of slack
-POLL = 0.1                 # [s], between two looks of the peer at its own table
+POLL = 0.1                 # [s], between two checks of a peer's own table
 SLACK = 1.0                # [s], for a loaded machine
 
 
 def served(report, share=0.95):
-    """The servo ran on: of the periods of its life at most 1 - share were missed."""
+    """Checks that the servo ran on: it missed at most 1 - share of the periods of its life."""
     periods = 1000 * report["seconds"]
     missed = report["missed_steps"]
     print(f"  {report['id']}: {report['seconds']:.1f} s, {missed} servo periods missed, "
@@ -34,15 +34,15 @@ def served(report, share=0.95):
 
 
 def meet(first, second, names):
-    """Both peers show each other's hand in time."""
+    """Checks that both peers show each other's hand in time."""
     for peer, other in ((first, names[1]), (second, names[0])):
         seen = peer.wait_event("appeared", 5, other)
         check(seen, f"{other} was never shown; {peer.error_text()}")
 
 
 def survivor_stream(sniffer, host, since, until):
-    """Entity States of a host, longest gap in its datagrams, and those missing from its numbering: seen
-    neither in that time nor before or after, for two may change places at its ends."""
+    """Entity States of a host, longest gap in its datagrams, and missing sequence numbers: seen neither in that time
+    nor before or after, because two datagrams may be swapped at its ends."""
     sender = Testbed.address(host)
     states = sum(kind == dis.ENTITY_STATE
                  for _, _, _, kind, _ in sniffer.pdus(sender, since, until))
@@ -124,7 +124,7 @@ def three_peers(setup):
                 check(count >= 3 and gap < 1.5, f"{names[i]}: {count} updates, silent {gap:.2f} s")
                 check(missing == 0, f"{missing} datagrams of {names[i]} missing on the wire")
             for i in survivors:
-                # The other survivor is still there: nothing of it went, nothing was dropped.
+                # The other survivor is still there: it lost nothing and was not dropped.
                 other = names[next(k for k in survivors if k != i)]
                 check(not any(e["marking"] == other for e in peers[i].events("gone")),
                       f"{names[i]} dropped the living {other}")
@@ -229,9 +229,9 @@ def recorded_session(setup):
         try:
             states += [dis.EntityState(o) for k, o in dis.pdus(payload) if k == dis.ENTITY_STATE]
         except ValueError:
-            pass  # the recorder cut one datagram; the peer has to bear it
+            pass  # the recorder truncated one datagram; the peer must tolerate it
     latitude, longitude, height = dis.geodetic(states[0].location)
-    # They move within 1 km: a peer with its own scene there and sight enough.
+    # They move within 1 km: the peer has a scene of its own there with a sufficient radius.
     scene = setup.changed_scene(
         "hawaii", 'latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"',
         f'latitude = "{latitude:.7f} deg", longitude = "{longitude:.7f} deg", height = "{height:.2f} m"',
@@ -290,10 +290,10 @@ CASES = {case.__name__: case for case in (two_peers, three_peers, other_scene, i
 
 
 class Setup:
-    """Where things are, and scenes made from the shipped one."""
+    """Paths, and scenes made from the shipped one."""
 
     def __init__(self, arguments, folder):
-        # A copy that any user may run and read.
+        # A copy that any user may execute and read.
         self.folder = pathlib.Path(folder)
         self.folder.chmod(0o755)
         self.reckon = testbed.copied_program(arguments.reckon, self.folder)

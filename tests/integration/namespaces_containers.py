@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Peers in containers: namespaces on a bridge with a default route, nobody's rights, and more than one interface.
-One case per call, with the arguments of namespaces.py."""
+"""Peers in containers: namespaces on a bridge with a default route, without privileges, and with more than one
+interface. One case per call, with the arguments of namespaces.py."""
 import sys
 
 import testbed
 from namespaces import meet, run
 from testbed import PeerProgram, check
 
-# What a container takes from a program that was started as a user in it.
+# Rights that a container removes from a program that was started as a user in it.
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--bounding-set=-all", "--inh-caps=-all", "--no-new-privs"]
 
 
@@ -18,7 +18,7 @@ def start(setup, bed, host, name, more=()):
 
 
 def add_interface(bed, host, name, address):
-    """Another network that this host is on, where nobody is."""
+    """Connects this host to another network without other hosts."""
     bed.ip(host, "link", "add", name, "type", "veth", "peer", "name", f"{name}_end")
     bed.ip(host, "addr", "add", f"{address}/24", "dev", name)
     bed.ip(host, "link", "set", f"{name}_end", "up")

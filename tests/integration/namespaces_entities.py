@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Peers that own more than a hand, or none, each in a network namespace of its own: a truck, two hands, no device,
-a post that is felt elsewhere, ten thousand vehicles. One case per call, with the arguments of namespaces.py."""
+"""Peers that own more entities than a hand, or none, each in a network namespace of its own: a truck, two hands, no
+device, a post that is felt elsewhere, ten thousand vehicles. One case per call, with the arguments of namespaces.py."""
 import json
 import os
 import pathlib
@@ -34,7 +34,7 @@ def two_handed(setup):
         for marking in ("LEFT", "RIGHT"):
             check(guest.wait_event("appeared", 5, marking), f"{marking} was never shown; {guest.error_text()}")
         check(both.wait_event("appeared", 5, "GUEST"), f"GUEST was never shown; {both.error_text()}")
-        time.sleep(7)  # each hand has been to and fro
+        time.sleep(7)  # each hand has moved to and fro
         shown = [event["marking"] for event in both.events("appeared")]
         check(shown == ["GUEST"], f"a peer shows its own hands as remote ones: {shown}")
         for peer in (guest, both):
@@ -57,13 +57,13 @@ def without_device(setup):
         print(f"  without a device: {mine['servo_steps']} servo steps, {mine['updates_out']} updates, "
               f"{report['updates_in']} arrived")
         check(mine["servo_steps"] == 0 and mine["missed_steps"] == 0, f"{mine['servo_steps']} servo steps")
-        # 9 m/s round and round at a threshold of 1 m: a few a second at most, and a heartbeat at least.
+        # 9 m/s in a circle at a threshold of 1 m: at most a few a second, and at least a heartbeat.
         check(2 <= report["updates_in"] <= 100, f"{report['updates_in']} updates of the truck")
         served(report)
 
 
 def hand_heights(sniffer, host, marking, until, ground=430.0):
-    """Height [m] over the scene's origin in each Entity State of an entity that was seen before a time."""
+    """Height [m] above the scene's origin in each Entity State of an entity that was received before a time."""
     for _, _, _, kind, octets in sniffer.pdus(Testbed.address(host), until=until):
         if kind == dis.ENTITY_STATE and dis.EntityState(octets).marking == marking:
             yield dis.geodetic(dis.EntityState(octets).location)[2] - ground
@@ -74,7 +74,7 @@ def post(setup):
     shipped = setup.folder / "scenes/post.toml"
     lead = 'sweep = {from = "0 0 30 mm", to = "0 0 -58 mm", period = "8 s"}'
     check(shipped.read_text().count(lead) == 1, f"'{lead}' is not once in {shipped}")
-    # Fast enough to strike, and no deeper than the device can hold against; another hand that the tip pushes.
+    # Fast enough to strike, and not deeper than the device can resist; another hand that the tip pushes.
     scene = setup.folder / "scenes/struck_post.toml"
     scene.write_text(shipped.read_text().replace(
         lead, 'sweep = {from = "0 0 0 mm", to = "0 0 -54 mm", period = "1.2 s"}\nstiffness = "300 N/m"')
@@ -87,7 +87,7 @@ def post(setup):
         for marking in ("POST", "TIP"):
             check(hand.wait_event("appeared", 5, marking), f"{marking} was never shown; {hand.error_text()}")
         time.sleep(6)
-        # The post goes with its owner; what it holds is looked at only as long as it stands.
+        # The post disappears with its owner, so forces on it are checked only while it exists.
         stands_until = time.monotonic()
         mine, theirs = owner.report(), hand.report()
         served(theirs)
@@ -99,7 +99,7 @@ def post(setup):
         lowest = min(hand_heights(sniffer, 2, "HAND", stands_until))
         struck = {dis.struck(o) for _, _, _, k, o in sniffer.pdus(Testbed.address(2)) if k == dis.COLLISION_ELASTIC}
         print(f"  the hand is led to -54 mm and comes to {1e3 * lowest:.1f} mm; it struck {struck}, {ids}")
-        # Surface at -50 mm, felt from 10 mm above; 600 N/m against 300 N/m: -44.7 mm, and what it swings through.
+        # Surface at -50 mm, felt from 10 mm above; 600 N/m against 300 N/m: -44.7 mm, plus its oscillation.
         check(lowest > -0.051, "the post was not felt")
         check(lowest < -0.040, "the hand never came to the post")
         check(ids["POST"] in struck, "no impact on the post was told")
@@ -122,14 +122,14 @@ def post(setup):
 
 
 def datagrams_of(bed, host):
-    """Datagrams that a host has sent so far, as its port of the switch counts them."""
+    """Number of datagrams that a host has sent so far, counted at its port of the switch."""
     words = ["ip", "-n", bed.namespace("sw"), "-s", "-j", "link", "show", f"p{host}"]
     link = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)[0]
     return time.monotonic(), link["stats64"]["rx"]["packets"]
 
 
 def busiest(bed, host, seconds):
-    """Most datagrams a second that a host sends in any 100 ms of the next `seconds`."""
+    """Greatest rate of datagrams a second from a host in any 100 ms of the next `seconds`."""
     seen, most = [datagrams_of(bed, host)], 0.0
     end = seen[0][0] + seconds
     while seen[-1][0] < end:
@@ -180,7 +180,8 @@ def crowd(setup):
 
 
 def open_dis_reads(setup, pdus):
-    """The npm package open-dis reads each of these PDUs to its end; a message where it is not there."""
+    """Checks that the npm package open-dis decodes each of these PDUs completely; returns a message if it is not
+    installed."""
     if shutil.which("node") is None:
         return print("  open-dis: skipped, needs node (Debian: nodejs)")
     listing = setup.folder / "pdus.hex"
@@ -222,7 +223,7 @@ def truck(setup):
         check({s.marking for s in states} == {"TRUCK1"}, f"{({s.marking for s in states})}")
         latitude, longitude, _ = dis.geodetic(states[-1].location)
         check(abs(latitude - 47.05) < 0.01 and abs(longitude - 8.31) < 0.01, f"{latitude} {longitude}")
-        # 10 m/s on a circle of 50 m is off by 1 m after a second of straight prediction: some two a second.
+        # 10 m/s on a circle of 50 m is off by 1 m after a second of straight prediction: about two a second.
         print(f"  {len(states)} Entity States of the truck in 4 s")
         check(2 <= len(states) <= 40, f"{len(states)} Entity States in 4 s")
         sender = bed.multicast_sender(2)
@@ -232,7 +233,7 @@ def truck(setup):
         if capture.exists():
             replay = bed.run(2, [setup.reckon, "replay", str(capture), "--iface", "e0", "--rate", "20", "--to", TO_ALL])
             check(program.wait_line("sees UtilVeh 1", 4), f"the recorded session was not seen; {program.lines} {replay.error_text()}")
-            replay.wait()  # 1: two of its datagrams are longer than an Ethernet frame
+            replay.wait()  # status 1: two of its datagrams are longer than an Ethernet frame
         program.wait()
         recorder.interrupt()
         recorder.wait()
@@ -241,7 +242,7 @@ def truck(setup):
         open_dis_reads(setup, sent)
         check(dis.EntityState(sent[-1]).appearance & (1 << 23), "its last Entity State does not say that it goes")
 
-        # No recorded session at hand has a Fire, this recording has: to a truck on a host with another number.
+        # No recorded session has a Fire, but this recording has one: for a truck on a host with another number.
         late = bed.run(3, [setup.truck, "e0", "6"])
         time.sleep(0.5)
         replay = bed.run(2, [setup.reckon, "replay", str(recording), "--iface", "e0", "--rate", "4", "--to", TO_ALL])

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who is who among peers as users run them: many at one instant, numbers of a scene, a restart, a sleeper, a cut in one
-direction. One case per call, with the arguments of namespaces.py."""
+"""Identities of peers as users run them: many started at one instant, numbers from a scene, a restart, a suspended
+peer, a link cut in one direction. One case per call, with the arguments of namespaces.py."""
 import re
 import signal
 import struct
@@ -16,11 +16,11 @@ from testbed import Testbed, check, ip
 
 PRESENCE = 140
 SEALED = 0xE7  # first octet
-CONVERGED = 2.0  # [s], acceptance: all distinct and mutually seen after the last start
+CONVERGED = 2.0  # [s], acceptance limit: all distinct and mutually visible after the last start
 
 
 def announcements(sniffer):
-    """(time, epoch, id, leaving) of each Presence seen."""
+    """(time, epoch, id, leaving) of each Presence received."""
     for when, _, _, kind, octets in sniffer.pdus():
         if kind == PRESENCE:
             site, application, epoch = struct.unpack_from(">HHI", octets, 12)
@@ -57,7 +57,7 @@ def number_of(peer):
 
 
 def plain_peer(bed, host, setup, name, *more):
-    """With the README's own command, that names no operator."""
+    """Starts a peer with the README's own command, which names no operator."""
     return bed.run(host, [setup.reckon, "peer", str(setup.scene), "--iface", "e0", "--name", name,
                           "--events", "--json", *more], testbed.PeerProgram)
 
@@ -124,7 +124,7 @@ def restart(setup):
                         if kind == PRESENCE)
             seen = told[0] + alice.started - begun
             print(f"  seen {seen:.2f} s after the first announcement")
-            check(seen < 1.0 + 0.4, f"seen after {seen:.2f} s")  # notices are gathered for 0.3 s
+            check(seen < 1.0 + 0.4, f"seen after {seen:.2f} s")  # messages are collected for 0.3 s
 
 
 def sleeper(setup):
@@ -153,7 +153,7 @@ def one_way(setup):
         check(alice.wait_event("appeared", 5, "BOB"), "BOB was never shown")
         time.sleep(5)
         cut = time.monotonic()
-        # What comes from an address to which there is no way back is dropped.
+        # A datagram from an address without a return route is dropped.
         ip("netns", "exec", bed.namespace(2), "sysctl", "-qw", "net.ipv4.conf.all.rp_filter=1")
         ip("-n", bed.namespace(2), "route", "add", "blackhole", f"{Testbed.address(1)}/32")
         for peer, words in ((alice, "does not hear this one"), (bob, "has not been heard")):
@@ -161,7 +161,7 @@ def one_way(setup):
             check(told, f"'{words}' was not told: {peer.error_text()}")
             after = told[0] + peer.started - cut
             print(f"  '{told[1]}' after {after:.2f} s")
-            check(after < 3.0 + 0.4 + SLACK / 2, f"told after {after:.2f} s")  # gathered for 0.3 s
+            check(after < 3.0 + 0.4 + SLACK / 2, f"told after {after:.2f} s")  # collected for 0.3 s
         healed = time.monotonic()
         ip("-n", bed.namespace(2), "route", "del", "blackhole", f"{Testbed.address(1)}/32")
         for peer in (alice, bob):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What listeners hear: every interface, one copy of a datagram, broadcast and unicast without a right, and what is said
-of silence. Bare sockets beside them are the judges. One case per call, with the arguments of namespaces.py."""
+"""Reception by listeners: every interface, one copy of a datagram, broadcast and unicast without privileges, and the
+messages about silence. Bare sockets beside them are the reference. One case per call, with the arguments of
+namespaces.py."""
 import json
 import socket
 import struct
@@ -13,18 +14,18 @@ import testbed
 from namespaces import BASE_GROUP, PORT, run
 from testbed import Testbed, check
 
-PLAIN_USER = ("setpriv", "--bounding-set=-all", "--inh-caps=-all")  # root without its rights
+PLAIN_USER = ("setpriv", "--bounding-set=-all", "--inh-caps=-all")  # root without its privileges
 SUBNET, EVERYBODY = "10.77.0.255", "255.255.255.255"
 
 
 def pdu(number):
-    """An Acknowledge PDU whose request ID is a number."""
+    """An Acknowledge PDU with a number as its request ID."""
     body = struct.pack(">HHHHHHHHI", 1, 1, 1, 1, 2, 1, 1, 1, number)
     return dis.HEADER.pack(7, 1, 15, 5, 0, dis.HEADER.size + len(body), 0, 0) + body
 
 
 class Judge:
-    """A bare socket in a host that counts what it hears, as any other DIS program would."""
+    """A bare socket in a host that counts what it receives, like any other DIS program."""
 
     def __init__(self, bed, host, address):
         self.socket = bed.socket(host, socket.AF_INET, socket.SOCK_DGRAM)
@@ -50,14 +51,14 @@ def broadcaster(bed, host):
 
 
 def listener(setup, bed, host, *arguments, seconds=4):
-    """`reckon inspect` by a plain user, and its start."""
+    """Starts `reckon inspect` as a plain user."""
     program = bed.run(host, [*PLAIN_USER, str(setup.reckon), "inspect", *arguments, "--json", "--for", f"{seconds}s"])
     check(program.wait_line("listening to", 5, errors=True), f"does not listen: {program.error_text()}")
     return program
 
 
 def heard(program):
-    """Its PDUs, after its end."""
+    """Its PDUs, read after its end."""
     status = program.wait()
     check(status == 0, f"ended with status {status}: {program.error_text()}")
     return [json.loads(text) for _, text in program.lines]

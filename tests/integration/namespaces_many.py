@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Many peers, each a process in a network namespace of its own, on a bridge that asks who has joined what and
-floods nothing. One case per call:
+"""Many peers, each a process in a network namespace of its own, on a bridge that snoops IGMP and floods nothing. One
+case per call:
   namespaces_many.py CASE --roamer PROGRAM --border PROGRAM --all-groups LIBRARY
   --slow-joins LIBRARY [--count N] [--seconds S]"""
 import argparse
@@ -20,8 +20,8 @@ BASE_GROUP, PORT = "239.192.1.0", 3000
 DECOYS = 16         # groups of the pool that a neighbour of each peer has joined on another interface
 DECOY_PERIOD = 0.5  # [s]
 LOOPBACK = 1        # index of lo in each namespace
-TOO_LATE = 0.6      # [s] by which a step may be late where a peer has 1 s to show what came in
-MEMBERSHIPS = 20    # groups that Linux lets one socket join
+TOO_LATE = 0.6      # [s] by which a step may be late if a peer has 1 s to show a new entity
+MEMBERSHIPS = 20    # groups that Linux allows for one socket
 
 
 def group(index):
@@ -30,8 +30,8 @@ def group(index):
 
 
 class Neighbours:
-    """In each host a program that has joined groups on lo, and says something to them there; and two that have
-    joined nothing, one with IP_MULTICAST_ALL as it is and one without, which count what they get."""
+    """In each host a program that has joined groups on lo, and sends to them there; and two programs without joined
+    groups, one with IP_MULTICAST_ALL at its default and one without it, which count what they receive."""
     IP_MULTICAST_ALL = 49
 
     def __init__(self, bed, hosts):
@@ -80,7 +80,7 @@ class Neighbours:
 
     @staticmethod
     def _waiting(sockets):
-        """Datagrams that wait in these sockets, which have room for some hundred each."""
+        """Number of datagrams in the queues of these sockets, which have room for some hundred each."""
         count = 0
         for sock in sockets:
             try:
@@ -91,7 +91,7 @@ class Neighbours:
         return count
 
     def stop(self):
-        """(datagrams to one that does not care, to one that does)"""
+        """(datagrams received with IP_MULTICAST_ALL, datagrams received without it)"""
         self._running = False
         self._thread.join()
         counts = self._waiting(self._careless), self._waiting(self._careful)
@@ -101,7 +101,7 @@ class Neighbours:
 
 
 def roam(setup, count, seconds, preload=""):
-    """What `count` peers tell at the end, and what neighbours that joined nothing got."""
+    """Final reports of `count` peers, and datagrams at neighbours without joined groups."""
     with Testbed(count, "", snooping=True) as bed:
         neighbours = Neighbours(bed, range(1, count + 1))
         begin = time.monotonic_ns() + int((3 + 0.25 * count) * 1e9)

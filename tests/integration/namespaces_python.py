@@ -37,7 +37,7 @@ def trucks(package, folder):
         check(len(ids) == 3, f"they are not three entities: {ids}")
         for match in shown:
             print(f"  {match.group(0)}")
-            # 10 m/s on a circle of 50 m, sent at a threshold of 1 m, smoothed on its way.
+            # 10 m/s on a circle of 50 m, sent at a threshold of 1 m, smoothed at the receiver.
             check(int(match.group(4)) > 100 and float(match.group(5)) < 2.0, match.group(0))
         heard = [{tuple(re.findall(r"=(\d+)", text)) for _, text in driver.lines} for driver in drivers]
         for others in heard:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Peers that are killed and peers that flood, each in a network namespace of its own: what the others feel and see of it. One
-case per call, with the arguments of namespaces.py."""
+"""Peers that are killed and peers that flood, each in a network namespace of its own: the forces and entities that
+the others get from them. One case per call, with the arguments of namespaces.py."""
 import json
 import math
 import shutil
@@ -13,12 +13,12 @@ import testbed
 from namespaces import BASE_GROUP, PORT, run
 from testbed import Program, Skip, Testbed, check
 
-PICTURE = 0.05             # [s], between two pictures that a peer makes of itself
-FELT_FOR = 0.75            # [s], after the last datagram of a dead peer, in contact
+PICTURE = 0.05             # [s], between two pictures of a peer
+FELT_FOR = 0.75            # [s], after the last datagram of a dead peer in contact
 PRESENCE_TIMEOUT = 6.1     # [s]
-SLACK = 0.25               # [s], of a busy machine
+SLACK = 0.25               # [s], for a busy machine
 ROUNDING = 1e-9            # [J], of the ledgers
-SPEED = 0.32               # [m/s], the most of the sweep below
+SPEED = 0.32               # [m/s], greatest speed of the sweep below
 
 SCENE = """
 [scene]
@@ -56,10 +56,10 @@ stiffness = "150 N/m"
 
 
 class Feeler(Program):
-    """The program that tells what it feels."""
+    """The program that prints the forces on its hand."""
 
     def samples(self, since=0.0):
-        """Its pictures that came after `since`, seconds since its start; without lines cut short."""
+        """Its pictures received after `since`, in seconds since its start; without partial lines."""
         return [dict(json.loads(text), at=when) for when, text in list(self.lines)
                 if when >= since and text.startswith('{"seconds"')]
 
@@ -67,13 +67,13 @@ class Feeler(Program):
         return [json.loads(text)["notice"] for _, text in list(self.lines) if '"notice"' in text]
 
     def finish(self):
-        """Waits for its end; what the link lost, and its counters."""
+        """Waits for its end; returns the losses of the link, and its counters."""
         check(self.wait(60) == 0, f"it ended badly: {self.error_text()}")
         return json.loads(self.lines[-2][1]), json.loads(self.lines[-1][1])
 
 
 def feeler(bed, setup, host, scene, name, seconds):
-    path = setup.folder / f"{name}.toml"  # its own: others may be reading theirs still
+    path = setup.folder / f"{name}.toml"  # a separate file: others may still be reading theirs
     path.write_text(scene)
     return bed.run(host, [setup.feeler, str(path), "e0", str(host), name, str(seconds)], Feeler)
 
@@ -102,7 +102,7 @@ def killed_in_contact(setup):
         time.sleep(PRESENCE_TIMEOUT + 1)
         word = last_word(sniffer, 1) - alive.started
         after = alive.samples(word)
-        # Each line tells of a picture that was made at most a picture and a look before.
+        # Each line is about a picture that is at most one picture and one check older.
         felt = max((s["at"] for s in after if s["force"] > 0), default=word) - word
         gone = next((s["at"] for s in after if s["entities"] < 2), math.inf) - word
         print(f"  felt for {felt:.2f} s after its last word, dropped after {gone:.2f} s; {alive.notices()}")
@@ -150,7 +150,7 @@ def flood(setup):
             if kind.startswith("quiet"):
                 time.sleep(3)
             else:
-                # A flooder on another machine is not held up by what it does to this one.
+                # A flooder on another machine would not be slowed by its effects on this one.
                 first = ["chrt", "-f", "45"] if shutil.which("chrt") else []
                 program = bed.run(3, [*first, setup.flood, Testbed.address(3), BASE_GROUP, str(PORT), "100000", "3", kind])
                 program.wait()

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What listeners make of the traffic of a real LAN: IPv6, interfaces that come and go, other protocols at the port,
-fragments, and a page beside it. tshark and the numbers that were sent are the judges. One case per call, with the
-arguments of namespaces.py."""
+"""Listeners in the traffic of a real LAN: IPv6, interfaces that appear and disappear, other protocols at the port,
+fragments, and a page beside it. tshark and the sent numbers are the reference. One case per call, with the arguments
+of namespaces.py."""
 import base64
 import json
 import os
@@ -22,7 +22,7 @@ MTU = 1500
 
 
 def comment(number, octets):
-    """A Comment PDU of a length, with one variable datum that a number begins."""
+    """A Comment PDU of a given length, with one variable datum that begins with a number."""
     text = struct.pack(">I", number) + bytes(octets - 44)
     body = struct.pack(">6HII", 1, 1, 1, 1, 2, 1, 0, 1) + struct.pack(">II", 1, 8 * len(text)) + text
     return dis.HEADER.pack(7, 1, 22, 5, 0, dis.HEADER.size + len(body), 0, 0) + body
@@ -60,7 +60,7 @@ def comes_and_goes(setup):
                 sender.sendto(pdu(number), (BASE_GROUP, PORT))
                 time.sleep(0.01)
 
-        send(0)  # nobody can hear these
+        send(0)  # nobody can receive these
         bed.plug(1)
         time.sleep(1)
         send(100)
@@ -109,7 +109,7 @@ def noise(setup):
             check(not errors, f"an error on the {name}: {errors[0] if errors else None}")
 
 
-PROBE = 300  # octets of a comment that only shows that tshark has begun
+PROBE = 300  # octets of a comment that only shows that tshark has started
 
 
 def judged(setup):
@@ -122,7 +122,7 @@ def judged(setup):
                             "-d", f"udp.port=={PORT},dis", "-T", "fields", *(word for field in fields for word in ("-e", field))])
         sender = broadcaster(bed, 2)
         group = bed.multicast_sender(2)
-        # tshark does not say when it begins.
+        # tshark does not report its start.
         end = time.monotonic() + 30
         while not shark.lines and time.monotonic() < end:
             group.sendto(comment(0, PROBE), (BASE_GROUP, PORT))
@@ -149,7 +149,8 @@ def judged(setup):
 
 
 def frames_of(bed, payload, identifier, left_out=None):
-    """Ethernet frames of a UDP datagram to the group in fragments of the MTU; `left_out`: the fragment that is lost."""
+    """Ethernet frames of a UDP datagram to the group in fragments of the MTU; `left_out` is the number of the lost
+    fragment."""
     udp = struct.pack(">HHHH", 4000, PORT, 8 + len(payload), 0) + payload
     room = (MTU - 20) // 8 * 8
     target = socket.inet_aton(BASE_GROUP)
@@ -191,7 +192,7 @@ def fragments(setup):
 
 
 def websocket(bed, host, port):
-    """A tab's connection; texts of the server as they come."""
+    """A tab's connection; yields the server's texts."""
     sock = bed.socket(host, socket.AF_INET, socket.SOCK_STREAM)
     sock.settimeout(5)
     sock.connect(("127.0.0.1", port))
@@ -214,7 +215,7 @@ def websocket(bed, host, port):
 
 
 def drawn(number):
-    """A tab's masked frame: the picture of this number is drawn, so that more may come."""
+    """A tab's masked frame: acknowledges the picture with this number, so that more may be sent."""
     return bytes([0x82, 0x85, 0, 0, 0, 0, 1]) + struct.pack("<I", number)
 
 

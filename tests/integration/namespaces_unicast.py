@@ -18,7 +18,7 @@ NAMES = ("ONE", "TWO", "THREE", "FOUR")
 
 
 def world(more="", radius=200):
-    """A car of each peer, all within 100 m."""
+    """A car for each peer, all within 100 m."""
     text = '[scene]\nname = "cloud"\norigin = {latitude = "47 deg", longitude = "8 deg", height = "400 m"}\n'
     for number, name in enumerate(NAMES, 1):
         text += (f'[[entity]]\npeer = {number}\nmarking = "{name}"\ntype = "1.1.225.1"\nposition = [{30 * number}, 0, 0]\n'
@@ -27,7 +27,7 @@ def world(more="", radius=200):
 
 
 def start(setup, bed, host, scene, peers):
-    """A peer whose datagrams go to `peers` alone."""
+    """Starts a peer that sends datagrams only to `peers`."""
     path = setup.folder / f"scenes/cloud_{host}.toml"
     path.write_text(scene)
     return bed.peer(host, path, NAMES[host - 1], host, ("--to", peers))
@@ -146,7 +146,7 @@ def scene_of_a_list(setup):
 
 
 def run_accounted(setup, name, more, listed, sealed):
-    """Four that come, lose, sleep and go: each datagram is accounted for."""
+    """Runs four peers that join, lose datagrams, are suspended and leave: each datagram is accounted for."""
     (setup.folder / "scenes/cloud.key").write_text("group cloud\nsuite aes-256-gcm\nepoch 1 secret " + "5a" * 32 + "\n")
     (setup.folder / "scenes/cloud.key").chmod(0o600)
     more += "offload = false\n" + ('key = "cloud.key"\n' if sealed else "")

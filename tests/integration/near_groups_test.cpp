@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene tells those who are near by groups of their own what the others need not
-// know ([[aoim.tier]] own_group): nobody is shown worse than the row of the channels says that is
-// so far away, whoever moves, leaps, or loses something.
+// Whole peers whose scene sends finer updates to near peers in groups of their own ([[aoim.tier]]
+// own_group). No peer is shown an error above the limit of its tier, whoever moves, jumps or loses
+// a datagram.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-TEST(NearGroups, SpareACrowdWhatTheFarNeedNotKnowAndShowNobodyWorseThanItsRow) {
+TEST(NearGroups, ReduceACrowdsTrafficWithinTheTierLimits) {
   const auto span = tries(3s, 8s);
   const auto each = 64 * static_cast<double>(span.count());
   std::uint64_t datagrams[2], octets[2], updates[2];
@@ -47,7 +47,7 @@ TEST(NearGroups, SpareACrowdWhatTheFarNeedNotKnowAndShowNobodyWorseThanItsRow) {
   EXPECT_LT(1.2 * static_cast<double>(datagrams[1]), static_cast<double>(datagrams[0]));
 }
 
-TEST(NearGroups, SayTheSameOctetsAsBeforeWhereThereAreNone) {
+TEST(NearGroups, SceneWithoutThemSendsUnchangedOctets) {
   peer::SceneFile plain = Melee::scene(false);
   for (peer::TierConfig& tier : plain.aoim.tiers) tier.channel.coarser = 1.0;
   plain.hash = peer::scene_hash(plain);
@@ -58,8 +58,8 @@ TEST(NearGroups, SayTheSameOctetsAsBeforeWhereThereAreNone) {
   EXPECT_EQ(coarse.heard("updates_near"), 0u);
 }
 
-// What loss does to one stream it does to several, and no more.
-TEST(NearGroups, SufferNoMoreFromLossAndDisorderThanOneStream) {
+// Loss affects several streams as much as one, and no more.
+TEST(NearGroups, SufferNoMoreFromLossThanOneStream) {
   constexpr double kLoss = 0.05;
   std::size_t all[2] = {}, beyond[2] = {}, near_beyond[2] = {}, missing[2] = {};
   for (const bool near : {false, true}) {
@@ -81,12 +81,13 @@ TEST(NearGroups, SufferNoMoreFromLossAndDisorderThanOneStream) {
   }
   EXPECT_EQ(missing[1], 0u);
   EXPECT_LE(static_cast<double>(near_beyond[1]), 1.5 * static_cast<double>(near_beyond[0]));
-  // One stream shows the far better than their row asks for, so that it can lose some.
+  // One stream shows distant entities better than their tier requires, so that it can afford some
+  // losses.
   EXPECT_LE(static_cast<double>(beyond[1]), kLoss * static_cast<double>(all[1]));
 }
 
-// 100 m/s towards what weaves, and past it: the nearest row holds from its first look on.
-TEST(NearGroups, AreJoinedAheadByWhoClosesInAtAHundredMetresASecond) {
+// 100 m/s towards a weaving entity and past it: the nearest tier holds from its first check on.
+TEST(NearGroups, AreJoinedAheadByAFastReceiver) {
   Melee place(Melee::scene(true), {weave(1.0, 2.0), stand({0, 20, 0}), [](double t) {
                                      return Vector3d(-1500.0 + 100.0 * t, 10.0, 0.0);
                                    }});
@@ -100,8 +101,8 @@ TEST(NearGroups, AreJoinedAheadByWhoClosesInAtAHundredMetresASecond) {
   EXPECT_EQ(seen.missing, 0u);
 }
 
-// A third of a second after it leapt a peer is told all that those know who are there.
-TEST(NearGroups, TellALeapedFocusWhatThoseNearKnow) {
+// A third of a second after a jump a peer has all states that the near peers have.
+TEST(NearGroups, IntroduceAReceiverThatJumped) {
   Melee place(Melee::scene(true),
               {sidestep(0.6, 0.5), stand({20, 20, 0}), stand({150, 0, 0}), stand({-140, 30, 0})});
   place.run(6s);
@@ -115,15 +116,15 @@ TEST(NearGroups, TellALeapedFocusWhatThoseNearKnow) {
   }
 }
 
-// Who goes away while another stays has heard what those behind it have not: it goes back to what
-// its row is kept right by, or it would be led astray until that is told anew.
-TEST(NearGroups, LeaveNobodyWithAStateThatNobodyKeepsRight) {
+// A peer that moves away while another stays has received states that its outer tier lacks. It
+// falls back to the state that its tier receives; else it stays wrong until the next update.
+TEST(NearGroups, LeaveNoStateWithoutUpdates) {
   double worst = 0.0;
   for (int turn = 0; turn < 40; turn += tries(3, 1)) {
     Melee place(Melee::scene(true), {bump(0.6, 1.0), stand({10, 20, 0}), stand({10, -20, 0})});
     place.run(10s + turn * 75ms);
     const double left = place.time();
-    // Away by 120 m in 6 s, without a jerk.
+    // Away by 120 m in 6 s, smoothly.
     place.set_path(2, [left](double t) {
       const double share = std::min((t - left) / 6.0, 1.0);
       return Vector3d(10.0, -20.0 - 60.0 * (1.0 - std::cos(std::numbers::pi * share)), 0.0);
@@ -136,7 +137,7 @@ TEST(NearGroups, LeaveNobodyWithAStateThatNobodyKeepsRight) {
   std::printf("[ residual ] gone away: at most %.2f of the row\n", worst);
 }
 
-// Nobody is near any more: what the near were told alone is told to all once.
+// No peer is near any more: the states sent only to near peers are sent to all once.
 TEST(NearGroups, AreSilentWhereNobodyIsNear) {
   Melee place(Melee::scene(true), {weave(1.0, 2.0), stand({0, 190, 0})});
   place.run(5s);
@@ -148,7 +149,7 @@ TEST(NearGroups, AreSilentWhereNobodyIsNear) {
   EXPECT_GT(place.count(0, "updates_near"), before + 4);
 }
 
-// A budget takes near groups from who cannot take what they say; another there keeps them.
+// A receiver leaves near groups that exceed its budget; another receiver there keeps them.
 TEST(NearGroups, AreLeftByAReceiverWithoutTheBudget) {
   peer::SceneFile poor = Melee::scene(true), rich = Melee::scene(true);
   poor.aoim.awareness.budget = 2000.0;
@@ -165,8 +166,9 @@ TEST(NearGroups, AreLeftByAReceiverWithoutTheBudget) {
   EXPECT_LT(1.2 * static_cast<double>(octets[1]), static_cast<double>(octets[0]));
 }
 
-// Where the near row holds all of the radius nobody is spared anything, and nobody shown worse.
-TEST(NearGroups, ShowAllAsOneStreamDoesWhereTheNearRowHoldsTheRadius) {
+// If the nearest tier covers the whole radius, no traffic is saved, and no peer is shown a greater
+// error.
+TEST(NearGroups, EqualOneStreamWhereTheTierCoversAll) {
   peer::SceneFile wide = Melee::scene(true);
   wide.aoim.tiers.front().channel.farthest = 250.0;
   wide.aoim.tiers[1].channel.farthest = 300.0;
@@ -180,8 +182,8 @@ TEST(NearGroups, ShowAllAsOneStreamDoesWhereTheNearRowHoldsTheRadius) {
   EXPECT_EQ(place.seen().beyond, 0u);
 }
 
-// Parts are told to the rows that have bodies with parts, and to who comes into one of them.
-TEST(NearGroups, CarryThePartsOfBodiesToThoseWhoseRowHasThem) {
+// Parts are sent to the tiers whose bodies include them, and to peers that enter one of these.
+TEST(NearGroups, CarryPartsToTiersThatIncludeThem) {
   Melee place(Melee::scene(true),
               {stand({0, 0, 0}), stand({20, 0, 0}), stand({0, 80, 0}), stand({0, -185, 0})});
   place.run(6s);

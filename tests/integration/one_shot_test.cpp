@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies in contact whose senders are strangers, or silent: what a hand feels of them, and for how
-// long.
+// Contacts with bodies of strangers or silent senders: what a hand feels, and for how long.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +20,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-// One hand that is held still; TOUCH stands for a line of [network].
+// One hand that is held at rest; TOUCH stands for a line of [network].
 constexpr std::string_view kHeldHand = R"(
 [scene]
 name = "one hand"
@@ -43,7 +42,7 @@ position = [0.0, 0.0, 0.0]
 stiffness = "300 N/m"
 )";
 
-// [N], of all bodies on the hand of a peer, in its newest picture.
+// Force of all bodies on a peer's hand, in its newest snapshot [N].
 double pressure_on(InProcess& world, std::size_t link = 0) {
   const haptics::ServoSnapshot& servo = world.view(link).servo();
   double sum = 0.0;
@@ -51,7 +50,7 @@ double pressure_on(InProcess& world, std::size_t link = 0) {
   return sum;
 }
 
-/// A peer on link 0, and a plain DIS program that sends from the link that it is given.
+/// A peer on link 0, and a plain DIS program that sends from the link in its argument.
 class Guest {
  public:
   static constexpr float kRadius = 0.03F;  // [m]
@@ -74,11 +73,12 @@ class Guest {
     state_.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;
     static_cast<void>(world_.notices(0));
   }
-  // Its ball of 250 N/m, so far east of the scene's origin [m], at that speed [m/s].
+  // Sends its ball of 250 N/m at this distance east of the scene's origin [m], with this speed
+  // [m/s].
   void say(double east, double speed = 0.0, std::size_t link = 1) {
     say_ball(1, {east, 0, 0}, {speed, 0, 0}, link);
   }
-  // One of its balls there [m], moving so [m/s].
+  // Sends one of its balls at a position [m], with a velocity [m/s].
   void say_ball(std::uint16_t number, const Eigen::Vector3d& at, const Eigen::Vector3d& moving,
                 std::size_t link) {
     const deadreckon::LocalFrame frame(scene_.origin.latitude, scene_.origin.longitude,
@@ -105,9 +105,9 @@ class Guest {
                     records.begin() + static_cast<std::ptrdiff_t>(size));
     ASSERT_TRUE(world_.network().link(link).send(scene_.network.group, datagram));
   }
-  // The hand, which is at the origin, goes so far east.
+  // Moves the hand, which is at the origin, to the east.
   void press(double east) { hand_at_.x() = east; }
-  // Milliseconds of so many in which the hand feels something.
+  // Runs `steps` milliseconds; returns how many of them the hand feels something.
   std::size_t run(std::size_t steps) {
     std::size_t pressed = 0;
     for (std::size_t i = 0; i < steps; ++i) {
@@ -149,7 +149,7 @@ TEST(OneShot, InsideAHandIsNotFelt) {
   }
 }
 
-TEST(OneShot, IsFeltByAHandForHalfASecond) {
+TEST(OneShot, IsFeltForHalfASecond) {
   for (const double deep : {0.005, 0.02}) {
     Guest guest("touch = \"all\"");
     guest.say(0.06);
@@ -164,7 +164,7 @@ TEST(OneShot, IsFeltByAHandForHalfASecond) {
   }
 }
 
-TEST(OneShot, ThatPassesThroughIsFeltForHalfASecond) {
+TEST(OneShot, PassingThroughIsFeltForHalfASecond) {
   for (const double speed : {-0.05, -0.2, -1.0}) {
     Guest guest("touch = \"all\"");
     guest.say(0.06, speed);
@@ -179,7 +179,7 @@ position = [0.0175, 0.0, 0.0]
 stiffness = "300 N/m"
 )";
 
-// [N], of the other hand.
+// Force of the other hand [N].
 double pressure_of_hands(InProcess& world, std::size_t link) {
   const haptics::ServoSnapshot& servo = world.view(link).servo();
   double sum = 0.0;
@@ -246,7 +246,7 @@ TEST(Guest, KeepsItsNameAtItsFirstAddress) {
   EXPECT_EQ(guest.world().count(0, "touch_refused"), 2u);
 }
 
-// A post of the second peer, which the first one's hand comes to press.
+// A post of the second peer, which the first peer's hand presses.
 const std::string kPost = with(kHeldHand, "TOUCH", "") + R"(
 [[entity]]
 peer = 2

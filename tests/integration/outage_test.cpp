@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Outages of random length and delay, in which a hand that is felt goes or stays. RECKON_SOAK=1
-// runs 200 of each.
+// Outages of random length and delay, during which a felt hand leaves or stays. RECKON_SOAK=1 runs
+// 200 of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace reckon::test {
 namespace {
 
-// One hand comes and presses against another, by 10 mm of their springs and grips.
+// One hand comes and presses against another, with 10 mm across springs and grips.
 constexpr std::string_view kPress = R"(
 [scene]
 name = "outage"
@@ -39,17 +39,17 @@ position = [0.010, 0.0, 0.0]
 stiffness = "150 N/m"
 )";
 
-constexpr double kAway = 0.1;  // [m], from where it presses
-// Two grips and the spring between them in series [N]; the first grip is the default.
+constexpr double kAway = 0.1;  // [m], from the place where it presses
+// Two grips and the spring between them in series [N]; the first grip is the default one.
 constexpr double kRight = 0.010 / (1 / 300.0 + 1 / 300.0 + 1 / 150.0);
-constexpr double kGoes = 0.15;      // [s], and as long to come
+constexpr double kGoes = 0.15;      // [s], to leave or to come
 constexpr double kPressed = 2.5;    // [s], from the start; the press is at rest by then
 constexpr double kUnfelt = 1e-9;    // [N]
-constexpr double kHeartbeat = 5.6;  // [s], of a hand that rests, and a little
+constexpr double kHeartbeat = 5.6;  // [s], of a resting hand, plus a margin
 
 int outages() { return test::tries(8, 200); }
 
-// What chance decides; times in seconds from the start.
+// The random values; times in seconds from the start.
 struct Cut {
   double begin, length, delay, leave;
 };
@@ -61,7 +61,8 @@ Cut cut_of(std::uint64_t seed) {
   };
   Cut cut{};
   cut.begin = between(kPressed, kPressed + 1.0);
-  // As many that end about when hands in contact are doubted, or before whole peers are, as others.
+  // Outages that end about when hands in contact are doubted, about when whole peers are, and
+  // longer ones are equally frequent.
   const double shortest = 0.55;
   const std::array<double, 3> longest{0.7, 2.5, 8.0};
   cut.length = between(shortest, longest[seed % longest.size()]);
@@ -94,7 +95,7 @@ class CutOff {
     world_.peer(1).trace(&steps_);
   }
 
-  // One millisecond; returns what the second hand feels of the first at its end [N].
+  // Runs one millisecond; returns the force of the first hand on the second at its end [N].
   double step() {
     world_.run(1);
     for (; const haptics::ServoSnapshot* servo = steps_.front(); steps_.pop()) {
@@ -108,7 +109,8 @@ class CutOff {
   void run_to(double time) {
     while (now() < time) static_cast<void>(step());
   }
-  // Until the first word after the outage has been taken, and the servo has stepped with it.
+  // Runs until the first datagram after the outage has been processed, and the servo has stepped
+  // with it.
   void run_to_first_word() {
     run_to(cut_.begin + cut_.length);
     const std::uint64_t before = world_.count(1, "datagrams_in");
@@ -118,7 +120,7 @@ class CutOff {
   [[nodiscard]] double now() const { return 1e-3 * static_cast<double>(world_.steps()); }
   [[nodiscard]] double felt() const { return felt_; }
   [[nodiscard]] double least_energy() const { return least_; }
-  // Whether the first hand has said since the outage where it is.
+  // Whether the first hand's state has arrived since the outage.
   [[nodiscard]] bool is_news() {
     const auto rows = world_.peer(1).model().remote().rows();
     return !rows.empty() &&
@@ -141,7 +143,8 @@ std::string text_of(std::uint64_t seed, const Cut& cut) {
          std::to_string(1e3 * cut.delay) + " ms";
 }
 
-// A hand that leaves in the outage is not felt after the first word, known to have gone or not.
+// A hand that leaves during the outage is not felt after the first datagram, whether its departure
+// is known or not.
 void expect_no_ghost(const Cut& cut) {
   CutOff run(cut, cut.leave);
   run.run_to(cut.begin);
@@ -159,7 +162,7 @@ void expect_no_ghost(const Cut& cut) {
   EXPECT_GE(run.least_energy(), -1e-9);
 }
 
-TEST(Outage, LeavesNothingToFeelOfAHandThatHasGoneMeanwhile) {
+TEST(Outage, DepartedHandIsNotFeltAfterwards) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(outages()); ++seed) {
     const Cut cut = cut_of(seed);
     SCOPED_TRACE(text_of(seed, cut));
@@ -167,15 +170,15 @@ TEST(Outage, LeavesNothingToFeelOfAHandThatHasGoneMeanwhile) {
   }
 }
 
-// Too short for a doubt, and its peer announces itself before the hand is said again.
-TEST(Outage, LeavesNothingToFeelWhereSomethingElseIsHeardFirst) {
+// Too short for a doubt, and its peer announces itself before the hand's next state.
+TEST(Outage, DepartedHandIsUnfeltAfterAnyFirstDatagram) {
   for (const Cut& cut : {Cut{2.528, 0.562, 0.0019, 2.679}, Cut{3.497, 0.586, 0.0497, 3.631}}) {
     SCOPED_TRACE(text_of(0, cut));
     expect_no_ghost(cut);
   }
 }
 
-TEST(Outage, GivesBackTheForceOfAHandThatHasStayed) {
+TEST(Outage, StayingHandIsFeltAgain) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(outages()); ++seed) {
     const Cut cut = cut_of(seed);
     SCOPED_TRACE(text_of(seed, cut));

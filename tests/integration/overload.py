@@ -17,20 +17,20 @@ import testbed
 from testbed import Failure, Program, Skip, check
 
 MOST_LATE_US = 5000   # p99 of a touch, servo to servo
-MOST_GROWN_KIB = 1024  # of resident memory, more than in as long a time without a flood
-MOST_TOLD = 1.15       # p99 of touches in groups of their own, over that without a flood, and
-MOST_TOLD_US = 100     # so much beside: both come from some hundreds of touches
-POOL = 16              # of the study: contact groups have numbers so much higher than those of the cells
-BEGUN = 6.0            # [s] after the start of the touches, then what a flood makes room for is there
-RECOVERY = 1.0        # [s] after the flood, then touches take what they took before
-AFTER = 28            # [s] of touches then: 300, so that their p99 is not the one worst, which may be the machine's
+MOST_GROWN_KIB = 1024  # of resident memory, beyond the growth in the same time without a flood
+MOST_TOLD = 1.15       # p99 of touches in groups of their own, as a factor of p99 without a flood, and
+MOST_TOLD_US = 100     # this additional time: both have only some hundreds of touches
+POOL = 16              # of the study: contact groups have numbers higher by this than the groups of their cells
+BEGUN = 6.0            # [s] after the start of the touches, when the memory that a flood needs has been allocated
+RECOVERY = 1.0        # [s] after the flood until touches take their earlier time
+AFTER = 28            # [s] of touches after it: 300, so that p99 is not the maximum, which the machine may cause
 KINDS = {"junk": "max", "states": "max", "runs": "max",
-         "crowd": "60000",  # as many as no peer mutes: 540,000 states a second
-         "hosts": "max"}    # from eight addresses, which nobody mutes
+         "crowd": "60000",  # the greatest rate that no peer mutes: 540,000 states a second
+         "hosts": "max"}    # from eight addresses, none of which is muted
 
 
 def busiest_group(namespace, seconds):
-    """The address and port to which most of the longer datagrams go: where the hands are."""
+    """The address and port with most of the longer datagrams: those of the hands."""
     script = f"""
 import collections, socket, struct, time
 sniffer = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, socket.htons(3))
@@ -54,7 +54,7 @@ print(address, port)
 
 
 class Touches:
-    """The study of latency as a program: two peers with all their threads. Its memory is looked at all the while."""
+    """The study of latency as a program: two peers with all their threads. Its memory is measured throughout."""
 
     def __init__(self, namespace, reckon, seconds, apart):
         self.seconds = seconds
@@ -66,7 +66,7 @@ class Touches:
 
     def _watch(self):
         while self.program.process.poll() is None:
-            try:  # ip becomes the program
+            try:  # ip replaces itself by the program
                 kib = memory.resident(self.program)
             except (OSError, Failure):
                 return
@@ -80,14 +80,14 @@ class Touches:
         return json.loads(self.program.lines[-1][1])
 
     def grown(self):
-        """Resident memory once settled, and how much more it became [KiB]. Rings of datagrams fill for the first time in the first
-        third, tables when the flood has begun; in the last second threads end."""
+        """Resident memory after settling, and its later growth [KiB]. Rings of datagrams fill for the first time in
+        the first third, tables at the start of the flood; in the last second threads end."""
         settled = [kib for at, kib in self.memory if max(self.seconds / 3, BEGUN) <= at <= self.seconds - 1]
         return (settled[0], max(settled) - settled[0]) if settled else (0, 0)
 
 
 def cell_of(address):
-    """The group of a cell, by its contact group."""
+    """The group of a cell, from its contact group."""
     *rest, last = address.split(".")
     check(int(last) > POOL, f"{address} is no contact group: the hands do not touch in one")
     return ".".join([*rest, str(int(last) - POOL)])
@@ -103,10 +103,10 @@ def told(name, result):
 
 
 def flooded(namespace, options, kind, apart):
-    """One kind of flood: begun once the hands touch, ended after them."""
+    """One kind of flood: started while the hands touch, ended after them."""
     touches = Touches(namespace, options.reckon, options.seconds + 2, apart)
     time.sleep(1.5)
-    address, port = busiest_group(namespace, 2.5)  # they meet, then pings go for half a second
+    address, port = busiest_group(namespace, 2.5)  # they find each other, then pings run for half a second
     if apart:
         address = cell_of(address)
     flood = Program(["ip", "netns", "exec", namespace, options.flood, "127.0.0.1", address, port, KINDS[kind],
@@ -123,11 +123,11 @@ def flooded(namespace, options, kind, apart):
 
 
 def all_floods(namespace, options, apart):
-    """What was wrong: nothing, at best."""
+    """Faults; empty if there are none."""
     faults = []
     quiet = Touches(namespace, options.reckon, options.seconds + 2, apart)
     late_quiet = told("quiet, apart:" if apart else "quiet:", quiet.finish())
-    settled, grown_quiet = quiet.grown()  # the study keeps what it measures
+    settled, grown_quiet = quiet.grown()  # the study stores its measurements
     print(f"  {'':14} memory {settled} KiB, {grown_quiet} more at most", flush=True)
     for kind in options.kinds:
         late, grown, rate, result = flooded(namespace, options, kind, apart)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Newest wins at a peer whose updates come faster than it takes them: what waits of an entity costs
-// one update, and what is shown is the newest.
+// The newest state wins at a peer whose updates arrive faster than it processes them: all queued
+// states of an entity cost one update, and the newest is shown.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,8 +13,8 @@
 namespace reckon::test {
 namespace {
 
-// A peer, and a program of plain DIS on link 1 that says 500 states of each of two entities
-// within a millisecond.
+// A peer, and a plain DIS program on link 1 that sends 500 states of each of two entities within a
+// millisecond.
 class Overtaken : public testing::Test {
  protected:
   explicit Overtaken(const std::string& network = {}, std::size_t in_flight = 1024)
@@ -79,7 +79,7 @@ TEST_F(Overtaken, StatesLeaveTheNewestShown) {
   EXPECT_EQ(row(2)->state.position, row(3)->state.position);
 }
 
-TEST_F(Overtaken, StatesAreNoneWhereEachIsTakenAsItComes) {
+TEST_F(Overtaken, StatesTakenAtOnceAreNotOvertaken) {
   for (int place = 0; place < 100; ++place) {
     say(1, place);
     world_.run(1);
@@ -88,12 +88,12 @@ TEST_F(Overtaken, StatesAreNoneWhereEachIsTakenAsItComes) {
   EXPECT_EQ(world_.count(0, "overtaken_in"), 0U);
 }
 
-// A link that holds more than one look at what waits.
+// A link that holds more datagrams than one pass looks through.
 class FarOvertaken : public Overtaken {
  protected:
   FarOvertaken() : Overtaken({}, 4096) {}
 
-  /// So many states of one entity, 100 us apart.
+  /// Sends `states` states of one entity, 100 us apart.
   void say_of_one(int states, int ago_ms) {
     for (int i = 0; i < states; ++i)
       say_of(1, std::chrono::microseconds(1000 * ago_ms - 100 * i), i);
@@ -105,9 +105,9 @@ class FarOvertaken : public Overtaken {
   static constexpr int kEntities = 384;
 };
 
-// Once 512 that waited were overtaken, 1,408 are looked through: what is said of each of 384
-// entities first is found to be overtaken by what is said 1,024 datagrams later.
-TEST_F(FarOvertaken, StatesAreFoundAsFarApartAsARingHoldsBundles) {
+// After 512 overtaken ones, 1,408 queued datagrams are searched: the first state of each of 384
+// entities is overtaken by one that follows 1,024 datagrams later.
+TEST_F(FarOvertaken, StatesAreFoundThroughoutARing) {
   say_of_one(512, 400);
   say_of_each(300);
   say_of_one(640, 250);
@@ -117,7 +117,7 @@ TEST_F(FarOvertaken, StatesAreFoundAsFarApartAsARingHoldsBundles) {
   EXPECT_EQ(world_.count(0, "overtaken_in"), 512U + 640U - 2U + kEntities);
 }
 
-// A state may be the key that others lean on.
+// A state may be the key of others.
 class OvertakenKeys : public Overtaken {
  protected:
   OvertakenKeys() : Overtaken("compression = \"residual\"\n") {}

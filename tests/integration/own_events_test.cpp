@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When the owner says something at once, and with which model.
+// When the owner sends an update at once, and with which model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ peer::EntityDescription hand_of(const peer::DeadReckoningConfig& config) {
   return hand;
 }
 
-// A hand whose servo snapshots are made by the test, 2 ms apart, and what went out of it.
+// A hand whose servo snapshots the test makes, 2 ms apart, and its last update.
 class Owner {
  public:
   explicit Owner(const peer::DeadReckoningConfig& config = {})
@@ -66,9 +66,9 @@ class Owner {
     servo_.count = touching ? 1 : 0;
     servo_.contacts[0].ungated_force = {touching ? 1.0 : 0.0, 0, 0};
   }
-  // The model that the last update named.
+  // The algorithm of the last update.
   [[nodiscard]] Algorithm algorithm() const { return update_.state.dead_reckoning.algorithm; }
-  // The speed that it told [m/s].
+  // The speed in the last update [m/s].
   [[nodiscard]] double speed() const {
     const auto& v = update_.state.linear_velocity;
     return std::hypot(v.x, v.y, v.z);
@@ -94,13 +94,13 @@ class Owner {
   std::array<int, 7> sent_{};
 };
 
-TEST(OwnEvents, AHandThatIsPutElsewhereIsAnEvent) {
+TEST(OwnEvents, TeleportedHandIsAnEvent) {
   Owner owner;
   EXPECT_EQ(owner.step({0.1, 0, 0}), SendReason::first);
   EXPECT_EQ(owner.step({0.1, 0, 0}), SendReason::none);
   EXPECT_EQ(owner.step({0.1 + kTeleport + 0.01, 0, 0}), SendReason::event);
   EXPECT_EQ(owner.step({0.1 + kTeleport + 0.01, 0, 0}), SendReason::none);
-  // A shorter way is an error of position like any other.
+  // A shorter displacement is an ordinary position error.
   EXPECT_EQ(owner.step({0.1 + 0.02, 0, 0}), SendReason::position);
 }
 
@@ -114,8 +114,8 @@ TEST(OwnEvents, MakeAndBreakOfATouchAreEvents) {
   EXPECT_EQ(owner.step({0, 0, 0}), SendReason::event);
 }
 
-// What brought it there ends with the touch: extrapolated, it would go on through what it met.
-TEST(OwnEvents, ATouchIsToldAtRestAndItsEndInMotion) {
+// The motion into a touch ends with it: extrapolated, the hand would move through the body.
+TEST(OwnEvents, TouchIsSentAtRestItsEndMoving) {
   Owner owner;
   for (int i = 0; i < 100; ++i) owner.step({0.001 * i, 0, 0}, {0.5, 0, 0});
   EXPECT_NEAR(owner.speed(), 0.5, 1e-6);
@@ -157,7 +157,7 @@ int updates_on_parabolas(Owner& owner, int steps) {
   return owner.sent();
 }
 
-TEST(OwnModel, IsChosenByTheMotionWhereTheSceneNamesNone) {
+TEST(OwnModel, FollowsTheMotionUnlessTheSceneNamesOne) {
   Owner straight;
   for (int i = 0; i < 2000; ++i) straight.step({0.0004 * i, 0, 0}, {0.2, 0, 0});
   EXPECT_EQ(straight.algorithm(), Algorithm::fpw);
@@ -173,13 +173,13 @@ TEST(OwnModel, IsChosenByTheMotionWhereTheSceneNamesNone) {
     EXPECT_EQ(owner.algorithm(), named);
     std::printf("parabolas for 20 s: %d updates by the chosen model, %d by %s\n", chosen, updates,
                 std::string(peer::word_of(config.algorithm)).c_str());
-    EXPECT_LE(chosen, updates + 10);  // what the first choices cost
+    EXPECT_LE(chosen, updates + 10);  // the cost of the first choices
   }
 }
 
 // --- rules
 
-TEST(OwnRules, AreHeldAgainstThePositionAsTheSceneSays) {
+TEST(OwnRules, JudgeThePositionAsConfigured) {
   const auto reason_at = [](const peer::DeadReckoningConfig& config, const Vector3d& error) {
     Owner owner(config);
     owner.step({0, 0, 0});
@@ -207,7 +207,7 @@ TEST(OwnRules, AreHeldAgainstThePositionAsTheSceneSays) {
 }
 
 // A probe 5 mm deep in a hand of 475 N/m feels 2.4 N; 10 % of that is 0.24 N, 0.5 mm.
-TEST(OwnRules, LetAForceBeOffByItsShareAtEachPlaceThatIsTouched) {
+TEST(OwnRules, PermitForceErrorByShareAtEachContact) {
   const auto reason_at = [](double share, double error,
                             std::span<const deadreckon::ProbeState> probes) {
     peer::DeadReckoningConfig config;
@@ -224,20 +224,20 @@ TEST(OwnRules, LetAForceBeOffByItsShareAtEachPlaceThatIsTouched) {
   EXPECT_EQ(reason_at(0.1, 0.0001, one), SendReason::none);   // of 2.42 N
   EXPECT_EQ(reason_at(0.1, 0.0005, one), SendReason::none);   // 0.24 N of 2.6 N
   EXPECT_EQ(reason_at(0.1, 0.0006, one), SendReason::force);  // 0.28 N of 2.66 N
-  // A place that is hardly touched has no share in the large force at another.
+  // A weak contact has no share in the large force of another.
   const deadreckon::ProbeState grazing{{0, 0, -0.0299}, Vector3d::Zero(), 0.01};
   const std::array<deadreckon::ProbeState, 2> both{deep, grazing};
   EXPECT_EQ(reason_at(0.1, 0.0005, both), SendReason::force);
 }
 
-// --- through whole peers: nothing that happens waits for company
+// --- through whole peers: events do not wait in bundles
 
 std::string with_hold(std::string_view hold) {
   return std::string(kTwoHandsOnAWall) + "\n[network.bundle]\nhold = \"" + std::string(hold) +
          "\"\n";
 }
 
-// Ages of the states of a peer when the listener heard them [ms], frozen ones and others.
+// Ages of a peer's states when the listener received them [ms], frozen ones and others.
 struct Ages {
   std::vector<double> frozen, moving;
 };
@@ -266,7 +266,7 @@ double largest(const std::vector<double>& values) {
 }
 
 TEST(EventsAtOnce, LeaveWhilePosesWaitForCompany) {
-  // Only the first hand, which goes to and fro with nobody near.
+  // Only the first hand, which moves back and forth with no other near.
   const peer::SceneFile scene = managed_by("anyone", scene_of(with_hold("300 ms")));
   InProcess world(1);
   world.listen(scene);
@@ -281,12 +281,12 @@ TEST(EventsAtOnce, LeaveWhilePosesWaitForCompany) {
   const Ages ages = ages_of(world, world.peer(0).own_id());
   ASSERT_GT(ages.moving.size(), 10U);
   ASSERT_GE(ages.frozen.size(), 1U);
-  EXPECT_GT(largest(ages.moving), 100);  // the hold is kept
-  EXPECT_LE(ages.frozen.front(), 4);     // but not by a change of appearance
+  EXPECT_GT(largest(ages.moving), 100);  // the hold time is kept
+  EXPECT_LE(ages.frozen.front(), 4);     // but not for a change of appearance
   EXPECT_GT(world.count(0, "sent_event"), 0U);
 }
 
-TEST(EventsAtOnce, NothingWaitsByDefaultNorNearAHandThatCouldFeelIt) {
+TEST(EventsAtOnce, NothingWaitsByDefaultOrNearAHand) {
   for (const char* hold : {"0 ms", "300 ms"}) {
     SCOPED_TRACE(hold);
     const peer::SceneFile scene = scene_of(with_hold(hold));
@@ -296,7 +296,7 @@ TEST(EventsAtOnce, NothingWaitsByDefaultNorNearAHandThatCouldFeelIt) {
     world.start(1, scene);
     world.run(1000);
     world.heard().clear();
-    world.run(5000);  // the hands are never farther apart than the reach of a contact
+    world.run(5000);  // the hands are never farther apart than the contact range
     const Ages ages = ages_of(world, world.peer(0).own_id());
     ASSERT_GT(ages.moving.size(), 20U);
     EXPECT_LE(largest(ages.moving), 4);
@@ -325,13 +325,13 @@ TEST(EventsAtOnce, AreShownAtOnceByTheOthers) {
   EXPECT_LE((place() - at_once).norm(), 1e-12);
 }
 
-TEST(SendCounters, TellDecisionsUpdatesAndOctets) {
+TEST(SendCounters, CountDecisionsUpdatesAndOctets) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   InProcess world(2);
   world.start(0, scene);
   world.start(1, scene);
   world.run(10'000);
-  EXPECT_NEAR(static_cast<double>(world.count(0, "send_checks")), 5000, 5);  // one a model step
+  EXPECT_NEAR(static_cast<double>(world.count(0, "send_checks")), 5000, 5);  // one per model step
   std::uint64_t updates = 0;
   for (const char* reason : {"first", "event", "position", "orientation", "force", "heartbeat"}) {
     updates += world.count(0, std::string("sent_") + reason);

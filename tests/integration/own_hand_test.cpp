@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What dead reckoning costs and gives on a good network: small errors for few packets.
+// Cost and accuracy of dead reckoning on a good network: small errors for few packets.
 #include <gtest/gtest.h>
 
 #include "reckon/tests/support/in_process.hpp"
@@ -46,17 +46,17 @@ void expect_within(const peer::SceneFile& scene, nanoseconds span, const Bounds&
 }
 
 // The recorded hands touch each other from the third second on.
-TEST(OwnHand, IsShownAndFeltWithinItsThresholdsOnTheShippedScene) {
+TEST(OwnHand, MeetsItsThresholdsOnTheShippedScene) {
   expect_within(shipped_scene(), seconds(60), {});
 }
 
 // A hand that pushes another across a wall with friction, on and off each second, is the hard case:
-// stick and slip are accelerations that no predictor has heard of.
-TEST(OwnHand, StaysBoundedWhileOnePushesTheOtherAcrossAWall) {
+// no predictor can foresee the accelerations of stick and slip.
+TEST(OwnHand, StaysBoundedWhilePushingAnotherAcrossAWall) {
   expect_within(scene_of(kTwoHandsOnAWall), seconds(30), {2e-3, 0.4, 1.0 / 15.0});
 }
 
-// It says itself again before its force fades, however long the heartbeat.
+// It is repeated before its force fades, however long the heartbeat.
 TEST(OwnHand, IsNotForgottenBetweenSlowHeartbeats) {
   for (const char* validity : {"12 s", "30 s"}) {
     const peer::SceneFile scene = scene_of(with(
@@ -78,8 +78,8 @@ TEST(OwnHand, IsNotForgottenBetweenSlowHeartbeats) {
   }
 }
 
-// A hand that stands still in free air says no more than its heartbeat.
-TEST(OwnHand, SaysLittleWhenNothingHappens) {
+// A resting hand in free air sends only heartbeats.
+TEST(OwnHand, SendsLittleAtRest) {
   const peer::SceneFile scene = scene_of(R"(
 [scene]
 name = "still"

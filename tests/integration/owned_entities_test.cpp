@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer owns beside one hand: posts that others press, tips that push them, two hands on two
-// devices, many entities, none at all.
+// Entities of a peer besides one hand: posts that others press, tips that push them, two hands on
+// two devices, many entities, none at all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Peer 1 has a post and no device; peer 2 a hand that moves as `motion` says.
+// Peer 1 has a post and no device; peer 2 has a hand with `motion`.
 std::string post_and_hand(std::string_view motion, std::string_view extra = "") {
   return R"(
 [scene]
@@ -57,9 +57,9 @@ const haptics::ServoSnapshot& servo(InProcess& world, std::size_t link) {
   return world.view(link).servo();
 }
 
-TEST(Post, OfAPeerWithoutADeviceIsFeltByTheHandOfAnother) {
-  // The surface of the post is at z = 0, felt from 10 mm above by the hand's radius. The grip of
-  // 300 N/m wants the hand at 0: f = 600 d = 300 (10 mm - d), so d = 10/3 mm and f = 2 N.
+TEST(Post, OfAPeerWithoutDeviceIsFelt) {
+  // The surface of the post is at z = 0, felt from 10 mm above because of the hand's radius. The
+  // grip of 300 N/m pulls the hand to 0: f = 600 d = 300 (10 mm - d), so d = 10/3 mm and f = 2 N.
   const peer::SceneFile scene = scene_of(post_and_hand(pressing("16 s")));
   InProcess world(2);
   world.start(0, scene);
@@ -74,11 +74,11 @@ TEST(Post, OfAPeerWithoutADeviceIsFeltByTheHandOfAnother) {
   EXPECT_NEAR(hand.force.z(), 2.0, 0.02);
   EXPECT_NEAR(hand.device.z(), 0.010 - 2.0 / 600.0, 5e-5);
   EXPECT_GE(hand.port_energy_min, -1e-9);
-  // Standing still it has nothing to give, and gives nothing.
+  // At rest it has no energy to give, and gives none.
   EXPECT_EQ(world.view(0).power_given, 0.0);
 }
 
-TEST(Post, IsSaidOnceAndThenRarely) {
+TEST(Post, IsSentOnceAndThenRarely) {
   const peer::SceneFile scene = scene_of(post_and_hand(kHeld));
   InProcess world(2);
   world.start(0, scene);
@@ -90,7 +90,7 @@ TEST(Post, IsSaidOnceAndThenRarely) {
   EXPECT_LE(world.count(0, "updates_out") - before, 14U);
 }
 
-TEST(Post, StaysFeltForLongerThanItsModelIsValid) {
+TEST(Post, IsFeltLongerThanItsModelsValidity) {
   const peer::SceneFile scene = scene_of(post_and_hand(pressing("80 s")));
   InProcess world(2);
   world.start(0, scene);
@@ -99,7 +99,7 @@ TEST(Post, StaysFeltForLongerThanItsModelIsValid) {
   EXPECT_NEAR(servo(world, 1).force.z(), 2.0, 0.02);
 }
 
-TEST(Post, OfOnesOwnPeerIsFeltWithoutTheNetwork) {
+TEST(Post, OfTheOwnPeerIsFeltWithoutNetwork) {
   const std::string own = with(post_and_hand(pressing("60 s")), "peer = 2", "peer = 1");
   const peer::SceneFile scene = scene_of(own);
   InProcess world(1);
@@ -119,7 +119,7 @@ std::string rising_tip(std::string_view power) {
 
 class Tip : public testing::TestWithParam<bool> {
  protected:
-  // The force on the hand after the tip has risen by 40 mm in 2 s, and what it cost.
+  // The force on the hand after the tip has risen by 40 mm in 2 s, and its energy.
   struct Outcome {
     double force = 0, least_energy = 0, given = 0;
   };
@@ -154,10 +154,9 @@ class Tip : public testing::TestWithParam<bool> {
 };
 INSTANTIATE_TEST_SUITE_P(OfAnotherPeerAndOfOnesOwn, Tip, testing::Bool());
 
-TEST_P(Tip, PushesAHandWithTheForceOfBothSprings) {
-  // Radii 15 and 10 mm, the tip's centre at 0, the hand wants to be at 10 mm: f = 600 d = 300 (15
-  // mm
-  // - d) at the end: 3 N. The grip then stores (3 N)^2 / 600 N/m = 15 mJ, which the tip has given.
+TEST_P(Tip, PushesAHandThroughBothSprings) {
+  // Radii 15 and 10 mm, the tip's centre at 0, the hand's goal at 10 mm: f = 600 d = 300 (15 mm -
+  // d) at the end: 3 N. The grip then stores (3 N)^2 / 600 N/m = 15 mJ, which the tip has given.
   const Outcome outcome = raise("50 mW", GetParam());
   EXPECT_NEAR(outcome.force, 3.0, 0.15);
   EXPECT_GE(outcome.least_energy, -1e-9);
@@ -172,7 +171,7 @@ TEST_P(Tip, WithoutPowerGivesNothingAndPushesLess) {
   EXPECT_EQ(outcome.given, 0.0);
 }
 
-// Two devices of one peer, whose hands want to be 12 mm apart and have radii of 10 mm.
+// Two devices of one peer, whose hands have goals 12 mm apart and radii of 10 mm.
 constexpr std::string_view kTwoHanded = R"(
 [scene]
 name = "two handed"
@@ -257,7 +256,7 @@ TEST(OwnedEntities, AreFrozenOneByOne) {
   EXPECT_TRUE(world.view(1).rows[1].frozen);
 }
 
-TEST(OwnedEntities, TenThousandAreShownByAnotherWithinTwoSeconds) {
+TEST(OwnedEntities, TenThousandAreShownWithinTwoSeconds) {
   peer::SceneFile scene = *peer::dis_exercise(1);
   scene.network.interop = false;
   scene.aoim.cell = 2000.0;
@@ -290,13 +289,13 @@ TEST(OwnedEntities, TenThousandAreShownByAnotherWithinTwoSeconds) {
   run(200);
   EXPECT_EQ(one.size(), 10'000U);
   EXPECT_EQ(many.peer().counters().find("write_overflow")->value(), 0U);
-  // Each where it is: the sum over all is that of the grid.
+  // Each is in place: the sum of all positions equals the sum over the grid.
   Vector3d sum = Vector3d::Zero();
   one.for_each([&](const peer::RemoteObject& object) { sum += object.shown(one.now()).position; });
   EXPECT_NEAR(sum.x(), -50.0 * 10'000, 1.0);
   EXPECT_NEAR(sum.y(), -50.0 * 10'000, 1.0);
 
-  // Later they are silent: the heartbeat of what is on land is 55 s.
+  // Later they are silent: the heartbeat of land entities is 55 s.
   const auto before = many.peer().counters().find("updates_out")->value();
   run(1000);
   const auto updates = many.peer().counters().find("updates_out")->value() - before;
@@ -304,8 +303,8 @@ TEST(OwnedEntities, TenThousandAreShownByAnotherWithinTwoSeconds) {
   EXPECT_EQ(one.size(), 10'000U);
 }
 
-// 200 posts of a heartbeat of 60 s. One by one they would be as many datagrams a minute; together
-// they are some for each tenth of the heartbeat.
+// 200 posts with a heartbeat of 60 s. Singly they would need as many datagrams a minute; together
+// they need some for each tenth of the heartbeat.
 TEST(Posts, AtRestRepeatThemselvesTogether) {
   Field field(2, with(kField, "leaders = true\n", ""));
   field.start(0, 200);
@@ -319,7 +318,7 @@ TEST(Posts, AtRestRepeatThemselvesTogether) {
   field.world_.run(240'000);
   const double minutes = 4;
   const double sent = static_cast<double>(count(0, "updates_out") - updates) / minutes;
-  // What a peer says with one post is presence.
+  // A peer with one post sends almost only presence.
   const double in = static_cast<double>(count(0, "datagrams_out") - datagrams -
                                         (count(1, "datagrams_out") - others)) /
                     minutes;

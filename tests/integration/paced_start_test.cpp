@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An owner of very many entities starts, and is asked for them: no reader takes it for a flood.
+// An owner of very many entities starts, and introduces them to newcomers: no receiver takes it for
+// a flood.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ peer::SceneFile scene_with(std::size_t entities) {
   return scene;
 }
 
-TEST(ManyEntities, AreWholeSoonAfterTheirOwnerStarts) {
+TEST(ManyEntities, AreCompleteSoonAfterTheirOwnersStart) {
   const peer::SceneFile scene = scene_with(20'000);
   InProcess world(2, 1, 8192);
   world.start(1, scene);
@@ -33,7 +34,7 @@ TEST(ManyEntities, AreWholeSoonAfterTheirOwnerStarts) {
   EXPECT_EQ(world.count(1, "muted_in"), 0u);
 }
 
-TEST(ManyEntities, AreWholeSoonForANewcomer) {
+TEST(ManyEntities, AreCompleteSoonForANewcomer) {
   const peer::SceneFile scene = scene_with(40'000);
   InProcess world(2, 1, 8192);
   world.start(0, scene);
@@ -44,7 +45,8 @@ TEST(ManyEntities, AreWholeSoonForANewcomer) {
   EXPECT_EQ(world.count(1, "muted_in"), 0u);
 }
 
-// What all passes of any 100 ms send is below what a reader under pressure takes of one sender.
+// The datagrams of all passes in any 100 ms stay below the limit that a receiver under pressure
+// sets for one sender.
 TEST(ManyEntities, AreSentBelowTheQuotaOfAReader) {
   const peer::SceneFile scene = scene_with(20'000);
   InProcess world(2, 1, 8192);

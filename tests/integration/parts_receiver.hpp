@@ -49,11 +49,11 @@ inline std::vector<std::byte> turret(double azimuth, double rate) {
       {{kTurret, 11, static_cast<float>(wrapped)}, {kTurret, 12, static_cast<float>(rate)}});
 }
 
-// The shorter way round [rad].
+// The angle of the shorter way round [rad].
 inline double off(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
 
-// The incoming half of a peer in a world of 100 km, from the octets of datagrams; time is the
-// test's.
+// The incoming half of a peer in a world of 100 km, fed with octets of datagrams; the test sets the
+// time.
 class PartsReceiver {
  public:
   explicit PartsReceiver(const deadreckon::LocalFrame& frame = {0.8, 0.1, 400},
@@ -73,10 +73,11 @@ class PartsReceiver {
     octets_.reserve(8192);
   }
 
-  // What the next updates say besides parts.
+  // The next updates, besides their parts.
   [[nodiscard]] pdu::EntityState& state() { return state_; }
 
-  // An update of the instant `sent` that arrives at `now` [s]; its octets are gone afterwards.
+  // Takes an update of the instant `sent` that arrives at `now` [s]; its octets are freed
+  // afterwards.
   void hear(std::span<const std::byte> records, double sent, double now, std::uint16_t entity = 9) {
     const Eigen::Vector3d place = frame_.origin() + Eigen::Vector3d(10 * sent + shift, 0, 0);
     state_.location = {place.x(), place.y(), place.z()};
@@ -97,7 +98,7 @@ class PartsReceiver {
   [[nodiscard]] ShownParts parts(double now, const pdu::EntityId& id = {7, 8, 9}) const {
     return remote_.parts(id, pdu::from_seconds(now));
   }
-  // The number of a part; not a number where it is not there.
+  // The part with this number; NaN if it is absent.
   [[nodiscard]] ShownPart part(std::uint32_t part, double now) const {
     const ShownParts all = parts(now);
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -114,7 +115,7 @@ class PartsReceiver {
     return counters_.find(name)->value();
   }
 
-  double shift = 0;  // [m] added to the place of the next updates
+  double shift = 0;  // [m] added to the position of the next updates
 
  private:
   static RemoteSettings settings(const SceneFile& scene, bool bodies_in_part) {

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the soak can fail: after a minute of it a difference of one is planted in what a peer told, again and again, and
-is to be found each time.
+"""Checks that the soak can fail: after a minute a difference of one is planted in the reports of a peer, repeatedly,
+and must be found each time.
   planted_balance.py --reckon PROGRAM [--seed N]"""
 import collections
 import copy
@@ -14,13 +14,13 @@ import wire_balance
 from testbed import check
 
 PLANTS = 600
-RARE = ("fates.held_back", "fates.send_error", "fates.stale_unsent")  # planted in by themselves, too
+RARE = ("fates.held_back", "fates.send_error", "fates.stale_unsent")  # also planted one by one
 OF_RARE = 10
-EDGE = "memberships.kernel_drops"  # the one number that an edge leaves unsharp, see docs/robustness.md
+EDGE = "memberships.kernel_drops"  # the only number that is not exact at the ends of a stretch, see docs/robustness.md
 
 
 def places(log):
-    """(kind, line, part, row, key) of each count in what a life has told."""
+    """(kind, line, part, row, key) of each count in the reports of a life."""
     for i, line in enumerate(log):
         if line.get("event") != "balance":
             yield "datagrams_lost", i, None, None, "datagrams_lost"
@@ -33,7 +33,7 @@ def places(log):
 
 
 def judged(whole, life, log):
-    """The findings, had the life told this."""
+    """The findings for these reports."""
     told = wire_balance.Told(life.host)
     told.asked_s, told.end_s = life.asked_s, life.end_s
     for line in copy.deepcopy(log):

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Articulated parts of others: hostile, too many, none, and recorded ones.
+// Remote articulated parts: hostile, too many, none, and recorded ones.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -30,7 +30,7 @@ TEST(RemoteParts, OfEntitiesWithoutAnyTakeNoPlace) {
   EXPECT_EQ(receiver.count("parts_full"), 0U);
 }
 
-TEST(RemoteParts, BeyondThePoolAreCountedAndTheEntityIsShown) {
+TEST(RemoteParts, BeyondThePoolAreCountedOnly) {
   PartsReceiver receiver;
   constexpr auto kAll = static_cast<std::uint16_t>(RemoteParts::kEntities + 3);
   for (std::uint16_t id = 1; id <= kAll; ++id) receiver.hear(turret(0.5, 0), 1, 1, id);
@@ -47,15 +47,15 @@ TEST(RemoteParts, BeyondThePoolAreCountedAndTheEntityIsShown) {
   EXPECT_EQ(receiver.count("parts_full"), 3U);
 }
 
-TEST(RemoteParts, WithNonsenseAreLeftOutAndCountedAndTheEntityIsNotTouched) {
+TEST(RemoteParts, InvalidOnesAreOmittedAndCounted) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   PartsReceiver receiver, plain;
   receiver.hear(octets_of({{kTurret, 11, 1.0F},  // good
                            {kTurret, 12, kInfinity},
                            {kGun, 13, kNan},
-                           {kGun, 14, 1.0F},  // a rate of nothing
-                           {96, 0, 1.0F},     // metrics that are not in the list
+                           {kGun, 14, 1.0F},  // a rate without an angle
+                           {96, 0, 1.0F},     // metrics that are not listed
                            {96, 17, 1.0F}}),
                 1, 1);
   EXPECT_EQ(receiver.count("parts_refused"), 5U);
@@ -77,7 +77,7 @@ TEST(RemoteParts, WithNonsenseAreLeftOutAndCountedAndTheEntityIsNotTouched) {
             plain.row()->shown(pdu::from_seconds(3.05)).position);
 }
 
-TEST(RemoteParts, StayFiniteWhateverTheOctets) {
+TEST(RemoteParts, StayFiniteForRandomOctets) {
   PartsReceiver receiver;
   std::mt19937 random(1);
   std::vector<std::byte> records;
@@ -126,14 +126,14 @@ std::vector<std::byte> recorded(const std::filesystem::path& file) {
   return {octets.begin(), octets.end()};
 }
 
-// The plane under a geocentric point, to some km of height.
+// A frame on the ground below a geocentric position, to some km.
 deadreckon::LocalFrame below(const pdu::WorldCoordinates& place) {
   constexpr double kFlattening = 1 - 0.00669437999014;
   return {std::atan2(place.z, kFlattening * std::hypot(place.x, place.y)),
           std::atan2(place.y, place.x), 0};
 }
 
-// What the octets say, read by a script that shares nothing with the codec.
+// The expected values, read by a script that shares no code with the codec.
 struct Recorded {
   const char* file;
   pdu::EntityId id;
@@ -143,7 +143,7 @@ struct Recorded {
   bool frozen;
 };
 
-TEST(RemoteParts, OfRecordedEntityStatesOfThreeProductsAreShown) {
+TEST(RemoteParts, RecordedEntityStatesOfThreeProductsAreShown) {
   RECKON_NEED_DATA("dis-captures/real-pdus");
   const std::array<Recorded, 4> all{{
       {"dis6/EntityStatePdu-vrf-articulated-parameters.raw",

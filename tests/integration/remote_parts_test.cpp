@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Turrets and guns of others as a peer shows them, from the octets of a datagram on.
+// Remote turrets and guns as a peer shows them, from the octets of a datagram on.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace {
 using deadreckon::PartMetric;
 using std::chrono::nanoseconds;
 
-// --- updates that leave them out
+// --- updates without parts
 
-TEST(RemoteParts, StayWhereAnUpdateOfARigidBodySaysNothingOfThem) {
+TEST(RemoteParts, RemainWhenARigidUpdateOmitsThem) {
   for (const bool in_part : {false, true}) {
     PartsReceiver receiver({0.8, 0.1, 400}, in_part);
     receiver.hear(turret(0.5, 0.0), 0.0, 0.1);
@@ -31,8 +31,8 @@ TEST(RemoteParts, StayWhereAnUpdateOfARigidBodySaysNothingOfThem) {
 
 // --- motion
 
-// The float32 on the wire is off by 2e-7 rad, the timestamp by 1.7 us times the rate.
-TEST(RemoteParts, ShowATurretThatTurnsSteadilyWhereItIsDespiteTheDelay) {
+// The float32 on the wire errs by 2e-7 rad, the timestamp by 1.7 us times the rate.
+TEST(RemoteParts, ShowASteadilyTurningTurretWithoutDelay) {
   PartsReceiver receiver;
   const auto truth = [](double t) { return 2.8 + 0.5 * t; };
   double worst = 0;
@@ -50,8 +50,8 @@ TEST(RemoteParts, ShowATurretThatTurnsSteadilyWhereItIsDespiteTheDelay) {
   EXPECT_LE(worst, 2e-6);
 }
 
-// 1.28 rad/s^2 for 0.65 s is 0.27 rad at an update, and 0.83 rad/s; no more while it converges.
-TEST(RemoteParts, TurnWithoutAStepInAngleOrRateAtUpdates) {
+// 1.28 rad/s^2 for 0.65 s gives 0.27 rad at an update, and 0.83 rad/s; no more during convergence.
+TEST(RemoteParts, TurnWithoutAStepAtUpdates) {
   PartsReceiver receiver;
   const auto truth = [](double t) { return 3 + 2 * std::sin(0.8 * t); };
   const auto rate = [](double t) { return 1.6 * std::cos(0.8 * t); };
@@ -72,7 +72,7 @@ TEST(RemoteParts, TurnWithoutAStepInAngleOrRateAtUpdates) {
   EXPECT_EQ(receiver.count("snaps"), 0U);
 }
 
-TEST(RemoteParts, StandWhileFrozenAndAreShownAtOnceWhenThatChanges) {
+TEST(RemoteParts, RestWhileFrozenAndChangeWithoutConvergence) {
   PartsReceiver receiver;
   receiver.hear(turret(1, 0.5), 1, 1);
   receiver.state().appearance = pdu::kAppearanceFrozen;
@@ -81,7 +81,7 @@ TEST(RemoteParts, StandWhileFrozenAndAreShownAtOnceWhenThatChanges) {
     EXPECT_NEAR(receiver.part(kTurret, t).value, 2, 1e-6) << t;
     EXPECT_EQ(receiver.part(kTurret, t).rate, 0) << t;
   }
-  // What is said of it while it is frozen is converged to.
+  // Updates during the freeze converge.
   receiver.hear(turret(2.1, 0.5), 3, 3);
   EXPECT_NEAR(receiver.part(kTurret, 3).value, 2, 1e-6);
   EXPECT_NEAR(receiver.part(kTurret, 4).value, 2.1, 1e-6);
@@ -101,7 +101,7 @@ TEST(RemoteParts, AreShownAtOnceWhereTheEntityIs) {
   EXPECT_NEAR(receiver.part(kTurret, 2).value, 2, 1e-6);
 }
 
-TEST(RemoteParts, HoldAfterTheTimeOutOfTheEntityAsItsUpdatesChangeIt) {
+TEST(RemoteParts, StopAfterTheEntitysCurrentTimeOut) {
   PartsReceiver receiver;
   receiver.state().linear_velocity = {0, 0, 0};  // at rest: 144 s
   receiver.hear(turret(0, 0.01), 1, 1);
@@ -120,9 +120,9 @@ TEST(RemoteParts, HoldAfterTheTimeOutOfTheEntityAsItsUpdatesChangeIt) {
   }
 }
 
-// --- coming and going
+// --- appearing and disappearing
 
-TEST(RemoteParts, ComeAndGoWithTheUpdatesThatNameThem) {
+TEST(RemoteParts, AppearAndDisappearWithTheirUpdates) {
   PartsReceiver receiver;
   receiver.hear({}, 1, 1);
   EXPECT_TRUE(receiver.parts(1).empty());
@@ -162,7 +162,7 @@ TEST(RemoteParts, GiveTheirPlaceBackHoweverTheEntityGoes) {
   EXPECT_TRUE(receiver.parts(61).empty());
 }
 
-// The table moves rows when one goes.
+// The table moves rows when one is removed.
 TEST(RemoteParts, StayWithTheirEntityWhenOthersGo) {
   PartsReceiver receiver;
   for (std::uint16_t id = 1; id <= 20; ++id) receiver.hear(turret(0.1 * id, 0), 1, 1, id);
@@ -178,8 +178,8 @@ TEST(RemoteParts, StayWithTheirEntityWhenOthersGo) {
 
 // --- a whole peer
 
-// Peers without trailers are heard too.
-TEST(RemoteParts, OfAnEntityStateOnTheLinkAreShownByARunningPeer) {
+// Datagrams of peers without trailers are accepted, too.
+TEST(RemoteParts, ARunningPeerShowsThoseOfEntityStates) {
   const SceneFile scene = reckon::test::scene_of(reckon::test::kTwoHandsOnAWall);
   reckon::test::InProcess world(1);
   const peer::Peer& peer = world.start(0, scene);

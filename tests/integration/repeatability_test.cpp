@@ -11,7 +11,7 @@
 namespace reckon::test {
 namespace {
 
-// FNV-1a over the bits of what it is given.
+// FNV-1a over the bits added.
 class Hash {
  public:
   void add(const void* octets, std::size_t count) {
@@ -88,7 +88,7 @@ std::uint64_t wire_trace(const peer::SceneFile& scene, std::uint64_t seed) {
   return hash.value();
 }
 
-TEST(Repeatability, TheSameSeedGivesTheSameServoStepsToTheBit) {
+TEST(Repeatability, SameSeedGivesIdenticalServoSteps) {
   const std::uint64_t once = servo_trace(scene_of(kTwoHandsOnAWall), 3);
   EXPECT_EQ(servo_trace(scene_of(kTwoHandsOnAWall), 3), once);
   EXPECT_NE(servo_trace(scene_of(kTwoHandsOnAWall), 4), once);
@@ -98,7 +98,7 @@ TEST(Repeatability, TheShippedSceneRepeatsToTheBit) {
   EXPECT_EQ(servo_trace(shipped_scene(), 3), servo_trace(shipped_scene(), 3));
 }
 
-TEST(Repeatability, TheSameSeedGivesTheSameDatagramsToTheBit) {
+TEST(Repeatability, SameSeedGivesIdenticalDatagrams) {
   const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
   const std::uint64_t once = wire_trace(scene, 3);
   EXPECT_EQ(wire_trace(scene, 3), once);

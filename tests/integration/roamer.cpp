@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One of many whole peers that come, cross cell borders and go, and that know where all others are:
+// One of many whole peers that come, cross cell borders and go, and that know the positions of all
+// others:
 //   roamer INTERFACE NUMBER COUNT BEGIN SECONDS
 // NUMBER from 0 of COUNT; BEGIN: steady time at which the exercise begins [ns]. One JSON object at
-// the end: what it missed, what reached it unasked.
+// the end: missed entities, and unrequested ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +22,10 @@ using namespace reckon;
 
 constexpr std::size_t kEntities = 2;        // of each peer
 constexpr double kRate = 20;                // steps a second
-constexpr double kStagger = 0.03;           // [s] from one peer's coming or going to the next
+constexpr double kStagger = 0.03;           // [s] from one peer's arrival or departure to the next
 constexpr double kCome = 2.5, kGone = 1.5;  // [s] until all know of it
-// [s] by which a step may be late (TOO_LATE of namespaces_many.py): who goes then is gone already
+// [s] permitted lateness of a step (TOO_LATE of namespaces_many.py): a peer that departs then has
+// already gone
 constexpr double kLate = 0.6;
 
 bench::ScaleSetting setting_of(std::size_t count, double seconds) {
@@ -37,7 +39,7 @@ bench::ScaleSetting setting_of(std::size_t count, double seconds) {
   return setting;
 }
 
-/// Half of all stay; a quarter comes late, an eighth leaves early, an eighth leaves and comes back.
+/// Half of all stay; a quarter comes late, an eighth departs early, an eighth departs and returns.
 std::vector<bench::LiveStay> stays_of(std::size_t number, double seconds) {
   const double shift = kStagger * static_cast<double>(number);
   const auto at = [&](double share) { return share * seconds + shift; };
@@ -58,7 +60,7 @@ std::vector<bench::LiveStay> stays_of(std::size_t number, double seconds) {
 bench::Attendance attendance(std::size_t peer, double time, double seconds) {
   auto nearest = bench::Attendance::absent;
   for (const bench::LiveStay& stay : stays_of(peer, seconds)) {
-    // Who comes takes its first step at the full one that is nearest.
+    // A newcomer takes its first step at the nearest multiple of the period.
     if (time < stay.from - 1 / kRate || time > stay.until + kGone) continue;
     const bool is_known = time > stay.from + kCome && time < stay.until - kLate;
     nearest = is_known ? bench::Attendance::present : bench::Attendance::settling;

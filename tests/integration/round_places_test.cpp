@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An entity that stands or moves at round coordinates: multiples of the side of a cell, of half of
-// it, of 10 and of 100 m, so often just on a border or a corner, on either side of the origin and
-// far from it. What is written to the wire and read again may lie in another cell than before. A
-// peer in reach shows it all the time, within the bound, and so does one far away that follows its
-// beacon.
+// An entity at rest or in motion at round coordinates: multiples of the side of a cell, of half of
+// it, of 10 and of 100 m, so often exactly on a border or a corner, on either side of the origin
+// and far from it. A position that is written to the wire and read again may be in another cell
+// than before. A peer in reach shows it all the time, within the error limit, and so does a distant
+// one that follows its beacon.
 //
 // RECKON_SOAK=1 tries 10,000 seeds, RECKON_SEEDS=N the first N; otherwise a few dozen.
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ using std::chrono::nanoseconds;
 constexpr double kThreshold = 0.2;                           // [m]
 constexpr std::size_t kOwner = 0, kNear = 1, kFollower = 2;  // federates
 
-/// Drawn from a seed.
+/// Random values of a seed.
 struct Draw {
   explicit Draw(std::uint64_t seed) : random(seed) {}
   template <typename T, std::size_t N>
@@ -43,7 +43,7 @@ struct Draw {
     return std::uniform_real_distribution<double>(from, to)(random);
   }
   bool is(double share) { return uniform(0, 1) < share; }
-  /// A round number, and one in five the neighbours of one: the next doubles and a millimetre off.
+  /// A round number, or one time in five a neighbour: an adjacent double or a millimetre away.
   double coordinate(double cell) {
     const double steps[]{cell, cell / 2, cell * std::numbers::sqrt3 / 2, 10.0, 100.0};
     const double farthest[]{1, 4, 40, 400};
@@ -57,9 +57,9 @@ struct Draw {
   std::mt19937_64 random;
 };
 
-/// A scene, an entity at a round place, a watcher in reach, and a follower where it has a beacon.
+/// A scene, an entity at a round position, a watcher in reach, and a follower if it has a beacon.
 struct Place {
-  static constexpr double kRate = 2.0;  // of the way to and fro [rad/s]
+  static constexpr double kRate = 2.0;  // of the oscillation [rad/s]
 
   explicit Place(std::uint64_t seed) {
     Draw draw(seed);
@@ -71,7 +71,7 @@ struct Place {
     speed = draw.one_of(speeds);
     const Vector3d ways[]{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 1, 0}};
     way = draw.one_of(ways).normalized();
-    // So near that it stays within the radius, at a round offset or any.
+    // So near that it stays within the radius, at a round offset or a random one.
     const double most = radius - 1.0 - speed, step = std::min(cell, most);
     const double angle = draw.uniform(0, 2 * std::numbers::pi), away = draw.uniform(0, most);
     const Vector3d offsets[]{{0, 0, 0},
@@ -98,7 +98,7 @@ struct Place {
         has_leaders ? "leaders = true\nhand_out = true\n" : "",
         scheme == "quadtree" ? quarters() : fmt::format("cell = \"{} m\"\n", cell));
   }
-  /// A square of 16 cells, divided down to one cell at the place.
+  /// A square of 16 cells, divided down to one cell at the position.
   [[nodiscard]] std::string quarters() const {
     std::string path;
     double east = 0, north = 0;
@@ -111,7 +111,7 @@ struct Place {
     return fmt::format("[aoim.quadtree]\nside = \"{} m\"\nsmallest = \"{} m\"\nleaves = \"{}\"\n",
                        16 * cell, cell, path);
   }
-  /// To and fro through the round place within 1.5 m.
+  /// Back and forth through the round position within 1.5 m.
   [[nodiscard]] peer::EntityTruth truth(nanoseconds now) const {
     peer::EntityTruth truth;
     truth.time = now;
@@ -145,7 +145,7 @@ void stand(peer::Federate& federate, const peer::SceneFile& scene, const Vector3
   federate.register_object(description(scene), truth);
 }
 
-/// Of one peer, since everybody knows everybody.
+/// Of one peer, because all know each other.
 struct Looks {
   std::size_t all = 0, hidden = 0;
   double worst = 0;  // [m]
@@ -191,14 +191,14 @@ void try_place(std::uint64_t seed) {
   for (std::size_t i = kNear; i < federates.size(); ++i) {
     SCOPED_TRACE(i == kFollower ? "by its beacon" : "in reach");
     EXPECT_EQ(seen[i].hidden, 0U) << "of " << seen[i].all;
-    // Who follows from far away listens to the next cell up to 0.4 s after the border.
+    // A distant follower receives the next cell up to 0.4 s after the border.
     const double unseen = i == kFollower ? 0.4 : 0.0;
     const double change = Place::kRate * place.speed * unseen * unseen / 2;
     EXPECT_LE(seen[i].worst, kThreshold + 0.02 + 0.1 * place.speed + change);
   }
 }
 
-TEST(RoundPlaces, AreShownAllTheTimeToWhoIsInReachOrFollows) {
+TEST(RoundPlaces, AreAlwaysShownInReachAndToFollowers) {
   std::uint64_t seeds = test::tries(40U, 10'000U);
   if (const char* given = std::getenv("RECKON_SEEDS")) seeds = std::stoul(given);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) try_place(seed);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What hands that rub send: over what another peer owns and nobody holds, and over each other.
+// Traffic of rubbing hands: over an unheld entity of another peer, and over each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
 pool = 16
 )";
 
-// A hand goes to and fro by 40 mm each way and once a second, 3 mm deep in a peg of the first peer.
+// A hand moves back and forth by 40 mm each way once a second, 3 mm deep in a peg of the first
+// peer.
 const std::string kPeg = kRubbing + R"(
 [hand]
 radius = "10 mm"
@@ -60,7 +61,7 @@ position = "0 0 0 mm"
 stiffness = "300 N/m"
 )";
 
-// Over a hand that gives way too, with so much way that they part four times a second.
+// Over a hand that gives way too, so much that they part four times a second.
 const std::string kParting = kRubbing + R"(
 [hand]
 radius = "40 mm"
@@ -75,14 +76,14 @@ position = "0 0 0 mm"
 stiffness = "300 N/m"
 )";
 
-// The hand over the peg goes over what is shaped, 6 mm deep, and is thrown off its edges.
+// The hand rubs a shaped body, 6 mm deep, and is thrown off its edges.
 std::string over(const std::string& model, const std::string& height) {
   const std::string peg = with(kPeg, R"({kind = "plane", k1 = "800 N/m"})", model);
   const std::string from = with(peg, R"("-40 0 7 mm")", "\"-40 0 " + height + " mm\"");
   return with(from, R"("40 0 7 mm")", "\"40 0 " + height + " mm\"");
 }
 
-// Two hands go to and fro over each other by `way` [mm], towards each other.
+// Two hands move back and forth over each other by `way` [mm], in opposite directions.
 std::string both_sweep(const std::string& radius, const std::string& height,
                        const std::string& way) {
   return kRubbing + "[hand]\nradius = \"" + radius + " mm\"\nk1 = \"500 N/m\"\n" +
@@ -91,10 +92,10 @@ std::string both_sweep(const std::string& radius, const std::string& height,
          " 0 0 mm\", to = \"-" + way + " 0 0 mm\", period = \"1 s\"}\n";
 }
 
-// What ten seconds of it cost, and how the hand of the second peer is shown to the first.
+// The cost of ten seconds, and the second peer's hand as shown to the first.
 struct Rub {
   double packets = 0.0;         // [1/s], of both
-  double p50 = 0.0, max = 0.0;  // [m], shown beside true
+  double p50 = 0.0, max = 0.0;  // [m], shown relative to true
   double least_energy = 0.0;    // [J]
   bool touched = false;
 };
@@ -137,7 +138,7 @@ Rub rub(const std::string& text, std::size_t shower, std::uint64_t seed,
   return result;
 }
 
-TEST(Rubbing, WhatNobodyHoldsCostsNoMoreThanTheMotion) {
+TEST(Rubbing, UnheldEntitiesCostNoMoreThanTheMotion) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(seed);
     const Rub peg = rub(kPeg, 1, seed);
@@ -161,7 +162,7 @@ TEST(Rubbing, AHandCostsLittleMoreThanTheMotion) {
   }
 }
 
-TEST(Rubbing, AHandThatIsThrownOffAnEdgeCostsLessThanFiftyPackets) {
+TEST(Rubbing, HandThrownOffEdgesCostsUnderFiftyPackets) {
   const struct {
     const char* kind;
     std::string model, height;
@@ -182,7 +183,7 @@ TEST(Rubbing, AHandThatIsThrownOffAnEdgeCostsLessThanFiftyPackets) {
   }
 }
 
-TEST(Rubbing, HandsThatBothSweepOrPartCostLessThanSixtyPackets) {
+TEST(Rubbing, SweepingOrPartingHandsCostUnderSixtyPackets) {
   const struct {
     const char* what;
     std::string scene;
@@ -220,9 +221,9 @@ std::string any_rub(const Choice<7>& c) {
          text(within(c[5], 150, 600), "N/m") + "\n";
 }
 
-// Not met: climbs find 85 packets/s, and so fail: stiff hands that bounce off each
-// other 4 to 8 times a second. docs/haptic_stability.md says what takes so many.
-TEST(Rubbing, NoClimbFindsTwoHandsThatSendMoreThanSixtyPackets) {
+// Not met: climbs find 85 packets/s, and so fail: stiff hands that bounce off each other 4 to 8
+// times a second. docs/haptic_stability.md explains the number.
+TEST(Rubbing, NoClimbExceedsSixtyPackets) {
   const auto climbed = climb<7>([](const Choice<7>& choice) {
     const auto delay = pdu::from_seconds(within(choice[6], 0, 0.02));
     const Rub result = rub(any_rub(choice), 0, 1, delay, delay / 4);

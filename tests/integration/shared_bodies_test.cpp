@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A cube that the first peer's hand pushes, seen and felt by another peer.
+// A cube that the first peer's hand pushes, shown and felt at another peer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ haptics::HandTarget at(double x, double height) {
   return target;
 }
 
-/// The first hand pushes the cube to and fro until 4 s, and lets it lie. The second one waits where
-/// it is told.
+/// The first hand pushes the cube back and forth until 4 s, then releases it. The second one waits
+/// at `second`.
 class Table {
  public:
   Table(const peer::ImpairmentLaw& law, const Vector3d& second)
@@ -136,14 +136,14 @@ TEST(SharedBody, IsWhereItsOwnerHasIt) {
       if (i > 500) apart = std::max(apart, table.apart());
     }
     EXPECT_GT(moved, 0.03);
-    // At some 0.08 m/s and friction of 4 m/s^2: the threshold, and what happens on the way.
+    // At some 0.08 m/s and friction of 4 m/s^2: the threshold, and the motion during the delay.
     const double delay = pdu::to_seconds(law.delay + law.jitter);
     EXPECT_LT(apart, 0.002 + 0.15 * delay + 0.5 * 4 * delay * delay + (law.loss > 0 ? 0.01 : 0.0));
     EXPECT_LT(table.apart(), 1e-4) << "at rest";
   }
 }
 
-// The cube is pushed against a hand of the other peer: it does not give, and gives no more energy
+// The cube is pushed against a hand of the other peer: it does not yield, and gives no more energy
 // than the port may receive.
 TEST(SharedBody, IsFeltByAHandInItsWay) {
   Table table(line(milliseconds(5), {}, 0.0), {0.05, 0, 0.02});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that fall silent without a good-bye: how long they are felt, how far they are shown to go,
-// and that nobody is doubted who is only hard to hear.
+// Peers that fall silent without a leave announcement: how long they are felt, and how far they are
+// extrapolated. A peer on a bad network must not be doubted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ k1 = "300 N/m"
 pool = 16
 )";
 
-// One hand comes and presses against another; both hold still from then on.
+// One hand comes and presses against another; both rest from then on.
 const std::string kGrip = kScene + R"(
 [[operator]]
 sweep = {from = [-0.03, 0.0, 0.0], to = [0.0, 0.0, 0.0], period = "120 s"}
@@ -43,7 +43,7 @@ position = [0.010, 0.0, 0.0]
 stiffness = "150 N/m"
 )";
 
-// Two hands that go to and fro, far from one another.
+// Two hands that move back and forth, far from each other.
 const std::string kSweep = kScene + R"(
 [[operator]]
 sweep = {from = [-0.1, 0.0, 0.0], to = [0.1, 0.0, 0.0], period = "2 s"}
@@ -53,11 +53,11 @@ passive = true
 position = [0.0, 1.0, 0.0]
 stiffness = "150 N/m"
 )";
-constexpr double kSweepSpeed = 0.32;  // [m/s], the most: pi times 0.2 m in 2 s
+constexpr double kSweepSpeed = 0.32;  // [m/s], the maximum: pi times 0.2 m in 2 s
 
 constexpr double kNoEnergyMade = -1e-9;  // [J]
 
-// [N], of the other hand on the hand of a peer, in its newest picture.
+// Force of the other hand on a peer's hand, in its newest snapshot [N].
 double felt(InProcess& world, std::size_t link) {
   const haptics::ServoSnapshot& servo = world.view(link).servo();
   double most = 0;
@@ -84,7 +84,7 @@ struct Grip {
   InProcess world;
 };
 
-TEST(KilledPeer, IsFeltForNoLongerThan750MsAfterItsLastWord) {
+TEST(KilledPeer, IsFeltFor750MsAfterItsDeath) {
   for (const int later : {0, 7, 31, 58}) {
     Grip grip;
     InProcess& world = grip.world;
@@ -111,8 +111,8 @@ TEST(KilledPeer, IsFeltForNoLongerThan750MsAfterItsLastWord) {
   }
 }
 
-TEST(KilledPeer, InASweepIsShownToComeToRestWithin3SecondsOfItsSpeed) {
-  // Quarters and eighths of its way: fast, slow, and turning back.
+TEST(KilledPeer, StopsWithin3SecondsOfItsSpeedWhenSweeping) {
+  // Quarters and eighths of its path: fast, slow, and turning back.
   for (const std::size_t when : {4000u, 4250u, 4500u, 4750u, 5000u, 5250u, 5500u, 5750u}) {
     SCOPED_TRACE(when);
     Grip grip(kSweep);
@@ -129,7 +129,7 @@ TEST(KilledPeer, InASweepIsShownToComeToRestWithin3SecondsOfItsSpeed) {
       world.run(1);
       const Eigen::Vector3d now = shown().position;
       EXPECT_LE((now - start).norm(), 3.0 * kSweepSpeed);
-      // No jump: the way of a millisecond changes by 20 m/s^2 at most.
+      // No jump: the displacement of a millisecond changes by 20 m/s^2 at most.
       EXPECT_LE((now - before - step).norm(), 2e-5 + 1e-9);
       step = now - before;
       before = now;
@@ -154,8 +154,8 @@ TEST(KilledPeer, CostsTheOthersNoUpdate) {
   }
 }
 
-// What is heard again is felt as before, and goes on without a jump.
-TEST(SilentPeer, ComesBackWithItsForceAndNoEnergyIsMade) {
+// A peer that is received again is felt as before, and continues without a jump.
+TEST(SilentPeer, ReturnsWithItsForceWithoutMakingEnergy) {
   for (const int outage : {800, 1500, 3000, 5000}) {
     SCOPED_TRACE(outage);
     peer::ImpairmentLaw law;
@@ -167,7 +167,7 @@ TEST(SilentPeer, ComesBackWithItsForceAndNoEnergyIsMade) {
     world.run(static_cast<std::size_t>(outage));
     EXPECT_EQ(felt(world, 1), 0.0);
     world.run(3000);
-    Grip twin(kGrip);  // that heard all
+    Grip twin(kGrip);  // without an outage
     twin.world.run(static_cast<std::size_t>(63'000 + outage));
     EXPECT_GT(felt(world, 1), 0.9 * felt(twin.world, 1));
     EXPECT_GT(felt(world, 0), 0.9 * felt(twin.world, 0));
@@ -179,9 +179,9 @@ TEST(SilentPeer, ComesBackWithItsForceAndNoEnergyIsMade) {
   }
 }
 
-// A peer loses ten datagrams in a row once in four hours. A soak of 32 minutes may see that once, a
+// A peer loses ten datagrams in a row once in four hours. A soak of 32 minutes may see that once; a
 // gate of eight does not.
-TEST(SilentPeer, IsNotDoubtedInContactForABadNetwork) {
+TEST(SilentPeer, IsNotDoubtedInContactOnBadNetworks) {
   peer::ImpairmentLaw law;
   law.loss = 0.3;
   law.delay = milliseconds(200);
@@ -203,7 +203,7 @@ TEST(SilentPeer, IsNotDoubtedInContactForABadNetwork) {
   EXPECT_LE(doubted, tries(0U, 1U));
 }
 
-TEST(SilentPeer, IsNotDoubtedInContactForOutagesBelowHalfASecond) {
+TEST(SilentPeer, IsNotDoubtedForOutagesBelow500Ms) {
   peer::ImpairmentLaw law;
   law.delay = milliseconds(30);
   law.jitter = milliseconds(20);
@@ -216,7 +216,7 @@ TEST(SilentPeer, IsNotDoubtedInContactForOutagesBelowHalfASecond) {
   }
 }
 
-// Who stands still knows nothing of the others' silence.
+// A stopped peer cannot know whether the others were silent.
 TEST(SilentPeer, IsNotTheOneThatListensToNobody) {
   Grip grip(kGrip);
   InProcess& world = grip.world;
@@ -228,7 +228,7 @@ TEST(SilentPeer, IsNotTheOneThatListensToNobody) {
   EXPECT_EQ(world.count(0, "peers_doubted") + world.count(1, "peers_doubted"), 0u);
 }
 
-// Alive, and silent but for its announcements: hands that rest apart say no more.
+// Alive, and silent except for its announcements: resting hands apart send no more.
 TEST(SilentPeer, IsNotAHandAtRest) {
   Grip grip(with(kGrip, "position = [0.010", "position = [0.1"));
   InProcess& world = grip.world;

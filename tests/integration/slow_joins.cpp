@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before a program (LD_PRELOAD), lets one join of six wait as long as the kernel may where
-// the interfaces of other namespaces change.
+// Preloaded into a program (LD_PRELOAD), delays one join of six as long as the kernel may while
+// interfaces of other namespaces change.
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Observers that see each frame at an interface, and one that keeps all datagrams. Standard library."""
+"""Observers that receive each frame at an interface, and one that records all datagrams. Standard library."""
 import socket
 import struct
 import threading
@@ -12,7 +12,7 @@ SOL_PACKET, PACKET_STATISTICS, SO_RCVBUFFORCE = 263, 6, 33
 
 
 class Observer:
-    """Takes each frame of a socket of AF_PACKET, in a thread of its own. A subclass has _receive(), which takes one."""
+    """Receives each frame of an AF_PACKET socket, in a separate thread. A subclass has _receive(), which reads one."""
 
     def __init__(self, sock):
         self._socket = sock
@@ -30,9 +30,9 @@ class Observer:
                 continue
 
     def dropped(self):
-        """Frames that the kernel had no room for since the start: the observer missed them. One thread."""
+        """Frames since the start for which the kernel had no room: the observer missed them. One thread."""
         octets = self._socket.getsockopt(SOL_PACKET, PACKET_STATISTICS, 8)
-        self._dropped += struct.unpack("II", octets)[1]  # asking sets the kernel's count to zero
+        self._dropped += struct.unpack("II", octets)[1]  # reading resets the kernel's count
         return self._dropped
 
     def stop(self):
@@ -57,7 +57,7 @@ class Sniffer(Observer):
             self.datagrams.append((time.monotonic(), *datagram))
 
     def pdus(self, sender=None, since=0.0, until=float("inf")):
-        """(time, sender, group, type, octets) of every PDU seen."""
+        """(time, sender, group, type, octets) of every PDU received."""
         for when, source, group, payload in list(self.datagrams):
             if since <= when < until and sender in (None, source):
                 for kind, octets in dis.pdus(payload):

@@ -14,16 +14,16 @@ import testbed
 from testbed import Testbed, check
 
 LOSS = '\n[impairment]\nloss = "5 %"\nseed = {}\n'
-FINE = {'position = "0.5 mm"': 'position = "5 um"', 'force = "0.015 N"': 'force = "1 mN"'}  # more to send
-SETTLED = 240.0 # [s]: until then the rings of datagrams, 2 MiB each, have been gone round once
-GROWTH = 256    # [KiB] that resident memory may grow by after that, in a run of twice as long or more
-EDGE = 1.0      # [s] of datagrams that may be said before the other listens or after it left
-UNSEEN = 4      # lost ones that nothing follows by which they could be missed
+FINE = {'position = "0.5 mm"': 'position = "5 um"', 'force = "0.015 N"': 'force = "1 mN"'}  # so that more is sent
+SETTLED = 240.0 # [s] until the rings of datagrams, 2 MiB each, have been filled once
+GROWTH = 256    # [KiB], greatest growth of resident memory after that, in a run at least twice as long
+EDGE = 1.0      # [s] of datagrams that may be sent before the other listens or after it left
+UNSEEN = 4      # lost datagrams without a later one that would reveal the gap
 NEVER = ("kernel_drops", "receive_errors", "send_errors", "truncated", "too_big", "queue_overflows", "join_errors")
 
 
 def compare(name, one, other):
-    """What `one` heard against what `other` said; a line for people."""
+    """Compares the datagrams that `one` received with those that `other` sent; returns a line for people."""
     said, heard = other["link"]["sent"], one["link"]["received"]
     lost, by_law = one["datagrams_lost"], one["link"]["lost_by_law"]
     for counter in NEVER:
@@ -59,7 +59,7 @@ def run(arguments, folder):
             for rows, peer in zip(samples.values(), peers):
                 rows.append((time.monotonic() - begun, memory.resident(peer)))
         for peer in peers:
-            peer.interrupt()  # both, before either is waited for: what one says alone is not heard
+            peer.interrupt()  # both, before waiting for either: datagrams of a single peer are not received
         reports = [peer.report() for peer in peers]
         print(compare("ALICE", *reports))
         print(compare("BOB", *reversed(reports)))

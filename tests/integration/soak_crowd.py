@@ -20,24 +20,24 @@ from switch_view import SwitchView
 from testbed import Testbed, check
 
 PEERS = 12
-STAY = (1, 2)    # hosts whose memory is looked at: nothing befalls them
-SLEEP = (3, 9)   # these are stopped for seconds, and stay as well
+STAY = (1, 2)    # hosts whose memory is measured: without disturbances
+SLEEP = (3, 9)   # stopped for seconds, but not ended
 LOSSY = (3, 6, 7)
-NARROW = 9       # its sockets hold some five datagrams
-SLOW = 10        # its cable takes less than it has to say
-REFUSED = 11     # its kernel refuses some of what it sends
-CUT_OFF = 5      # some of what passes the switch does not reach it
-CROWD = 12       # owns many that stand: what it says comes in bursts
+NARROW = 9       # its sockets hold about five datagrams
+SLOW = 10        # its cable has less capacity than its traffic
+REFUSED = 11     # its kernel refuses some of its datagrams
+CUT_OFF = 5      # some of the datagrams that pass the switch do not reach it
+CROWD = 12       # owns many entities at rest: it sends in bursts
 RATE = "24kbit"  # of the slow cable
-REFUSES = 12     # one datagram of so many is refused
-LOSES = 40       # one of so many does not reach
-TELL = "5s"      # so often each peer tells its balance
-CAUGHT_UP = 0.5  # [s] after which the observer has seen what peers have told of
-SEEN = 1.0       # [s] after which the observer has seen all that was sent
-RING = 2 << 20   # octets: when frames of so many have passed, what a peer said has gone round its ring once, which fills by then
-SHOWN = 60.0     # [s] in which each column has something
-GROWTH = 512     # [KiB] by which resident memory of one that stays may grow in JUDGED [s] after that; in less by its share,
-JUDGED = 2400.0  # but by LEAST [KiB], and not judged in less than SHORTEST [s]
+REFUSES = 12     # one of this number of datagrams is refused
+LOSES = 40       # one of this number is lost
+TELL = "5s"      # period of the balance reports
+CAUGHT_UP = 0.5  # [s] until the observer has received the datagrams in the peers' reports
+SEEN = 1.0       # [s] until the observer has received all that was sent
+RING = 2 << 20   # octets: after frames of this size a peer's ring has been filled once
+SHOWN = 60.0     # [s] within which each column has a value
+GROWTH = 512     # [KiB], greatest growth of memory of a host in STAY within JUDGED [s] after that; less in less time,
+JUDGED = 2400.0  # but at least LEAST [KiB], and not checked for less than SHORTEST [s]
 LEAST, SHORTEST = 128, 300.0
 LOSS = """
 [impairment]
@@ -52,7 +52,7 @@ seed = {}
 
 
 def track(number):
-    """A closed way of 500 m and more through many cells, in 61 to 94 s."""
+    """A closed path of at least 500 m through many cells, in 61 to 94 s."""
     lap = 61.0 + 3 * number
     rows = ["t_s,px_m,py_m,pz_m"]
     for i in range(int(lap / 0.25) + 1):
@@ -75,17 +75,17 @@ def world():
 
 
 class Host:
-    """One host: a life of its peer after the other, and what befalls it."""
+    """One host: successive lives of its peer, and its disturbances."""
 
     def __init__(self, bed, number, scene, dice, begun, keeps):
         self.bed, self.number, self.scene, self.dice = bed, number, scene, dice
         self.program = self.told = None
-        self.read = 0           # lines of the program
+        self.read = 0           # lines read from the program
         self.over = []          # lives to be checked
-        self.kept = [] if keeps else None  # all of them, with all that they told
+        self.kept = [] if keeps else None  # all of them, with all their reports
         self.memory = []        # (seconds, KiB)
-        self.settled = None     # [s] when what it said had gone round its ring
-        self.wakes = None       # when it is to go on
+        self.settled = None     # [s], time at which its ring had been filled once
+        self.wakes = None       # time at which it continues
         self.next = begun + dice.uniform(0, 3)
         self.events = {"SIGTERM": 0, "SIGKILL": 0, "SIGSTOP": 0}
 
@@ -99,7 +99,7 @@ class Host:
         self.read = 0
 
     def take(self):
-        """What it has said since."""
+        """Reads its new lines."""
         lines = self.program.lines
         while self.read < len(lines):
             text = lines[self.read][1]
@@ -124,7 +124,7 @@ class Host:
         self.program = None
 
     def befall(self, now):
-        """What is due."""
+        """Performs the disturbances that are due."""
         if self.program is not None:
             status = self.program.process.poll()
             check(status is None, f"host {self.number} ended by itself with {status}: {self.program.error_text()}")
@@ -153,14 +153,14 @@ class Host:
             self.next = now + self.dice.uniform(0.2, 6)
 
     def look_at_memory(self, seconds, said):
-        """said: octets of its frames up to now, of one that has one life."""
+        """@param said octets of its frames up to now, for a host with a single life"""
         if self.program is not None:
             self.memory.append((seconds, memory.resident(self.program)))
         if self.settled is None and said > RING:
             self.settled = seconds
 
     def judge_memory(self, length):
-        """From when its ring is full, after a third of the run at the earliest."""
+        """Checks memory from the time its ring is full, but not before a third of the run."""
         settled = max(self.settled or 0.0, length / 3)
         judged = self.settled is not None and length - settled >= SHORTEST
         memory.judge(f"host {self.number}", self.memory, settled if judged else None,
@@ -168,7 +168,7 @@ class Host:
 
 
 def hinder(bed):
-    """The network of those who are to send and hear less than there is."""
+    """Restricts the network of the hosts that send and receive with losses."""
     bed.slow(SLOW, RATE)
     bed.firewall(REFUSED, "output", f"udp dport 3000 numgen random mod {REFUSES} == 0 drop")
     bed.lose(CUT_OFF, LOSES)
@@ -219,7 +219,7 @@ def soak(arguments, folder, bed):
 
 
 def judge(balance, hosts, seconds):
-    """The lives that are over, and what is over of the others."""
+    """Checks the lives that are over, and the finished parts of the others."""
     time.sleep(CAUGHT_UP)
     wire = balance.wire
     for observer in (wire, *balance.reach.values()):
@@ -265,7 +265,7 @@ def run(arguments, folder):
         (folder / f"track_{peer}.csv").write_text(track(peer))
     for peer in range(1, PEERS + 1):
         network = '[network]\nrate = 100\noffload = false\n' if peer == NARROW else "[network]\nrate = 5000\n"
-        if peer in SLEEP:  # so that something waits when it is stopped
+        if peer in SLEEP:  # so that datagrams are waiting when it is stopped
             network += '[network.bundle]\nhold = "400 ms"\n'
         (folder / f"peer_{peer}.toml").write_text(
             world() + network + (LOSS.format(peer) if peer in LOSSY else ""))

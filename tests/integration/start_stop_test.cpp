@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer that starts and stops a thousand times leaves nothing behind, in itself or in others.
+// A peer that starts and stops a thousand times leaves nothing behind, in itself or in other peers.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -39,12 +39,12 @@ TEST(StartStop, AThousandCyclesAreClean) {
     if (HasFatalFailure()) return;
     if (life == 100) used = mallinfo2().uordblks;
   }
-  // Nothing grows: after 900 more lives the heap in use is the same.
+  // Nothing grows: after 900 more starts the heap in use is the same.
   EXPECT_LE(mallinfo2().uordblks, used + 65'536);
   EXPECT_EQ(world.count(0, "left"), 1000u);
   EXPECT_EQ(world.count(0, "timed_out"), 0u);
   EXPECT_EQ(world.count(0, "datagrams_lost"), 0u);
-  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // less one picture
+  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // minus one snapshot
 }
 
 TEST(StartStop, ADeadPeerLeavesNothingEither) {
@@ -63,7 +63,7 @@ TEST(StartStop, ADeadPeerLeavesNothingEither) {
   EXPECT_LE(world.run_until(gone, 10'000), (kPresenceTimeout + kPicture) / milliseconds(1));
 }
 
-// One peer with sockets and threads on loopback, in groups that no other program uses.
+// One peer with sockets and threads on loopback, in groups of no other program.
 void run_on_loopback(const peer::SceneFile& scene, std::uint32_t epoch) {
   const peer::SteadyClock clock;
   peer::UdpMulticastOptions udp;
@@ -81,7 +81,7 @@ void run_on_loopback(const peer::SceneFile& scene, std::uint32_t epoch) {
     EXPECT_GT(threads.servo_duty().steps(), 5u);
   }
   peer.stop(clock.now(), clock.utc_now());
-  EXPECT_GE(peer.counters().find("datagrams_out")->value(), 2u);  // hello and good-bye
+  EXPECT_GE(peer.counters().find("datagrams_out")->value(), 2u);  // announcement and farewell
   EXPECT_EQ(peer.counters().find("send_errors")->value(), 0u);
   EXPECT_EQ(peer.counters().find("join_errors")->value(), 0u);
 }
@@ -98,7 +98,7 @@ TEST(StartStop, TwentyCyclesWithSocketsAndThreadsAreClean) {
   EXPECT_EQ(entries("/proc/self/task"), threads);
 }
 
-TEST(StartStop, TwoPeersWithSocketsAndThreadsMeetWithinASecond) {
+TEST(StartStop, TwoLivePeersMeetWithinASecond) {
   const peer::SceneFile scene = scene_of(with(
       kTwoHandsOnAWall, "[hand]", "[network]\ngroup = \"239.192.78.0\"\nport = 34567\n\n[hand]"));
   tools::Exercise exercise(scene, {});

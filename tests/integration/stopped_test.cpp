@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers whose process stands still for seconds, as after SIGSTOP or on a laptop that slept.
+// Peers whose process is stopped for seconds, as by SIGSTOP or on a suspended laptop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,15 +11,15 @@
 namespace reckon::test {
 namespace {
 
-// Seconds by which a time stamp of the hour is older than that of `utc`.
+// Seconds by which an hour timestamp is older than `utc`.
 double age_of(std::uint32_t timestamp, nanoseconds utc) {
   const std::uint32_t now = pdu::to_dis_timestamp(utc, true);
   const auto behind = static_cast<std::int32_t>((now | 1u) - (timestamp | 1u));
   return behind * (3600.0 / 4294967296.0);
 }
 
-// A hand alone: its poses wait up to 200 ms, so that some wait when the process stops.
-TEST(Stopped, SendsNothingOldAsNewWhenItGoesOn) {
+// A hand alone: its poses wait up to 200 ms, so that some are pending when the process stops.
+TEST(Stopped, SendsNothingOldAsNewAfterwards) {
   const peer::SceneFile scene =
       scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nbundle = {hold = \"200 ms\"}\n");
   InProcess world(1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Strokes against what the delay allows: two springs and grips whose ends know one another's place
-// with the line's delay and nothing else.
+// Strokes, compared with the limits of the delay: two springs and grips whose ends know each
+// other's position with the line's delay and nothing else.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kBetween = 500;                     // [N/m]
-constexpr double kStroker = 300, kHolder = 150;      // [N/m], of who strokes, of who holds still
+constexpr double kStroker = 300, kHolder = 150;      // [N/m], stroking and resting hand
 constexpr double kGripDamping = 3, kHandMass = 0.1;  // [N s/m], [kg]
 constexpr double kDeep = 0.015, kAmplitude = 0.005;  // [m]
 constexpr double kStrokesFrom = 4, kMeasuredFrom = 6, kStrokesEnd = 10;  // [s]
@@ -61,7 +61,7 @@ struct Response {
   Complex strokes, holds;
 };
 
-// Each end shows F = K (own place - the other's place `delay` ago), to first order.
+// Each end shows F = K (own position - the other's position `delay` ago), to first order.
 Response coupled(double frequency, double delay) {
   const Complex s(0, 2 * std::numbers::pi * frequency), late = std::exp(-s * delay);
   const double damping = kGripDamping + peer::DeviceConfig{}.damping;
@@ -115,8 +115,8 @@ double factor(const Complex& a, const Complex& b) {
 
 double degrees(const Complex& value) { return std::arg(value) * 180 / std::numbers::pi; }
 
-// The figures of docs/haptic_stability.md are those that it prints.
-TEST(Strokes, AreNearWhatTheDelayAllows) {
+// It prints the figures of docs/haptic_stability.md.
+TEST(Strokes, AreNearTheLimitsOfTheDelay) {
   int near = 0, all = 0;
   std::printf(
       "Hz, delay: gain and phase [deg] beside no delay; of who strokes, of who holds still\n");

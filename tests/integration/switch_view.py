@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a switch that snoops knew of a group, and when: its word on each change, in a file of the run; what the host asked
-it for; and what both know now. Standard library and the program bridge (iproute2)."""
+"""State of a group at a snooping switch over time: its log of each change, in a file of the run; the requests of the
+hosts; and the current state of both. Standard library and the program bridge (iproute2)."""
 import bisect
 import re
 import socket
@@ -9,14 +9,14 @@ import time
 
 from testbed import SWITCH
 
-ABOUT = 5.0  # [s] before and after, of which is told
+ABOUT = 5.0  # [s] before and after, in reports
 MOST = 24    # lines of each kind
 STAMP = re.compile(r"Timestamp: (.+ \d{4}) (\d+) usec")
 
 
 class SwitchView:
-    """Of a Testbed whose bridge snoops. `path`: the file; `wire`: the observer at the switch, who sees what hosts ask for.
-    The program that logs ends with the bed."""
+    """View of a Testbed whose bridge snoops. `path`: the file; `wire`: the observer at the switch, which receives the
+    requests of hosts. The program that writes the log ends with the bed."""
 
     def __init__(self, bed, wire, path):
         self._bed, self._wire, self._path = bed, wire, path
@@ -24,7 +24,7 @@ class SwitchView:
         bed.run(SWITCH, ["sh", "-c", f"exec bridge -t monitor mdb > {path}"])
 
     def changes(self, group):
-        """(time by time.monotonic(), text) of each change of a group that the switch has told, in their order."""
+        """(time by time.monotonic(), text) of each change of a group in the switch's log, in order."""
         monotonic = time.monotonic() - time.time()
         when, found = None, []
         with open(self._path, encoding="utf-8") as lines:
@@ -37,11 +37,11 @@ class SwitchView:
         return found
 
     def about(self, host, group, begin, end):
-        """Lines for people on what befell a group at a host from begin to end [s], and what is now."""
+        """Lines for people on a group at a host from begin to end [s], and its current state."""
         rows = [row for row in self.changes(group) if f" port p{host} " in row[1]]
         rows += [(when, f"host {host} asks for it") for when in self._wire.asked_for[host, group]]
         rows.sort()
-        first = max(0, bisect.bisect_left(rows, (begin - ABOUT,)) - 1)  # how it was then
+        first = max(0, bisect.bisect_left(rows, (begin - ABOUT,)) - 1)  # the state before
         told = [f"{when:.3f} {text}" for when, text in rows[first:bisect.bisect_left(rows, (end + ABOUT,))]]
         if len(told) > 2 * MOST:
             told[MOST:-MOST] = [f".. {len(told) - 2 * MOST} more .."]

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A tap over a network against the same two hands with a spring between them. RECKON_SOAK=1 tries
-// 2,000 of each.
+// A tap over a network, compared with the same two hands with a spring between them. RECKON_SOAK=1
+// tries 2,000 of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,24 +26,23 @@ using haptics::SimulatedDevice;
 using haptics::SimulatedDeviceConfig;
 
 constexpr double kStruckPlace = 0.040001;  // [m], of the struck hand: two radii, just apart
-constexpr double kStrikerAway = 0.035;     // [m], from where the striker comes
-constexpr double kTapBegins = 2.0;         // [s], when it does
+constexpr double kStrikerAway = 0.035;     // [m], distance from which the striker comes
+constexpr double kTapBegins = 2.0;         // [s], start of the striker
 constexpr int kTapSteps = 3500;            // [ms]
 constexpr double kTouchedForce = 0.02;     // [N]
-// Of the impulse, at least: of a strong blow no more energy is received than a port lets in at
+// Least share of the impulse: of a strong blow no more energy is received than a port admits at
 // once.
 constexpr double kFelt = 0.15;
-constexpr double kHardest = 1.3, kMost = 1.2;  // of the peak, of the impulse, at most
-// What is struck by less, or only just missed, is judged as if it had been struck so hard: [N], [N
-// s].
+constexpr double kHardest = 1.3, kMost = 1.2;  // greatest share of the peak, and of the impulse
+// A weaker or missed tap is judged as if it had this strength: [N], [N s].
 constexpr double kLeastPeak = 0.1, kLeastImpulse = 0.002;
-constexpr double kFollowed = 0.01;     // [s], two time constants of what follows a played motion
+constexpr double kFollowed = 0.01;     // [s], two time constants of the filter of a played motion
 constexpr double kShownApart = 0.005;  // [m]
 constexpr int kApartFor = 20;          // [ms]
 
 int taps() { return test::tries(40, 2000); }
 
-// Both hands have the same grip; the law is that of both ways.
+// Both hands have the same grip; the law applies to both directions.
 struct Tap {
   double stiffness, speed, depth, hold, grip, grip_damping;  // SI
   peer::ImpairmentLaw law;
@@ -86,7 +85,7 @@ Tap any(std::uint64_t seed, const Line& line) {
   return tap_of(any_choice<9>(random), line, seed);
 }
 
-// In, held, and out again.
+// Strikes, holds, and returns.
 HandTarget striker(const Tap& tap, double t) {
   const double takes = (kStrikerAway + tap.depth) / tap.speed;
   const double in = std::clamp((t - kTapBegins) / takes, 0.0, 1.0);
@@ -98,8 +97,8 @@ HandTarget striker(const Tap& tap, double t) {
 
 struct Felt {
   double peak = 0, impulse = 0;  // [N], [N s]
-  double first = 0, last = 0;    // [s], when it was touched
-  double after = 0;              // [N], once it had been shown apart for a while
+  double first = 0, last = 0;    // [s], first and last contact
+  double after = 0;              // [N], after it was shown apart for a while
   double least_energy = 0;       // [J], of both ports
 
   [[nodiscard]] double length() const { return last - first; }
@@ -191,10 +190,10 @@ Felt play(const Tap& tap) {
   return felt;
 }
 
-// How many of them were felt otherwise than they were given; each is named.
+// The number of taps felt differently than given; each is printed.
 struct Count {
   int harder = 0, more = 0, less = 0, longer = 0;
-  double worst_peak = 0.0, worst_impulse = 0.0, impulse = 0.0;  // of the truth
+  double worst_peak = 0.0, worst_impulse = 0.0, impulse = 0.0;  // relative to the truth
 
   void add(const Tap& tap, const Felt& felt, const Felt& right) {
     const double peak = felt.peak / right.peak, share = felt.impulse / right.impulse;
@@ -231,7 +230,8 @@ Count of_seeds(const Line& line) {
   return count;
 }
 
-// Of 2,000 ten are harder, one more, one is not felt and four are longer; why is not tested.
+// Of 2,000 ten are harder, one has more impulse, one is not felt and four are longer; the causes
+// are not tested.
 TEST(Tap, IsFeltAsItWasGiven) {
   const Count count = of_seeds(kNear);
   EXPECT_LE(count.harder, taps() / 200);
@@ -242,8 +242,8 @@ TEST(Tap, IsFeltAsItWasGiven) {
   count.tell("0.3 to 50 ms");
 }
 
-// Of 2,000 thirteen are harder; why is not tested.
-TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
+// Of 2,000 thirteen are harder; the cause is not tested.
+TEST(Tap, LateTapsArePlayedBackOnceAndWhole) {
   const Count count = of_seeds(kFar);
   EXPECT_LE(count.harder, taps() / 125 + 2);
   EXPECT_EQ(count.more, 0);
@@ -253,9 +253,9 @@ TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
   count.tell("50 to 200 ms");
 }
 
-// Not met: climbs find 1.75 of a bar up to 50 ms and 1.94 above, and 11 for a near miss (0.07 N in
-// truth, 1.5 N felt), and so fail. The first
-// of the five tries of a quick run is 1.003 of a bar, which alone is allowed there.
+// Not met: climbs find 1.75 times the limit up to 50 ms and 1.94 times above, and 11 times for a
+// near miss (0.07 N in truth, 1.5 N felt), and so fail. The first of the five tries of a quick run
+// gives 1.003 times the limit, which alone is allowed there.
 TEST(Tap, NoClimbFindsOneThatIsTooHard) {
   const double most = std::getenv("RECKON_CLIMB") != nullptr ? 1.0 : 1.003;
   for (const Line& line : {kNear, kFar}) {

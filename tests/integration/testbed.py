@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Hosts on one LAN inside this machine: network namespaces on a bridge, programs in them, and an
-observer that records what passes. Standard library, root and iproute2; nothing leaves the machine."""
+"""Hosts on one LAN inside this machine: network namespaces on a bridge, programs in them, and an observer that
+records the traffic. Standard library, root and iproute2; nothing leaves the machine."""
 import ctypes
 import json
 import os
@@ -20,21 +20,21 @@ import time
 from machine import Stalls
 from sniffer import SO_RCVBUFFORCE, Sniffer
 
-SKIP = 77  # exit status that ctest takes for "skipped"
+SKIP = 77  # exit status for a skipped test in ctest
 PREFIX = "rk"
-SWITCH = "sw"  # among hosts
+SWITCH = "sw"  # the switch in the place of a host
 ALL_PACKETS = 0x0003  # ETH_P_ALL
-STALL = 0.1              # [s] that a case may be kept waiting; a fifth of what peers allow each other in contact
+STALL = 0.1              # [s], longest delay by the machine; a fifth of the time that peers in contact allow
 PDEATHSIG = 1
 _libc = ctypes.CDLL(None, use_errno=True)
 
 
 class Skip(Exception):
-    """This machine cannot run the case; the text says why."""
+    """This machine cannot run the case; the text states the reason."""
 
 
 class Failure(Exception):
-    """What was expected did not happen; the text says what did."""
+    """A failed expectation; the text states the actual result."""
 
 
 def check(condition, sentence):
@@ -47,7 +47,7 @@ def need_root_and_ip():
         raise Skip("needs root, to make network namespaces")
     if shutil.which("ip") is None:
         raise Skip("needs the program ip (Debian: iproute2)")
-    probe = f"{PREFIX}{os.getpid()}-probe"  # ip remounts things: in a chroot it may not
+    probe = f"{PREFIX}{os.getpid()}-probe"  # ip remounts file systems, which a chroot may forbid
     try:
         for words in (["netns", "add", probe], ["-n", probe, "link"]):
             done = subprocess.run(["ip", *words], capture_output=True, text=True)
@@ -58,7 +58,7 @@ def need_root_and_ip():
 
 
 def verdict(run):
-    """Runs run(); the status for the shell, told. SIGTERM cleans up too."""
+    """Runs run() and returns the exit status for the shell, with a message. SIGTERM also cleans up."""
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         run()
@@ -72,7 +72,7 @@ def verdict(run):
 
 
 def status_of(run):
-    """verdict() of run(folder), with a folder that goes away after it."""
+    """verdict() of run(folder), with a temporary folder."""
     def with_folder():
         need_root_and_ip()
         with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
@@ -92,7 +92,7 @@ def _die_with_parent():
 
 
 class Program:
-    """A program in a namespace whose lines are collected with the time at which they came."""
+    """A program in a namespace; its lines are collected with the time at which they arrived."""
 
     def __init__(self, command):
         self.started = time.monotonic()
@@ -137,7 +137,7 @@ class Program:
         self.process.wait()
 
     def interrupt(self):
-        """Ctrl-C, once: a second one would end the program at once."""
+        """Ctrl-C, once: a second one would end the program immediately."""
         if not self._interrupted:
             self._interrupted = True
             self.process.send_signal(signal.SIGINT)
@@ -152,7 +152,7 @@ class Program:
         return status
 
     def end(self):
-        """Kills what still runs."""
+        """Kills the program if it still runs."""
         if self.process.poll() is None:
             self.kill()
 
@@ -168,7 +168,7 @@ class PeerProgram(Program):
         return self.wait_line(f'"event":"{event}"{name}', timeout, since)
 
     def events(self, event):
-        """Its lines of this kind; `when` [s] after the program's start each came."""
+        """Its lines of this kind; `when` is the time of arrival [s] after the program's start."""
         found = []
         for when, text in list(self.lines):
             line = json.loads(text)
@@ -177,7 +177,7 @@ class PeerProgram(Program):
         return found
 
     def report(self):
-        """Ends the peer with Ctrl-C; the object on its last line."""
+        """Ends the peer with Ctrl-C; returns the object in its last line."""
         self.interrupt()
         status = self.wait()
         check(status == 0, f"peer ended with status {status}: {self.error_text()}")
@@ -186,14 +186,15 @@ class PeerProgram(Program):
 
 
 def copied_program(reckon, folder):
-    """A copy of `reckon` in the folder, with the programs that it starts: a build may replace the originals meanwhile."""
+    """A copy of `reckon` in the folder, with the programs that it starts: a build may replace the originals during
+    the run."""
     for name in ("reckon-peer", "reckon-inspect"):
         shutil.copy(pathlib.Path(reckon).with_name(name), folder / name)
     return shutil.copy(reckon, folder / "reckon")
 
 
 def remove_leftovers():
-    """Namespaces of a run that was killed before it could clean up."""
+    """Removes the namespaces of a run that was killed before its cleanup."""
     for name in os.listdir("/run/netns") if os.path.isdir("/run/netns") else []:
         made_by = re.fullmatch(PREFIX + r"(\d+)-\w+", name)
         if made_by and not os.path.exists(f"/proc/{made_by[1]}"):
@@ -201,8 +202,8 @@ def remove_leftovers():
 
 
 class Testbed:
-    """`hosts` namespaces 1..hosts with interface e0, address 10.77.0.N, on one bridge. With `snooping`
-    the bridge asks who has joined what and floods nothing; it takes 12 s to begin."""
+    """`hosts` namespaces 1..hosts with interface e0, address 10.77.0.N, on one bridge. With `snooping` the bridge
+    queries memberships and floods nothing; this takes 12 s to start."""
 
     def __init__(self, hosts, reckon, snooping=False):
         remove_leftovers()
@@ -230,7 +231,7 @@ class Testbed:
             subprocess.run(["ip", "netns", "delete", name], capture_output=True)
 
     def namespace(self, host):
-        """Of a host, or of the SWITCH."""
+        """Name of the namespace of a host, or of the SWITCH."""
         return f"{self.prefix}-{host}"
 
     @staticmethod
@@ -250,10 +251,10 @@ class Testbed:
             ip("-n", name, "link", "set", "lo", "up")
             self.plug(host)
         if self._snooping:
-            time.sleep(12)  # until the bridge has made itself the querier
+            time.sleep(12)  # until the bridge has become the querier
 
     def plug(self, host, address=None):
-        """Gives a host its interface e0, a new one after unplug()."""
+        """Gives a host its interface e0, with a new identity after unplug()."""
         name, switch = self.namespace(host), self.namespace(SWITCH)
         ip("link", "add", "e0", "netns", name, "type", "veth", "peer", "name", f"p{host}",
            "netns", switch)
@@ -263,47 +264,47 @@ class Testbed:
         ip("-n", name, "route", "add", "224.0.0.0/4", "dev", "e0")
 
     def unplug(self, host):
-        """Removes the interface of a host altogether."""
+        """Removes the interface of a host completely."""
         ip("-n", self.namespace(host), "link", "delete", "e0")
 
     def pull(self, host, back=False):
-        """Pulls the cable of a host at the switch, or puts it back."""
+        """Disconnects the cable of a host at the switch, or connects it again."""
         ip("-n", self.namespace(SWITCH), "link", "set", f"p{host}", "up" if back else "down")
 
     def narrow(self, host, rate):
-        """Lets so much pass from the switch to a host and no more, as in "64kbit"."""
+        """Limits the rate from the switch to a host, for example to "64kbit"."""
         done = subprocess.run(["tc", "-n", self.namespace(SWITCH), "qdisc", "add", "dev", f"p{host}", "root",
                                "tbf", "rate", rate, "burst", "3k", "latency", "200ms"],
                               capture_output=True, text=True)
         check(done.returncode == 0, f"tc: {done.stderr.strip()}")
 
     def slow(self, host, rate):
-        """A host's own cable takes so much and no more, as in "64kbit"; what waits is not dropped."""
+        """Limits the rate of a host's own cable, for example to "64kbit"; waiting frames are not dropped."""
         self.system(host, f"tc qdisc add dev e0 root tbf rate {rate} burst 3k limit 16m")
 
     def lose(self, host, share):
-        """What passes the switch to a host on port 3000 is lost at random, one of `share`."""
+        """Drops one of `share` datagrams from the switch to a host on port 3000, at random."""
         rules = f'oifname "p{host}" udp dport 3000 counter; oifname "p{host}" udp dport 3000 numgen random mod {share} == 0 counter drop'
         self.system(SWITCH, f"nft 'table bridge t {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
 
     def forwarded_and_lost(self):
-        """Frames that lose() has counted: in all, and lost."""
+        """Frames that lose() has counted: total, and lost."""
         found = re.findall(r"counter packets (\d+)", self.system(SWITCH, "nft list ruleset"))
         return tuple(map(int, found))
 
     def ip(self, host, *words):
-        """ip in the namespace of a host."""
+        """Runs ip in the namespace of a host."""
         ip("-n", self.namespace(host), *words)
 
     def system(self, host, command):
-        """A shell command in a host, or at the SWITCH; what it says."""
+        """Runs a shell command in a host, or at the SWITCH; returns its output."""
         done = subprocess.run(["ip", "netns", "exec", self.namespace(host), "sh", "-c", command],
                               capture_output=True, text=True)
         check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
         return done.stdout
 
     def firewall(self, host, hook, rule):
-        """A rule of nftables in a host."""
+        """Adds a rule of nftables in a host."""
         self.system(host, f"nft 'table inet t {{ chain c {{ type filter hook {hook} priority 0; "
                           f"{rule}; }}; }}'")
 
@@ -319,7 +320,7 @@ class Testbed:
                         PeerProgram)
 
     def socket(self, host, *arguments):
-        """A socket that lives in the namespace of a host."""
+        """A socket in the namespace of a host."""
         return self._socket(self.namespace(host), *arguments)
 
     @staticmethod
@@ -335,11 +336,11 @@ class Testbed:
             os.close(home)
 
     def switch_socket(self):
-        """A socket that sees each frame that passes the switch."""
+        """A socket that receives each frame that passes the switch."""
         return self._socket(self.namespace(SWITCH), socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ALL_PACKETS))
 
     def sniff(self):
-        """Records what all hosts send."""
+        """Records the datagrams of all hosts."""
         sock = self.switch_socket()
         sock.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 25)
         self._sniffers.append(Sniffer(sock))
@@ -374,10 +375,10 @@ def main(cases, run):
         try:
             run(cases[name])
         except Failure as sentence:
-            time.sleep(2 * Stalls.PERIOD)  # it may have been kept waiting itself
+            time.sleep(2 * Stalls.PERIOD)  # the process itself may have been delayed
             if stalls.worst < STALL:
                 raise
-            # Live peers have to be served: what fails on a machine that stands still is no verdict.
+            # Live peers need processor time: a failure on a stalled machine is not a verdict.
             print(f"FAILED: {sentence}; but this machine stood still for {stalls.worst:.2f} s: once more", flush=True)
             run(cases[name])
         print("passed")

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <truck.hpp>  // tests/consumer, a project of somebody else
+#include <truck.hpp>  // tests/consumer, an external project
 
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tests/support/places.hpp"
@@ -39,7 +39,7 @@ TEST(Truck, DrivesUntilItIsFiredAt) {
     watcher.for_each([&](const peer::RemoteObject& object) {
       EXPECT_EQ(object.marking(), "TRUCK1");
       speed = object.shown(watcher.now()).velocity.norm();
-      // On its circle of 50 m about the place it was given, 430 m high.
+      // On its circle of 50 m about the given position, 430 m high.
       const Eigen::Vector3d at = object.shown(watcher.now()).position;
       EXPECT_NEAR(at.head<2>().norm(), 50.0, 1.5);
       EXPECT_NEAR(at.z(), 430.0, 0.1);
@@ -63,7 +63,7 @@ TEST(Truck, DrivesUntilItIsFiredAt) {
   EXPECT_NEAR(speed_after, 0.0, 1e-6);
 }
 
-TEST(Truck, IsPrintedInThePageForUsersOfTheLibraryAsItIsBuilt) {
+TEST(Truck, LibraryPagePrintsItsSource) {
   const std::string page = text_of("docs/library.md");
   for (const char* file : {"tests/consumer/truck.hpp", "tests/consumer/truck.cpp"}) {
     const std::string code = text_of(file);

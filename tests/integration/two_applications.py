@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plain DIS programs of one host, over lo: no two of them are the same entity. A plain socket is the judge of what is
-on the wire. two_applications.py TRUCK RECKON SCENES"""
+"""Plain DIS programs of one host, over lo: no two of them use the same entity ID. A plain socket is the reference for
+the traffic on the wire. two_applications.py TRUCK RECKON SCENES"""
 import pathlib
 import re
 import signal
@@ -14,7 +14,7 @@ import time
 import dis_wire as dis
 
 GROUP, PORT = "239.192.1.0", 3000
-EXERCISE = 77  # of the scene; the truck's is 1
+EXERCISE = 77  # of the scene; the truck uses 1
 
 
 def check(condition, sentence):
@@ -23,7 +23,7 @@ def check(condition, sentence):
 
 
 class Judge:
-    """Hears the group on lo."""
+    """Receives the group on lo."""
 
     def __init__(self, exercise):
         self._exercise = exercise
@@ -35,8 +35,8 @@ class Judge:
         self._socket.settimeout(0.05)
 
     def senders(self, seconds=10, applications=None):
-        """{ID: set of source ports} of the Entity States that come in this time, or until all of these applications are
-        heard."""
+        """{ID: set of source ports} of the Entity States received in this time, or until all of these applications
+        were received."""
         end, senders = time.monotonic() + seconds, {}
         while time.monotonic() < end and not (applications and applications <= {i[1] for i in senders}):
             try:
@@ -96,7 +96,7 @@ def peers(reckon, scene):
     (holder,) = [program for program in (first, second) if program.pid == int(told[1])]  # of number 1
     holder.send_signal(signal.SIGKILL)
     holder.wait()
-    judge.senders(0.3)  # what it still sent
+    judge.senders(0.3)  # its remaining datagrams
     again = start(*run, "3s")
     check(1 in {i[1] for i in judge.senders(applications={1})}, "the number of a peer that was killed is not free again")
     check("this is application" not in again.communicate(timeout=20)[1], "the first number is told as news")

@@ -27,13 +27,12 @@ peer::SceneFile scene_with(const std::string& cells) {
       "uneven.toml");
 }
 
-// Of a square of 1,600 m: quarters of 800 m, but in the north-east 400 m, and there once more 100
-// m.
+// A square of 1,600 m with quarters of 800 m; the north-east has 400 m, and there once 100 m.
 const std::string kTree =
     "scheme = \"quadtree\"\nradius = 150\npool = 64\n[aoim.quadtree]\nside = 1600\nleaves = \"3000 "
     "3030\"\n";
-// A hall, a room with a door to it in the east, a store behind its wall in the north; far away
-// where peers begin that own nothing yet.
+// A hall, a room with a door to it in the east, a store behind its wall in the north, and a far
+// locale in which peers without entities begin.
 const std::string kHouse = R"(scheme = "locales"
 radius = 60
 [[aoim.locale]]
@@ -53,7 +52,7 @@ size = [40, 40, 0]
 name = "lobby"
 size = [40, 40, 0]
 )";
-// Neither: all within 150 m are heard.
+// Neither: everything within 150 m is received.
 const std::string kSquares = "scheme = \"square\"\ncell = 100\nradius = 150\n";
 
 struct Watch {
@@ -61,7 +60,7 @@ struct Watch {
   double worst = 0.0;  // [m]
 };
 
-// The first federate has something that walks, each other one something that stands and looks on.
+// The first federate has an entity that walks, each other one an entity at rest, and watches.
 class Walk {
  public:
   Walk(const std::string& cells, const std::vector<Vector3d>& watchers, const Vector3d& from)
@@ -72,7 +71,7 @@ class Walk {
     watches_.resize(federates_.size());
   }
 
-  // Straight to a place, looked at by all watchers; begins with what they have now.
+  // Walks straight to a position, checked by all watchers; begins with their current data.
   void walk_to(const Vector3d& to) {
     const Vector3d from = place_;
     const nanoseconds begin = federates_.now();
@@ -135,7 +134,7 @@ class Walk {
   Vector3d place_ = Vector3d::Zero();
 };
 
-// How far a copy is off beside one that is on equal cells: where it turns back at once.
+// The error of a copy, compared with one on equal cells, at sharp turns.
 void expect_as_on_squares(const Watch& seen, Walk& squares, const std::vector<Vector3d>& round,
                           int rounds) {
   squares.stand(4s);
@@ -149,9 +148,9 @@ void expect_as_on_squares(const Watch& seen, Walk& squares, const std::vector<Ve
   EXPECT_LE(seen.worst, 1.05 * there.worst);
 }
 
-// Over borders between cells of 800, 400 and 100 m, to and fro, past somebody who stands there;
-// with all that goes by cells.
-TEST(WholePeersOnATree, SeeWhoComesOverBordersOfAnySizeAtOnce) {
+// Over borders between cells of 800, 400 and 100 m, back and forth, past an entity at rest; with
+// all options that depend on cells.
+TEST(WholePeersOnATree, ShowEntitiesThatCrossBordersAtOnce) {
   const std::vector<Vector3d> places = {{60, 60, 0}, {700, -700, 0}};
   const std::vector<Vector3d> round = {{150, 60, 0}, {60, -50, 0}, {-50, 60, 0}};
   for (const std::string& more :

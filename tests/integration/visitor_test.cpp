@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A visitor among what stands and says so once a minute: goes away and comes back, or comes by a
-// switch that opens its port late.
+// A visitor among entities at rest whose owners send once a minute: it leaves and returns, or
+// connects through a switch that opens its port late.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,10 +33,11 @@ constexpr std::size_t kOwners = 3, kEach = 10;
 constexpr std::size_t kAll = kOwners * kEach;
 constexpr nanoseconds kLook = 10ms;
 
-// Owners of things that stand within 60 m of the origin, and one who has something that drives.
+// Owners of entities at rest within 60 m of the origin, and a visitor with an entity that drives.
 class Visit {
  public:
-  /// @param middle of what stands. Who starts hears the scene's origin until it owns something
+  /// @param middle of the entities at rest. A peer receives the scene's origin until it owns
+  ///     something
   explicit Visit(const std::string& aoim, nanoseconds join_delay = 0ns, nanoseconds before = 3s,
                  const Vector3d& middle = Vector3d::Zero())
       : scene_(peer::parse_scene_file("[scene]\norigin = { latitude = \"47 deg\", longitude = "
@@ -95,7 +96,7 @@ class Visit {
     }
   }
   [[nodiscard]] std::size_t shown() const { return federates_.back()->size(); }
-  /// How long until all are shown [s], at most `limit`.
+  /// Time until all are shown [s], at most `limit`.
   [[nodiscard]] double until_all(nanoseconds limit) {
     const nanoseconds begin = clock_.now();
     while (shown() < kAll && clock_.now() - begin < limit) pass(kLook);
@@ -111,7 +112,7 @@ class Visit {
     return federates_.back()->peer().counters().find(name)->value();
   }
 
-  /// Of an owner, by number; of who comes, behind them.
+  /// The link of an owner, by number; the visitor's follows them.
   [[nodiscard]] LosingLink& link(std::size_t number) { return *links_[number]; }
 
   std::size_t discovered = 0, removed = 0;
@@ -179,7 +180,7 @@ origin = [0, 40, 0]
 size = [40, 40, 0]
 )";
 
-TEST(Visitors, WhoGoAwaySeeNoMoreWhatStands) {
+TEST(Visitors, NoLongerShowEntitiesTheyLeave) {
   for (const std::string& aoim :
        {kSquares, kHexagons, kTree, kHouse, kOwnTiers + kSquares, "leaders = true\n" + kSquares,
         "leaders = true\nhand_out = true\n" + kSquares, kTouchTier + kSquares}) {
@@ -204,12 +205,12 @@ TEST(Visitors, WhoGoAwaySeeNoMoreWhatStands) {
   }
 }
 
-// What is there is heard, and too far to be shown.
-TEST(Visitors, WhoHaveHardlyGoneNeedNoIntroduction) {
+// The entities are received, but too far away to be shown.
+TEST(Visitors, NeedNoIntroductionAfterAShortDistance) {
   Visit visit("pool = 1\n" + kSquares);
   visit.come({5, 0, 0});
   ASSERT_LT(visit.until_all(10s), 1.0);
-  visit.pass(33s);  // what was said has been said again after 1, 2, 4, 8 and 16 s
+  visit.pass(33s);  // states have been repeated after 1, 2, 4, 8 and 16 s
   const std::uint64_t sent = visit.sent_by_owners();
   visit.drive({190, 0, 0}, 20);
   EXPECT_EQ(visit.shown(), 0U);
@@ -220,7 +221,7 @@ TEST(Visitors, WhoHaveHardlyGoneNeedNoIntroduction) {
   EXPECT_EQ(visit.sent_by_owners(), sent);
 }
 
-TEST(Visitors, WhoGoBehindAWallSeeNoMoreWhatStandsThere) {
+TEST(Visitors, NoLongerShowEntitiesBehindAWall) {
   Visit visit(kHouse);
   visit.come({0, 19, 0});
   ASSERT_LT(visit.until_all(10s), 1.0);
@@ -246,8 +247,8 @@ TEST(Visitors, SeeAllWhereNothingIsFar) {
 
 const Vector3d kElsewhere(650, 0, 0);
 
-// The port opens late: what is said before is lost, and owners say it again, or are asked again.
-TEST(Visitors, OfASlowSwitchSeeWhatStandsWhenItIsSaidAgain) {
+// The port opens late: earlier datagrams are lost, and owners repeat them, or are asked again.
+TEST(Visitors, BehindASlowSwitchGetRepeatedStates) {
   std::printf(
       "  a join takes | a newcomer sees all after | who arrives | who drives up at 20 m/s\n");
   for (const auto& [delay, limit] :
@@ -273,15 +274,15 @@ TEST(Visitors, OfASlowSwitchSeeWhatStandsWhenItIsSaidAgain) {
   }
 }
 
-// One datagram of a coming is lost.
+// One datagram of an arrival is lost.
 struct Coming {
   const char* name;
   std::string aoim;
-  bool arrives = false;  // where it has heard nothing yet, else starts there
-  double away = 0.0;     // [m] from the middle of what stands
+  bool arrives = false;  // arrives where it has received nothing yet; else starts there
+  double away = 0.0;     // [m] from the centre of the entities at rest
 };
 
-// Somebody comes to what has long stood; how long until it sees all [s].
+// A visitor comes to entities long at rest; returns the time until it shows all [s].
 double seen_all_after(const Coming& coming, std::size_t link, const OneLost& lost,
                       std::size_t& counted) {
   Visit visit(coming.aoim, 0ns, 75s, coming.arrives ? kElsewhere : Vector3d::Zero());
@@ -305,7 +306,7 @@ double seen_all_after(const Coming& coming, std::size_t link, const OneLost& los
 }
 
 // A gate loses every fourth.
-TEST(Visitors, SeeAllWithinASecondWhicheverDatagramIsLost) {
+TEST(Visitors, ShowAllWithinASecondDespiteALoss) {
   constexpr std::size_t kMost = 60;
   const std::size_t step = tries<std::size_t>(4, 1);
   std::printf("  coming | datagrams lost in turn | sees all after, worst | by loss of\n");

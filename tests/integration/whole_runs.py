@@ -17,12 +17,12 @@ import threading
 import time
 
 AT_ONCE = 4  # programs
-START, END = 60, 60  # [s], at most, for the first words and from the end of the run to the exit
-# A scene that a verb does not run: (scene, verb) -> (exit status, what it says why). None today.
+START, END = 60, 60  # [s], longest time to the first output and from the end of the run to the exit
+# A scene that a verb refuses: (scene, verb) -> (exit status, text of the reason). Currently none.
 REFUSED = {}
 SUMMARIES = {"demo": r"^What [\d.]+ s with \d+ peers? cost$", "peer": r"^What [\d.]+ s as [\d:]+ cost$",
              "view": r"^\d+ tabs? looked, \d+ pictures? sent$"}
-# First output after which Ctrl-C is obeyed.
+# First output after which Ctrl-C is effective.
 BEGUN = {"demo": r"in a browser|interface", "peer": r"interface", "view": r"http://"}
 
 
@@ -33,7 +33,7 @@ class Ports:
         self._lock, self._given = threading.Lock(), set()
 
     def take(self):
-        """One that is free, and so is the next, for a sealed exercise."""
+        """Returns a free port whose successor is also free, for a sealed exercise."""
         with self._lock:
             while True:
                 with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
@@ -45,7 +45,7 @@ class Ports:
 
 
 class Run:
-    """One program; its lines are read as they come."""
+    """One program; its lines are read as they arrive."""
 
     def __init__(self, verb, words):
         self.verb = verb
@@ -70,12 +70,12 @@ class Run:
         self._begun.wait(START)
 
     def interrupt(self):
-        """Ctrl-C; one that has ended by itself is left alone."""
+        """Ctrl-C; no effect on a program that has already ended."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
 
     def end(self):
-        """(exit status, stdout, stderr); one that hangs is killed."""
+        """(exit status, stdout, stderr); a program that hangs is killed."""
         try:
             self.process.wait(START + END)
         except subprocess.TimeoutExpired:
@@ -86,7 +86,7 @@ class Run:
 
 
 def fault(scene, verb, is_json, result):
-    """What is wrong with how a program ended, or nothing."""
+    """A fault of the way in which a program ended, or nothing."""
     status, out, errors = result
     wanted, why = REFUSED.get((scene, verb), (0, ""))
     tail = "\n".join((out + errors).splitlines()[-12:])
@@ -106,13 +106,13 @@ def fault(scene, verb, is_json, result):
 
 
 class Case:
-    """Programs of one scene that run together: demo alone, peer with a view that receives it."""
+    """Programs of one scene that run together: demo alone, or peer with a view that receives it."""
 
     def __init__(self, scene, verbs, ending, is_json):
         self.scene, self.verbs, self.ending, self.is_json = scene, verbs, ending, is_json
 
     def copy(self, scenes, folder, port, exercise):
-        """The scene, with what it names, on a port of its own."""
+        """A copy of the scene and of the files that it names, with a port of its own."""
         there = folder / f"{port}"
         shutil.copytree(scenes, there)
         path = there / self.scene
@@ -123,7 +123,7 @@ class Case:
         return path
 
     def run(self, reckon, path):
-        """Faults, a text each."""
+        """Faults, one text for each."""
         programs = []
         for verb in self.verbs:
             words = [reckon, verb, path, "--iface", "lo"]
@@ -146,7 +146,7 @@ class Case:
 
 
 def cases(scenes, verbs):
-    """Each scene by both endings; one of them prints its summary as text, the other as JSON, in turn."""
+    """Each scene with both endings; one of them prints its summary as text, the other as JSON, alternately."""
     for number, path in enumerate(sorted(scenes.glob("*.toml"))):
         for turn, ending in enumerate(("--for", "Ctrl-C")):
             yield Case(path.name, verbs, ending, (number + turn) % 2 == 0)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What peers say of their datagrams (`reckon peer --balance`) held against what an observer at the switch saw:
-docs/robustness.md has the law, and nothing in it is "about". Standard library."""
+"""Compares the datagram balance of peers (`reckon peer --balance`) with the traffic recorded by an observer at the
+switch. docs/robustness.md has the equations; all of them are exact. Standard library."""
 import bisect
 import collections
 import copy
@@ -15,10 +15,10 @@ from sniffer import SO_RCVBUFFORCE, SOL_PACKET, Observer
 
 PACKET_IGNORE_OUTGOING, SO_TIMESTAMPNS = 23, 35
 BASE_GROUP = "239.192.1.0"
-JOINING = 0.2   # [s] that a membership may take to reach the switch, where its report was not seen
-LEAVING = 0.05  # [s] that a datagram may take from the switch to a socket
-WAITING = 30.0  # [s] that what a host says may wait in its slow cable; it comes back to itself before
-EXPLAINED = 20  # findings below whose sentence stands what the switch knew: to look takes it some 0.1 s
+JOINING = 0.2   # [s], longest time until a membership reaches the switch if its report was not recorded
+LEAVING = 0.05  # [s], longest time of a datagram from the switch to a socket
+WAITING = 30.0  # [s], longest time of a host's datagrams in its slow cable; its own copy arrives earlier
+EXPLAINED = 20  # findings that are printed with the state of the switch: each takes about 0.1 s
 WENT = ("sent", "sealed")
 NEVER_SENT = ("held_back", "send_error", "write_overflow", "stale_unsent", "to_nobody", "unsealable")
 OUT = WENT + NEVER_SENT
@@ -26,31 +26,31 @@ NOT_IN = frozenset(OUT) | {"numbered", "copied_to_list", "arrived", "copied_by_l
 
 
 class Sent:
-    """The numbers of one life of a sender in one group, as they passed the switch."""
+    """The numbers of one life of a sender in one group, as recorded at the switch."""
 
     def __init__(self):
         self.numbers, self.times = [], []
 
     def add(self, number, when):
-        """They pass in their order, as one thread of one host sends them; 0 follows 2^32 - 1 after years."""
+        """Numbers are in order, because one thread of one host sends them; 2^32 - 1 is reached only after years."""
         if self.numbers and number <= self.numbers[-1]:
             raise ValueError(f"number {number} passed the switch behind {self.numbers[-1]}")
         self.numbers.append(number)
         self.times.append(when)
 
     def places(self, first, last):
-        """Places of the numbers from first to last."""
+        """Indices of the numbers from first to last."""
         return bisect.bisect_left(self.numbers, first), bisect.bisect_right(self.numbers, last)
 
     def between(self, begin, end):
-        """Places of what passed from begin to end [s]."""
+        """Indices of the datagrams from begin to end [s]."""
         return bisect.bisect_left(self.times, begin), bisect.bisect_right(self.times, end)
 
 
 class Wire(Observer):
-    """All datagrams with a number that hosts p1, p2, .. send into a switch, by (life, group); those to the addresses of a
-    list by (life, group, address). A life is the epoch of trailers, or (boot, stream) of envelopes, of which none may cross as
-    a run. `interface`: where the socket listens if not at the ports of a switch."""
+    """All numbered datagrams that hosts p1, p2, .. send into a switch, by (life, group); datagrams to the addresses
+    of a list by (life, group, address). A life is the epoch of trailers, or (boot, stream) of envelopes. No envelope
+    may be sent as an offload run. `interface`: place of the socket if it is not at the ports of a switch."""
 
     def __init__(self, sock, interface=None):
         self._interface = interface
@@ -60,7 +60,7 @@ class Wire(Observer):
         self.sent = collections.defaultdict(Sent)
         self.by_place = collections.defaultdict(list)  # group or address of a list: (key, Sent)
         self.host = {}  # of a life
-        self.asked_for = collections.defaultdict(list)  # (host, group): when its reports passed, by IGMP
+        self.asked_for = collections.defaultdict(list)  # (host, group): times of its IGMP reports
         self.datagrams = self.frames = 0
         self.octets = collections.Counter()  # of these frames, by host
         self.problem = None
@@ -71,7 +71,7 @@ class Wire(Observer):
         if not (address[0] == self._interface if self._interface else address[0].startswith("p")):
             return
         seconds, nanos = struct.unpack("qq", stamps[0][2])
-        late = time.time() - seconds - 1e-9 * nanos  # of this thread; clocks are read together
+        late = time.time() - seconds - 1e-9 * nanos  # of this thread; both clocks are read together
         try:
             self._take(frame, int(address[0][1:]) if self._interface is None else None, time.monotonic() - late)
         except ValueError as problem:
@@ -92,7 +92,7 @@ class Wire(Observer):
             boot, stream, count = struct.unpack_from(">QH6s", envelope, 8)
             self._add((boot, stream), group, place, int.from_bytes(count, "big"), when, host)
         else:
-            for kind, octets in dis.pdus(payload):  # a run that crosses uncut has many trailers
+            for kind, octets in dis.pdus(payload):  # an offload run has many trailers
                 if kind == dis.UNICAST_FRAME:
                     group = group_text(struct.unpack_from(">H", octets, 12)[0])
                 elif kind == dis.TRAILER:
@@ -111,18 +111,18 @@ class Wire(Observer):
         self.datagrams += 1
 
     def passed(self, life, group):
-        """The numbers of each way that a group of a life took: one, or one to each address of a list."""
+        """The numbers of each path of a group of a life: one path, or one to each address of a list."""
         return [sent.numbers for key, sent in list(self.sent.items()) if key[:2] == (life, group)]
 
     def opened(self, host, group, joining, joined):
-        """When the switch was asked to let a group through to a host that joined it between these."""
+        """Time at which a host's report opened the group at the switch, if the host joined between these times."""
         reports = self.asked_for[host, group]
         at = bisect.bisect_left(reports, joining)
         return max(joined, reports[at]) if at < len(reports) else joined + JOINING
 
 
 def in_front(payload):
-    """(the group that a unicast frame says, or None; what is behind it where that is sealed, else None)."""
+    """(the group in a unicast frame, or None; its sealed content, or None)."""
     front = None
     if payload[2] == dis.UNICAST_FRAME:
         front, payload = struct.unpack_from(">H", payload, 12)[0], payload[16:]
@@ -130,13 +130,13 @@ def in_front(payload):
 
 
 def group_text(number):
-    """The base group, or the n-th of the pool."""
+    """The base group, or the n-th group of the pool."""
     base = int.from_bytes(socket.inet_aton(BASE_GROUP), "big")
     return socket.inet_ntoa((base + number).to_bytes(4, "big"))
 
 
 def group_of(row):
-    """Without its port."""
+    """The group without its port."""
     return row["group"].rsplit(":", 1)[0]
 
 
@@ -149,21 +149,21 @@ def life_text(life):
 
 
 class Told:
-    """What one life of a peer has told, line by line."""
+    """The balance reports of one life of a peer, line by line."""
 
     def __init__(self, host):
         self.host = host
-        self.log = None  # a list: what is taken is kept
+        self.log = None  # a list, if the lines are to be kept
         self.fates = collections.defaultdict(collections.Counter)
-        self.arrived = collections.Counter()  # in stretches, by (life, group)
-        self.stretches = collections.defaultdict(list)  # by place, of memberships that are not checked yet
+        self.arrived = collections.Counter()  # from the stretches, by (life, group)
+        self.stretches = collections.defaultdict(list)  # by place, for memberships that are not yet checked
         self.new, self.tracked, self.memberships = [], [], []
         self.lost_by_row = 0
         self.missed = 0
-        self.ended = False  # by itself: the last line is the last word
+        self.ended = False  # by itself: its last line was a final report
         self.lost = None    # datagrams_lost
         self.begun_s = time.monotonic()
-        self.asked_s = self.end_s = None  # to end, and when it had
+        self.asked_s = self.end_s = None  # time of the request to end, and of the end
 
     def take(self, line):
         if self.log is not None:
@@ -185,9 +185,9 @@ class Told:
 
 
 class Balance:
-    """Checks lives against the wire. `findings` are sentences; nothing is to be in it. `reach`: observers of what reaches a
-    host, where its cable loses some of what passes the switch. `listed`: address of each host, where there are no groups.
-    `slow`: hosts whose cable holds back what they say. `switch`: a SwitchView, whose lines go with what concerns a membership."""
+    """Compares lives with the wire. `findings` are sentences; empty if all is right. `reach`: observers at hosts
+    whose cable loses frames after the switch. `listed`: address of each host, if there are no groups. `slow`: hosts
+    whose cable delays their datagrams. `switch`: a SwitchView, whose lines are added to findings about a membership."""
 
     def __init__(self, wire, reach=None, listed=None, sealed=False, slow=(), switch=None):
         self.wire, self.reach, self.listed, self.sealed, self.slow = wire, reach or {}, listed, sealed, slow
@@ -201,7 +201,8 @@ class Balance:
             self.findings.append(sentence)
 
     def seen_by(self, told, life):
-        """The observer of what a host can have heard of a life: its own comes back to it by itself."""
+        """The observer of the datagrams of a life that a host can receive: a host gets its own datagrams without the
+        network."""
         return self.wire if self.wire.host.get(life) == told.host else self.reach.get(told.host, self.wire)
 
     def by_place(self, told, place):
@@ -209,15 +210,15 @@ class Balance:
                 for key, sent in wire.by_place[place] if self.seen_by(told, key[0]) is wire]
 
     def key_of(self, told, life, group):
-        """Where the wire has what this host hears of a life in a group."""
+        """Key in the wire's record for the datagrams of a life in a group at this host."""
         return (life, group, self.listed(told.host)) if self.listed else (life, group)
 
     def is_content(self, life):
-        """Numbered inside of envelopes, which nobody at a wire reads."""
+        """Whether the life's numbers are inside envelopes, which an observer cannot read."""
         return self.sealed and isinstance(life, int)
 
     def look(self, told):
-        """What a life has told of that is over."""
+        """Checks the finished parts of a life's reports."""
         self._check_stretches(told)
         self._check_tracked(told)
         for membership in told.memberships:
@@ -228,7 +229,7 @@ class Balance:
         told.memberships.clear()
 
     def check(self, told):
-        """A life that is over."""
+        """Checks a life that is over."""
         self.sums["lives"] += 1
         self.sums["ended by themselves"] += told.ended
         self.expect(told.missed == 0, f"host {told.host}: {told.missed} events were missed")
@@ -312,7 +313,7 @@ class Balance:
         told.new.clear()
 
     def _check_tracked(self, told):
-        """What the tracker counts as lost is what was not used between its first and last number."""
+        """The tracker's count of lost datagrams equals the unused numbers between its first and last number."""
         for row in told.tracked:
             span = row["last"] - row["first"] + 1
             self.expect(span == row["received"] + row["lost"],
@@ -324,11 +325,11 @@ class Balance:
     def _check_membership(self, told, membership):
         """sent while it was a member = arrived + dropped by its socket, or by the machine before it."""
         place, joining, joined = group_of(membership), membership["joining_s"], membership["joined_s"]
-        leaving = membership["leaving_s"] or told.asked_s  # to end: from then on it may stop reading
+        leaving = membership["leaving_s"] or told.asked_s  # the request to end: from then on it may stop reading
         left = membership["left_s"] or told.end_s
         opened = self.wire.opened(told.host, place, joining, joined)
         dropped, surely, perhaps, missing = 0, 0, 0, []
-        for key, sent in self.by_place(told, place):  # its own come back to it, and take room
+        for key, sent in self.by_place(told, place):  # its own datagrams loop back and use the queue
             if not sent.times or sent.times[-1] < joining - LEAVING:
                 continue
             wide = sent.between(joining - LEAVING, left + LEAVING)
@@ -339,7 +340,7 @@ class Balance:
                 continue
             inside_wide = inside_strict = 0
             for row in told.stretches[place]:
-                if row["key"] != key or row["joined_s"] not in (joined, None):  # None: of a list
+                if row["key"] != key or row["joined_s"] not in (joined, None):  # None: a list without groups
                     continue
                 low, high = sent.places(row["first"], row["last"])
                 dropped += row["dropped"]

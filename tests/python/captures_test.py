@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Captures as columns and one by one."""
+"""Captures as columns and as single PDUs."""
 import json
 import pathlib
 import subprocess

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The scripts of python/examples run as a user runs them, and have types."""
+"""Runs the scripts of python/examples as a user does, and checks their types."""
 import importlib.util
 import json
 import math
@@ -40,7 +40,7 @@ class Examples(unittest.TestCase):
             state = reckon.EntityState()
             state.dead_reckoning_parameters.dead_reckoning_algorithm = 2
             datagrams = []
-            for step in range(5):  # 0.5 m off at each second of a fall of 1 m/s^2 that FPW does not know
+            for step in range(5):  # a fall of 1 m/s^2 is off by 0.5 m after a second of FPW
                 state.entity_location = reckon.WorldCoordinates(x=6.4e6 - step**2 / 2, y=0.0, z=0.0)
                 state.entity_linear_velocity = reckon.Vector3Float(x=-float(step), y=0.0, z=0.0)
                 datagrams.append((100.0 + step, reckon.encode(state)))

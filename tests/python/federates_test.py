@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Federates, live over lo."""
+"""Federates on lo."""
 import os
 import random
 import subprocess
@@ -65,7 +65,7 @@ class Federates(unittest.TestCase):
             with self.assertRaisesRegex(KeyError, "of a callback"):
                 tick_until(lambda: False, one, other)
             self.assertEqual(threads, [threading.get_ident()])
-            other.tick()  # and it lives on
+            other.tick()  # and it still works
 
     def test_another_thread_is_refused(self):
         with join("A") as one:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What an import of the package brings, each in an interpreter of its own."""
+"""The effects of importing the package, each in a separate interpreter."""
 import subprocess
 import sys
 import unittest

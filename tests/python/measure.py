@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the module costs: build/python/bin/python tests/python/measure.py [PDUS]
+"""Costs of the module: build/python/bin/python tests/python/measure.py [PDUS]
 
-Prints Entity States a second by columns, microseconds an object, the pace of another thread of Python while a capture is
-read, and milliseconds of an import and of the first use. Best of five, each on a capture of its own.
+Prints Entity States a second by columns, microseconds an object, the speed of another Python thread while a capture
+is read, and milliseconds of an import and of the first use. Best of five, each on a separate capture.
 """
 import pathlib
 import struct
@@ -33,7 +33,7 @@ def cpu_of(work):
 
 
 def pace_beside(work):
-    """Counts of another thread while `work` runs, as a share of its counts alone for as long."""
+    """Counts of another thread while `work` runs, as a share of its counts in the same time without it."""
     counts, stop = [0], threading.Event()
 
     def count():

@@ -14,7 +14,7 @@ SAMPLES = dict(samples.golden())
 
 
 def pdus_of(octets):
-    """The PDUs in a sample, each by its length field."""
+    """The PDUs in a sample, separated by their length fields."""
     while len(octets) >= 12:
         length = int.from_bytes(octets[8:10], "big")
         yield octets[:length] if length >= 12 else octets
@@ -124,7 +124,7 @@ class Decoding(unittest.TestCase):
             told["decoded"] += 1
             repr(made)
             again = reckon.encode(made)
-            told["same"] += again[:3] + again[4:] == pdu[:3] + pdu[4:]  # the family follows the type
+            told["same"] += again[:3] + again[4:] == pdu[:3] + pdu[4:]  # the family is derived from the type
 
 
 class Encoding(unittest.TestCase):

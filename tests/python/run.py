@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs one test of the Python package, or says why it cannot: run.py FOLDER_OF_PACKAGE|OFF RECKON SCRIPT [ARGUMENTS]
+"""Runs one test of the Python package, or prints the reason for skipping it: run.py FOLDER_OF_PACKAGE|OFF RECKON
+SCRIPT [ARGUMENTS]
 
-Status 77: skipped. The script finds the package in its path, and the program and the sources in RECKON_PROGRAM and
+Status 77: skipped. The script has the package in its path, and the program and the sources in RECKON_PROGRAM and
 RECKON_SOURCES.
 """
 import importlib.util

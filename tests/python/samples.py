@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the Python package share: golden samples, captures made of PDUs, places."""
+"""Shared parts of the tests of the Python package: golden samples, captures of PDUs, paths."""
 import os
 import pathlib
 import struct
@@ -35,7 +35,7 @@ def write_capture(path, datagrams):
 
 
 def fuzz_seeds(folder):
-    """The files of octets that the fuzz targets of PDUs and bundles start from."""
+    """The initial files of the fuzz targets for PDUs and bundles."""
     subprocess.run([sys.executable, "-B", str(SOURCES / "tests/fuzz/seeds.py"), str(folder)], check=True,
                    stdout=subprocess.DEVNULL)
     for target in ("pdu", "bundle"):

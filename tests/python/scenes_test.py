@@ -18,7 +18,7 @@ BAD_NETWORK = "delay=50ms jitter=20ms loss=10%"
 
 
 def trace_of(run):
-    """The run as `reckon demo --trace` writes it."""
+    """The trace that `reckon demo --trace` writes for the run."""
     lines = ["t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,mesh_fx_N,mesh_fy_N,mesh_fz_N,"
              "hand_fx_N,hand_fy_N,hand_fz_N,record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device"]
     vectors = numpy.hstack([run.handle, run.surface_point, run.velocity, run.force, run.mesh_force, run.hand_force,
@@ -78,7 +78,7 @@ class Scenes(unittest.TestCase):
         script = f"import reckon\nprint('runs', flush=True)\nreckon.run_scene({str(SCENE)!r}, 1e5)"
         with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
             run.stdout.readline()
-            time.sleep(0.5)  # of a run that would take minutes: within it, whatever the machine does
+            time.sleep(0.5)  # the run would take minutes, so this is within it on any machine
             run.send_signal(signal.SIGINT)
             self.assertIn("KeyboardInterrupt", run.communicate(timeout=60)[1])
 

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
 
-// Says how often the model loop has made a pass.
+// Counts the passes of the model loop.
 class PassCount final : public ModelGuest {
  public:
   int passes = 0;
@@ -32,7 +32,7 @@ class PassCount final : public ModelGuest {
   void end_pass(ModelLoop&) noexcept override {}
 };
 
-// A hand that holds still and counts what the servo writes.
+// A hand that does not move; it counts the writes of the servo.
 class CountingHand final : public haptics::HapticDevice {
  public:
   std::atomic<int> writes{0};
@@ -58,7 +58,7 @@ FederateOptions on_loopback(std::uint8_t group) {
   return options;
 }
 
-TEST(JoinedPeer, LeavesTheStepsToItsCallerWhereTheyAreMadeByHand) {
+TEST(JoinedPeer, LeavesStepsToTheCallerByHand) {
   ManualClock clock(1s, 1h);
   test::ManualLink link;
   FederateOptions options;
@@ -72,7 +72,7 @@ TEST(JoinedPeer, LeavesTheStepsToItsCallerWhereTheyAreMadeByHand) {
   EXPECT_TRUE(federate.peer().views().update());
 }
 
-TEST(JoinedPeer, TellsWhichInterfaceItTookAndSaysNothingOfALinkOfTheCallers) {
+TEST(JoinedPeer, ReportsTheInterfaceOnlyOfItsOwnLink) {
   JoinedPeer joined(on_loopback(60));
   ASSERT_FALSE(joined.link_report().empty());
   EXPECT_THAT(joined.link_report().front(), HasSubstr("lo"));
@@ -81,7 +81,7 @@ TEST(JoinedPeer, TellsWhichInterfaceItTookAndSaysNothingOfALinkOfTheCallers) {
   EXPECT_TRUE(JoinedPeer({}, link, clock, 1).link_report().empty());
 }
 
-TEST(JoinedPeer, IdentifiesItselfByTheHostUnlessTheSiteIsGiven) {
+TEST(JoinedPeer, SiteDefaultsToTheHost) {
   FederateOptions options = on_loopback(61);
   options.application = 7;
   const JoinedPeer by_host(options);
@@ -91,7 +91,7 @@ TEST(JoinedPeer, IdentifiesItselfByTheHostUnlessTheSiteIsGiven) {
   EXPECT_EQ(JoinedPeer(options).peer().own_id().site, 4711);
 }
 
-TEST(JoinedPeer, TakesTheNextFreeApplicationBesidePlainDisProgramsOfThisHostAndSaysSo) {
+TEST(JoinedPeer, TakesTheNextFreeApplicationOfThisHost) {
   JoinedPeer first(on_loopback(63)), second(on_loopback(63));
   EXPECT_EQ(first.peer().own_id().application, 1);
   EXPECT_EQ(first.peer().notices().front(), nullptr);
@@ -104,7 +104,7 @@ TEST(JoinedPeer, TakesTheNextFreeApplicationBesidePlainDisProgramsOfThisHostAndS
       << "who has resigned keeps a number";
 }
 
-TEST(JoinedPeer, RefusesAnApplicationThatAnotherPlainDisProgramOfThisHostHas) {
+TEST(JoinedPeer, RefusesAnApplicationInUseOnThisHost) {
   FederateOptions options = on_loopback(64);
   options.application = 7;
   const JoinedPeer first(options);
@@ -118,7 +118,7 @@ TEST(JoinedPeer, RefusesAnApplicationThatAnotherPlainDisProgramOfThisHostHas) {
   EXPECT_EQ(JoinedPeer(options).peer().own_id().application, 7);
 }
 
-// Its peers settle who has which ID, so nobody is refused.
+// Peers resolve conflicting IDs among themselves, so no application number is refused.
 TEST(JoinedPeer, HoldsNoApplicationInASceneOfPeers) {
   FederateOptions options = on_loopback(65);
   options.scene->network.interop = false;
@@ -128,7 +128,7 @@ TEST(JoinedPeer, HoldsNoApplicationInASceneOfPeers) {
   EXPECT_EQ(JoinedPeer(options).peer().own_id().application, 7);
 }
 
-TEST(JoinedPeer, AGuestSeesEachPassUntilThePeerResigns) {
+TEST(JoinedPeer, GuestSeesEachPassUntilThePeerResigns) {
   ManualClock clock(1s, 1h);
   test::ManualLink link;
   PassCount guest;
@@ -140,7 +140,7 @@ TEST(JoinedPeer, AGuestSeesEachPassUntilThePeerResigns) {
   EXPECT_EQ(guest.passes, 3);
 }
 
-TEST(JoinedPeer, ServesDevicesOfSeveralPeersByOneThreadAgainAfterAStop) {
+TEST(JoinedPeer, OneServoThreadServesSeveralPeersInTurn) {
   const SteadyClock clock;
   ServoThread servo(clock);
   CountingHand left, right;

@@ -39,7 +39,7 @@ radius = "10 mm"
 pool = 16
 )";
 
-// A hand that is where the test puts it.
+// A hand whose position the test sets.
 class PlacedHand final : public haptics::HapticDevice {
  public:
   std::atomic<double> x{0};  // [m]
@@ -58,7 +58,7 @@ class PlacedHand final : public haptics::HapticDevice {
   void write(const Eigen::Vector3d&, nanoseconds) noexcept override {}
 };
 
-// A peer on a link that only the test moves.
+// A peer on a link that only the test drives.
 struct Place {
   explicit Place(std::uint16_t application = 1, std::size_t ring = std::size_t{2} << 20)
       : scene(parse_scene_file(kScene, "test scene")),
@@ -73,8 +73,8 @@ struct Place {
   Peer peer;
 };
 
-// The link's wait() ends only when it is woken: a command that wakes nobody would hang here.
-TEST(PeerThreads, SaysHelloAndJoinsTheGroupsOfAnotherPlaceWithoutAnyTimeout) {
+// The link's wait() ends only when it is woken: a command without a wake would hang here.
+TEST(PeerThreads, JoinsGroupsOfANewPlaceWithoutTimeout) {
   Place place;
   PeerThreads threads(place.peer, kClock, {});
   ASSERT_TRUE(place.link.settled(2, 1));  // base group and a cell; a presence
@@ -83,11 +83,11 @@ TEST(PeerThreads, SaysHelloAndJoinsTheGroupsOfAnotherPlaceWithoutAnyTimeout) {
   EXPECT_TRUE(place.link.settled(joins + 1, 1));
 }
 
-// The ring holds a hundredth of it: reading has to wait for room again and again.
-TEST(PeerThreads, TakesAllThatHasArrivedThroughASmallRing) {
+// The ring holds a hundredth of the data: reading has to wait for room many times.
+TEST(PeerThreads, ReadsAllArrivalsThroughASmallRing) {
   Place place(1, std::size_t{64} << 10);
   for (int i = 0; i < 20'000; ++i) {
-    std::vector<std::byte> octets(200 + i % 1000);  // of the exercise, and of no use
+    std::vector<std::byte> octets(200 + i % 1000);  // of the exercise, but of no use
     octets[0] = std::byte{7};
     octets[1] = static_cast<std::byte>(place.scene.network.exercise);
     octets[9] = std::byte{12};
@@ -98,15 +98,16 @@ TEST(PeerThreads, TakesAllThatHasArrivedThroughASmallRing) {
   threads.stop();
   EXPECT_EQ(place.peer.counters().find("datagrams_in")->value(), 20'000u);
   EXPECT_GT(place.peer.counters().find("read_waits")->value(), 10u);
-  place.peer.model_step(kClock.now(), kClock.utc_now());  // what the end left in the ring
+  place.peer.model_step(kClock.now(), kClock.utc_now());  // processes the rest of the ring
   EXPECT_FALSE(place.peer.has_inbound());
 }
 
-// Nothing arrives, no group changes and the hand rests: nobody wakes but to see it now and then.
+// Nothing arrives, no group changes and the hand does not move: threads wake only to check that now
+// and then.
 TEST(PeerThreads, LeaveAQuietLinkAlone) {
   Place place;
   PeerThreads threads(place.peer, kClock, {});
-  ASSERT_TRUE(place.link.settled(2, 2));  // the second presence comes a second later
+  ASSERT_TRUE(place.link.settled(2, 2));  // the second presence follows a second later
   std::this_thread::sleep_for(200ms);
   const std::size_t waits = place.link.waits();
   const std::uint64_t steps = threads.servo_duty().steps();
@@ -116,8 +117,9 @@ TEST(PeerThreads, LeaveAQuietLinkAlone) {
   EXPECT_LE(place.link.waits(), waits + 5 + more / 5);
 }
 
-// While nothing can be felt one thread does all; what may be felt is not to wait for its next pass.
-TEST(PeerThreads, ReadInAThreadOfTheirOwnWhileABodyIsInReach) {
+// While nothing can be felt one thread does all the work. An arrival that may be felt must not wait
+// for its next pass.
+TEST(PeerThreads, ReadInTheirOwnThreadNearABody) {
   Place here(1), there(2);
   here.link.connect(there.link);
   there.link.connect(here.link);
@@ -126,7 +128,7 @@ TEST(PeerThreads, ReadInAThreadOfTheirOwnWhileABodyIsInReach) {
   const auto is_read_by = [&](auto&& wanted) {
     for (int tries = 0; tries < 2000; ++tries) {
       if (wanted(here.link.reader())) return true;
-      std::this_thread::sleep_for(5ms);  // of real threads
+      std::this_thread::sleep_for(5ms);  // waits for real threads
     }
     return false;
   };
@@ -138,8 +140,9 @@ TEST(PeerThreads, ReadInAThreadOfTheirOwnWhileABodyIsInReach) {
   EXPECT_TRUE(is_read_by([&](std::thread::id reader) { return reader == model; }));
 }
 
-// The fastest paces the others: 700 Hz is no part of 1 kHz, yet so many steps a second are made.
-TEST(Peer, KeepsTheRateOfADeviceThatAFasterOnePaces) {
+// The fastest device paces the others: 700 Hz does not divide 1 kHz, yet 700 steps a second are
+// made.
+TEST(Peer, KeepsTheRateOfASlowerDevice) {
   const SceneFile scene = parse_scene_file(kScene, "test scene");
   test::ManualLink link;
   PlacedHand hands[3];
@@ -208,7 +211,7 @@ TEST(PeerThreads, ShareOneServoThread) {
     threads.push_back(std::make_unique<PeerThreads>(places.back()->peer, kClock, options));
   }
   for (auto& place : places) EXPECT_TRUE(place->link.settled(2, 1));
-  // Groups are joined without a step of the servo, which may be a period away.
+  // Groups are joined without a servo step, which may be a period away.
   const nanoseconds late = kClock.now() + 10s;
   for (auto& each : threads) {
     while (each->servo_duty().steps() == 0 && kClock.now() < late) std::this_thread::yield();
@@ -226,7 +229,7 @@ std::size_t address_space() {
   return pages * 4096;
 }
 
-// In a process of its own: stacks of 256 MiB, and room for so many of them and no more.
+// Runs in a child process: stacks of 256 MiB, with room for exactly `stacks` of them.
 void start_with_room_for(std::size_t stacks) {
   constexpr std::size_t kStack = std::size_t{256} << 20;
   Place place;
@@ -246,7 +249,7 @@ void start_with_room_for(std::size_t stacks) {
   std::_Exit(0);
 }
 
-TEST(PeerThreadsDeathTest, EndThoseThatRunWhereOneCannotBeStarted) {
+TEST(PeerThreadsDeathTest, StopRunningThreadsWhereOneCannotStart) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   for (const std::size_t stacks : {0, 1, 2, 3}) {
     EXPECT_EXIT(start_with_room_for(stacks), ::testing::ExitedWithCode(3),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force that a peer computes from what it received, against an evaluation of the same octets
-// that shares no code with the project: own parsing, own geodesy, own force law.
+// Compares the force that a peer computes with an evaluation of the received octets that shares no
+// code with the project: own parsing, own geodesy, own force law.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
-// Near the earth's surface a double resolves 1 nm, which is 0.5 uN of a 500 N/m contact: the
-// reference is wider.
+// Near the earth's surface a double resolves 1 nm, which is 0.5 uN of a 500 N/m contact; so the
+// reference uses long double.
 using Real = long double;
 using Vector = std::array<Real, 3>;
 
@@ -68,7 +68,7 @@ void read_record(const std::byte* p, Received& out) {
   out.complete = true;
 }
 
-// Walks a bundle by the lengths of its PDUs; true when it held an Entity State with a record.
+// Walks a bundle by the lengths of its PDUs; true if it contains an Entity State with a record.
 bool read_bundle(std::span<const std::byte> datagram, Received& out) {
   bool found = false;
   for (std::size_t at = 0; at + 12 <= datagram.size();) {
@@ -140,10 +140,10 @@ Vector expected_force(const Received& r, const Scene& scene, const Eigen::Vector
   return {f * d[0] / distance, f * d[1] / distance, f * d[2] / distance};
 }
 
-// The rig
-// ----------------------------------------------------------------------------------------------
+// Test rig
+// ---------------------------------------------------------------------------------------------
 
-// Passes a link through and remembers what it delivered.
+// Passes a link through and stores the datagrams it delivered.
 class TappedLink final : public Link {
  public:
   explicit TappedLink(Link& inner) : inner_(inner) {}
@@ -156,7 +156,7 @@ class TappedLink final : public Link {
       Received update;
       update = last;
       if (!read_bundle(out[i].bytes, update)) continue;
-      // Newest wins, the hour's wrap left aside: the runs are shorter.
+      // The newest wins. The wrap of the hour is ignored: the runs are shorter.
       if (last.complete && (update.timestamp >> 1) <= (last.timestamp >> 1)) continue;
       last = update;
       ++updates;
@@ -213,7 +213,7 @@ struct Rig {
     }
   }
 
-  // One millisecond; the first peer's servo step comes back.
+  // Runs one millisecond; returns the first peer's servo step.
   haptics::ServoSnapshot step() {
     clock.advance(milliseconds(1));
     haptics::ServoSnapshot first, other;
@@ -265,13 +265,13 @@ ImpairmentLaw rough() {
   return law;
 }
 
-TEST(RecordAsReceived, ForceBeforeTheGateEqualsAnIndependentEvaluationOfTheOctets) {
+TEST(RecordAsReceived, ForceBeforeTheGateMatchesAnIndependentEvaluation) {
   Rig rig(rough(), approach(-0.03, -0.004, 0.002), approach(0.03, 0.004, 0.0), 300.0);
   const Scene scene(0.82, 0.145, 430.0);
   Real worst = 0.0;
   int compared = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Received known = rig.tap.last;  // what had arrived when the servo stepped
+    const Received known = rig.tap.last;  // the record that had arrived when the servo stepped
     const nanoseconds utc = rig.clock.utc_now() + milliseconds(1);
     const haptics::ServoSnapshot step = rig.step();
     if (!known.complete || step.count == 0) continue;
@@ -291,8 +291,8 @@ TEST(RecordAsReceived, ForceBeforeTheGateEqualsAnIndependentEvaluationOfTheOctet
   EXPECT_LE(worst, 1e-6);
 }
 
-TEST(RecordAsReceived, ForceAfterTheGateIsTheSameOnceARecordHasBeenConstantForTwoSeconds) {
-  // The second hand stands like a rock after one step of 2 mm; the first leans on it.
+TEST(RecordAsReceived, ForceAfterTheGateMatchesForConstantRecords) {
+  // The second hand does not move after one step of 2 mm; the first presses on it.
   const auto rock = [](double t) {
     haptics::HandTarget target;
     target.position = {t < 0.5 ? 0.006 : 0.008, 0.0, 0.1};

@@ -10,7 +10,7 @@
 
 namespace {
 thread_local std::size_t allocations = 0;
-// What was taken on another thread may be freed here, hence the sign.
+// Memory allocated on another thread may be freed here, so the sum is signed.
 thread_local std::ptrdiff_t held = 0;
 thread_local std::ptrdiff_t peak = 0;
 
@@ -37,7 +37,7 @@ void* operator new(std::size_t size) { return counted(size, alignof(std::max_ali
 void* operator new(std::size_t size, std::align_val_t a) {
   return counted(size, static_cast<std::size_t>(a));
 }
-// std::stable_sort and friends take their scratch memory this way.
+// std::stable_sort and similar functions allocate their scratch memory this way.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return taken(std::malloc(size));
 }

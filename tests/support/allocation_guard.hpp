@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts heap allocations of this thread inside a scope, so that a test can show a loop makes none,
-// or that what it holds is bounded.
+// Counts heap allocations of this thread inside a scope, so that a test can show that a loop makes
+// none, or that its memory is bounded.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ class AllocationGuard {
   AllocationGuard();
   /// Allocations since construction.
   [[nodiscard]] std::size_t count() const;
-  /// Most octets held at one time since construction, beyond those held before; as the allocator
-  /// rounds them up. One guard at a time.
+  /// Greatest number of octets held at one time since construction, beyond those held before; as
+  /// rounded up by the allocator. One guard at a time.
   [[nodiscard]] std::size_t peak_octets() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that comes to where its operator sweeps: what appears inside a hand gives no force.
+// A hand that approaches its operator's sweep: a body that appears inside a hand gives no force.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace reckon::test {
 
-/// The sweep of an operator after a second in which the hand comes from `away` [m] beside its
-/// begin.
+/// The sweep of an operator, after a second in which the hand comes from `away` [m] beside its
+/// start.
 inline haptics::HandScript arriving(const peer::OperatorConfig& sweep,
                                     const Eigen::Vector3d& away) {
   return [sweep, away](double time) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Captures made in a test: datagrams with sender and time, written as a pcap file with Ethernet.
+// Captures made by a test: datagrams with sender and time, written as a pcap file with Ethernet.
 #pragma once
 
 #include <unistd.h>
@@ -28,14 +28,14 @@ void append_pdu(Octets& datagram, const T& pdu) {
   (void)encode(pdu, std::span(datagram).subspan(begin));
 }
 
-/// Where a datagram of a capture comes from.
+/// The sender of a captured datagram.
 struct Sender {
   std::uint8_t host = 1;  ///< 10.0.0.host
   std::uint16_t port = 3000;
   std::uint16_t fragment = 0;  ///< IP fragment field
 };
 
-/// A pcap file of nanosecond times to 239.1.2.3:3000; goes away with its scope.
+/// A pcap file with nanosecond times to 239.1.2.3:3000; removed at the end of its scope.
 class CaptureBuilder {
  public:
   CaptureBuilder()
@@ -78,7 +78,7 @@ class CaptureBuilder {
     file_.insert(file_.end(), datagram.begin(), datagram.end());
   }
 
-  /// Writes the file and gives its path.
+  /// Writes the file and returns its path.
   [[nodiscard]] std::string path() const {
     std::ofstream file(path_, std::ios::binary);
     file.write(reinterpret_cast<const char*>(file_.data()),
@@ -87,7 +87,7 @@ class CaptureBuilder {
   }
 
  private:
-  // Big endian, the file's own header too.
+  // Big endian, including the file's own header.
   void put8(std::uint8_t value) { file_.push_back(static_cast<std::byte>(value)); }
   void put16(std::uint16_t value) {
     put8(static_cast<std::uint8_t>(value >> 8));

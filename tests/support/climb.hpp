@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hill climb towards the case that breaks a bar by most, for tests of behaviour over many
-// parameters.
+// A hill climb towards the worst violation of a limit, for tests of behaviour over many parameters.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 
 namespace reckon::test {
 
-/// What a seed or a climber chooses, all in [0, 1].
+/// The choices of a seed or a climber, all in [0, 1].
 template <std::size_t N>
 using Choice = std::array<double, N>;
 
@@ -35,14 +34,14 @@ template <std::size_t N>
 struct Climbed {
   std::uint64_t seed = 1;
   std::size_t tries = 0;
-  double badness = -1e300;  ///< of the worst; the bar is at 1
+  double badness = -1e300;  ///< of the worst; the limit is 1
   Choice<N> worst{};
 };
 
 /// Climbs for RECKON_CLIMB seconds ("600" or "600s") from a seed of the clock; without it, five
-/// tries from seed 1, which only show that it runs.
-/// After 30 tries in vain it begins anew elsewhere.
-/// @param badness (const Choice<N>&): what is to get greater
+/// tries from seed 1, which only show that it runs. After 30 tries without improvement it starts
+/// elsewhere.
+/// @param badness (const Choice<N>&): the value to maximise
 template <std::size_t N, typename Badness>
 [[nodiscard]] Climbed<N> climb(Badness&& badness) {
   using Clock = std::chrono::steady_clock;

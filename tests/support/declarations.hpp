@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds in the headers of a folder what should have a row in a list, so that a test can name what
-// was written and then forgotten there: the compiler never sees a header that nobody includes.
+// Finds declarations in the headers of a folder that need a row in a list, so that a test can name
+// a forgotten one: the compiler never sees a header that no file includes.
 #pragma once
 
 #include <filesystem>
@@ -34,7 +34,7 @@ inline std::vector<std::string> headers_in(std::string_view folder) {
   return paths;
 }
 
-/// What the first group of `pattern` finds in `text`, one after another.
+/// All matches of the first group of `pattern` in `text`, in order.
 inline std::vector<std::string> all_of(const std::string& text, const std::string& pattern) {
   const std::regex expression(pattern);
   std::vector<std::string> found;
@@ -48,7 +48,8 @@ inline std::vector<std::string> structs_with(const std::string& text, const std:
   return all_of(text, "\\nstruct (\\w+) \\{(?:\\n(?!\\};).*)*?" + member);
 }
 
-/// Is `name` a row of the list that begins with `opening` in the file `path` and ends with ';'?
+/// True if `name` is a row of the list that begins with `opening` in the file `path` and ends with
+/// ';'.
 inline bool is_row(std::string_view path, std::string_view opening, const std::string& name) {
   const std::string text = source_text(path);
   const std::size_t begin = text.find(opening);

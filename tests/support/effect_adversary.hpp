@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that goes for the energy of effects: half the time it moves as takes most out of the held
-// force, samples come late, and the force is cut now and then.
+// A hand that extracts energy from effects: half the time it makes the motion that takes most out
+// of the held force. Samples come late, and the force is cut now and then.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline double any(Random& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
 
-/// The energy port of a hand in a scene. A test moves the hand; the energy books are the device's.
+/// The energy port of a hand in a scene. A test moves the hand; the device keeps the energy ledger.
 class BookedPort {
  public:
   /// @param place of the hand [m]  @param delay [samples], of the device
@@ -54,7 +54,7 @@ class BookedPort {
     port_.attenuate(to);
     force_ *= to;
   }
-  /// The hand moves by `dx` [m] under the force that is at the handle.
+  /// The hand moves by `dx` [m] under the force at the handle.
   void move(const Vector3d& dx, double dt = kSample) {
     hold_for_a_sample(dx, dt);
     port_.settle(unread_, dt);
@@ -74,7 +74,7 @@ class BookedPort {
   [[nodiscard]] StaticContact& contact() { return contact_; }
   [[nodiscard]] const Vector3d& place() const { return place_; }
   [[nodiscard]] const Vector3d& at_handle() const { return held_.at_handle(); }
-  /// Whether the last sample was read. One that was not is booked with the next.
+  /// Whether the last sample was read. An unread sample is booked with the next.
   [[nodiscard]] bool is_read() const { return unread_.isZero(0.0); }
   /// Since the start [J].
   [[nodiscard]] double energy() const { return energy_; }
@@ -99,8 +99,8 @@ class BookedPort {
   double energy_ = 0.0, least_ = 0.0;
 };
 
-/// The motion of the hand in a sample: that which takes most out of `force`, or any. @param stray
-/// [m] of the latter
+/// The motion of the hand in a sample: the one that takes most out of `force`, or a random one.
+/// @param stray [m] of the latter
 inline Vector3d motion(Random& random, int step, const Vector3d& force, const Vector3d& device,
                        double dt, double stray) {
   std::normal_distribution<double> normal;
@@ -110,7 +110,7 @@ inline Vector3d motion(Random& random, int step, const Vector3d& force, const Ve
   return dx + 0.004 * (Vector3d(0.015, 0.012, 0.012) - device);
 }
 
-/// With the gate. @return the least of the books, and what late samples account for
+/// With the gate: the least value of the ledger, and the energy that late samples explain.
 struct Least {
   double books, late;
 };
@@ -130,9 +130,9 @@ struct Least {
   return {port.least(), port.port().late_cost()};
 }
 
-/// A hand that puts in next to nothing in a region: it strays by microns about `start` [m, S] and
-/// then goes with the force, by the step that takes most out or by any. @return least of the books
-/// [J]
+/// A hand that puts in almost no energy in a region: it strays by microns about `start` [m, S],
+/// then follows the force, by the step that takes most out or by a random one. @return least of the
+/// ledger [J]
 [[nodiscard]] inline double stray_and_let_go(const EffectPlan& plan, const Vector3d& start,
                                              Random& random) {
   BookedPort port(plan, start);
@@ -153,9 +153,9 @@ struct Least {
   return port.least();
 }
 
-/// A hand that puts in next to nothing: it presses by microns from the very surface and lets go by
-/// the step that takes most out. @param plan its first object is a box of 40 mm  @return least of
-/// the books [J]
+/// A hand that puts in almost no energy: it presses by microns from exactly the surface and
+/// releases by the step that takes most out. @param plan its first object is a box of 40 mm @return
+/// least value of the ledger [J]
 [[nodiscard]] inline double press_and_let_go(const EffectPlan& plan, Random& random) {
   const PlannedObject& object = plan.objects()[0];
   const Vector3d start = object.to_scene({0.003, 0.001, 0.02 + 1e-6});
@@ -177,11 +177,11 @@ struct Least {
   return port.least();
 }
 
-/// The greatest fall of what the hand has put in beyond what springs hold [J]: what the effects
-/// made. The hand goes for what they add to the surface, where there is any.
+/// The greatest fall of the hand's input beyond the energy of springs [J]: the energy that effects
+/// made. The hand exploits the effects' addition to the surface, where there is one.
 [[nodiscard]] inline double made_open(const Scene& scene, Random& random) {
   const EffectPlan plan(scene);
-  EnergyPort rich(1e12);  // for which everything is allowed
+  EnergyPort rich(1e12);  // without any limit
   StaticContact contact(plan, 1e12);
   PointTool tool;
   Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();

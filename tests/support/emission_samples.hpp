@@ -22,7 +22,7 @@ struct SampleSystem {
   std::uint8_t number = 1;
   std::vector<SampleBeam> beams = {};
 };
-/// Three systems with 0, 2 and 1 beams, of which the beams have 1, 0 and 2 targets.
+/// Three systems with 0, 2 and 1 beams, which have 1, 0 and 2 targets.
 inline const std::vector<SampleSystem> kThreeSystems{{1}, {2, {{1, 1}, {2, 0}}}, {3, {{1, 2}}}};
 
 template <typename Record>

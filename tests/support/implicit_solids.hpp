@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Implicit solids of about 0.1 m that tests and benchmarks touch: each primitive, and solids of
+// Implicit solids of about 0.1 m for tests and benchmarks of touch: each primitive, and solids of
 // several parts with sharp, rounded, concave and convex edges.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Peers in one thread over a simulated network, one millisecond a step, with a listener on the same
-// network that hears and says what a test wants.
+// network that a test controls.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,12 +35,12 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-/// A silent peer is gone after six missed announcements, one each second, and 100 ms of slack.
+/// A silent peer is removed after six missed announcements, one each second, and 100 ms of slack.
 inline constexpr milliseconds kPresenceTimeout{6100};
-/// Peers make a picture of themselves so often.
+/// Period of the peers' snapshots.
 inline constexpr milliseconds kPicture{50};
 
-/// Two hands on a wall: the first goes to and fro along it, the second stands in its way and is
+/// Two hands on a wall: the first moves back and forth along it; the second is in its way and is
 /// pushed.
 inline constexpr std::string_view kTwoHandsOnAWall = R"(
 [scene]
@@ -73,18 +73,18 @@ inline peer::SceneFile scene_of(std::string_view text) {
   return peer::parse_scene_file(text, "test scene");
 }
 
-/// The scene, where whoever is named may stop and start it, as in `allow_management`.
+/// The scene, in which the named peers may stop and start it, as in `allow_management`.
 inline peer::SceneFile managed_by(std::string_view whom, peer::SceneFile scene) {
   scene.network.management = peer::ManagementRule::parse(whom).value();
   return scene;
 }
 
-/// The scene that is shipped, with its mesh and recorded hands.
+/// The shipped scene, with its mesh and recorded hands.
 inline peer::SceneFile shipped_scene() {
   return peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
 }
 
-/// `text` with the one place of `old` replaced.
+/// `text` with the only occurrence of `old` replaced.
 inline std::string with(std::string_view text, std::string_view old, std::string_view replacement) {
   std::string result(text);
   const std::size_t at = result.find(old);
@@ -93,7 +93,7 @@ inline std::string with(std::string_view text, std::string_view old, std::string
   return result;
 }
 
-/// A datagram that the listener heard.
+/// A datagram that the listener received.
 struct Heard {
   nanoseconds time;
   peer::GroupAddress group;
@@ -111,7 +111,7 @@ class InProcess {
         network_(options(links, seed, in_flight), clock_),
         places_(links) {}
 
-  /// Starts a peer on a link, from now on. @param scene outlives it.
+  /// Starts a peer on a link, from now on. @param scene must outlive it.
   peer::Peer& start(std::size_t link, const peer::SceneFile& scene, std::uint32_t epoch,
                     std::uint16_t application) {
     peer::PeerOptions own;
@@ -133,11 +133,11 @@ class InProcess {
                  static_cast<std::uint16_t>(1 + link));
   }
 
-  /// From its start on the hands of a link are moved by this, in the place of its operator.
+  /// From its start on `script` moves the hands of a link, instead of its operator.
   void move_by(std::size_t link, const haptics::HandScript& script) {
     places_[link].script = script;
   }
-  /// Sets the clock of a link's host: so far ahead of UTC now, and gaining `drift` [s/s] from now.
+  /// Sets the clock of a link's host: `ahead` of UTC now, gaining `drift` [s/s] from now on.
   void set_host_clock(std::size_t link, nanoseconds ahead, double drift = 0.0) {
     places_[link].ahead = ahead;
     places_[link].drift = drift;
@@ -150,12 +150,13 @@ class InProcess {
     return clock_.utc_now() + place.ahead + nanoseconds(std::llround(gained));
   }
 
-  /// A clean end: good-bye, then nothing.
+  /// A clean end: leave announcement, then silence.
   void stop(std::size_t link) {
     places_[link].peer->stop(clock_.now(), host_utc(link));
     kill(link);
   }
-  /// kill -9: no good-bye. Its sockets are closed: all memberships are left and what waits is gone.
+  /// kill -9: no leave announcement. Its sockets are closed: all memberships are left and queued
+  /// datagrams are lost.
   void kill(std::size_t link) {
     const peer::SceneFile& scene = *places_[link].scene;
     places_[link].peer.reset();
@@ -168,13 +169,13 @@ class InProcess {
     }
   }
 
-  /// Hears everything from now on.
+  /// Joins all groups from now on.
   void listen(const peer::SceneFile& scene) {
     const peer::GroupPool pool = peer::pool_of(scene);
     static_cast<void>(ear().join(pool.base()));
     for (std::size_t i = 0; i < pool.size(); ++i) static_cast<void>(ear().join(pool.address(i)));
   }
-  /// Says something to the base group.
+  /// Sends a message to the base group.
   template <pdu::Pdu T>
   void say(const T& message, const peer::SceneFile& scene) {
     std::vector<std::byte> octets(pdu::wire_size(message));
@@ -182,7 +183,7 @@ class InProcess {
     ASSERT_TRUE(ear().send(scene.network.group, octets));
   }
   [[nodiscard]] std::vector<Heard>& heard() { return heard_; }
-  /// All PDUs of one type that the listener heard.
+  /// All PDUs of one type that the listener received.
   template <pdu::Pdu T>
   [[nodiscard]] std::vector<T> heard_pdus() const {
     std::vector<T> result;
@@ -198,11 +199,11 @@ class InProcess {
     return result;
   }
 
-  /// Lets so many milliseconds pass.
+  /// Runs this many milliseconds.
   void run(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) step();
   }
-  /// Lets milliseconds pass, at most `limit`, until the condition holds; how many, or limit + 1.
+  /// Runs at most `limit` milliseconds, until the condition holds; returns how many, or limit + 1.
   template <typename Condition>
   [[nodiscard]] std::size_t run_until(Condition&& holds, std::size_t limit) {
     for (std::size_t i = 0; i <= limit; ++i) {
@@ -213,7 +214,7 @@ class InProcess {
   }
 
   [[nodiscard]] peer::Peer& peer(std::size_t link) { return *places_[link].peer; }
-  /// Newest picture of a peer; peers make one every 50 ms.
+  /// Newest snapshot of a peer; peers make one every 50 ms.
   [[nodiscard]] const peer::PeerView& view(std::size_t link) {
     peer(link).views().update();
     return peer(link).views().read();
@@ -223,7 +224,7 @@ class InProcess {
     EXPECT_NE(found, nullptr) << counter;
     return found == nullptr ? 0 : found->value();
   }
-  /// Sentences for the user since the last call.
+  /// Notices since the last call.
   [[nodiscard]] std::vector<std::string> notices(std::size_t link) {
     std::vector<std::string> result;
     auto& ring = peer(link).notices();
@@ -244,7 +245,7 @@ class InProcess {
     haptics::HandScript script;
     tools::SimulatedHands hands;
     std::unique_ptr<peer::Peer> peer;
-    nanoseconds ahead{0};  // of its host's clock when that was set
+    nanoseconds ahead{0};  // offset of its host's clock when it was set
     double drift = 0.0;
     nanoseconds set_at{0};
   };

@@ -14,7 +14,7 @@
 
 namespace reckon::test {
 
-/// A file that lives as long as the test.
+/// A file that lasts as long as the test.
 class TemporaryMesh {
  public:
   TemporaryMesh(const std::string& ending, const std::string& text)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stands before socket() of the C library in each test program: a suite with the label `fast` opens no socket of a network.
+// Replaces socket() of the C library in each test program: a suite with the label `fast` opens no
+// network socket.
 #include <dlfcn.h>
 #include <sys/socket.h>
 

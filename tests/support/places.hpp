@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where things lie on this machine. In one object file, so that all others are the same in every
-// clone and a compiler's cache serves them.
+// Paths on this machine. They are in one object file, so that all others are the same in every
+// clone and a compiler cache serves them.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace reckon::test {
 
 /// The project's root.
 [[nodiscard]] std::string source_dir();
-/// Reference data, unless the environment names another folder; it need not be there.
+/// Folder of reference data, unless the environment names another one; it need not exist.
 [[nodiscard]] std::string default_data_dir();
 
 }  // namespace reckon::test

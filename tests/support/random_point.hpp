@@ -7,7 +7,7 @@
 
 namespace reckon::test {
 
-/// Anywhere in a cube about the origin, half an edge of `reach` [m].
+/// A random point in a cube about the origin with half edge `reach` [m].
 inline Eigen::Vector3d random_point(std::mt19937& random, double reach) {
   std::uniform_real_distribution<double> x(-reach, reach);
   return {x(random), x(random), x(random)};

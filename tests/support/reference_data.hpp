@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Optional reference data (captures, meshes, traces, oracles) that lies outside the repository.
+// Optional reference data (captures, meshes, traces, oracles) outside the repository.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ inline std::filesystem::path reference_data() {
 
 }  // namespace reckon::test
 
-/// Skips the test, saying what is missing, where the reference data is not on this machine.
+/// Skips the test with the name of missing reference data.
 #define RECKON_NEED_DATA(relative)                                                             \
   do {                                                                                         \
     if (!std::filesystem::exists(reckon::test::reference_data() / (relative)))                 \

@@ -10,7 +10,7 @@
 
 namespace reckon::test {
 
-/// An empty folder that goes away with its scope.
+/// An empty folder that is removed at the end of its scope.
 class ScratchFolder {
  public:
   ScratchFolder() {

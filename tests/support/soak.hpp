@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How much a test tries: a sample in the gate of each commit, everything in `./run soak tests`.
+// The number of tries of a test: a sample in the gate of each commit, everything in `./run soak
+// tests`.
 #pragma once
 
 #include <cstdlib>
 
 namespace reckon::test {
 
-/// RECKON_SOAK is set.
+/// True if RECKON_SOAK is set.
 [[nodiscard]] inline bool soaks() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 /// @return `gate`, or `soak` in a soak

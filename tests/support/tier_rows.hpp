@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Recipient tiers as a scene says them in one line of [aoim], between its other keys.
+// Recipient tiers of a scene in one line of [aoim], between its other keys.
 #pragma once
 
 #include <string>
 
 namespace reckon::test {
 
-/// Those who can touch, then all.
+/// A tier for peers that can touch, then one for all.
 inline const std::string kTouchTier = "tier = [{to = \"touch\"}]\n";
 
 /// The rows of aoim::default_channels().
-/// @param touch behind a tier of those who can touch  @param own with groups of their own
+/// @param touch behind a tier for peers that can touch @param own with groups of their own
 inline std::string usual_tiers(bool touch, bool own) {
   const std::string own_group = own ? ", own_group = true" : "";
   return std::string("tier = [") + (touch ? "{to = \"touch\"}, " : "") +
@@ -25,11 +25,11 @@ inline std::string usual_tiers(bool touch, bool own) {
          "}, {body = \"rigid\", active = 1, passive = 0.2, octets = 144, coarser = 16}]\n";
 }
 
-/// By distance, with one stream for all.
+/// Tiers by distance, with one stream for all.
 inline const std::string kDistanceTiers = usual_tiers(false, false);
-/// By distance, with groups of their own.
+/// Tiers by distance, with groups of their own.
 inline const std::string kOwnTiers = usual_tiers(false, true);
-/// The same, and those who can touch.
+/// The same, after a tier for peers that can touch.
 inline const std::string kAllTiers = usual_tiers(true, true);
 
 }  // namespace reckon::test

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes made by formula, a hand that strokes them, and an inside test that shares no code with the
-// library: for the tests and the benchmark of contact.
+// library, for the tests and the benchmark of contact.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct MeshData {
   }
 };
 
-/// A cone of slivers that all meet at its tip and at the middle of its base: a ball there is near
+/// A cone of slivers that all meet at its tip and at the centre of its base: a ball there is near
 /// each of them.
 inline MeshData sliver_cone(std::uint32_t sides) {
   MeshData cone{{Vector3d::Zero(), {0, 0, -0.02}}, {}};
@@ -45,7 +45,7 @@ inline MeshData sliver_cone(std::uint32_t sides) {
   return cone;
 }
 
-/// As an OBJ file that a scene can name.
+/// Writes it as an OBJ file that a scene can name.
 inline void write_obj(const MeshData& mesh, const std::filesystem::path& file) {
   std::ofstream out(file);
   out.precision(17);
@@ -82,9 +82,9 @@ inline MeshData torus(std::uint32_t nu, std::uint32_t nv) {
   return mesh;
 }
 
-/// A polygon in the x-z plane (counter-clockwise with x to the right, z up) drawn out along y from
-/// 0 to 1, the ends closed by fans about the polygon's first corner: it must be star-shaped about
-/// that.
+/// A polygon in the x-z plane (counter-clockwise with x to the right, z up) extruded along y from 0
+/// to 1, its ends closed by fans about the polygon's first corner: it must be star-shaped about
+/// that corner.
 inline MeshData prism(const std::vector<Eigen::Vector2d>& outline, std::uint32_t slices = 1) {
   MeshData mesh;
   const auto n = static_cast<std::uint32_t>(outline.size());
@@ -143,8 +143,8 @@ inline double winding_number(const haptics::SurfaceMesh& mesh, const Vector3d& p
   return sum / (2.0 * std::numbers::pi);
 }
 
-/// A hand that strokes a surface: walks on it at a speed and with a slowly turning heading, the
-/// device some depth below.
+/// A hand that strokes a surface: it walks on it at constant speed with a slowly turning heading;
+/// the device is some depth below.
 class Stroke {
  public:
   /// @param step [m] walked per tick  @param depth [m] of the device below the surface
@@ -158,7 +158,7 @@ class Stroke {
     heading_ = {gauss(random_), gauss(random_), gauss(random_)};
   }
 
-  /// Where the stroke starts outside.
+  /// The start of the stroke, outside.
   [[nodiscard]] Vector3d start() const { return foot_ + depth_ * normal_; }
 
   [[nodiscard]] Vector3d next() {

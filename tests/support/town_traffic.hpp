@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Vehicles of a town, recorded once a second (vehicles_town_sumo.csv of the optional reference
-// data), as the true motion of any number of entities: the same town again, elsewhere.
+// data), as the true motion of any number of entities: the same town is repeated elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@
 
 namespace reckon::test {
 
-/// Where it lies in the folder of reference data.
+/// Path in the folder of reference data.
 inline constexpr const char* kTownTraffic = "trajectories/vehicles_town_sumo.csv";
 
-/// Motions of `count` entities: those that are there from begin to end, then the same 5 km farther
-/// to the east, and so on. @throws peer::CsvError
+/// Motions of `count` entities: vehicles present from beginning to end, then the same 5 km farther
+/// east, and so on. @throws peer::CsvError
 inline std::vector<peer::EntityTrack> town_traffic(const std::filesystem::path& file,
                                                    std::size_t count) {
   peer::CsvReader rows(file);
@@ -35,7 +35,7 @@ inline std::vector<peer::EntityTrack> town_traffic(const std::filesystem::path& 
     last = rows.required(t);
     vehicle.times.push_back(last);
     vehicle.positions.emplace_back(rows.required(x), rows.required(y), 0.0);
-    // Forward, right, down to east, north, up.
+    // Axes: forward, right, down to east, north, up.
     vehicle.orientations.push_back(
         Eigen::AngleAxisd(rows.required(heading), Eigen::Vector3d::UnitZ()) *
         Eigen::Quaterniond(0, 1, 0, 0));

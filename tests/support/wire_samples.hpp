@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads the golden samples of tests/support/wire_samples: octets in hexadecimal, '#' starts a
+// Reads the golden samples of tests/support/wire_samples: octets in hexadecimal; '#' starts a
 // comment.
 #pragma once
 
@@ -49,7 +49,7 @@ inline std::vector<std::byte> sample_octets(std::string_view name) {
   return octets_from_hex(hex);
 }
 
-/// Whole numbers that a double cannot hold as the text that JSON of ours has.
+/// Writes whole numbers that a double cannot hold as text, as in our JSON.
 inline void write_large_numbers_as_text(nlohmann::json& values) {
   constexpr std::uint64_t kMostExact = std::uint64_t{1} << 53;
   if (values.is_number_unsigned() && values.get<std::uint64_t>() > kMostExact)

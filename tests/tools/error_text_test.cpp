@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the program says where it is used wrongly: the value at fault, and what would do.
+// The error texts of wrong usage: the value at fault, and the remedy.
 #include <gmock/gmock.h>
 
 #include <ostream>
@@ -13,8 +13,8 @@ namespace {
 
 struct Mistake {
   std::vector<std::string> words;
-  std::string fault;   ///< what is named as wrong
-  std::string remedy;  ///< what would do
+  std::string fault;   ///< the named fault
+  std::string remedy;  ///< the named remedy
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -23,7 +23,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class ErrorText : public testing::TestWithParam<Mistake> {};
 
-TEST_P(ErrorText, NamesTheFaultAndTheRemedyOnStderrAlone) {
+TEST_P(ErrorText, NamesFaultAndRemedyOnStderrOnly) {
   const auto result = test::run_reckon(GetParam().words);
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");

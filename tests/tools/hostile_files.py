@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Hostile files, each read by the program in a process of its own: hostile_files.py RECKON [NAME..].
-Each is refused (exit 1 or 2) with a sentence that names the file, or loaded where it is within the bounds of
-docs/robustness.md, in at most 1 s of CPU time and 200 MB. Exit 0: all hold; 1: not; a table says which.
+"""Hostile files, each read by the program in a separate process: hostile_files.py RECKON [NAME..]. Each file is
+refused (exit 1 or 2) with a sentence that names the file, or loaded if it is within the bounds of docs/robustness.md,
+in at most 1 s of CPU time and 200 MB. Exit 0: all pass; 1: a case fails; a table shows which.
 """
 import dataclasses
 import os
@@ -18,15 +18,15 @@ import zlib
 
 MOST_CPU_S = 1.0
 MOST_MB = 200
-MOST_WALL_S = 120  # of a busy machine; a file that hangs uses no CPU time
+MOST_WALL_S = 120  # on a busy machine; a blocked file uses no CPU time
 
 
 @dataclasses.dataclass
 class Hostile:
-    """A file as it lies in the folder of a case, and how the program is called with it."""
-    make: object  # folder -> name of the file that the sentence is to name
+    """A file in the folder of a case, and the command line that reads it."""
+    make: object  # folder -> name of the file that the sentence must contain
     verb: tuple = ("scene", "check")
-    loads: bool = False  # whether it is within the bounds, dear as it is
+    loads: bool = False  # whether it is within the bounds, although expensive
 
 
 def write(folder, name, data):
@@ -39,7 +39,7 @@ def scene(text):
 
 
 def with_file(name, data, table, count=1, loads=False, blamed=0):
-    """A scene that names `count` files, by the table with {file} in it; the sentence names number `blamed`."""
+    """A scene that names `count` files, in the table with {file}; the sentence must name number `blamed`."""
     def make(folder):
         named = name.format(blamed)
         for i in range(count):
@@ -84,7 +84,7 @@ def polygon(corners):
 
 
 def comb(corners, faces=1):
-    """Faces whose ears are hard to find: teeth of a comb, the points in front of each other."""
+    """Faces whose ears are hard to find: teeth of a comb, whose points occlude each other."""
     vertices = "".join(f"v {i} {i % 2 * 1000 + i * i % 7} 0\n" for i in range(corners - 2))
     vertices += f"v {corners} -10 0\nv 0 -10 0\n"
     face = "f " + " ".join(str(i) for i in range(corners, 0, -1)) + "\n"

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `--metrics` answers, on loopback, read by parsers that are not ours: Prometheus' own client library takes the text
-as OpenMetrics, and promtool looks for what Prometheus finds unusual.
+"""Output of `--metrics` on loopback, read by independent parsers: Prometheus' own client library parses the text as
+OpenMetrics, and promtool reports unusual metrics.
   metrics.py CASE --reckon PROGRAM --scenes FOLDER     CASE: peer, record or view
-Status 77: neither is here (apt-get install prometheus python3-prometheus-client)."""
+Status 77: neither is installed (apt-get install prometheus python3-prometheus-client)."""
 import argparse
 import re
 import shutil
@@ -27,7 +27,7 @@ def fail(text):
 
 
 class Program:
-    """One that serves metrics at a port of its own, until it is left."""
+    """A program that serves metrics at a port of its own until the block ends."""
 
     def __init__(self, words):
         self.process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -57,7 +57,7 @@ class Program:
 
 
 def values_in(text):
-    """Sample with its labels -> value, by the client library; its parser is strict."""
+    """Sample with its labels -> value, with the client library; its parser is strict."""
     values = {}
     for family in text_string_to_metric_families(text):
         if not family.documentation:
@@ -71,7 +71,7 @@ def values_in(text):
 
 
 def plain_values_in(text):
-    """The same without the library: what this test looks for."""
+    """The same without the library: the values that this test needs."""
     values = {}
     for line in text.splitlines():
         found = re.fullmatch(r"([a-z_]+)(?:\{(.*)\})? (\S+)", line)
@@ -92,7 +92,7 @@ def lint(text):
 
 
 def wait_for(program, is_there):
-    """The values once they are as they are waited for."""
+    """Returns the values as soon as they fulfil the condition."""
     end = time.monotonic() + PATIENCE
     while True:
         text = program.text()
@@ -108,7 +108,7 @@ def wait_for(program, is_there):
 
 
 def peers(reckon, scenes, count):
-    """Peers of a scene on loopback, the first of which is asked."""
+    """Peers of a scene on loopback; the first one serves the metrics."""
     words = [reckon, "peer", str(scenes / "two_hands.toml"), "--iface", "lo", "--json", "--metrics", "0", "--operator"]
     return [Program([*words, str(number + 1)]) for number in range(count)]
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The object model is well formed, and everything that it names is there: object_model.py FILE"""
+"""Checks that the object model is well formed, and that every name in it is defined: object_model.py FILE"""
 import re
 import sys
 import xml.etree.ElementTree as ElementTree

@@ -40,7 +40,7 @@ TEST(Program, ListsEveryVerbInItsHelp) {
   }
 }
 
-/// The names N of all `TYPE N() {` in the files of a folder.
+/// The names N of all definitions `TYPE N() {` in the files of a folder.
 std::set<std::string> defined_in(const std::filesystem::path& folder, const std::string& type) {
   std::set<std::string> names;
   const std::regex definition("\\n" + type + " (\\w+)\\(\\) \\{");
@@ -54,7 +54,7 @@ std::set<std::string> defined_in(const std::filesystem::path& folder, const std:
   return names;
 }
 
-TEST(Program, HasARowForEachVerbThatAFileDefines) {
+TEST(Program, HasARowForEachDefinedVerb) {
   const auto defined = defined_in(reckon::test::source_dir() + "/tools/verbs", "Verb");
   EXPECT_GT(defined.size(), 10U);
   std::set<std::string> listed;
@@ -63,9 +63,9 @@ TEST(Program, HasARowForEachVerbThatAFileDefines) {
     EXPECT_TRUE(listed.contains(name)) << name << " has no row in verb_rows.hpp";
 }
 
-TEST(Program, StartsEachVerbInTheProgramThatHasIt) {
-  for (const auto& [program, own] : {std::pair{kPeerProgram, peer_verbs()},
-                                     std::pair{kInspectProgram, inspect_verbs()}}) {
+TEST(Program, StartsEachVerbInItsProgram) {
+  for (const auto& [program, own] :
+       {std::pair{kPeerProgram, peer_verbs()}, std::pair{kInspectProgram, inspect_verbs()}}) {
     for (const Verb& verb : own) {
       const auto row = std::ranges::find(kVerbRows, verb.name, &VerbRow::name);
       ASSERT_NE(row, kVerbRows.end()) << verb.name;
@@ -75,7 +75,7 @@ TEST(Program, StartsEachVerbInTheProgramThatHasIt) {
   }
 }
 
-TEST(Program, HasARowForEachViewThatAFileDefines) {
+TEST(Program, HasARowForEachDefinedView) {
   const auto defined = defined_in(reckon::test::source_dir() + "/tools/inspect", "InspectViewKind");
   EXPECT_GT(defined.size(), 5U);
   std::set<std::string> listed;
@@ -84,7 +84,7 @@ TEST(Program, HasARowForEachViewThatAFileDefines) {
     EXPECT_TRUE(listed.contains(name)) << name << " has no row in tools/inspect/view_list.cpp";
 }
 
-TEST(Program, GivesAnExampleInTheHelpOfEveryVerb) {
+TEST(Program, GivesAnExampleInEachVerbsHelp) {
   for (const Verb& verb : verbs()) {
     if (verb.program == kBenchProgram) continue;
     const auto result = run_reckon({std::string(verb.name), "--help"});
@@ -96,13 +96,13 @@ TEST(Program, GivesAnExampleInTheHelpOfEveryVerb) {
   }
 }
 
-TEST(Program, TellsItsVersion) {
+TEST(Program, PrintsItsVersion) {
   const auto result = run_reckon({"--version"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, ::testing::StartsWith("reckon 0."));
 }
 
-TEST(Program, ExplainsItselfOnStderrWhereNoVerbIsGiven) {
+TEST(Program, ExplainsItselfOnStderrWithoutAVerb) {
   const auto result = run_reckon({});
   EXPECT_EQ(result.status, 2);
   EXPECT_TRUE(result.out.empty());
@@ -116,7 +116,7 @@ TEST(Program, NamesTheNearestVerb) {
   EXPECT_THAT(result.err, HasSubstr("did you mean 'inspect'?"));
 }
 
-TEST(Program, TellsWhereItsOutputCouldNotBeWritten) {
+TEST(Program, ReportsUnwritableOutput) {
   std::FILE* full = std::fopen("/dev/full", "w");
   if (full == nullptr) GTEST_SKIP() << "needs /dev/full";
   const test::CapturedStream err;
@@ -129,7 +129,7 @@ TEST(Program, TellsWhereItsOutputCouldNotBeWritten) {
   std::fclose(full);
 }
 
-TEST(Program, EndsWellWhereItIsAskedToWhileItsOutputHasToWait) {
+TEST(Program, EndsCleanlyOnRequestDuringBlockedOutput) {
   cookie_io_functions_t functions{};
   functions.write = [](void*, const char*, std::size_t) -> ssize_t { return errno = EINTR, 0; };
   for (const bool asked : {true, false}) {
@@ -152,7 +152,7 @@ TEST(Program, NamesTheNearestOfItsOwnFlags) {
   EXPECT_THAT(result.err, HasSubstr("there is no flag '--verison'; did you mean '--version'?"));
 }
 
-TEST(Program, NamesTheFormsOfASourceWhereTheWordIsNone) {
+TEST(Program, NamesTheFormsOfASource) {
   for (const char* wrong : {"http://x", "raw:", "iface:"}) {
     const auto result = run_reckon({"inspect", wrong});
     EXPECT_EQ(result.status, 2) << wrong;
@@ -180,7 +180,7 @@ TEST(Program, CompletesEveryVerbInEveryShell) {
   }
 }
 
-TEST(Program, CompletesValuesOfFlagsAndTheInterfacesOfTheHost) {
+TEST(Program, CompletesValuesOfFlagsAndInterfaces) {
   for (const auto& [shell, interfaces] :
        {std::pair{"bash",
                   "record:--iface) COMPREPLY=($(compgen -P \"$before\" -W '$(ls /sys/class/net)'"},
@@ -197,9 +197,9 @@ TEST(Program, NeedsToKnowForWhichShell) {
   EXPECT_EQ(run_reckon({"completion", "tcsh"}).status, 2);
 }
 
-// Under sanitizers address space is theirs.
+// Sanitizers use the address space themselves.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// Of this process [octets].
+/// Address space of this process [octets].
 rlim_t address_space() {
   std::ifstream file("/proc/self/statm");
   rlim_t pages = 0;
@@ -207,7 +207,7 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Does it with so much more address space than there is in use, and ends with its status.
+/// Runs with `more` address space than in use, and ends with its status.
 [[noreturn]] void run_within(rlim_t more) {
   const rlim_t most = address_space() + more;
   const rlimit limit{most, most};
@@ -217,7 +217,7 @@ rlim_t address_space() {
   std::_Exit(test::run_program(words, {}));
 }
 
-TEST(ProgramDeathTest, TellsTheRemedyWhereThereIsTooLittleAddressSpace) {
+TEST(ProgramDeathTest, NamesTheRemedyForTooLittleAddressSpace) {
   for (const rlim_t megabytes : {4, 16, 64})
     EXPECT_EXIT(run_within(megabytes << 20), ::testing::ExitedWithCode(3),
                 "reckon demo: .* ulimit -v .*raise it");

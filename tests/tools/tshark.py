@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Captures made for a test, and tshark and `reckon inspect` run on them. Standard library only."""
+"""Creates captures for a test, and runs tshark and `reckon inspect` on them. Standard library only."""
 import argparse
 import json
 import os
@@ -12,15 +12,15 @@ import subprocess
 import sys
 import tempfile
 
-SKIP = 77  # exit status that ctest takes for "skipped"
+SKIP = 77  # exit status for a skipped test in ctest
 
 
 class Skip(Exception):
-    """This machine cannot run the case; the text says why."""
+    """This machine cannot run the case; the text states the reason."""
 
 
 class Failure(Exception):
-    """What was expected did not happen; the text says what did."""
+    """A failed expectation; the text states the actual result."""
 
 
 def check(condition, sentence):
@@ -29,7 +29,7 @@ def check(condition, sentence):
 
 
 def write_pcap(path, datagrams, port=3000):
-    """Ethernet, IPv4 and UDP around each datagram, one a second."""
+    """Writes each datagram in Ethernet, IPv4 and UDP, one a second."""
     with open(path, "wb") as file:
         file.write(struct.pack("<IHHIIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1))
         for number, payload in enumerate(datagrams):
@@ -55,18 +55,18 @@ class Tools:
         return path
 
     def tshark(self, *arguments):
-        """Its output; fails where it, or Lua in it, complains."""
+        """Returns its output; fails if tshark, or Lua in it, reports an error."""
         command = ["tshark", *map(str, arguments), "-X", f"lua_script:{self.options.plugin}"]
         result = subprocess.run(command, capture_output=True, text=True, check=False)
         talk = [line for line in result.stderr.splitlines() if "Running as user" not in line]
-        damaged = [line for line in talk if "cut short" in line]  # by the capture, not by us
+        damaged = [line for line in talk if "cut short" in line]  # by the capture, not by the plug-in
         check(result.returncode == 0 or damaged, f"tshark: {result.returncode} {talk}")
         check(not re.search(r"(?i)\blua\b", result.stderr), f"tshark says: {talk}")
         check("Lua Error: " not in result.stdout, f"{command}: Lua Error in the tree")
         return result.stdout
 
     def fields(self, capture, *names, show=None):
-        """One dictionary a frame: name -> list of values as text."""
+        """One dictionary for each frame: name -> list of values as text."""
         more = ["-Y", show] if show else []
         wanted = [word for name in names for word in ("-e", name)]
         text = self.tshark("-n", "-r", capture, *more, "-T", "fields", "-E", "separator=/t", "-E",
@@ -100,7 +100,7 @@ class Tools:
 
 
 def run_case(description, cases):
-    """Runs the case that the command line names, out of those by name; its exit status."""
+    """Runs the case that the command line names; returns its exit status."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("case", choices=sorted(cases))
     parser.add_argument("--plugin", required=True)

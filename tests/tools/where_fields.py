@@ -11,7 +11,7 @@ import sys
 
 from tshark import check, run_case
 
-# A field of tshark, and ours of the same meaning.
+# A field of tshark, and our field with the same meaning.
 SAME = (
     ("dis.exer_id", "header.exercise_id"), ("dis.pdu_type", "header.pdu_type"), ("dis.proto_fam", "header.protocol_family"),
     ("dis.pdu_length", "header.length"), ("dis.force_id", "force_id"), ("dis.entity_location.x", "entity_location.x"),
@@ -31,7 +31,7 @@ SAME = (
 
 
 def by_tshark(capture, show):
-    """Frames that a display filter takes."""
+    """Frames that a display filter selects."""
     result = subprocess.run(["tshark", "-n", "-r", str(capture), "-Y", show, "-T", "fields", "-e", "frame.number"],
                             capture_output=True, text=True, check=False)
     check(result.returncode == 0, f"tshark -Y {show}: {result.stderr}")
@@ -46,7 +46,7 @@ def number(text):
 
 
 def fields(tools):
-    """Each of the fields selects the frames in which tshark has that value, for each value in the samples."""
+    """Each field selects the frames with that value in tshark, for each value in the samples."""
     capture = tools.capture(list(tools.samples().values()))
     command = ["tshark", "-n", "-r", str(capture), "-T", "fields", "-E", "aggregator=|"]
     command += [word for theirs, _ in SAME for word in ("-e", theirs)]
@@ -82,7 +82,7 @@ def iff_pdu(sample, parameters, status):
 
 
 def readings(tools):
-    """Timestamps and codes of IFF modes read as tshark reads them."""
+    """Timestamps and codes of IFF modes have the same values as in tshark."""
     samples = tools.samples()
     parameters = (0x2000 | 0o35, 0o7321, 0x2000 | 0o1274, 0x4123, 0x2000 | 90, 0)
     state = bytearray(samples["entity_state"])
@@ -99,7 +99,7 @@ def readings(tools):
     reads = [one["header"]["timestamp_read"] for one in told]
     ours = [f"{read['past_the_hour']} ({read['clock']})" for read in reads]
     check(ours == stamps, f"{ours}, tshark has {stamps}")
-    # Parameters 1, 2 and 3 have elements 1 and 2; the latter two have 3 and 4 as well.
+    # Parameters 1, 2 and 3 have elements 1 and 2; parameters 2 and 3 have 3 and 4 as well.
     first, second, third, fourth = ([int(digit, 8) for digit in shown[0][name]] for name in elements)
     codes = [f"{first[0]}{second[0]}"] + [f"{first[n]}{second[n]}{third[n - 1]}{fourth[n - 1]}" for n in (1, 2)]
     modes = [told[0]["parameter_1_read"]["mode_1"], told[0]["parameter_2_read"]["mode_2"],
@@ -112,7 +112,7 @@ def readings(tools):
 
 
 def descriptors(tools):
-    """A fire's descriptor is of the kind that tshark reads in the PDU's status."""
+    """A fire's descriptor has the kind that tshark reads from the PDU's status."""
     fire = bytearray(tools.samples()["fire"])
     datagrams = []
     for status in (0, 0x10):

@@ -19,7 +19,7 @@ PLACES = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.
 
 
 def bundles_of(samples, per_datagram, padded):
-    """Datagrams of that many PDUs, and for each the (index, offset, type) of every PDU."""
+    """Datagrams with that many PDUs, and for each the (index, offset, type) of every PDU."""
     pdus, datagrams, expected = list(samples.values()), [], []
     for first in range(0, len(pdus), per_datagram):
         datagram, places = b"", []
@@ -34,7 +34,7 @@ def bundles_of(samples, per_datagram, padded):
 
 
 def bundles(tools):
-    """Every PDU of every bundle is seen, at its place, with and without zero padding between."""
+    """Every PDU of every bundle is found at its offset, with and without zero padding between."""
     samples = tools.samples()
     check(len(samples) >= 75, f"{len(samples)} samples")
     for per_datagram, padded in ((1, False), (5, False), (5, True), (9, True)):
@@ -52,7 +52,7 @@ def bundles(tools):
 
 
 def inner(tools):
-    """Wireshark's own fields are there for each PDU of a bundle, not only for the first."""
+    """Wireshark's own fields exist for each PDU of a bundle, not only for the first."""
     state = bytearray(tools.samples()["entity_state"])
     datagram = b""
     for entity in range(1, 8):
@@ -75,7 +75,7 @@ def flat(value, path=""):
 
 
 def numbers_of(fields):
-    """Without the names that stand beside the numbers."""
+    """The numbers without the names beside them."""
     if isinstance(fields, list):
         return [numbers_of(each) for each in fields]
     if not isinstance(fields, dict):
@@ -85,7 +85,7 @@ def numbers_of(fields):
 
 
 def own_values(fields, kind):
-    """What `reckon inspect --full` says of our own records in one PDU: field of the plug-in -> values."""
+    """Values of our own records in one PDU from `reckon inspect --full`: field of the plug-in -> values."""
     values = {}
 
     def note(prefix, record):
@@ -124,8 +124,8 @@ def own_values(fields, kind):
 
 
 def same(shown, told):
-    """A value as tshark shows it and as JSON tells it; 32-bit floats are shown with 6 digits."""
-    if isinstance(told, str):  # also numbers that JSON has no room for
+    """Compares a value from tshark with one from JSON; tshark prints 32-bit floats with 6 digits."""
+    if isinstance(told, str):  # also numbers that JSON cannot represent
         return shown == told or (shown.startswith("0x") and told == str(int(shown, 16)))
     if shown.startswith("0x"):
         return int(shown, 16) == told
@@ -135,7 +135,7 @@ def same(shown, told):
 
 
 def values(tools):
-    """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
+    """Each field of our own records and PDUs has the value that `reckon inspect --full` prints."""
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
               "peers_heard", "cell_roles", "group_map", "cell_snapshot",
@@ -159,7 +159,7 @@ def values(tools):
 
 
 def filters(tools):
-    """Display filters on our fields find the frames that they should."""
+    """Display filters on our fields select the expected frames."""
     attribute = bytearray(tools.samples()["attribute"])
     datagrams = []
     for stiffness in (100.0, 400.0, 500.0):
@@ -175,7 +175,7 @@ def filters(tools):
 
 
 def damaged_bundles(samples):
-    """(datagram, [(PDU, rule, octet)]): what is planted, and what must be said of it."""
+    """(datagram, [(PDU, rule, octet)]): planted faults, and the expected reports."""
     state, attribute = samples["entity_state"], samples["attribute"]
     trailer, data = samples["datagram_trailer"], samples["data"]
 
@@ -185,7 +185,7 @@ def damaged_bundles(samples):
         return bytes(changed)
 
     first = len(state)
-    # One variable datum that says 2^32 - 1 bits, in 56 octets.
+    # One variable datum with a declared length of 2^32 - 1 bits, in 56 octets.
     bomb = put(put(put(data, 8, "H", 56), 32, "I", 0), 36, "I", 1)[:40]
     bomb += struct.pack(">II", 7, 2**32 - 1) + bytes(8)
     return [
@@ -218,14 +218,14 @@ def faults_told(rows):
 
 
 def agree(shown, told):
-    """The same rules at the same octets; of NaN in a record `reckon inspect` may know the PDU alone."""
+    """The same rules at the same octets; for NaN in a record `reckon inspect` may report only the PDU."""
     return [rule for rule, _ in shown] == [rule for rule, _ in told] and all(
         here == there or rule == "W-NOT-FINITE" and there < here
         for (rule, here), (_, there) in zip(shown, told))
 
 
 def damage(tools):
-    """What is broken is named by the rule and octet that `reckon inspect` names; what follows is kept."""
+    """A fault is reported with the same rule and octet as in `reckon inspect`; the data after it is kept."""
     planted = damaged_bundles(tools.samples())
     capture = tools.capture([datagram for datagram, _ in planted])
     told = tools.inspect(capture, "--json")
@@ -244,7 +244,7 @@ def damage(tools):
 
 
 def foreign(tools):
-    """Datagrams that are not DIS are left alone; DIS on another port is found."""
+    """Datagrams that are not DIS are ignored; DIS on another port is found."""
     samples = tools.samples()
     dns = bytes.fromhex("12340100000100000000000007") + b"example\x03org\x00\x00\x01\x00\x01"
     others = [dns, b"GET / HTTP/1.1\r\n\r\n", bytes(64), bytes(range(255, 155, -1)), b"\x07" * 40]
@@ -290,14 +290,14 @@ def sessions(tools):
 
 
 def generated(tools):
-    """Generated captures, the malformed too: the same PDUs, entities and faults as `reckon inspect`."""
+    """Generated captures, including malformed ones: the same PDUs, entities and faults as `reckon inspect`."""
     count = 0
     for capture in tools.data("generated-a"):
         tools.tshark("-V", "-r", capture)
         told = tools.inspect(capture, "--json")
         for number, frame in enumerate(tools.fields(capture, *PLACES), 1):
             if frame["udp.length"] == ["8"]:
-                continue  # Wireshark asks nobody about an empty datagram
+                continue  # Wireshark does not call a dissector for an empty datagram
             rows = told[number]
             where = f"{capture.name} frame {number}: {frame}, inspect has {rows}"
             check(list(map(int, frame["reckon.pdu.index"])) == [row["pdu"] for row in rows], where)
@@ -312,8 +312,8 @@ BY_FLAGS = ("tspi", "appearance", "le_fire", "le_detonation")
 
 
 def mutated(tools):
-    """Samples with octets changed by chance: no Lua error, the PDUs of `reckon inspect`, and no fault
-    that it does not tell."""
+    """Samples with random changes: no Lua error, the same PDUs as in `reckon inspect`, and no fault that `reckon
+    inspect` does not report."""
     chance = random.Random(20121278)
     samples, datagrams = list(tools.samples().values()), []
     for _ in range(1500):
@@ -322,7 +322,7 @@ def mutated(tools):
             datagram[chance.randrange(len(datagram))] = chance.choice((0, 1, 5, 7, 72, 127, 128, 255))
         if chance.random() < 0.3:
             del datagram[chance.randrange(1, len(datagram)):]
-        datagram[0] = 7  # else it may be left to others
+        datagram[0] = 7  # otherwise the plug-in may leave it to other dissectors
         datagrams.append(bytes(datagram))
     capture = tools.capture(datagrams)
     tools.tshark("-n", "-V", "-r", capture)
@@ -338,8 +338,8 @@ def mutated(tools):
             shown = [fault for fault in shown if fault in expected]
         named += len(shown)
         check(all(fault in expected or fault[0] == "W-NOT-FINITE" for fault in shown), where)
-    # In records that say their own length, for fields that flags switch, and behind the last field the plug-in does not
-    # look. What is foreign it leaves to others.
+    # The plug-in does not examine records that contain their own length, fields that flags switch, or octets after
+    # the last field. It leaves foreign data to other dissectors.
     unseen = {"I-FOREIGN", "W-TRAILING"}
     check({rule for rule, _ in missed} <= {"E-RECORD", "E-COUNT", "W-NOT-FINITE", *unseen}, str(missed))
     missed = [fault for fault in missed if fault[0] not in unseen]

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The smoothness of what a viewer sees of a vehicle in a steady turn over a poor link: a fixed case
-// that any program can run, with a bar to clear.
+// The smoothness of a vehicle in a steady turn, as a viewer sees it over a poor link: a fixed case
+// that any program can run, with limits to meet.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace reckon::bench {
 
-/// Radius 100 m at 20 m/s, seen at 60 Hz for 60 s; an update every 0.2 s, under way for 80 ms
-/// +-40 %, 10 % lost.
+/// Radius 100 m at 20 m/s, seen at 60 Hz for 60 s; an update every 0.2 s with a delay of 80 ms +-40
+/// %; 10 % are lost.
 struct CircleCase {
   double seconds = 60;
   double period = 0.2;                                               ///< [s]
@@ -20,7 +20,7 @@ struct CircleCase {
   std::uint64_t seeds = 100;                                         ///< medians over these
 };
 
-/// What has to be reached, by the medians.
+/// Limits for the medians.
 inline constexpr double kCircleError = 0.005;       ///< RMS [m]
 inline constexpr double kCircleVelocityStep = 0.1;  ///< largest [m/s]; the circle's own is 0.067
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kPerDecade = 12;
 constexpr int kDecades = 3;  // above the baseline; one below
-constexpr int kFiner = 10;   // thresholds between two of those, to either side
+constexpr int kFiner = 10;   // thresholds on each side of the best, between its neighbours
 
-/// Runs a rival at one threshold after the other and keeps the best.
+/// Runs a rival at one threshold after another and keeps the best.
 class Search {
  public:
   Search(std::span<const Track> tracks, const AccuracyGrid& grid, const StudyProgress& go_on)
@@ -30,7 +30,7 @@ class Search {
     return run_seeds(tracks_, setting, grid_.network, grid_.seeds);
   }
 
-  /// False where the study is to end.
+  /// False if the study is to end.
   bool attempt(EqualError& found, double threshold) {
     if (go_on_ && !go_on_(done_++, (kDecades + 1) * kPerDecade + 2 * kFiner)) return false;
     const PoseResult result = run(found.rival, threshold);

@@ -27,8 +27,8 @@ constexpr unsigned kPoses = bit(AccuracyMode::poses), kForces = bit(AccuracyMode
 constexpr unsigned kTables = kPoses | kForces | kBoth;
 constexpr unsigned kOfPoses = kPoses | kBoth | kAgainst | kTrace;
 
-/// Of two that exclude one another the first of trace, circle, against and touch; the check of
-/// flags then names the other.
+/// If two of them exclude each other, the first of trace, circle, against and touch; check_modes()
+/// then rejects the other.
 AccuracyMode mode_of(const BenchOptions& options) {
   if (!options.trace.empty()) return AccuracyMode::trace;
   if (options.circle) return AccuracyMode::circle;
@@ -69,20 +69,20 @@ std::string refusal(AccuracyMode mode, std::string_view flag) {
   return fmt::format("{} is for forces; give --force too", flag);
 }
 
-/// Whether what is shown jumps from prediction to prediction: asked for, or as files are looked at.
+/// Whether the shown pose jumps from prediction to prediction: on request, or by default for files.
 bool snaps(const BenchOptions& options) {
   if (options.curves.empty()) return !options.files.empty();
   return std::ranges::all_of(options.curves, [](const auto& word) { return word == "snap"; });
 }
 
-/// Whether chance takes part: in a motion, in the network, in the phases of a touch.
+/// Whether a random number is used: in a motion, in the network, or in the phases of a touch.
 bool draws(AccuracyMode mode, const BenchOptions& options) {
   if (!options.jitter.empty() || !options.loss.empty()) return true;
   if (mode == AccuracyMode::circle || mode == AccuracyMode::touch) return true;
   return mode != AccuracyMode::forces && (options.files.empty() || !options.motions.empty());
 }
 
-/// Flags that the study takes, but not beside some other.
+/// Rejects flags that the study uses, but that exclude another flag.
 void check_values(AccuracyMode mode, const BenchOptions& options,
                   std::span<const std::string> given) {
   const auto is_given = [&](std::string_view flag) { return std::ranges::count(given, flag) > 0; };
@@ -104,7 +104,7 @@ void check_values(AccuracyMode mode, const BenchOptions& options,
         "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
 }
 
-/// What `read` makes of each part between commas.
+/// `read` applied to each part between commas.
 template <typename Read>
 auto each_part(std::span<const std::string> words, Read&& read) {
   std::vector<decltype(read(std::string_view()))> values;
@@ -139,8 +139,8 @@ double heartbeat_of(const BenchOptions& options) {
   throw tools::UsageError("--heartbeat: has to be above 0; write it as in 5s");
 }
 
-/// Without words all; but snap for files, which hold a sample a second or a minute, too few to see
-/// a curve: what is looked at there is the prediction alone.
+/// All curves by default. The default for files is snap: they have a sample a second or a minute,
+/// too few to resolve a curve, so that only the prediction is evaluated.
 std::vector<deadreckon::ConvergenceCurve> curves_of(const BenchOptions& options) {
   if (options.curves.empty() && !options.files.empty()) return {deadreckon::ConvergenceCurve::snap};
   using Row = deadreckon::ConvergenceCurveRow;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The page of a study of accuracy, with a picture of what each setting costs against how far off it
-// is.
+// The page of a study of accuracy, with a picture of each setting's cost against its error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,11 +20,11 @@
 namespace reckon::bench {
 namespace {
 
-// Of the picture and of the area inside the axes.
+// Sizes of the picture and of the area inside the axes.
 constexpr double kWidth = 760, kHeight = 430;
 constexpr double kLeft = 92, kRight = 744, kTop = 12, kBottom = 376;
 
-/// A shape in a square of 12 about the origin, by the place of the model in its list.
+/// Shapes in a square of 12 around the origin, by the index of the model in its list.
 constexpr std::array<std::string_view, kPoseModels.size()> kShapes{
     "M-5 0A5 5 0 1 0 5 0A5 5 0 1 0-5 0Z",
     "M-4.5-4.5H4.5V4.5H-4.5Z",
@@ -46,7 +45,7 @@ std::size_t place_of(const PoseModel& model) {
   return static_cast<std::size_t>(found - kPoseModels.begin()) % kPoseModels.size();
 }
 
-/// Over what `of` gives of the rows.
+/// Axis over `of` applied to the rows.
 template <typename Of>
 LogAxis axis_of(const AccuracyResult& result, double floor, double begin, double finish, Of&& of) {
   std::vector<double> values;
@@ -69,7 +68,7 @@ struct Axes {
   [[nodiscard]] double y(const AccuracyRow& row) const { return error.at(row.result.position.p99); }
 
  private:
-  // Errors of rounding alone would squeeze all others into a corner.
+  // Rounding errors alone would compress all other errors into a corner.
   static double least_shown(const AccuracyResult& result) {
     double least = std::numeric_limits<double>::infinity();
     for (const AccuracyRow& row : result.rows) least = std::min(least, row.threshold);
@@ -77,7 +76,7 @@ struct Axes {
   }
 };
 
-/// The least error for the octets spent, as steps.
+/// The least error for the octets used, as steps.
 void append_front(std::string& out, const AccuracyResult& result, const Axes& axes) {
   std::string path;
   double least = std::numeric_limits<double>::infinity();
@@ -96,7 +95,7 @@ void append_marks(std::string& out, const AccuracyResult& result, const Axes& ax
   for (const AccuracyRow& row : result.rows) {
     if (!row.beaten != front) continue;
     const PoseResult& r = row.result;
-    // Several curves may come out alike.
+    // Several curves may give the same point.
     if (!drawn.insert(fmt::format("{} {:.0f} {:.0f}", row.model.name, axes.x(row), axes.y(row)))
              .second)
       continue;
@@ -109,7 +108,7 @@ void append_marks(std::string& out, const AccuracyResult& result, const Axes& ax
   }
 }
 
-/// The shapes of the marks, once in a page before any picture.
+/// The shapes of the marks; they occur once in a page, before any picture.
 std::string scatter_marks() {
   std::string out = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidden=\"true\"><defs>\n";
   for (std::size_t i = 0; i < kShapes.size(); ++i)
@@ -117,9 +116,9 @@ std::string scatter_marks() {
   return out + "</defs></svg>\n";
 }
 
-/// Octets/s against p99 of the position error, both logarithmic. Colour and shape say the model;
-/// pale is dominated. The line joins the settings with the least error for their octets. What is
-/// below the axis lies on its end. Classes: of the page's style.
+/// Octets/s against p99 of the position error, both logarithmic. Colour and shape identify the
+/// model; dominated settings are pale. The line joins the settings with the least error for their
+/// octets. Values below the axis are drawn at its end. Classes: defined by the page's style.
 std::string scatter_svg(const AccuracyResult& result) {
   const Axes axes(result);
   std::string out = fmt::format(
@@ -134,7 +133,7 @@ std::string scatter_svg(const AccuracyResult& result) {
   return out + "</svg>\n";
 }
 
-/// Colours and shapes with the names of the models that take part.
+/// Colours and shapes with the names of the models in the result.
 std::string scatter_legend(const AccuracyResult& result) {
   std::string out = "<p class=\"legend\">";
   std::string_view last;
@@ -149,7 +148,7 @@ std::string scatter_legend(const AccuracyResult& result) {
   return out + "</p>\n";
 }
 
-/// Colours that most people tell apart on white and on black; shapes tell them apart too.
+/// Colours that most people can distinguish on white and on black; shapes distinguish them too.
 constexpr std::string_view kPoseStyle = R"(
 :root{--front:#1f2328}@media(prefers-color-scheme:dark){:root{--front:#e6edf3}}
 .defs{position:absolute;width:0;height:0}.plot text{font:13px system-ui,sans-serif;fill:var(--soft)}

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One run of dead reckoning, sample by sample, as a CSV file: what the sums of a study are made of,
-// for pictures and spreadsheets.
+// One run of dead reckoning, sample by sample, as a CSV file: the values behind the sums of a
+// study, for pictures and spreadsheets.
 #pragma once
 
 #include <fstream>
@@ -18,13 +18,13 @@ namespace reckon::bench {
 /// drawn_speed_mps,sent,lost,arrived. The speed is empty at an entity's first row.
 class PoseTrace {
  public:
-  /// Begins the file. Entities are told by the names of the tracks, one without a name by its
-  /// number from 1 on. @throws UsageError where it cannot be written.
+  /// Begins the file. Entities are identified by the names of the tracks; a track without a name by
+  /// its number from 1. @throws UsageError if the file cannot be written.
   PoseTrace(std::string path, std::span<const Track> tracks);
 
   void write(const PoseSample& sample);
 
-  /// Ends the file. @throws UsageError where it could not be written whole.
+  /// Ends the file. @throws UsageError if it could not be written completely.
   void close();
 
  private:

@@ -31,7 +31,7 @@ MotionSample entity(double time) {
   return sample;
 }
 
-/// A convergence that is under way during the whole measurement.
+/// A convergence that lasts for the whole measurement.
 deadreckon::PoseConvergence converging(deadreckon::ConvergenceCurve curve) {
   deadreckon::ConvergenceSettings settings;
   settings.curve = curve;
@@ -43,7 +43,7 @@ deadreckon::PoseConvergence converging(deadreckon::ConvergenceCurve curve) {
   return convergence;
 }
 
-/// Nanoseconds a query of one block; `predict` gives the pose some time after the update.
+/// Nanoseconds a query in one block; `predict` returns the pose at a time after the update.
 template <typename Predict>
 double block(const deadreckon::PoseConvergence& convergence, Predict&& predict, double& sum) {
   const auto begin = std::chrono::steady_clock::now();
@@ -87,7 +87,7 @@ QueryCosts measure_query_costs() {
           convergence, [&](double tau) { return order.predict(tau); }, sum));
     }
   }
-  // The sum of all answers is looked at, so that none of them can be left out.
+  // The sum of all results is used, so that the compiler cannot remove any query.
   QueryCosts costs;
   if (!(sum < 1e300)) return costs;
   for (std::size_t curve = 0; curve < QueryCosts::kCurves; ++curve) {

@@ -26,12 +26,12 @@
 namespace reckon::bench {
 namespace {
 
-/// What one subject is and the thresholds that suit it.
+/// A subject, and the thresholds that suit it.
 struct Subject {
   StudySubject study;
   std::vector<double> thresholds;
-  bool turns_send = true;  ///< not where a file's orientations are made up and no --angle is given
-  bool damaged = false;    ///< a file of which a part could not be read
+  bool turns_send = true;  ///< false if a file's orientations are derived and no --angle is given
+  bool damaged = false;    ///< a file with a part that could not be read
 };
 
 constexpr std::array<double, 6> kFileThresholds{0.1, 0.2, 0.5, 1, 2, 5};
@@ -49,7 +49,7 @@ Subject read_subject(const std::string& path, bool angle_given) {
           file.damaged};
 }
 
-/// Files where some are named, else motions.
+/// The files, and the motions unless only files are named.
 std::vector<Subject> subjects_of(const BenchOptions& options) {
   std::vector<Subject> subjects;
   for (const std::string& path : options.files)
@@ -66,7 +66,7 @@ std::vector<Subject> subjects_of(const BenchOptions& options) {
   return subjects;
 }
 
-/// Findings where the answer is partial.
+/// ExitCode::findings if the result is partial.
 tools::ExitCode code_of(const std::vector<Subject>& subjects) {
   return std::ranges::any_of(subjects, &Subject::damaged) ? tools::ExitCode::findings
                                                           : tools::ExitCode::good;

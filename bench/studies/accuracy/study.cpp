@@ -52,7 +52,7 @@ std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
   return rows;
 }
 
-/// As tables show them: less than that is no difference worth a row.
+/// With the digits of the tables: a smaller difference does not justify a row.
 double compared(double value) {
   return std::abs(value) >= kNoDifference ? in_three_digits(value) : 0;
 }

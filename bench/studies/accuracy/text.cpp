@@ -25,13 +25,13 @@ std::string_view curve_name(deadreckon::ConvergenceCurve curve) {
   return deadreckon::kConvergenceCurves[static_cast<std::size_t>(curve)].name;
 }
 
-/// Three columns, also on a machine that is slow.
+/// At most three characters, also on a slow machine.
 std::string nanoseconds_text(double ns) {
   if (!(ns > 0)) return "-";
   return ns < 999.5 ? fmt::format("{:.0f}", ns) : fmt::format("{:.0f}us", ns / 1000);
 }
 
-/// What ran, above a table.
+/// The line above a table: the subject and the settings.
 std::string heading_of(const AccuracyResult& result) {
   const std::string colon = result.meaning.empty() ? "" : ": ";
   return wrapped(result.subject + colon + result.meaning, kTextColumns) +
@@ -120,7 +120,7 @@ Fields setting_fields(const NamedRow& of) {
   return fields;
 }
 
-/// Nothing where the value is that of no limit.
+/// No value if `value` is `none` or above.
 std::optional<double> below(double value, double none) {
   return value < none ? std::optional(value) : std::nullopt;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The studies of poses as tables, CSV and JSON Lines.
+// Results of the pose studies as tables, CSV and JSON Lines.
 #pragma once
 
 #include <span>
@@ -15,22 +15,23 @@
 
 namespace reckon::bench {
 
-/// Everything that a study of accuracy ran and found.
+/// All inputs and results of a study of accuracy.
 struct AccuracyReport {
   std::string command;    ///< as typed
   std::string processor;  ///< of the query times; empty: not measured
-  AccuracyGrid grid;      ///< its thresholds are those of the last subject
+  AccuracyGrid grid;      ///< with the thresholds of the last subject
   std::vector<AccuracyResult> results;
-  std::vector<ContactRow> contacts;  ///< mostly none
+  std::vector<ContactRow> contacts;  ///< usually empty
 };
 
-/// Indices of the rows by octets/s, then error; those on the front alone where asked for.
+/// Indices of the rows by octets/s, then error; with `front_only` only rows on the front.
 [[nodiscard]] std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only);
 
-/// "80 ms +-40 %, 10 % lost, medians of 20 seeds from 1", and the other things in common.
+/// For example "80 ms +-40 %, 10 % lost, medians of 20 seeds from 1", and the other common
+/// settings.
 [[nodiscard]] std::string conditions_text(const AccuracyGrid& grid);
 
-/// The tables and their sentences, at most 100 columns wide.
+/// The tables and their explanations, at most 100 columns wide.
 [[nodiscard]] std::string accuracy_text(const AccuracyReport& report, bool front_only);
 
 /// Titles and one row a setting; lengths in metres, angles in radians.
@@ -39,14 +40,14 @@ struct AccuracyReport {
 /// A line for the study, one for each subject and one for each setting.
 [[nodiscard]] std::string accuracy_json(const AccuracyReport& report, bool front_only);
 
-/// The table of a page: every setting.
+/// The table of a page, with every setting.
 [[nodiscard]] std::string accuracy_page_table(const AccuracyResult& result);
 /// One HTML file: for each subject the front as a picture, and the table, which can be sorted.
 [[nodiscard]] std::string accuracy_page(const AccuracyReport& report);
 
 [[nodiscard]] std::string circle_lines(std::span<const CircleRow> rows, bool json);
 
-/// A file and what was found of it.
+/// A file and the result for it.
 struct NamedEqualError {
   std::string subject;
   EqualError found;

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr double kServoPeriod = 1e-3;      // [s]
 constexpr std::size_t kFirstTouch = 1000;  // steps
 
-/// Of one hand from another in a step [N], along the line between them.
+/// Force of one hand on another in a step [N], along the line between them.
 struct Pair {
   double felt = 0, wanted = 0;
 };
@@ -33,7 +33,7 @@ Pair pair_at(const ContactRecord& record, const ContactTruth& truth, std::size_t
           truth.stiffness * std::max(0.0, truth.reach - distance)};
 }
 
-/// Visits every hand with every other, in every step.
+/// Visits every ordered pair of hands, in every step.
 template <typename Visit>
 void each_pair(const ContactRecord& record, Visit&& visit) {
   for (std::size_t step = 0; step < record.steps(); ++step)
@@ -124,7 +124,7 @@ std::optional<std::array<Response, 2>> stroke_response(const ContactRecord& reco
 }
 
 double linger(const ContactRecord& record, const ContactTruth& truth) {
-  constexpr std::size_t kOver = 0;  // or the last step of a contact, plus one
+  constexpr std::size_t kOver = 0;  // 0: over; otherwise the last step of a contact, plus one
   std::vector<std::size_t> touched(record.hands * record.hands, kOver);
   std::size_t longest = 0;
   each_pair(record, [&](std::size_t step, std::size_t hand, std::size_t other) {

@@ -16,7 +16,7 @@
 namespace reckon::bench {
 namespace {
 
-/// A wide threshold counts as worse from this ratio of errors on.
+/// A wide threshold counts as worse from this ratio of errors.
 constexpr double kWorse = 1.1;
 
 constexpr std::string_view kLegend =
@@ -32,12 +32,12 @@ constexpr std::string_view kLegend =
 
 std::string millinewtons(double newtons) { return number_text(1e3 * newtons); }
 
-/// Two digits behind the point.
+/// With two decimals.
 std::string ratio_text(const std::optional<double>& ratio) {
   return ratio ? fmt::format("{:.2f}", *ratio) : "-";
 }
 
-/// Of both hands, between blanks.
+/// Of both hands, separated by blanks.
 template <typename Text>
 std::string stroke_text(const ContactRow& row, Text&& text) {
   return row.stroke ? text((*row.stroke)[0]) + ' ' + text((*row.stroke)[1]) : "-";
@@ -133,7 +133,7 @@ auto contact_fields(const peer::ImpairmentConfig& network) {
   return [network](const ContactRow& row) { return fields_of(row, network); };
 }
 
-/// What wide thresholds do here, where they do not help.
+/// Effect of wide thresholds in scenes where they do not help.
 std::string wide_text(std::span<const ContactRow> rows) {
   const ContactRow *best = nullptr, *worst = nullptr;
   for (const ContactRow& row : rows) {

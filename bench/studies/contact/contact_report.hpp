@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The study of contacts as tables, JSON Lines and CSV.
+// Results of the study of contacts as tables, JSON Lines and CSV.
 #pragma once
 
 #include <span>
@@ -10,13 +10,14 @@
 
 namespace reckon::bench {
 
-/// For people: a table for each scene, what is worse at wide thresholds, and what the columns are.
+/// For people: a table for each scene, the effects of wide thresholds, and the meaning of the
+/// columns.
 [[nodiscard]] std::string contact_text(std::span<const ContactRow> rows,
                                        const peer::ImpairmentConfig& network);
 /// One object a line.
 [[nodiscard]] std::string contact_json(std::span<const ContactRow> rows,
                                        const peer::ImpairmentConfig& network);
-/// With a line of names. What a row does not have is empty.
+/// With a header line. Missing values are empty.
 [[nodiscard]] std::string contact_csv(std::span<const ContactRow> rows,
                                       const peer::ImpairmentConfig& network);
 /// The table of a page.

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kTenth = 100;  // servo steps
 
-/// Collects the steps of all peers, which come one peer after the other.
+/// Collects the steps of all peers, which arrive peer by peer.
 class Recorder {
  public:
   Recorder(tools::Exercise& exercise, ContactRun& run)
@@ -44,7 +44,7 @@ class Recorder {
     }
   }
 
-  /// Leaves out steps that not all peers have made.
+  /// Removes steps that not all peers have made.
   void finish() {
     const std::size_t steps = *std::min_element(taken_.begin(), taken_.end());
     record_.positions.resize(steps * record_.hands);
@@ -58,7 +58,7 @@ class Recorder {
   std::vector<std::size_t> taken_;
 };
 
-/// On one sphere from another of the same radius [N].
+/// Force on one sphere from another of the same radius [N].
 Vector3d spring_force(const Vector3d& from_other, double reach, double stiffness) {
   const double distance = from_other.norm();
   if (!(distance < reach) || distance == 0) return Vector3d::Zero();
@@ -89,7 +89,7 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
   exercise.on_step([&](std::size_t peer, std::size_t device, const auto& step) {
     if (device == 0) recorder.add(peer, step);
   });
-  // In slices that end where a whole run collects, so that it is the same run.
+  // In slices that end where a whole run collects its steps, so that the result is the same.
   constexpr std::chrono::milliseconds kSlice(100);
   const std::chrono::nanoseconds end = pdu::from_seconds(seconds);
   for (std::chrono::nanoseconds done{0}; done < end; done += kSlice) {

@@ -17,22 +17,22 @@ using haptics::HandTarget;
 
 constexpr double kRadius = 0.02;      // [m]
 constexpr double kAway = 0.02;        // [m], between hands before they touch
-constexpr double kStart = 2.0;        // [s], by then peers have found one another
+constexpr double kStart = 2.0;        // [s], discovery is complete by then
 constexpr double kPlaceHeight = 0.2;  // [m]
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A way along a line and the speed on it.
+/// A position along a line and the speed on it.
 struct Way {
   double at = 0, speed = 0;
 };
 
-/// From 0 to 1 by minimum jerk in `seconds` from `begin` on.
+/// From 0 to 1 with minimum jerk, over `seconds` from `begin`.
 Way rise(double time, double begin, double seconds) {
   const double u = std::clamp((time - begin) / seconds, 0.0, 1.0);
   return {u * u * u * (10 + u * (6 * u - 15)), 30 * u * u * (1 - u) * (1 - u) / seconds};
 }
 
-/// From 0 to 1 and back as a cosine of this period [s] from kStart on.
+/// From 0 to 1 and back as a cosine with this period [s], from kStart.
 Way to_and_fro(double time, double period) {
   if (time < kStart) return {};
   const double phase = kTurn * (time - kStart) / period;
@@ -47,8 +47,8 @@ HandTarget along(const Vector3d& place, const Vector3d& direction, const Way& wa
   return {place + way.at * direction, way.speed * direction, Vector3d::Zero()};
 }
 
-/// The first of a row comes from kAway, is `depth` beyond the first touch after `in` seconds and
-/// goes back in half a second at `leave`; the others hold still.
+/// The first hand of a row starts at kAway, is `depth` beyond the first touch after `in` seconds
+/// and returns within half a second from `leave`; the others hold still.
 Way press(double time, double depth, double in, double leave) {
   const Way there = rise(time, kStart, in), back = rise(time, leave, 0.5);
   return {-kAway + (kAway + depth) * (there.at - back.at),
@@ -66,7 +66,7 @@ HandTarget slow_press(std::size_t hand, double time) {
 
 constexpr double kStrokesBegin = 4, kStrokesEnd = 10;  // [s]
 
-/// 15 mm in, then 5 mm to and fro at a tenth of `kTenths` Hz.
+/// 15 mm in, then strokes of 5 mm at a tenth of `kTenths` Hz.
 template <int kTenths>
 HandTarget stroke(std::size_t hand, double time) {
   Way way = press(time, 0.015, 1, kStrokesEnd);
@@ -78,8 +78,8 @@ HandTarget stroke(std::size_t hand, double time) {
   return first_moves(hand, way);
 }
 
-/// Approach, touch, hold, stroke, leave: from 150 mm away, where it goes up and down by 20 mm
-/// meanwhile, into the other hand by 10 mm, strokes of 5 mm at 0.5 Hz, and back.
+/// Approach, touch, hold, stroke, leave: from 150 mm away, with vertical motion of 20 mm meanwhile,
+/// into the other hand by 10 mm, strokes of 5 mm at 0.5 Hz, and back.
 HandTarget visit(std::size_t hand, double time) {
   if (hand != 0) return first_moves(hand, {});
   constexpr double kFar = 0.15, kDepth = 0.01, kStroke = 0.005, kStrokeHz = 0.5;
@@ -109,8 +109,8 @@ HandTarget tap(std::size_t hand, double time) {
                      {-kAway + depth * (there.at - back.at), depth * (there.speed - back.speed)});
 }
 
-/// Two hands that go towards each other and away in 2 and 3 s; meanwhile the second crosses the
-/// line of the first by 10 mm to both sides in 5 s.
+/// Two hands that approach and separate with periods of 2 and 3 s; meanwhile the second crosses the
+/// line of the first by 10 mm to both sides with a period of 5 s.
 HandTarget sweep_of_two(std::size_t hand, double time) {
   const bool first = hand == 0;
   const Vector3d way = Vector3d::UnitX() * (first ? 0.032 : -0.032);
@@ -123,7 +123,8 @@ HandTarget sweep_of_two(std::size_t hand, double time) {
   return target;
 }
 
-/// Four hands come from the corners of a square to its middle and go back in 2, 2.4, 3 and 3.6 s.
+/// Four hands that move from the corners of a square to its middle and back with periods of 2, 2.4,
+/// 3 and 3.6 s.
 HandTarget sweep_of_four(std::size_t hand, double time) {
   constexpr std::array kPeriods{2.0, 2.4, 3.0, 3.6};
   const double angle = kTurn * static_cast<double>(hand) / 4;

@@ -63,7 +63,7 @@ ContactRow run_row(const ContactScene& contact, const ContactSending& sending,
   return row;
 }
 
-// As tables show them.
+// With the digits of the tables.
 bool beats(const ContactRow& one, const ContactRow& other) {
   const double packets = in_three_digits(one.packets_per_s),
                more = in_three_digits(other.packets_per_s);

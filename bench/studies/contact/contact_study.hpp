@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What hands in contact cost and feel, for each way of touching and each way of sending.
+// Cost and force error of hands in contact, for each kind of touch and each way of sending.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@
 
 namespace reckon::bench {
 
-/// When a hand sends: at a threshold of force, or at a fixed rate.
+/// Condition for sending: a force threshold, or a fixed rate.
 struct ContactSending {
-  double threshold = 0;  ///< [N]; 0: at the rate
+  double threshold = 0;  ///< [N]; 0: fixed rate
   double rate_hz = 0;
 
   [[nodiscard]] bool operator==(const ContactSending&) const = default;
 };
 
-/// "15 mN", "50 Hz"
+/// For example "15 mN" or "50 Hz".
 [[nodiscard]] std::string sending_text(const ContactSending& sending);
 
-/// What studies try where nothing is asked for.
+/// Default settings of studies.
 inline constexpr std::array kContactSendings{ContactSending{0.01, 0}, ContactSending{0.015, 0},
                                              ContactSending{0.02, 0}, ContactSending{0.03, 0},
                                              ContactSending{0.05, 0}, ContactSending{0.1, 0},
@@ -39,29 +39,30 @@ struct ContactRow {
   std::string scene;
   ContactSending sending;
   std::size_t hands = 0;
-  double asked = 0, shown = 0;  ///< [N/m], as the scene has it and as the devices can show
+  double asked = 0, shown = 0;  ///< [N/m], requested by the scene and possible on the devices
   double packets_per_s = 0, octets_per_s = 0, for_force_per_s = 0;
   ForceError from_shown, from_asked;
-  std::optional<double> from_twin;   ///< [N] RMS; nothing where a stone is there too
-  std::optional<double> first_peak;  ///< over the twin's
+  std::optional<double> from_twin;   ///< [N] RMS; no value if the scene has a stone
+  std::optional<double> first_peak;  ///< divided by the twin's
   std::optional<std::array<Response, 2>> stroke;
   double linger = 0;         ///< [s]
-  double servo_step_ns = 0;  ///< median, its simulated device too
-  bool beaten = false;       ///< another row of the scene has no more packets and no more p99
+  double servo_step_ns = 0;  ///< median, including its simulated device
+  bool beaten = false;       ///< another row of the scene has no more packets and no greater p99
 
-  /// Else there are no errors to tell.
+  /// If not, there are no errors to report.
   [[nodiscard]] bool touched() const noexcept { return from_shown.samples > 0; }
-  /// An Entity State and an Attribute PDU from each hand in every servo step, over what was sent.
+  /// An Entity State and an Attribute PDU from each hand in every servo step, divided by the
+  /// packets sent.
   [[nodiscard]] double times_fewer() const noexcept {
     return packets_per_s > 0 ? 1000 * static_cast<double>(hands) / packets_per_s : 0;
   }
 };
 
-/// Told how many of how many runs are done; false ends the study.
+/// Called with the runs done and the total; false ends the study.
 using ContactProgress = std::function<bool(std::size_t done, std::size_t all)>;
 
-/// A row for each scene and sending, scene by scene; fewer where `go_on` ended it. @param longest
-/// [s], of a run. Deterministic but for servo_step_ns; on all cores.
+/// A row for each scene and sending, scene by scene; fewer if `go_on` ended it. @param longest [s],
+/// of a run. Deterministic except for servo_step_ns; runs on all cores.
 [[nodiscard]] std::vector<ContactRow> run_contact_study(std::span<const ContactScene> scenes,
                                                         std::span<const ContactSending> sendings,
                                                         const peer::ImpairmentConfig& network,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the thesis' figures of chapters 3 to 5: experiments, which are computed, and
+// The list of the thesis' figures of chapters 3 to 5: experiments, which are computed, and
 // drawings.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace reckon::bench {
 struct FigureKind {
   std::string_view name;   ///< number in the thesis: "3.5"
   std::string_view title;  ///< in one line
-  Figure (*make)();        ///< computes or draws it, in a second or two
+  Figure (*make)();        ///< computes or draws it, within a second or two
   bool is_drawing = false;
 };
 

@@ -24,7 +24,7 @@ using P = PrintedModels;
 
 constexpr double kDuration = 1.0;  // [s]
 constexpr double kStatic = 0.5, kKinetic = 0.35;
-constexpr double kEnd = 0.1;  // the last part of a run, and the first of a contact [s]
+constexpr double kEnd = 0.1;  // the last part of a run, and the first part of a contact [s]
 
 constexpr std::array kGains{P::kPrintedGain, P::kFollowingGain};
 
@@ -54,7 +54,7 @@ FigureCurve force_over_time(std::string name, Step&& step) {
   return curve;
 }
 
-/// @param force_of a model's force over time, under a name
+/// @param force_of returns the force of a model over time
 ModelForces both(double simple_gain,
                  const std::function<FigureCurve(const TransferFunction&)>& force_of) {
   ModelForces forces{force_of(complex_model()), force_of(simple_model(simple_gain)), {}};
@@ -66,7 +66,7 @@ ModelForces both(double simple_gain,
   return forces;
 }
 
-/// From where a force is first felt.
+/// Index of the first sample with a force.
 std::size_t first_touch(const FigureCurve& force) {
   const auto touch = std::ranges::find_if(force.y, [](double f) { return f != 0; });
   return static_cast<std::size_t>(touch - force.y.begin());
@@ -103,7 +103,7 @@ FigurePanel panel_of(double gain, ModelForces forces, double end) {
 
 using ForcesOf = std::function<ModelForces(double gain)>;
 
-/// @param end of what is drawn [s]
+/// @param end of the time axis [s]
 Figure figure_of(const ForcesOf& forces_of, double end = kDuration) {
   Figure figure;
   for (const double gain : kGains) {
@@ -121,7 +121,7 @@ Figure figure_of(const ForcesOf& forces_of, double end = kDuration) {
   return figure;
 }
 
-/// Least and greatest of a number over other masses and speeds than those drawn.
+/// Least and greatest value of a number over masses and speeds other than the drawn ones.
 struct Spread {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   void add(double value) {
@@ -132,7 +132,7 @@ struct Spread {
 
 constexpr std::array kMasses{0.05, 0.1, 0.2, 0.5};
 
-/// @param count of scenes with other masses and pushes
+/// @param count of scenes with other masses and pushes in which the last error is below the first
 FigureNumber falling(int count, double gain) {
   return {"scenes of 12 whose last error is below the first, " + gain_name(gain),
           static_cast<double>(count),
@@ -179,7 +179,7 @@ int lead_of_simple(const ModelForces& forces) {
 
 ModelForces slip_forces(const Slip& slip, double simple_gain) {
   return both(simple_gain, [&](const TransferFunction& model) {
-    // What a lasting stretch of 1 m gives: the cone is one of displacements.
+    // Stiffness for a lasting displacement of 1 m, because the cone is in displacements.
     const double stiffness = (model.numerator[0] + model.numerator[1]) / P::kPeriod;
     UnilateralEnvironment normal(model);
     SampledEnvironment tangential(model);
@@ -251,7 +251,7 @@ Figure figure_bilateral_collision() {
     figure.numbers.push_back(
         {"the same, greatest of 48 scenes, " + name, lead.most, {}, "samples"});
   }
-  // What the thesis claims stands for the figure.
+  // The number that the thesis claims represents the figure.
   std::rotate(figure.numbers.begin(), figure.numbers.begin() + forces, figure.numbers.end());
   figure.thesis =
       "Behaves alike; the maximum of the simple model comes one sample later than that of the "

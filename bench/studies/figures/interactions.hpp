@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Thesis Figs 5.7 to 5.9: a wall, a thing that yields and a rough surface, felt through the complex
+// Thesis Figs 5.7 to 5.9: a wall, a movable object and a rough surface, felt through the complex
 // model (5.4) and the simple one (5.5). Masses, pushes and gaps are not printed; ours are below.
 #pragma once
 
@@ -8,24 +8,26 @@
 
 namespace reckon::bench {
 
-/// What the thesis prints: T of its haptic process, b and K_c. K_s is given with each scene.
+/// Values printed in the thesis: T of its haptic process, b and K_c. K_s is a parameter of each
+/// scene.
 struct PrintedModels {
   static constexpr double kPeriod = 0.001;       ///< [s]
   static constexpr double kDamping = 0.4;        ///< b of both models [N s/m]
   static constexpr double kComplexGain = 0.1;    ///< K_c
   static constexpr double kPrintedGain = 0.9;    ///< K_s as printed
-  static constexpr double kFollowingGain = 0.1;  ///< K_s as (4.21) gives it for (5.4)
+  static constexpr double kFollowingGain = 0.1;  ///< K_s that follows from (4.21) for (5.4)
 };
 
-/// A hand that pushes: not printed, chosen so that a device of this damping may render all models.
+/// A hand that pushes: not printed, chosen so that a device with this damping may render all
+/// models.
 struct PushingHand {
   double mass = 0.1;     ///< [kg]
   double damping = 1.0;  ///< [N s/m]
   double push = 1.0;     ///< towards the surface [N]
-  double gap = 0.005;    ///< to it at the start [m]
+  double gap = 0.005;    ///< to the surface at the start [m]
 };
 
-/// What a figure shows of both models: the force of each, and simple minus complex.
+/// Curves of both models in a figure: the force of each, and simple minus complex.
 struct ModelForces {
   FigureCurve complex, simple, error;
   double period = PrintedModels::kPeriod;
@@ -34,7 +36,7 @@ struct ModelForces {
 /// 5.7. @param simple_gain K_s
 [[nodiscard]] ModelForces wall_forces(const PushingHand& hand, double simple_gain);
 
-/// 5.8: the hand is thrown at what stands free, and slides away with `object_damping`.
+/// 5.8: the hand is thrown at a free object, which slides away with `object_damping`.
 struct Thrown {
   PushingHand hand{.push = 0.0};
   double speed = 0.3;           ///< of the hand at the start [m/s]
@@ -42,11 +44,11 @@ struct Thrown {
   double object_damping = 2.0;  ///< [N s/m]
 };
 [[nodiscard]] ModelForces thrown_forces(const Thrown& thrown, double simple_gain);
-/// By how many samples the simple model reaches its greatest force before the complex one; below 0:
-/// after it.
+/// Number of samples by which the greatest force of the simple model precedes that of the complex
+/// one; below 0: it follows.
 [[nodiscard]] int lead_of_simple(const ModelForces& forces);
 
-/// 5.9: pressed on a surface and pushed along it. Friction along it, by the product's stick-slip
+/// 5.9: the hand is pressed on a surface and pushed along it. Friction is the product's stick-slip
 /// cone (static 0.5, kinetic 0.35).
 struct Slip {
   PushingHand hand{.gap = 0.0};

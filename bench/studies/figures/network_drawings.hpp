@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' drawings of chapters 3 and 4, drawn anew from its text and equations: two-ports,
-// loops and lines, each with what of the library computes it.
+// The thesis' drawings of chapters 3 and 4, drawn again from its text and equations: two-ports,
+// loops and lines, each with the library functions that compute it.
 #pragma once
 
 #include "reckon/bench/studies/figures/figure.hpp"

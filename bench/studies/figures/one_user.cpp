@@ -32,12 +32,12 @@ FigurePanel panel_of(SpringReading reading, std::array<int, 2> orders, Quantity 
   return panel;
 }
 
-/// Both readings.
+/// Panels in both readings.
 std::vector<FigurePanel> panels_of(std::array<int, 2> orders, Quantity quantity) {
   return {panel_of(kWith, orders, quantity), panel_of(kWithout, orders, quantity)};
 }
 
-/// By which the envelope grows each second, as exp(rate t) [1/s].
+/// Growth rate of the envelope, as exp(rate t) [1/s].
 double growth_of(SpringReading reading, int order) {
   const OneUserScene scene = scene_of(reading, order);
   return std::log(loop_radius(scene)) / scene.sample_period;
@@ -75,7 +75,7 @@ std::vector<FigureNumber> growth_numbers(const std::vector<FigurePanel>& panels,
 Figure high_order(Quantity quantity) {
   Figure figure;
   figure.panels = panels_of({3, 4}, quantity);
-  // Without T they leave any picture: their beginning is shown.
+  // Without T the curves grow beyond any picture: only their start is drawn.
   FigurePanel& without = figure.panels.back();
   const double reach = quantity == Quantity::force ? 8.0 : 2.0;
   without.range = {-reach, reach};

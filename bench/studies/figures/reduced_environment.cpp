@@ -20,7 +20,7 @@ using Series = std::vector<std::array<SceneSample, 2>>;
 enum class Model { complex, simple };
 
 constexpr std::array kAlphas{0.5, 0.6, 0.8, 0.9, 0.95, 0.995};
-/// Of the scenes in which one user pushes: with it the simple model does not grow.
+/// For the scenes in which one user pushes: with this damping the simple model does not grow.
 constexpr double kWallDamping = 0.1;
 constexpr double kStaticGain = 0.5;
 
@@ -44,7 +44,7 @@ Series series_of(const ReductionScene& s, Model model) {
   return run(scene_of(s), environment_of(s, model));
 }
 
-/// Simple minus complex, of the first user.
+/// Simple minus complex, for the first user.
 FigureCurve error_of(const ReductionScene& s, Quantity quantity) {
   FigureCurve error =
       curve_of(fmt::format("alpha = {:g}", s.alpha), series_of(s, Model::simple), 0, quantity);
@@ -77,7 +77,7 @@ FigurePanel one_pushes_panel(Model model, Quantity quantity) {
   const Series series = series_of(scene, model);
   panel.curves = {curve_of("who pushes", series, 0, quantity),
                   curve_of("the other", series, 1, quantity)};
-  // The complex one leaves any picture: its beginning is shown.
+  // The complex model grows beyond any picture: only its start is drawn.
   if (model == Model::complex) {
     panel.range = {-4.0, 4.0};
     panel.end = 5;
@@ -85,7 +85,7 @@ FigurePanel one_pushes_panel(Model model, Quantity quantity) {
   return panel;
 }
 
-/// By which opposed motion grows, as exp(rate t) [1/s].
+/// Growth rate of opposed motion, as exp(rate t) [1/s].
 double opposed_growth(Model model) {
   const PairParameters pair;
   return std::log(opposed_radius(pair, environment_of(one_pushes(), model))) / pair.sample_period;
@@ -115,7 +115,7 @@ Figure error_figure(Quantity quantity, double thesis) {
     figure.numbers.push_back({fmt::format("greatest error, alpha = {:g}", alpha),
                               greatest(panel.curves.back()), thesis, unit_of(quantity)});
   }
-  // The one that the figures before it show stands for the figure.
+  // The alpha of the preceding figures represents the figure.
   std::swap(figure.numbers[0], figure.numbers[1]);
   figure.panels = {std::move(panel)};
   return figure;

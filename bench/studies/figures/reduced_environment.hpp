@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Thesis Figs 4.8 to 4.13: two users with the complex environment of (4.21), with the simple one
-// that replaces its pole alpha by the static gain, and the error of that.
+// that replaces its pole alpha by the static gain, and the error of this replacement.
 #pragma once
 
 #include "reckon/bench/studies/figures/figure.hpp"
 
 namespace reckon::bench {
 
-/// (4.21) between two users, K = (1 - alpha)/2, so that the static gain is that of the thesis'
+/// (4.21) between two users, K = (1 - alpha)/2, so that the static gain matches the thesis'
 /// velocity of 1.25 = 1/(b + K/(1 - alpha)).
 struct ReductionScene {
   double alpha = 0.6;
-  double wall_damping = 0.0;  ///< b_e beside (4.21), which has none [N s/m]
+  double wall_damping = 0.0;  ///< b_e in addition to (4.21), which has none [N s/m]
   double other_push = 1.0;    ///< of the second user [N]
   double duration = 15.0;     ///< [s]
 };

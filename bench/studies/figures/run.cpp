@@ -33,7 +33,7 @@ constexpr std::string_view kExamples =
     "reckon figures --list\n"
     "reckon figures --json | jq .ours";
 
-/// Letters of a note below the title that the width of the picture holds.
+/// Letters of a note below the title that fit into the width of the picture.
 constexpr std::size_t kNoteColumns = 100;
 
 constexpr std::string_view kFigureStyle = R"(
@@ -41,18 +41,18 @@ body{max-width:60rem}section>svg{display:block;width:100%;height:auto;margin:.8r
 table{white-space:normal}
 )";
 
-/// A figure that was made.
+/// A computed or drawn figure.
 struct MadeFigure {
   const FigureKind* kind = &figure_kinds().front();
   Figure figure;
 };
 
-/// "figure_3.5.svg".
+/// For example "figure_3.5.svg".
 std::string figure_file(std::string_view name, std::string_view extension) {
   return fmt::format("figure_{}.{}", name, extension);
 }
 
-/// In lines that the picture holds.
+/// Appends `text`, wrapped to the width of the picture.
 void append_note(std::vector<std::string>& notes, std::string_view text) {
   while (text.size() > kNoteColumns) {
     std::size_t end = text.rfind(' ', kNoteColumns);
@@ -63,7 +63,7 @@ void append_note(std::vector<std::string>& notes, std::string_view text) {
   notes.emplace_back(text);
 }
 
-/// The values of a panel as the plotter takes them.
+/// The values of a panel in the form of the plotter.
 struct DrawnCurve {
   std::string name;
   std::vector<float> at, values;
@@ -151,14 +151,14 @@ void append_figure(std::string& out, const MadeFigure& made) {
   out += fmt::format("<a href=\"{}\">SVG</a></p>\n</section>\n", figure_file(kind->name, "svg"));
 }
 
-/// To the end of the first sentence or clause.
+/// Text up to the end of the first sentence or clause.
 std::string_view first_words(std::string_view text) {
   std::size_t end = text.size();
   for (const char* mark : {": ", ". ", "; "}) end = std::min(end, text.find(mark));
   return text.substr(0, end);
 }
 
-/// A figure without its pictures. The first of its numbers stands for it.
+/// A figure without its pictures. The first of its numbers represents it.
 Fields figure_fields(const MadeFigure& made) {
   const auto& [kind, figure] = made;
   const FigureNumber first = figure.numbers.empty() ? FigureNumber{} : figure.numbers.front();
@@ -201,7 +201,8 @@ std::string figures_page(std::span<const MadeFigure> figures) {
 
 std::string_view chapter_of(std::string_view name) { return name.substr(0, name.find('.')); }
 
-/// The nearest of its chapter, or all of those where none is near; nothing for other chapters.
+/// The nearest names of its chapter, or all of the chapter if none is near; empty for other
+/// chapters.
 std::string nearest_names(std::string_view typed) {
   std::vector<std::string_view> names;
   for (const FigureKind& kind : figure_kinds())

@@ -9,7 +9,7 @@
 namespace reckon::bench {
 namespace {
 
-/// Depth and force at the instants where the force changes: once before, once after.
+/// Depth and force at the instants at which the force changes: one point before and one after.
 struct Staircase {
   FigureCurve press, release;
 };
@@ -42,7 +42,7 @@ Staircase staircase_of(const SampledSpring& s) {
   return stairs;
 }
 
-/// Force x way along a curve [J].
+/// Work of the force along a curve [J].
 double work_along(const FigureCurve& curve) {
   double work = 0;
   for (std::size_t i = 1; i < curve.x.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Thesis Fig 3.1: a spring that is sampled and held makes energy.
+// Thesis Fig 3.1: a sampled and held spring produces energy.
 #pragma once
 
 #include "reckon/bench/studies/figures/figure.hpp"
@@ -15,7 +15,8 @@ struct SampledSpring {
   double sample_period = 0.001;  ///< [s] > 0
 };
 
-/// What the user gets back beyond what he put in: the sum of held force x way, both ways [J].
+/// Energy that the user gets back in excess of the energy put in: the sum of held force x
+/// displacement, both ways [J].
 [[nodiscard]] double energy_made(const SampledSpring& spring);
 
 /// Fig 3.1 at 10 ms and at 1 ms.

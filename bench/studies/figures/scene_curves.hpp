@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Series of the thesis' scenes as curves, and what is read from them.
+// Time series of the thesis' scenes as curves, and the numbers that are read from them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace reckon::bench {
 
-/// What a figure shows of a scene.
+/// The quantity of a scene that a figure shows.
 enum class Quantity { force, velocity };
 
 [[nodiscard]] std::string axis_title(Quantity quantity);  ///< "force [N]"
@@ -29,13 +29,13 @@ enum class Quantity { force, velocity };
                                    const std::vector<std::array<SceneSample, 2>>& series,
                                    std::size_t user, Quantity quantity);
 
-/// Without curves, over `duration` [s].
+/// An empty panel over `duration` [s].
 [[nodiscard]] FigurePanel panel_over_time(std::string title, Quantity quantity, double duration);
 
-/// The value of greatest magnitude, without its sign; 0 of an empty curve.
+/// The greatest magnitude; 0 for an empty curve.
 [[nodiscard]] double greatest(const FigureCurve& curve);
 
-/// From when on the curve stays within `share` of its last value [s].
+/// Time from which the curve stays within `share` of its last value [s].
 [[nodiscard]] double settled_after(const FigureCurve& curve, double share);
 
 }  // namespace reckon::bench

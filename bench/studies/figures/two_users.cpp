@@ -51,7 +51,7 @@ Figure figure_of(Quantity quantity, std::optional<double> thesis) {
 }  // namespace
 
 int least_unstable_delay(SpringReading reading) {
-  // Larger delays of the same pair stay unstable, so halving finds the least.
+  // Greater delays of the same pair are unstable too, so that bisection finds the least.
   const auto is_unstable = [&](int delay) {
     PairParameters pair;
     pair.reading = reading;

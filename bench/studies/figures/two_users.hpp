@@ -11,8 +11,7 @@ namespace reckon::bench {
 [[nodiscard]] Figure figure_two_users_force();     ///< 4.3
 [[nodiscard]] Figure figure_two_users_velocity();  ///< 4.4
 
-/// The least delay [samples] from which two users who move against each other make the scene
-/// unstable.
+/// The least delay [samples] at which opposed motion of two users makes the scene unstable.
 [[nodiscard]] int least_unstable_delay(SpringReading reading);
 
 }  // namespace reckon::bench

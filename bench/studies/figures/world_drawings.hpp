@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' drawings of chapter 5, drawn anew from its text: scene graph, contact point,
-// processes and work space, each with what Reckon has in its place.
+// The thesis' drawings of chapter 5, drawn again from its text: scene graph, contact point,
+// processes and work space, each with its counterpart in Reckon.
 #pragma once
 
 #include "reckon/bench/studies/figures/figure.hpp"

@@ -26,8 +26,8 @@ using deadreckon::SignalModel;
 using deadreckon::SignalUpdate;
 using Eigen::Vector3d;
 
-// What a peer without dead reckoning would send every servo step: an Entity State and an Attribute
-// PDU with one force model.
+// A peer without dead reckoning would send this in every servo step: an Entity State and an
+// Attribute PDU with one force model.
 constexpr double kRawStepsPerSecond = 1000;
 constexpr std::size_t kMostSamples = 4'000'000;
 

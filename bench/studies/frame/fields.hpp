@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One row of a study's results, listed once: table, JSON Lines, CSV and page follow from it.
+// One row of a study's results, described once for table, JSON Lines, CSV and page.
 //
 //   Fields fields_of(const Row& row) {
 //     return Fields("setting").value("error_m", row.error).cell("ERROR", length_text(row.error));
@@ -23,12 +23,12 @@ namespace reckon::bench {
 
 class Fields;
 
-/// A value as JSON and CSV write it. JSON has null for no value and for one that is not finite.
+/// A value in the form of JSON and CSV. JSON has null for no value and for one that is not finite.
 struct Value {
   std::string json, csv;
 
   Value(double number) : Value(std::optional(number)) {}
-  /// Empty in CSV where there is none.
+  /// Empty in CSV if there is no number.
   Value(std::optional<double> number);
   Value(bool is) : json(is ? "true" : "false"), csv(is ? "1" : "0") {}
   template <std::integral T>
@@ -40,13 +40,13 @@ struct Value {
   /// An object in JSON, nothing in CSV.
   Value(const Fields& object);
 
-  /// With so many decimals; null and empty where there is none.
+  /// With this number of decimals; null and empty if there is no number.
   [[nodiscard]] static Value decimals(std::optional<double> number, int count);
-  /// Any text; within quotes in CSV.
+  /// Any text; quoted in CSV.
   [[nodiscard]] static Value quoted(std::string_view text);
-  /// Text that already is JSON, and nothing in CSV.
+  /// Text that is already JSON; empty in CSV.
   [[nodiscard]] static Value raw(std::string json);
-  /// An array of objects in JSON, nothing in CSV.
+  /// An array of objects in JSON; empty in CSV.
   template <class Rows, class Of>
   [[nodiscard]] static Value array(const Rows& rows, Of&& fields_of) {
     std::string all;
@@ -57,7 +57,7 @@ struct Value {
 
 /// `text` within quotes, quotes doubled (RFC 4180).
 [[nodiscard]] std::string csv_quoted(std::string_view text);
-/// The same where a comma, quote or line end asks for it, else as it is.
+/// The same if the text contains a comma, quote or line end, else unchanged.
 [[nodiscard]] std::string csv_cell(std::string_view text);
 
 /// The fields of one row. Each function appends to the outputs that it names, in call order.
@@ -72,22 +72,22 @@ class Fields {
   Fields& json(std::string_view name, const Value& value);
   Fields& csv(std::string_view name, const Value& value);
 
-  /// A cell of the table: a number to the right, a word to the left.
+  /// A cell of the table: numbers are right-aligned, words left-aligned.
   Fields& cell(std::string title, std::string text);
   Fields& word(std::string_view title, std::string_view text);
-  /// A cell of the page's table. @param by what the column is sorted by  @param html ready
+  /// A cell of the page's table. @param by sort key of the column @param html escaped already
   Fields& page(std::string_view title, double by, const std::string& html);
   Fields& page_word(std::string_view title, const std::string& html);
   /// A number of table and page.
   Fields& shown(std::string title, std::string_view page_title, double by, const std::string& text);
-  /// A word of table and page. @param text without what HTML escapes
+  /// A word of table and page. @param text without characters that HTML escapes
   Fields& shown_word(std::string_view title, std::string_view page_title, const std::string& text) {
     return word(title, text).page_word(page_title, text);
   }
 
-  /// `text` in the place of all cells of the table from number `first` on.
+  /// Replaces all cells of the table from number `first` on by `text`.
   Fields& instead(std::size_t first, std::string_view text);
-  /// The same in the page, as one cell as wide as these.
+  /// The same in the page, as one cell of the same width.
   Fields& page_instead(std::size_t first, std::string_view html);
 
   /// "{..}"
@@ -106,7 +106,8 @@ class Fields {
   std::vector<std::string> cells_, page_cells_;
 };
 
-/// A line of names, then one a row. @param fields_of of a row; of an empty one come the names
+/// A header line, then a line for each row. @param fields_of fields of a row; the header comes from
+/// an empty row
 template <class Rows, class Of>
 [[nodiscard]] std::string csv_of(const Rows& rows, Of&& fields_of) {
   std::string out = fields_of(typename Rows::value_type{}).csv_names() + '\n';
@@ -140,7 +141,7 @@ struct NoneBeaten {
   bool operator()(const auto& /*row*/) const { return false; }
 };
 
-/// A table of a page; rows of which `is_beaten` holds are dominated.
+/// A table of a page; rows with `is_beaten` are marked as dominated.
 template <class Rows, class Of, class Beaten = NoneBeaten>
 [[nodiscard]] std::string page_table_of(const Rows& rows, Of&& fields_of,
                                         const Beaten& is_beaten = {}) {

@@ -25,7 +25,7 @@ std::vector<std::optional<Beaten>> mark_front(std::span<const Costs> settings) {
     for (double& value : cost)
       if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
   }
-  // In this order none is beaten by one behind it.
+  // In this order no row is dominated by a later one.
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

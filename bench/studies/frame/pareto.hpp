@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which of many settings nothing beats: the Pareto front.
+// The Pareto front of many settings: those that no other dominates.
 #pragma once
 
 #include <array>
@@ -12,24 +12,24 @@
 
 namespace reckon::bench {
 
-/// What a setting costs, each by itself: less is better. Not a number counts as infinite.
+/// Costs of a setting: less is better for each. NaN counts as infinite.
 using Costs = std::array<double, 3>;
 
-/// What a setting is beaten by: another that costs no more in anything, and less in something or,
-/// where all are equal, stands before it.
+/// The setting that dominates another: none of its costs is greater, and one is less or, if all are
+/// equal, it has a lower index.
 struct Beaten {
   std::size_t by = 0;
   bool equal = false;  ///< the costs of both are the same
 };
 
-/// In a table: "<", "=" for the same as another, nothing on the front.
+/// Mark in a table: "<", "=" for equal costs, empty on the front.
 [[nodiscard]] constexpr std::string_view beaten_mark(const std::optional<Beaten>& by) {
   return !by ? "" : by->equal ? "=" : "<";
 }
 
-/// For each setting the one that beats it, itself on the front; nothing for one on the front. Of
-/// several that beat it: the cheapest by the first cost, then by the second. Cost: n times the
-/// length of the front.
+/// For each setting the one on the front that dominates it; no value for a setting on the front. If
+/// several dominate it: the one with the least first cost, then the least second cost. Complexity:
+/// n times the length of the front.
 [[nodiscard]] std::vector<std::optional<Beaten>> mark_front(std::span<const Costs> settings);
 
 }  // namespace reckon::bench

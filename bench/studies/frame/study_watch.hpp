@@ -24,7 +24,7 @@ class StudyWatch {
   StudyWatch(const StudyWatch&) = delete;
   StudyWatch& operator=(const StudyWatch&) = delete;
 
-  /// The progress of one part: "circle: 3 of 20 settings". False ends the study.
+  /// Progress of one part: "circle: 3 of 20 settings". False ends the study.
   [[nodiscard]] std::function<bool(std::size_t done, std::size_t all)> of(
       std::string_view noun, std::string_view subject = {}) {
     return [this, noun, subject](std::size_t done, std::size_t all) {

@@ -9,13 +9,13 @@
 
 namespace reckon::bench {
 
-/// Of tables and the sentences about them.
+/// Width of tables and of the sentences about them.
 inline constexpr std::size_t kTextColumns = 100;
 
-/// The text in lines of at most so many columns, without an end of line behind the last.
+/// Wraps the text to at most `columns`, without a line end after the last line.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
 
-/// The processor as the system names it, for people; "unknown processor" where it does not.
+/// Name of the processor as the system reports it; "unknown processor" if it does not.
 [[nodiscard]] std::string processor_name();
 
 }  // namespace reckon::bench

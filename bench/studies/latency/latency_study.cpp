@@ -33,8 +33,8 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// Two hands that overlap by 4 or 6 mm: 1.2 or 1.8 N by nothing but the spring, so that the force
-// says where the other hand is.
+// Two hands that overlap by 4 or 6 mm: 1.2 or 1.8 N from the spring alone, so that the force
+// determines the position of the other hand.
 constexpr std::string_view kScene = R"(
 [scene]
 name = "two hands that touch"
@@ -54,19 +54,19 @@ pool = 16
 constexpr double kReach = 0.02;    // [m], both radii
 constexpr double kSpring = 300.0;  // [N/m]
 
-constexpr nanoseconds kPings = milliseconds(500);     // of a round
-constexpr nanoseconds kTouches = milliseconds(2000);  // of a round, after kSettle
-constexpr nanoseconds kSettle = milliseconds(300);    // servos and predictors find their pace
+constexpr nanoseconds kPings = milliseconds(500);     // in each round
+constexpr nanoseconds kTouches = milliseconds(2000);  // in each round, after kSettle
+constexpr nanoseconds kSettle = milliseconds(300);    // until servos and predictors have settled
 constexpr nanoseconds kMeet = milliseconds(1500);     // before the first round
-// The other servo is a little slower, so that a change meets it at every place of its period.
+// The period of the other servo is a little longer, so that a change arrives at every phase of it.
 constexpr nanoseconds kPeriod = milliseconds(1);
 constexpr nanoseconds kOtherPeriod = nanoseconds(1'003'700);
 constexpr std::size_t kTraceSteps = 4096;
-// What a touch puts on the wire: Entity State, Attribute PDU with a force model, trailer.
+// Octets of a touch on the wire: Entity State, Attribute PDU with a force model, trailer.
 constexpr std::size_t kPingOctets = 144 + 32 + 8 + 72 + 24;
 
 peer::SceneFile scene(bool ipv6, const LatencyOptions& options) {
-  const int port = 20'000 + getpid() % 20'000;  // no other run's
+  const int port = 20'000 + getpid() % 20'000;  // different from other runs
   peer::SceneFile scene = peer::parse_scene_file(
       fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
   scene.network.key = options.key;
@@ -75,7 +75,7 @@ peer::SceneFile scene(bool ipv6, const LatencyOptions& options) {
   return scene;
 }
 
-// One peer and the hand that it feels.
+// One peer and its hand.
 struct Side {
   Side(const peer::SceneFile& world, const LatencyOptions& options, std::uint16_t number,
        nanoseconds period, std::unique_ptr<SteppedHand> device)
@@ -101,7 +101,7 @@ struct Side {
   std::unique_ptr<SteppedHand> hand;
   haptics::TraceRing steps;
   peer::JoinedPeer joined;
-  nanoseconds last_step{0};  // of those collected in this round; 0: none
+  nanoseconds last_step{0};  // of the steps collected in this round; 0: none
 };
 
 class Measurement {
@@ -179,7 +179,7 @@ class Measurement {
     }
   }
 
-  // The changes at A, each with the force it leads to at B; every force at B.
+  // Collects the changes at A, each with the resulting force at B, and every force at B.
   void collect(Samples* samples) {
     while (const haptics::ServoSnapshot* step = a_.steps.front()) {
       note_step(a_, step->time, samples != nullptr);
@@ -273,7 +273,7 @@ std::string latency_json(const LatencyOptions& options, const Latencies& found) 
       .line();
 }
 
-/// Before anything is begun.
+/// Called before anything is started.
 void check_key(const std::string& file) {
   if (file.empty()) return;
   try {

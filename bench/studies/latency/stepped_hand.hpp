@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that jumps between two places at random moments, so that a force changes from one servo
-// step to the next; or one that stays where it is.
+// A hand that jumps between two places at random times, so that the force changes from one servo
+// step to the next; or a hand that does not move.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 
 namespace reckon::bench {
 
-/// The device; whatever force is written, it does not yield. For its first kComes it is four times
-/// as far from the origin: hands that appear inside each other feel nothing. One thread.
+/// The device; no force moves it. During its first kComes it is four times as far from the origin,
+/// because hands that appear inside each other feel nothing. One thread.
 class SteppedHand final : public haptics::HapticDevice {
  public:
   static constexpr std::chrono::nanoseconds kComes = std::chrono::seconds(1);
@@ -31,7 +31,7 @@ class SteppedHand final : public haptics::HapticDevice {
     haptics::DeviceLimits limits;
     limits.max_force = 10.0;
     limits.damping = 1.0;
-    limits.max_speed = 1e3;  // a jump is no fault here
+    limits.max_speed = 1e3;  // a jump is not a fault here
     return limits;
   }
 

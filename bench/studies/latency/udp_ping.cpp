@@ -109,7 +109,7 @@ std::optional<PingAnswer> UdpPing::ask() noexcept {
   std::memcpy(question_.data(), &++number_, sizeof number_);
   const nanoseconds sent = now();
   if (::send(asking_, question_.data(), question_.size(), MSG_DONTWAIT) < 0) return std::nullopt;
-  // An answer that came too late for its own question is passed over.
+  // A late answer to an earlier question is skipped.
   std::int64_t number = 0;
   while (number != number_) {
     if (::recv(asking_, heard_.data(), heard_.size(), 0) <= 0) return std::nullopt;

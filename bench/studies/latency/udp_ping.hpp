@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The least that a message between two threads over this interface takes: two bare UDP sockets.
+// Lower bound for a message between two threads over this interface: two bare UDP sockets.
 #pragma once
 
 #include <atomic>
@@ -15,24 +15,24 @@
 
 namespace reckon::bench {
 
-/// What one question took.
+/// Times of one question.
 struct PingAnswer {
-  std::chrono::nanoseconds there{0};           ///< until the other thread had it
-  std::chrono::nanoseconds there_and_back{0};  ///< until its answer was here
+  std::chrono::nanoseconds there{0};           ///< until the other thread received it
+  std::chrono::nanoseconds there_and_back{0};  ///< until its answer arrived
 };
 
-/// Asks, and answers itself in a thread of its own. One thread asks.
+/// Sends questions, and answers them in a thread of its own. One thread calls ask().
 class UdpPing {
  public:
   /// @param address of an interface of this host, port 0. @param octets of each datagram, at least
-  /// 16. @throws std::system_error where the sockets cannot be had.
+  /// 16. @throws std::system_error if the sockets cannot be created.
   UdpPing(const peer::IpEndpoint& address, std::size_t octets);
   ~UdpPing();
 
   UdpPing(const UdpPing&) = delete;
   UdpPing& operator=(const UdpPing&) = delete;
 
-  /// One question; nothing where no answer came within a second.
+  /// One question; no value if no answer arrived within a second.
   [[nodiscard]] std::optional<PingAnswer> ask() noexcept;
 
  private:

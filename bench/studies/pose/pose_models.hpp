@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the ways of dead reckoning that studies compare: the model that the owner sends with,
-// and how the viewer predicts from its updates.
+// The list of dead-reckoning methods that studies compare: the model that the owner sends, and the
+// viewer's prediction from its updates.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace reckon::bench {
 struct PoseModel {
   std::string_view name;
   std::string_view meaning;
-  std::optional<pdu::DeadReckoningAlgorithm> sent;  ///< none: the owner's choice
+  std::optional<pdu::DeadReckoningAlgorithm> sent;  ///< empty: the owner's choice
   Prediction prediction = Prediction::as_sent;
 };
 
-/// The program's default first: of two settings with equal results a study keeps the first.
+/// The program's default is first: of two settings with equal results a study keeps the first.
 inline constexpr std::array<PoseModel, 11> kPoseModels{{
     {"auto", "the owner's choice among fpw, rpw, rvw, rpb, rvb (the default)", std::nullopt},
     {"static", "held where it was", pdu::DeadReckoningAlgorithm::static_},

@@ -35,7 +35,7 @@ class Owner {
   Owner(const PoseSetting& setting, std::size_t index)
       : setting_(setting), policy_(policy_of(setting, index)) {}
 
-  /// The state to send at this sample as peers decode it, or nothing.
+  /// The state to send at this sample, as peers decode it, or no value.
   std::optional<KinematicState> step(const MotionSample& truth) {
     if (!setting_.model) choice_.note(truth, setting_.thresholds, *setting_.rule);
     if (looked_) policy_.look_again_after(truth.time - *looked_);
@@ -60,7 +60,7 @@ class Owner {
   }
 
   SendReason reason_to_send(const MotionSample& truth) const {
-    // Half a nanosecond, so that rounding of the samples' times does not cost a period.
+    // Half a nanosecond, so that rounding of the sample times does not skip a period.
     if (setting_.period > 0) {
       const bool due = !last_ || truth.time - *last_ >= setting_.period - 5e-10;
       return due ? SendReason::heartbeat : SendReason::none;
@@ -69,7 +69,7 @@ class Owner {
     return policy_.decide(pose, truth.time);
   }
 
-  // Through the wire's floats and Euler angles and back.
+  // Conversion to the wire's floats and Euler angles and back.
   static KinematicState as_received(const KinematicState& state) {
     static const deadreckon::LocalFrame frame({0.8, 0.1, 0.0});
     pdu::EntityState wire;
@@ -83,11 +83,11 @@ class Owner {
   const PoseSetting& setting_;
   deadreckon::UpdatePolicy policy_;
   deadreckon::ModelChoice choice_;
-  std::optional<double> last_;    // sent at [s]
-  std::optional<double> looked_;  // [s]
+  std::optional<double> last_;    // time of the last update [s]
+  std::optional<double> looked_;  // time of the last check [s]
 };
 
-/// Shows one entity from what arrives.
+/// Shows one entity from the updates that arrive.
 class Viewer {
  public:
   explicit Viewer(const PoseSetting& setting)
@@ -136,12 +136,12 @@ struct Errors {
   std::vector<double> position, angle, velocity_step;
 };
 
-/// Notes what a viewer draws, sample by sample.
+/// Stores what a viewer draws, sample by sample.
 class Drawing {
  public:
   explicit Drawing(Errors& errors) : errors_(errors) {}
 
-  /// The drawn speed, from the second sample on.
+  /// Returns the drawn speed, from the second sample on.
   std::optional<double> note(const MotionSample& truth, const Pose& shown) {
     errors_.position.push_back((shown.position - truth.position).norm());
     errors_.angle.push_back(deadreckon::angle_between(shown.orientation, truth.orientation));

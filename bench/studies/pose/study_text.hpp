@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of studies in few characters, for tables and pages.
+// Compact numbers for tables and pages of studies.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace reckon::bench {
 
-/// Three digits without an exponent where that is short: "0", "0.0312", "12.3", "41200".
+/// Three digits, without an exponent if that is short: "0", "0.0312", "12.3", "41200".
 [[nodiscard]] inline std::string number_text(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
@@ -28,7 +28,7 @@ namespace reckon::bench {
   return text;
 }
 
-/// The number that three digits show, for comparing what tables show. NaN counts as 0.
+/// The number shown by three digits, for comparing values as in tables. NaN counts as 0.
 [[nodiscard]] inline double in_three_digits(double value) {
   if (!(std::abs(value) > 0)) return 0;
   if (std::isinf(value)) return value;
@@ -36,7 +36,7 @@ namespace reckon::bench {
   return std::round(value * digits) / digits;
 }
 
-/// Three digits and the unit that suits: "0.33 mm", "5.2 m", "1.2 km".
+/// Three digits and a suitable unit: "0.33 mm", "5.2 m", "1.2 km".
 [[nodiscard]] inline std::string length_text(double metres) {
   struct Unit {
     std::string_view name;
@@ -46,7 +46,7 @@ namespace reckon::bench {
                               Unit{"nm", 1e-9}};
   if (metres == 0) return "0 m";
   for (const Unit& unit : kUnits) {
-    // What would be rounded up to 1000 belongs to the next unit.
+    // A value that would be rounded up to 1000 belongs to the next unit.
     if (std::abs(metres) >= 0.9995 * unit.metres)
       return fmt::format("{} {}", number_text(metres / unit.metres), unit.name);
   }

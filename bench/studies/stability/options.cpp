@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kRecordedExtent = 0.02;  // [m]
 constexpr double kRecordedMiddle = 0.004;
-constexpr double kRecordedWay = 0.5;  // [s], from kCouplingStart to its begin
+constexpr double kRecordedWay = 0.5;  // [s], from kCouplingStart to the start of the recording
 
 CouplingMode read_mode(std::string_view name) {
   if (const auto mode = coupling_mode(name)) return *mode;
@@ -66,7 +66,7 @@ peer::DeviceConfig first_device(const peer::SceneFile& scene, const std::string&
       fmt::format("{}: no peer of it has a device, so no hand can touch", path));
 }
 
-/// What the scene says and the study does not look at.
+/// Settings of the scene that the study ignores.
 std::vector<std::string> left_out(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   std::vector<std::string> notes;
   const peer::ImpairmentLaw& law = scene.impairment.law;
@@ -126,7 +126,7 @@ struct RecordedAxis {
   }
 };
 
-/// Whether chance takes part in any cell.
+/// Whether any cell is random.
 bool draws(const StabilityPlan& plan) {
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
     const peer::ImpairmentLaw law = plan.setting(cell).run.network;
@@ -135,7 +135,8 @@ bool draws(const StabilityPlan& plan) {
   return false;
 }
 
-/// Name and content, so that no study goes on with another recording of that name.
+/// Name and hash of the content, so that no study continues with another recording of the same
+/// name.
 std::string identity_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::stringstream content;

@@ -15,10 +15,10 @@
 namespace reckon::bench {
 namespace {
 
-// Of a map [px].
+// Size of a map [px].
 constexpr int kCellWide = 44, kCellTall = 26, kLeft = 84, kTop = 8, kBelow = 40;
 
-/// Each lighter than the next, so that they can be told apart without colours; letters do too.
+/// In steps of lightness, so that they are distinguishable without colours; letters do the same.
 constexpr std::string_view kStyle = R"(
 body{max-width:84rem}
 .maps{display:flex;flex-wrap:wrap;gap:.6rem 1.2rem;align-items:flex-end}
@@ -37,7 +37,8 @@ figure{margin:.6rem 0}figcaption{font-size:13px;margin-bottom:.2rem}
 @media print{.show{position:static}.show label{display:none}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
-/// The numbers that the maps can show, by their place in data-v; limits between six classes.
+/// The numbers that the maps can show, by their index in data-v, and the limits between six
+/// classes.
 constexpr std::string_view kScript = R"(
 const kinds = [
   ["verdict", [], ""],
@@ -97,7 +98,7 @@ std::optional<std::size_t> axis_named(const StabilityPlan& plan, std::string_vie
   return std::nullopt;
 }
 
-/// The axis of numbers with the most values, other than `but`; words where there is no other.
+/// The numeric axis with the most values, other than `but`; an axis of words if there is no other.
 std::optional<std::size_t> longest_axis(const StabilityPlan& plan, std::optional<std::size_t> but) {
   std::optional<std::size_t> best;
   const auto length = [&](std::size_t i) {
@@ -109,7 +110,7 @@ std::optional<std::size_t> longest_axis(const StabilityPlan& plan, std::optional
   return best;
 }
 
-/// Which axes lie along a map; the others have a map for each of their values.
+/// The axes along a map; for each value of the other axes there is a map.
 struct Layout {
   std::optional<std::size_t> across, up;
 
@@ -125,7 +126,7 @@ std::size_t count_of(const StabilityPlan& plan, std::optional<std::size_t> axis)
   return axis ? plan.axes[*axis].values.size() : 1;
 }
 
-/// "delay" of "impairment.delay".
+/// For example "delay" for "impairment.delay".
 std::string_view short_name(const StabilityParameter& parameter) {
   return parameter.name.substr(parameter.name.rfind('.') + 1);
 }
@@ -147,7 +148,7 @@ std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{} %", number_text(100 * *share)) : "-";
 }
 
-/// All numbers of a cell, as a pointer shows them.
+/// All numbers of a cell, shown under the pointer.
 std::string tooltip(const StabilityPlan& plan, std::size_t cell, const StabilityResult& r) {
   const StabilitySetting setting = plan.setting(cell);
   return fmt::format(
@@ -160,7 +161,7 @@ std::string tooltip(const StabilityPlan& plan, std::size_t cell, const Stability
       number_text(r.truth_p95), percent(force_off(r)), percent(r.kept));
 }
 
-/// What the script shows: see `kinds` there.
+/// Values for the script: see `kinds` there.
 std::string shown_values(const StabilityResult& r) {
   const auto plain = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
@@ -184,8 +185,8 @@ void append_cell(std::string& out, const StabilityReport& report, std::size_t ru
                  y + kCellTall / 2 + 4, kLetters[verdict]);
 }
 
-/// The map of one mode at the other axes of `cells`: those of the map, row by row from the lowest
-/// value of the upright axis.
+/// The map of one mode at fixed values of the other axes. `cells` holds its cells row by row, from
+/// the lowest value of the upright axis.
 void append_map(std::string& out, const StabilityReport& report, const Layout& layout,
                 std::size_t mode, const std::vector<std::size_t>& cells) {
   const StabilityPlan& plan = report.plan;
@@ -228,7 +229,7 @@ void append_map(std::string& out, const StabilityReport& report, const Layout& l
   out += "</svg></figure>\n";
 }
 
-/// The cells of each map: those that agree in all other axes.
+/// The cells of each map: cells with equal values on all other axes.
 std::vector<std::vector<std::size_t>> maps_of(const StabilityPlan& plan, const Layout& layout) {
   const std::size_t wide = count_of(plan, layout.across);
   const std::size_t size = wide * count_of(plan, layout.up);

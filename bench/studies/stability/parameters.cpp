@@ -39,7 +39,7 @@ void put(double value, Kind& to) {
   to = static_cast<Kind>(static_cast<int>(value));
 }
 
-/// @param at gives the member of a setting
+/// @param at returns the member of a setting
 template <class At>
 constexpr StabilityParameter row(std::string_view name, std::string_view meaning, ValueRule rule,
                                  At /*at*/, std::span<const std::string_view> words = {}) {
@@ -137,7 +137,7 @@ const StabilityParameter& stability_parameter(std::string_view name) {
     if (parameter.name == name || last_part(parameter.name) == name) return parameter;
     names.push_back(parameter.name);
   }
-  // A mistyped end is as likely as a mistyped name.
+  // The end of a name is mistyped as often as a whole name.
   std::vector<std::string_view> candidates = names;
   for (const std::string_view known : names) candidates.push_back(last_part(known));
   const std::string_view nearest = peer::nearest_word(name, candidates);

@@ -17,7 +17,7 @@
 namespace reckon::bench {
 namespace {
 
-/// Seeds that have nothing to do with each other, of neighbouring numbers.
+/// Uncorrelated seeds for neighbouring numbers.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
   return pdu::mixed_bits(seed * pdu::kGoldenStep + number + 1);
 }
@@ -27,7 +27,7 @@ bool has_axis(const StabilityPlan& plan, std::string_view name) {
       plan.axes, [&](const StabilityAxis& axis) { return axis.parameter->name == name; });
 }
 
-/// The greatest value that a number of the settings takes.
+/// The greatest value of a parameter in all settings.
 double most_of(const StabilityPlan& plan, std::string_view name) {
   const StabilityParameter& parameter = stability_parameter(name);
   for (const StabilityAxis& axis : plan.axes)
@@ -159,7 +159,7 @@ void check(const StabilityPlan& plan) {
     throw tools::UsageError(
         fmt::format("--sweep: {} cells or more in {} modes; {} runs are the most", plan.cells(),
                     plan.modes.size(), kMostRuns));
-  // simulate() refuses what is impossible in a moment; the shortest run tells.
+  // simulate() refuses an impossible run at once, so the shortest run is enough for this check.
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
     CouplingRun run = plan.setting(cell).run;
     run.mode = plan.modes.front();

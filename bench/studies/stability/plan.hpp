@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sweep of couplings before it is run: its cells in a fixed order, and the run of each.
+// A sweep of couplings: its cells in a fixed order, and the run of each.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,33 @@
 
 namespace reckon::bench {
 
-/// Cells of one sweep, of all modes together.
+/// Greatest number of runs in one sweep, over all modes.
 inline constexpr std::size_t kMostRuns = 200'000;
 
-/// Every cell is run in every mode, with the same fate of its samples.
+/// Every cell is run in every mode, with the same delays and losses for its samples.
 struct StabilityPlan {
   StabilitySetting base;
   std::vector<CouplingMode> modes;  ///< at least one
-  std::vector<StabilityAxis> axes;  ///< perhaps none: one cell
+  std::vector<StabilityAxis> axes;  ///< may be empty: one cell
   std::uint64_t seed = 1;
-  bool gate = true;        ///< of mode reckon
-  double peak = 10;        ///< [N] above which the summary counts; no part of a run
-  std::string trace_file;  ///< of StabilitySetting::recorded: as typed, and a sum of its content
+  bool gate = true;        ///< applies to mode reckon
+  double peak = 10;        ///< [N] above which the summary counts; not part of a run
+  std::string trace_file;  ///< of StabilitySetting::recorded: as typed, and a hash of its content
 
   [[nodiscard]] std::size_t cells() const;
   [[nodiscard]] std::size_t runs() const { return cells() * modes.size(); }
-  /// Place in the values of axis `axis` of cell `cell`; the last axis runs fastest.
+  /// Index of the value of axis `axis` in cell `cell`; the last axis varies fastest.
   [[nodiscard]] std::size_t place(std::size_t cell, std::size_t axis) const;
-  /// What holds in cell `cell`, every axis applied; its seed follows from the plan's and `cell`.
+  /// Setting of cell `cell`, with every axis applied; its seed follows from the plan's seed and
+  /// `cell`.
   [[nodiscard]] StabilitySetting setting(std::size_t cell) const;
-  /// Of run `run`: mode by mode, cell by cell.
+  /// Run number `run`: mode by mode, cell by cell.
   [[nodiscard]] CouplingRun run(std::size_t run) const;
   [[nodiscard]] std::size_t cell_of(std::size_t run) const { return run % cells(); }
   [[nodiscard]] CouplingMode mode_of(std::size_t run) const { return modes[run / cells()]; }
-  /// "reckon", "reckon_no_gate".
+  /// For example "reckon" or "reckon_no_gate".
   [[nodiscard]] std::string mode_name(CouplingMode mode) const;
-  /// All that an outcome depends on, one "name=value" after the other with "; " between.
+  /// All inputs that affect an outcome, as "name=value" separated by "; ".
   [[nodiscard]] std::string text() const;
 };
 
@@ -45,8 +46,7 @@ struct StabilityPlan {
 /// environment: 320 cells, one hand that pushes.
 [[nodiscard]] std::vector<StabilityAxis> default_axes();
 
-/// @throws UsageError where an axis has no effect, two of them are one thing, or a cell is
-/// impossible
+/// @throws UsageError if an axis has no effect, two axes are equivalent, or a cell is impossible
 void check(const StabilityPlan& plan);
 
 }  // namespace reckon::bench

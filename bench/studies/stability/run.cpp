@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kStudy = "reckon bench stability";
 
-/// What the journal holds already.
+/// Results that are already in the journal.
 StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& plan,
                             const std::string& path) {
   StabilityResults results(plan.runs());
@@ -25,13 +25,13 @@ StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& pl
     if (!row)
       throw tools::UsageError(fmt::format("{}:{}: is no result of this study; name a new file",
                                           path,
-                                          i + 3));  // below two lines of header
+                                          i + 3));  // after two header lines
     results[row->first] = row->second;
   }
   return results;
 }
 
-/// Runs what is missing and keeps each as it comes. @return whether all are there
+/// Performs the missing runs and writes each result at once. @return whether all results are there
 bool run_missing(const StabilityPlan& plan, StabilityResults& results, SweepJournal& journal,
                  const tools::Console& console) {
   ProgressBar bar(console);

@@ -37,7 +37,7 @@ bool comes_to_rest(const StabilitySetting& setting) {
 }
 
 StabilityVerdict verdict_of(const StabilitySetting& setting, const StabilityResult& result) {
-  // What is no number is no energy that was kept.
+  // NaN counts as energy made.
   if (result.diverged) return StabilityVerdict::diverged;
   if (!(result.least_energy >= kMadeEnergy)) return StabilityVerdict::made_energy;
   if (comes_to_rest(setting) && !(result.rms_speed <= kRest)) return StabilityVerdict::cycles;

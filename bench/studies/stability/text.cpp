@@ -19,7 +19,7 @@
 namespace reckon::bench {
 namespace {
 
-/// THE numbers of a result, as files and tables name them.
+/// The list of numbers of a result, with their names in files and tables.
 struct Measure {
   std::string_view name;
   double StabilityResult::*member;
@@ -132,7 +132,7 @@ Fields summary_fields(const StabilitySummary& row, const StabilityPlan& plan) {
       .shown("WORST [J]", "worst energy [J]", row.least_energy, number_text(row.least_energy));
 }
 
-/// The fields of a mode in a study of this plan.
+/// The fields of a mode, for a study with this plan.
 auto fields_in(const StabilityPlan& plan) {
   return [&plan](const StabilitySummary& row) { return summary_fields(row, plan); };
 }
@@ -189,7 +189,7 @@ std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(const 
   if (!number || !(*number >= 0 && *number < static_cast<double>(plan.runs()))) return std::nullopt;
   const auto run = static_cast<std::size_t>(*number);
   StabilityResult result;
-  std::size_t place = plan.axes.size() + 2;  // behind number, mode and axes
+  std::size_t place = plan.axes.size() + 2;  // after number, mode and axes
   const std::string own = stability_row(plan, run, result);
   const auto own_fields = parts_between_commas(own);
   if (!std::ranges::equal(std::span(fields).first(place), std::span(own_fields).first(place)))

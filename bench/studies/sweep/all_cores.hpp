@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that know nothing of each other, on all cores.
+// Independent jobs on all cores.
 #pragma once
 
 #include <atomic>
@@ -9,11 +9,12 @@
 
 namespace reckon::bench {
 
-/// Does jobs 0 .. count - 1, each once, on as many threads as there are cores, begun in order.
-/// @param job must not throw where another job could go on without it: the first exception ends
-/// all and is thrown here; it may look at `stop`, which is set once the result is of no use
+/// Runs jobs 0 .. count - 1, each once, on as many threads as there are cores, started in order.
+/// @param job the first exception ends all jobs and is rethrown here, so a job must not throw if
+///     others can continue without it; it may check `stop`, which is set when its result is no
+///     longer needed
 /// @param progress called by the caller's thread every 20 ms with the jobs done; false ends all
-/// @return whether all were done
+/// @return whether all jobs were done
 bool run_on_all_cores(std::size_t count,
                       const std::function<void(std::size_t, const std::atomic<bool>& stop)>& job,
                       const std::function<bool(std::size_t done)>& progress);

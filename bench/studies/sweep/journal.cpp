@@ -61,7 +61,7 @@ void SweepJournal::read() {
     text = all.str();
     if (!file) cannot_write(path_);
   }
-  const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is none
   std::vector<std::string> lines;
   std::istringstream stream(text.substr(0, whole));
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -96,7 +96,7 @@ void SweepJournal::begin() {
 
 void SweepJournal::append(const std::string& line) {
   if (!file_) return;
-  // Flushed whole: a program that is killed leaves whole lines, and at most one that is cut off.
+  // Flushed line by line: a killed program leaves complete lines and at most one partial line.
   fmt::print(file_.get(), "{}\n", line);
   if (std::fflush(file_.get()) != 0)
     throw tools::UsageError(fmt::format("{}: takes no more; is the disk full?", path_));

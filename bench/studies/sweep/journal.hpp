@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The results of a sweep in a CSV file that grows with each of them, so that one that was cut off
-// goes on.
+// The results of a sweep in a CSV file that grows with each result, so that an interrupted sweep
+// can continue.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,26 @@
 
 namespace reckon::bench {
 
-/// First line "# STUDY: OPTIONS", second the names of the columns, then a line for each result as
-/// it comes. A last line that was cut off is dropped. One process writes at a time.
+/// First line "# STUDY: OPTIONS", second line the names of the columns, then a line for each
+/// result. A partial last line is dropped. One process writes at a time.
 class SweepJournal {
  public:
-  /// Opens the file, or begins it. @param path empty: nothing is kept  @param options "name=value"
-  /// with "; " between: what results depend on
-  /// @throws UsageError where the file cannot be written, is none of this study, or has other
-  /// options: the first that differs is named
+  /// Opens or creates the file. @param path empty: nothing is stored @param options "name=value"
+  /// separated by "; ": the inputs that affect results
+  /// @throws UsageError if the file cannot be written, belongs to another study, or has other
+  ///     options; the message names the first that differs
   SweepJournal(std::string path, std::string_view study, std::string_view options,
                std::string_view columns);
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
 
-  /// Whole lines that were there, without their ends.
+  /// Complete lines that were already in the file, without line ends.
   [[nodiscard]] const std::vector<std::string>& found() const noexcept { return found_; }
-  /// One result, without the end of the line. Not from two threads at once. @throws UsageError
-  /// where the disk takes no more
+  /// Appends one result, without the end of the line. Not thread-safe. @throws UsageError if the
+  /// disk is full
   void append(const std::string& line);
-  /// Replaces all results by these, at once: whoever looks sees the old file or the new.
+  /// Replaces all results by these, atomically: a reader sees the old file or the new one.
   void finish(const std::vector<std::string>& lines);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far a long study is, and how long it will take yet.
+// Progress of a long study, and the time that remains.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace reckon::bench {
 
-/// A bar with the time left on err; nothing where that is no terminal.
+/// A bar with the remaining time on err; no output if err is not a terminal.
 class ProgressBar {
  public:
   explicit ProgressBar(const tools::Console& console);
@@ -19,7 +19,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// @param share of the work that is done, 0 to 1  @param text behind the bar
+  /// @param share of the work that is done, 0 to 1 @param text after the bar
   void show(double share, std::string_view text);
 
  private:

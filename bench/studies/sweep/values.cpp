@@ -30,7 +30,7 @@ bool is_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// What stands behind the number.
+/// The text after the number.
 std::string_view unit_of(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -99,7 +99,7 @@ std::vector<double> read_values(std::string_view text, const ValueRule& rule,
   std::vector<Part> parts;
   for (const std::string_view part : parts_between_commas(text))
     parts.push_back(part_of(part, where));
-  // From the end, as a number takes the unit of what follows it.
+  // From the end, because a number without a unit takes the unit of the next one.
   std::vector<double> values;
   std::string_view unit;
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {

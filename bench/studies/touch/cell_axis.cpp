@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cells of the area of interest: the force of a hand that is not heard. Whole peers in simulated
-// time.
+// Cells of the area of interest: the force of a hand in a cell that is not subscribed. Whole peers
+// in simulated time.
 #include <fmt/format.h>
 
 #include <algorithm>

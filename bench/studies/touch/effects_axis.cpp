@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects of the plan: a servo with all of them, and without each.
+// Effects of the plan: a servo with all effects, and without each of them.
 #include <fmt/format.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ constexpr double kHard = 800, kSoft = 400;  // [N/m]
 constexpr std::size_t kSteps = 4000;        // [ms]
 constexpr nanoseconds kPeriod{1'000'000};
 
-/// A file that is gone with its owner.
+/// A file that is deleted with its owner.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text) {
@@ -56,14 +56,14 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// A slab of 0.2 x 0.1 x 0.02 m, its top at z = 0; the part with x > 0 is of the material soft.
+/// A slab of 0.2 x 0.1 x 0.02 m with its top at z = 0; the part with x > 0 has the material soft.
 std::string slab() {
   std::string text;
   for (const double z : {-0.02, 0.0})
     for (const double y : {-0.05, 0.05})
       for (const double x : {-0.1, 0.0, 0.1}) text += fmt::format("v {} {} {}\n", x, y, z);
   const auto quads = [](int half) {
-    const int a = 1 + half, b = 2 + half;  // of the row y < 0 below; +3 the other, +6 above
+    const int a = 1 + half, b = 2 + half;  // in the row y < 0, bottom; +3: other row, +6: top
     return fmt::format("f {} {} {} {}\nf {} {} {} {}\nf {} {} {} {}\nf {} {} {} {}\n", a, a + 3,
                        b + 3, b, a + 6, b + 6, b + 9, a + 9, a, b, b + 6, a + 6, a + 3, a + 9,
                        b + 9, b + 3);
@@ -74,11 +74,11 @@ std::string slab() {
 }
 
 constexpr std::string_view kAll = "", kNone = "spring alone";
-/// What may be left out, besides the effects by their kName.
+/// Parts that can be left out, in addition to the effects by their kName.
 constexpr std::string_view kDamper = "damper", kPatch = "patch";
 
-/// The slab with all effects but one, in a region that has all of its own. Of what holds the
-/// contact point there is one: friction, or `holder` instead.
+/// The slab with all effects but one, in a region with all of its own effects. Only one effect that
+/// holds the contact point is present: friction, or `holder` instead.
 struct Declared {
   std::string_view without = kAll;
   std::string_view holder = haptics::StickSlipFriction::kName;
@@ -88,7 +88,7 @@ struct Declared {
   }
 };
 
-/// Each effect that holds the contact point feels as much as the others here.
+/// All effects that hold the contact point have similar forces here.
 void declare_holder(haptics::DeclaredEffects& effects, const Declared& declared) {
   if (!declared.has(declared.holder)) return;
   if (declared.holder == haptics::PlaceFriction::kName) {
@@ -142,7 +142,7 @@ haptics::EffectPlan plan_of(const std::filesystem::path& file, const Declared& d
   return haptics::EffectPlan(scene);
 }
 
-/// Strokes over both materials, 3 mm deep, with a tremor that dampers feel.
+/// Strokes over both materials, 3 mm deep, with a tremor for the dampers.
 haptics::DeviceSample reading(double t, std::uint64_t seed) {
   static constexpr double kSlow = kTurn * 0.5, kFast = kTurn * 8;
   const double slow = phase_of(seed, 1), fast = phase_of(seed, 2);
@@ -158,7 +158,7 @@ haptics::DeviceSample reading(double t, std::uint64_t seed) {
   return sample;
 }
 
-/// Reads the same motion over and over, and keeps the last force.
+/// Returns the same motion repeatedly, and stores the last force.
 class PlayedDevice : public haptics::HapticDevice {
  public:
   explicit PlayedDevice(std::shared_ptr<const std::vector<haptics::DeviceSample>> samples)

@@ -23,22 +23,22 @@ using Eigen::Vector3d;
 constexpr double kMass = 0.1, kDamping = 1;           // of the tool [kg], [N s/m]
 constexpr double kHand = 200, kHandDamping = 3;       // of the hand [N/m], [N s/m]
 constexpr double kWall = 800;                         // [N/m]
-constexpr double kMiddle = 0.012, kSwing = 0.004;     // of the hand's way [m]
+constexpr double kMiddle = 0.012, kSwing = 0.004;     // of the hand's path [m]
 constexpr double kRate = 2 * std::numbers::pi * 3.0;  // [rad/s]
 constexpr std::size_t kSteps = 4000;                  // [ms]
 
-/// Tool [m], [m/s] under the hand's target and the wall's force.
+/// State of the tool [m], [m/s].
 struct Tool {
   double position = 0, velocity = 0;
 };
 
-/// Where the hand wants the tool [m] and how fast [m/s].
+/// The hand's target for the tool [m] and its speed [m/s].
 Vector2d target(double time, double phase) {
   return {kMiddle + kSwing * std::sin(kRate * time + phase),
           kSwing * kRate * std::cos(kRate * time + phase)};
 }
 
-/// The whole in continuous time: tool, hand that swings, wall. Stepped exactly.
+/// The complete system in continuous time: tool, swinging hand, wall. Stepped exactly.
 std::vector<Vector3d> truth(double phase) {
   // States: position, velocity, sine and cosine of the swing, one.
   MatrixXd A = MatrixXd::Zero(5, 5);
@@ -75,8 +75,8 @@ Tool semi_implicit(const Tool& tool, const Vector2d& hand, double h) {
   return {tool.position + h * velocity, velocity};
 }
 
-/// Exact for inputs that are held: with the wall's force among them, as a device has it, or with
-/// the wall in the model.
+/// Exact for inputs that are held: with the wall's force as an input, as on a device, or with the
+/// wall in the model.
 class ExactHold {
  public:
   ExactHold(double h, bool wall_held) : wall_held_(wall_held) {
@@ -111,7 +111,7 @@ Targets targets_of(double phase) {
   return std::make_shared<const std::vector<Vector2d>>(std::move(targets));
 }
 
-/// A tool stepped by a rule, asked each millisecond.
+/// A tool stepped by a rule; its force is read each millisecond.
 template <typename Rule>
 class Stepped {
  public:
@@ -122,7 +122,7 @@ class Stepped {
         targets_(std::move(targets)),
         rule_(rule) {}
 
-  /// The force at this millisecond, then the way to the next. Slower rates hold it between.
+  /// Returns the force at this millisecond, then steps to the next. Lower rates hold the force.
   double step(std::size_t at) {
     if (at == 0) tool_ = {};
     if (at % every_ != 0) return force_;
@@ -134,8 +134,8 @@ class Stepped {
 
  private:
   double h_;
-  std::size_t every_;   // milliseconds from step to step, or 1
-  std::size_t stride_;  // targets
+  std::size_t every_;   // milliseconds from step to step, at least 1
+  std::size_t stride_;  // in targets
   Targets targets_;
   Rule rule_;
   Tool tool_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Order of a force model: an elastic sheet pressed at one node, whole and reduced.
+// Order of a force model: an elastic sheet pressed at one node, complete and reduced.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ SecondOrderSystem sheet() {
   return body;
 }
 
-/// Probe [m] to force [N] through the contact spring, all coordinates kept.
+/// Probe [m] to force [N] through the contact spring, with all coordinates.
 StateSpace whole(const SecondOrderSystem& body) {
   const Eigen::Index n = body.size();
   const MatrixXd inverse = MatrixXd(body.M).inverse();
@@ -73,7 +73,7 @@ StateSpace whole(const SecondOrderSystem& body) {
   return system;
 }
 
-/// The probe [m]: pressed in within half a second, then moved at 2 and 12 Hz.
+/// Position of the probe [m]: pressed in within half a second, then moved at 2 and 12 Hz.
 std::vector<double> motion(std::uint64_t seed) {
   std::vector<double> probe;
   const double slow = phase_of(seed, 1), fast = phase_of(seed, 2);

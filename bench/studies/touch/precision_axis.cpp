@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Precision of a contact: a torus as it is and as triangles, and the nearest point by a search that
+// Precision of a contact: an exact torus and its triangles, and the nearest point by a search that
 // ends early.
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ constexpr double kDepth = 0.002;              // [m]
 constexpr double kStiffness = 800;            // [N/m]
 constexpr std::size_t kSteps = 4000;          // [ms]
 
-/// Twice around x across triangles, corners on the surface.
+/// Twice `around` x `across` triangles, with corners on the surface.
 std::shared_ptr<const SurfaceMesh> torus(std::uint32_t around, std::uint32_t across) {
   std::vector<Vector3d> corners;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -46,12 +46,12 @@ std::shared_ptr<const SurfaceMesh> torus(std::uint32_t around, std::uint32_t acr
   return std::make_shared<const SurfaceMesh>(std::move(corners), std::move(triangles));
 }
 
-/// Where the hand is, and which way is out of the torus there.
+/// A position of the hand, and the outward normal of the torus there.
 struct Place {
   Vector3d device, outward;
 };
 
-/// Round the ring at 0.1 m/s or so, to and fro across the tube.
+/// Around the ring at about 0.1 m/s, with swings across the tube.
 std::vector<Place> stroke(std::uint64_t seed) {
   std::vector<Place> places;
   const double begin = phase_of(seed, 1), turn = phase_of(seed, 2);
@@ -67,7 +67,7 @@ std::vector<Place> stroke(std::uint64_t seed) {
 
 using Places = std::shared_ptr<const std::vector<Place>>;
 
-/// Goes on along the places; begins anew from outside.
+/// Follows the places; the first one starts a new contact from outside.
 template <typename Force>
 TouchSetting setting_of(std::string name, const Places& places, Force force) {
   TouchSetting setting{std::move(name), {}, {}};
@@ -82,7 +82,7 @@ TouchSetting setting_of(std::string name, const Places& places, Force force) {
   return setting;
 }
 
-/// The surface contact point as the servo keeps it.
+/// The surface contact point, as in the servo.
 auto contact_with(ContactShape shape) {
   return [shape = std::move(shape), point = haptics::SurfaceContactPoint()](
              const Place& place, bool anew) mutable -> Vector3d {
@@ -92,8 +92,8 @@ auto contact_with(ContactShape shape) {
   };
 }
 
-/// The nearest point of the whole mesh, sought anew each time and left when no other can be nearer
-/// by `precision` [m].
+/// The nearest point of the whole mesh, searched again each time; the search ends when no other
+/// point can be nearer by `precision` [m].
 auto nearest_on(std::shared_ptr<const SurfaceMesh> mesh, double precision) {
   return [mesh = std::move(mesh), precision](const Place& place, bool) -> Vector3d {
     haptics::ClosestPoint nearest;

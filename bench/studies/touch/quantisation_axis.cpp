@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Quantisation: a remote hand's motion, model and time stamps as the wire rounds them, felt by a
-// probe that does not move.
+// Quantisation: motion, force model and timestamps of a remote hand as rounded on the wire, felt by
+// a probe that does not move.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -25,12 +25,12 @@ using deadreckon::KinematicState;
 using Eigen::Vector3d;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kRadius = 0.02, kStiffness = 800.1;  // [m]; [N/m], no float32
+constexpr double kRadius = 0.02, kStiffness = 800.1;  // [m]; [N/m], not representable as float32
 constexpr double kDepth = 0.004;                      // [m]
 constexpr std::size_t kSteps = 4000;                  // [ms]
 constexpr std::size_t kUpdate = 20;                   // [ms] between updates
 
-/// An update and when it is true [s].
+/// An update and its time of validity [s].
 struct Update {
   KinematicState state;
   ForceModel model;
@@ -101,7 +101,7 @@ class Evaluator {
  public:
   Evaluator(Round round, double phase) : round_(round), phase_(phase) {}
   Vector3d step(std::size_t at) {
-    // Off the grid of whole milliseconds, as clocks are.
+    // Not at whole milliseconds, as with real clocks.
     const double now = 1e-3 * static_cast<double>(at) + 0.00037;
     if (at % kUpdate == 0) last_ = round_(update_at(now, phase_));
     return deadreckon::evaluate(last_.model, extrapolate(last_.state, now - last_.time),

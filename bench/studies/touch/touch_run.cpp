@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The study of touch as tables, JSON Lines, CSV, a picture and a page.
+// Output of the study of touch: tables, JSON Lines, CSV, a picture and a page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,12 +29,12 @@ constexpr std::string_view kLegend =
     "1 ms: share of the servo's time. <: another row of the axis takes no more time and errs no "
     "more; =: the same as another.";
 
-// Of the picture and of the area inside the axes.
+// Sizes of the picture and of the area inside the axes.
 constexpr double kWidth = 760, kHeight = 470;
 constexpr double kLeft = 84, kRight = 740, kTop = 40, kBottom = 400;
-constexpr double kLeastShown = 1e-6;  // [N]: what is below lies on the axis
+constexpr double kLeastShown = 1e-6;  // [N]: smaller values are drawn on the axis
 
-/// A shape in a square of 12 about the origin and a colour, by the place of the axis in its list.
+/// A shape in a square of 12 around the origin and a colour, by the index of the axis in its list.
 struct Mark {
   std::string_view shape, colour;
 };
@@ -58,20 +58,20 @@ constexpr std::string_view kStyle =
     "4}.dot{stroke:#fff;stroke-width:.8}.dot.d{opacity:.28}@media(prefers-color-scheme:dark){.dot{"
     "stroke:#0d1117}}</style>\n";
 
-/// All that was run.
+/// All inputs and results.
 struct TouchReport {
   std::string command;    ///< as typed
-  std::string processor;  ///< of the times
+  std::string processor;  ///< that the times were measured on
   std::uint64_t seed = 1;
   std::vector<TouchResult> results;
 };
 
-/// [mN]; rows that are off by less than 1 uN have the same text.
+/// [mN]; rows with errors of less than 1 uN have the same text.
 std::string millinewtons(double newtons) {
   return newtons == 0 ? "0" : newtons < 1e-6 ? "<0.001" : number_text(1e3 * newtons);
 }
 
-/// Short also where a block was interrupted.
+/// Short also if a block was interrupted.
 std::string time_text(double ns) {
   return ns < 9999.5 ? number_text(ns) : fmt::format("{:.0f}us", 1e-3 * ns);
 }
@@ -171,7 +171,7 @@ struct Axes {
 };
 
 Axes axes_of(std::span<const TouchResult> results) {
-  // The lines of 1 ms and of the least force that is felt are always in the picture.
+  // The lines of 1 ms and of the least force that people feel are always in the picture.
   std::vector<double> times{kServoBudget}, errors{kLeastFelt};
   for (const TouchResult& result : results) {
     for (const TouchRow& row : result.rows) {
@@ -194,7 +194,7 @@ std::string force_tick(double newtons) {
   return newtons < 1 ? number_text(1e3 * newtons) + " mN" : number_text(newtons) + " N";
 }
 
-/// What a servo step may take, and what is felt.
+/// Lines for the time budget of a servo step and for the least force that people feel.
 void append_limits(std::string& out, const Axes& axes) {
   const double limit = axes.time.at(kServoBudget), felt = axes.error.at(kLeastFelt);
   tools::append_svg_line(out, "l", limit, kTop, limit, kBottom);

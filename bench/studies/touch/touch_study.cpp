@@ -19,10 +19,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRounds = 21;
-constexpr double kBlock = 3e5;  // [ns], about what a block takes
+constexpr double kBlock = 3e5;  // [ns], approximate length of a block
 constexpr std::size_t kMostSteps = 4000;
-constexpr double kNoError = 1e-6;  // [N], below this errors are the same
-constexpr double kSameTime = 1.1;  // and times within this ratio
+constexpr double kNoError = 1e-6;  // [N], smaller errors count as equal
+constexpr double kSameTime = 1.1;  // times within this ratio count as equal
 
 constexpr std::array kAxes{
     TouchAxis{"order", "order of an elastic body's force model", order_case},
@@ -44,7 +44,7 @@ constexpr std::array kLeftOut{
     LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
 };
 
-/// Nanoseconds a step of one block.
+/// Nanoseconds for each step of one block.
 double block(const TouchSetting& setting, std::size_t steps, double& sum) {
   const auto begin = std::chrono::steady_clock::now();
   sum += setting.run(steps);
@@ -52,10 +52,10 @@ double block(const TouchSetting& setting, std::size_t steps, double& sum) {
   return took.count() / static_cast<double>(steps);
 }
 
-/// No difference worth a row.
+/// Errors that are too small to matter count as 0.
 double shown(double error) { return error < kNoError ? 0 : error; }
 
-/// Times that differ by less than a tenth are the same.
+/// Times that differ by less than a tenth count as equal.
 bool is_faster(const TouchRow& one, const TouchRow& other) {
   return kSameTime * one.cost.median < other.cost.median;
 }
@@ -65,7 +65,7 @@ bool errs_no_more(const TouchRow& one, const TouchRow& other) {
          shown(one.error.max) <= shown(other.error.max);
 }
 
-/// What row `at` is beaten by: of several the one that errs least, then the fastest.
+/// The row that dominates row `at`: of several the one with the least error, then the fastest.
 std::optional<Beaten> beaten(std::span<const TouchRow> rows, std::size_t at) {
   std::optional<Beaten> best;
   const TouchRow& row = rows[at];
@@ -116,7 +116,7 @@ void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>
     for (std::size_t i = 0; i < settings.size(); ++i)
       if (steps[i] > 0) blocks[i].push_back(block(settings[i], steps[i], sum));
   }
-  // The sum of all answers is looked at, so that none of them can be left out.
+  // The sum of all results is used, so that the compiler cannot remove any.
   if (!(sum < std::numeric_limits<double>::infinity())) return;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (blocks[i].empty()) continue;

@@ -27,7 +27,7 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : engine_(seed) {}
   double between(double low, double high) { return low + (high - low) * share(); }
-  /// Normal, by Box and Muller.
+  /// Normally distributed (Box-Muller).
   double normal(double deviation) {
     const double radius = std::sqrt(-2 * std::log(1 - share()));
     return deviation * radius * std::cos(2 * kPi * share());
@@ -42,7 +42,7 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// The sample of each display frame from a function of time.
+/// The samples of all display frames, from a function of time.
 template <typename At>
 Track sampled(double seconds, At&& at) {
   Track track;
@@ -120,20 +120,20 @@ Track weave(double seconds, std::uint64_t) {
   });
 }
 
-/// A stretch of level motion with a steady change of speed and of heading, not both at once.
+/// A section of level motion with a constant change of speed or of heading, not both.
 struct Stretch {
   double seconds;
   double acceleration;  ///< along the path [m/s^2]
   double turn;          ///< [rad/s], anticlockwise
 };
 
-/// A vehicle on the ground at the begin of a stretch.
+/// A vehicle on the ground at the start of a section.
 struct Ground {
   Vector3d position = Vector3d::Zero();
   double speed = 0, heading = 0;
 };
 
-/// `t` seconds into a stretch: a parabola in time along a line, or an arc.
+/// Motion `t` seconds into a section: a parabola in time along a line, or an arc.
 MotionSample on_stretch(const Ground& begin, const Stretch& stretch, double t) {
   MotionSample s;
   const double heading = begin.heading + stretch.turn * t;
@@ -197,7 +197,7 @@ Track corners(double seconds, std::uint64_t seed) {
   return drive(seconds, ground, stretches);
 }
 
-/// One sine of a position, with its first three rates.
+/// One sine of a position, with its first three derivatives.
 struct Wave {
   double value, rate, second, third;
 };
@@ -206,7 +206,7 @@ Wave wave(double size, double omega, double t) {
   return {size * s, size * omega * c, -size * omega * omega * s, -size * omega * omega * omega * c};
 }
 
-/// Nose along the path, banked so that lift and weight make the turn.
+/// Nose along the path, banked so that lift and weight produce the turn.
 Attitude coordinated(const Wave& x, const Wave& y, const Wave& z) {
   const double level2 = x.rate * x.rate + y.rate * y.rate, level = std::sqrt(level2);
   const double level_rate = (x.rate * x.second + y.rate * y.second) / level;
@@ -252,7 +252,8 @@ Track hover(double seconds, std::uint64_t seed) {
   });
 }
 
-/// Share of a reach done at share u of its time, least jerk, and its rates by u.
+/// Share of a reach that is complete at share u of its time (minimum jerk), and its derivatives by
+/// u.
 struct Reach {
   double done, rate, second;
 };
@@ -273,7 +274,7 @@ Track hand(double seconds, std::uint64_t seed) {
       rest.position += way;
       rest.orientation = (rest.orientation * deadreckon::exponential(turn)).normalized();
       begin += lasts + pause;
-      // Back towards the middle of the workspace where it would be left.
+      // Reverses the direction towards the middle of the workspace if the hand would leave it.
       way = kLength * draw.normal3(1).normalized();
       if (way.dot(rest.position) > 0 && rest.position.norm() > 0.15) way = -way;
       turn = draw.between(0.05, 0.4) * draw.normal3(1).normalized();
@@ -302,8 +303,8 @@ Track jump(double seconds, std::uint64_t) {
   });
 }
 
-/// Acceleration as an owner takes it from the velocities of its samples: in that of a bounce it is
-/// hundreds of m/s^2.
+/// The acceleration follows from the velocities of successive samples, as an owner computes it: at
+/// the sample of a bounce it is hundreds of m/s^2.
 Track bounce(double seconds, std::uint64_t seed) {
   static constexpr double kKept = 0.8, kSlow = 1;
   Draw draw(seed);

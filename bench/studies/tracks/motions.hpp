@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of motions made by formulas, for studies: the truth and all its rates are known in
-// closed form. A new one is a function in motions.cpp and a row there.
+// The list of motions with closed formulas, for studies: position and all derivatives are exact. To
+// add one, write a function in motions.cpp and a row in its list.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace reckon::bench {
 
-/// Samples of every motion [1/s]: those of a display.
+/// Sample rate of every motion [1/s], equal to that of a display.
 inline constexpr double kMotionRate = 60;
 
 struct Motion {
   std::string_view name;
   std::string_view meaning;
-  /// Thresholds that suit its size [m], growing.
+  /// Thresholds that suit the size of the motion [m], ascending.
   std::array<double, 6> thresholds;
   /// The motion over `seconds` > 0, reference axes x, y level and z up, body axes x forward, y
   /// right, z down. Equal arguments give equal samples.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The true motion of one entity over time, as a study replays it to an owner.
+// The true motion of one entity over time; a study feeds it to an owner.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace reckon::bench {
 
-/// Samples in the order of their times, which grow strictly; all finite. Position in one Cartesian
-/// frame of the track's own [m].
+/// Samples in order of their times, which increase strictly; all finite. Position in one Cartesian
+/// frame of the track itself [m].
 struct Track {
-  std::string name;  ///< of the entity, for people
+  std::string name;  ///< of the entity, for output
   std::vector<deadreckon::MotionSample> samples;
 };
 

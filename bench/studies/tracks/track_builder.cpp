@@ -19,14 +19,14 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Body x along v, body y level.
+/// Orientation with body x along v and body y level.
 Quaterniond along(const Vector3d& v) {
   const double yaw = std::atan2(v.y(), v.x());
   const double climb = std::atan2(v.z(), std::hypot(v.x(), v.y()));
   return AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(-climb, Vector3d::UnitY());
 }
 
-/// Fills in what the file did not tell. `before` is null for the first sample.
+/// Computes values that the file does not contain. `before` is null for the first sample.
 void complete(ToldSample& sample, const MotionSample* before) {
   MotionSample& now = sample.motion;
   const double dt = before != nullptr ? now.time - before->time : 1;
@@ -44,7 +44,7 @@ void complete(ToldSample& sample, const MotionSample* before) {
       deadreckon::logarithm(before->orientation.conjugate() * now.orientation) / dt;
 }
 
-// A difference over next to no time may overflow.
+// A difference over almost no time may overflow.
 bool make_finite(MotionSample& sample) {
   if (!sample.position.allFinite() || !std::isfinite(sample.time)) return false;
   if (!sample.velocity.allFinite()) sample.velocity.setZero();
@@ -78,7 +78,7 @@ void TrackBuilder::sort(Told& told) {
   };
   for (std::size_t i = 1; i < told.size(); ++i) disordered_ += earlier(told[i], told[i - 1]);
   std::stable_sort(told.begin(), told.end(), earlier);
-  // Of equal times the last one stays.
+  // Of samples with equal times the last one is kept.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < told.size(); ++i) {
     const bool is_last = i + 1 == told.size() || earlier(told[i], told[i + 1]);

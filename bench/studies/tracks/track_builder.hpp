@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tracks from samples as a file tells them: in any order, with or without rates. What is not told
-// follows from the samples before, never from later ones: an owner has no future either.
+// Builds tracks from the samples of a file, in any order, with or without rates. Missing values are
+// computed from earlier samples, never from later ones, because an owner does not have these
+// either.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace reckon::bench {
 
-/// A sample, and which of its rates the file told.
+/// A sample, and which of its rates are in the file.
 struct ToldSample {
   deadreckon::MotionSample motion;
   bool has_velocity = false;
@@ -23,25 +24,25 @@ struct ToldSample {
   bool has_rates = false;  ///< acceleration and angular velocity
 };
 
-/// Collects samples by entity. Bounded: throws UsageError past kMostSamples or kMostTracks.
+/// Collects samples by entity. Bounded: throws UsageError above kMostSamples or kMostTracks.
 class TrackBuilder {
  public:
-  static constexpr std::size_t kMostSamples = 4'000'000;  // 0.6 GB, a capture twice that
+  static constexpr std::size_t kMostSamples = 4'000'000;  // 0.6 GB, twice that for a capture
   static constexpr std::size_t kMostTracks = 1'000'000;
-  /// Slower than this [m/s] an entity has no direction of its own: it keeps the one it had.
+  /// Below this speed [m/s] an entity has no direction of its own and keeps its last one.
   static constexpr double kLeastSpeed = 1e-3;
 
   /// @param name of the entity; any text. All numbers of `sample` are finite.
   void add(std::string_view name, const ToldSample& sample);
 
-  /// The tracks, in the order of their first samples: sorted by time, of equal times the last one,
-  /// rates filled in by differences to the sample before:
-  /// velocity from positions, acceleration from velocities, angular velocity from orientations,
-  /// orientation (x forward) along the velocity where it moves. Ends the collection.
+  /// The tracks, in the order of their first samples: sorted by time, of equal times the last one.
+  /// Missing rates are differences to the sample before: velocity from positions, acceleration from
+  /// velocities, angular velocity from orientations; orientation (x forward) along the velocity
+  /// while it moves. Ends the collection.
   [[nodiscard]] std::vector<Track> finish();
 
-  /// Samples that came later than a younger one of their entity, and those dropped for another of
-  /// the same time; after finish().
+  /// Number of samples that arrived after a later one of their entity, and of samples dropped for
+  /// another with the same time; valid after finish().
   [[nodiscard]] std::uint64_t disordered() const noexcept { return disordered_; }
   [[nodiscard]] std::uint64_t repeated() const noexcept { return repeated_; }
 

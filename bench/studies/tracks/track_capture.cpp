@@ -30,7 +30,7 @@ using std::chrono::nanoseconds;
 
 struct ReceivedUpdate {
   double captured = 0;  // [s] since the first Entity State
-  double stamped = 0;   // [s] since the entity's first, by its own clock
+  double stamped = 0;   // [s] since the first of the entity, by its own clock
   KinematicState state;
 };
 
@@ -40,15 +40,15 @@ struct ReceivedEntity {
   std::vector<ReceivedUpdate> updates;
 };
 
-/// The plane that touches the sphere below `point`, with its origin there.
+/// The tangent plane of the sphere below `point`, with its origin there.
 LocalFrame frame_at(const Vector3d& point) {
   const double latitude = std::atan2(point.z(), std::hypot(point.x(), point.y()));
   const double longitude = std::atan2(point.y(), point.x());
   return {latitude, longitude, 0};
 }
 
-/// Whether the sender's stamps can be taken at their word: they grow from nearly every update to
-/// the next, and are as long as the capture within 5 % and half a second.
+/// Whether the sender's timestamps are reliable: at least nine of ten increase from one update to
+/// the next, and their span equals the capture's within 5 % plus half a second.
 bool stamps_run(const std::vector<ReceivedUpdate>& updates) {
   std::size_t grew = 0;
   for (std::size_t i = 1; i < updates.size(); ++i)

@@ -10,7 +10,8 @@
 namespace reckon::bench {
 namespace {
 
-/// Whether the file begins as a pcap, a pcapng or a zstd frame does. False where it cannot be read.
+/// Whether the file starts with the octets of a pcap, a pcapng or a zstd frame. False if it cannot
+/// be read.
 bool begins_as_capture(const std::filesystem::path& path) {
   constexpr std::array<std::uint32_t, 6> kMagic{0xA1B2C3D4, 0xD4C3B2A1, 0xA1B23C4D,
                                                 0x4D3CB2A1, 0x0A0D0D0A, 0x28B52FFD};

@@ -27,9 +27,9 @@ using Place = std::optional<std::size_t>;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kKnot = 1852.0 / 3600;  // [m/s]
-constexpr double kFarthest = 1e9;        // [m], as positions on the wire
+constexpr double kFarthest = 1e9;        // [m], the limit of positions on the wire
 
-/// Columns that belong together; the last may be missing where `needed` is less than all.
+/// Columns that belong together; the last may be missing if `needed` is less than all.
 struct Group {
   std::array<Place, 4> places;
   bool present = false;
@@ -44,7 +44,7 @@ struct Group {
   }
 };
 
-/// Which columns tell what.
+/// The column of each quantity.
 struct Columns {
   std::size_t time = 0;
   Place id;
@@ -82,7 +82,7 @@ double or_zero(const peer::CsvReader& csv, const Place& place) {
   return place ? csv.number(*place).value_or(0) : 0;
 }
 
-/// Turns the rows of one table into samples.
+/// Converts the rows of one table into samples.
 class RowReader {
  public:
   explicit RowReader(const peer::CsvReader& csv) : csv_(csv), columns_(csv) {}
@@ -179,7 +179,7 @@ class RowReader {
     told.has_orientation = true;
   }
 
-  /// From east, north and up of the row's own place.
+  /// Converts from east, north and up at the row's own position.
   void into_frame(ToldSample& told) const {
     MotionSample& motion = told.motion;
     motion.velocity =

@@ -20,12 +20,12 @@ namespace reckon::bench {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-/// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
+/// A match above this threshold [m] means that only heartbeats are left to compare.
 constexpr double kWidestMatch = 90;
 
 std::string metres(double value) { return peer::format_quantity(value, "m"); }
 
-// Three digits that count; no exponent where a person reads it.
+// Three significant digits; no exponent in output for people.
 std::string short_number(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
@@ -36,14 +36,14 @@ std::string short_number(double value) {
   return fmt::format("{:.2g}", value);
 }
 
-/// A length as a person says it, of three digits.
+/// A length for people, with three significant digits.
 std::string length_text(double value) {
   if (!(value > 0)) return "0 m";
   const double step = std::pow(10.0, std::floor(std::log10(value)) - 2);
   return metres(std::stod(fmt::format("{:.3g}", std::round(value / step) * step)));
 }
 
-/// The unit in which a column of errors reads best.
+/// The unit in which a column of errors is easiest to read.
 struct LengthUnit {
   std::string_view name = "m";
   double scale = 1;
@@ -83,12 +83,12 @@ void append_head(std::string& out, const TuneReport& report) {
   out += '\n';
 }
 
-/// A setting with what it is in its table.
+/// A setting with its role in the table.
 struct MarkedRow {
   TuneRow row;
   std::string_view kind;
   bool is_knee = false;
-  std::string mark = {};  ///< before its line
+  std::string mark = {};  ///< printed before its line
 };
 
 Fields fields_of(const MarkedRow& of, const LengthUnit& unit, bool angle) {
@@ -120,7 +120,7 @@ Fields fields_of(const MarkedRow& of, const LengthUnit& unit, bool angle) {
       .cell("ANGLE P99 deg", angle ? short_number(result.angle.p99 * kDegrees) : "-");
 }
 
-/// Of files, which hold SI.
+/// Fields for files, which use SI units.
 Fields tune_file_fields(const MarkedRow& of) { return fields_of(of, {}, true); }
 
 MarkedRow marked(const TuneReport& report, std::size_t place) {
@@ -129,7 +129,7 @@ MarkedRow marked(const TuneReport& report, std::size_t place) {
   return {row, "setting", is_knee, is_knee ? "knee" : row.on_front ? "*" : ""};
 }
 
-/// All, and what they are compared with.
+/// All rows, and the baselines.
 std::vector<MarkedRow> file_rows(const TuneReport& report) {
   std::vector<MarkedRow> rows;
   for (std::size_t i = 0; i < report.table.rows.size(); ++i) rows.push_back(marked(report, i));
@@ -139,7 +139,8 @@ std::vector<MarkedRow> file_rows(const TuneReport& report) {
   return rows;
 }
 
-/// Places of the rows to show: all as they are, or the front from dear to cheap.
+/// Indices of the rows to show: all in their order, or the front from the most to the least
+/// packets.
 std::vector<std::size_t> shown_rows(const TuneReport& report, bool all) {
   const auto& rows = report.table.rows;
   std::vector<std::size_t> shown;
@@ -227,7 +228,7 @@ Fields force_fields(const ForceRow& row, bool contact, const std::string& unit) 
       .cell("PACKETS/s", short_number(row.packets_per_s))
       .cell("OCTETS/s", short_number(row.octets_per_s))
       .cell("OF RAW %", short_number(100 * row.share()));
-  // Of a run in which hands never touched there are no errors.
+  // A run in which the hands never touched has no errors.
   for (const auto& [name, title, error] :
        {std::tuple{"rms", "RMS ", row.error.rms}, std::tuple{"p99", "P99 ", row.error.p99},
         std::tuple{"max", "MAX ", row.error.max}})
@@ -240,7 +241,7 @@ Fields force_fields(const ForceRow& row, bool contact, const std::string& unit) 
             contact ? short_number(row.for_force_per_s) : fmt::format("{}", row.outside));
 }
 
-/// Of files, which have no columns of their own for contacts.
+/// Fields for files, without columns that only contacts have.
 Fields force_file_fields(const ForceRow& row) { return force_fields(row, false, row.unit); }
 
 }  // namespace
@@ -310,7 +311,7 @@ std::string tune_svg(const TuneReport& report) {
         {point(*report.advice.row),
          fmt::format("asked: {} {}", report.advice.row->model, threshold_of(*report.advice.row)),
          true});
-  // Beside the curves it would only squeeze them.
+  // Beside the curves it would only compress them.
   const auto near = [&](const TuneRow& row) {
     const TuneRow& common = report.table.common;
     return row.packets_per_s < 2 * common.packets_per_s && row.error() < 2 * common.error() &&

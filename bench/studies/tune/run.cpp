@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon tune`: its flags, what to try, and what to take.
+// `reckon tune`: its flags, the settings to try, and the recommendation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ constexpr std::array kWebers{0.05, 0.1, 0.2};
 constexpr const char* kNothingDrawn =
     "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out";
 
-/// What is tuned, each a bit of the flags: motion, a signal of force, hands of a scene in contact.
+/// The subject, one bit of the flags each: motion, a force signal, the hands of a scene in contact.
 constexpr unsigned kMotion = 1, kSignal = 2, kContact = 4;
 
 struct TuneWords : SharedWords {
@@ -62,13 +62,13 @@ struct TuneWords : SharedWords {
   }
 };
 
-/// What to aim at; at most one is set.
+/// The goal; at most one member is set.
 struct TuneGoal {
   std::optional<double> error;          ///< p99 [m]
   std::optional<double> packets_per_s;  ///< of all entities
 };
 
-/// Names between commas.
+/// Names separated by commas.
 std::vector<std::string_view> list_of(std::string_view text) {
   std::vector<std::string_view> words = parts_between_commas(text);
   std::erase(words, std::string_view());
@@ -117,7 +117,7 @@ std::vector<double> thresholds_of(const TuneWords& words, const TuneGoal& goal, 
         quantity_of("--thresholds", word, "m", kLeastThreshold, kMostThreshold, 0));
   if (thresholds.empty()) {
     thresholds = threshold_ladder(step);
-    // What is asked for may lie beside what the data suggest.
+    // The requested goal may lie outside the thresholds that the data suggest.
     if (goal.error)
       for (const double share : {0.1, 0.2, 0.5, 0.8, 1.0})
         thresholds.push_back(std::clamp(share * *goal.error, kLeastThreshold, kMostThreshold));
@@ -153,7 +153,7 @@ TuneGoal goal_of(const TuneWords& words) {
   return goal;
 }
 
-/// @param step way between samples [m], for the ladder  @param has_orientation of the file
+/// @param step distance between samples [m], for the ladder @param has_orientation of the file
 TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step,
                        bool has_orientation) {
   TuneOptions options;
@@ -203,7 +203,7 @@ Advice advice_of(const TuneTable& table, const TuneGoal& goal) {
                     : "")};
 }
 
-/// Flags that do not go together. @param given as CommandLine::given()
+/// Rejects flags that exclude each other. @param given as CommandLine::given()
 void check_words(const TuneWords& words, std::span<const Flag> flags,
                  std::span<const std::string> given) {
   if (words.json && words.as_csv)
@@ -226,7 +226,7 @@ void check_words(const TuneWords& words, std::span<const Flag> flags,
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
 }
 
-/// The scene's network, changed as asked.
+/// The scene's network with the requested changes.
 void impair(const TuneWords& words, peer::ImpairmentConfig& network) {
   peer::ImpairmentLaw& law = network.law;
   const auto share = [](std::string_view flag, const std::string& text, double fallback) {

@@ -20,10 +20,10 @@ namespace {
 
 using Algorithm = pdu::DeadReckoningAlgorithm;
 
-// FPB and FVB show what FPW and FVW show, and static is no dead reckoning.
+// FPB and FVB show the same as FPW and FVW, and static is no dead reckoning.
 constexpr std::array<std::string_view, 3> kOnlyAsked{"static", "fpb", "fvb"};
 
-/// Ways that are not zero, from each sample to the first one that is kLeastStepTime later.
+/// Distances above zero, from each sample to the first one at least kLeastStepTime later.
 void append_steps(const Track& track, std::vector<double>& steps) {
   const auto& samples = track.samples;
   std::size_t to = 1;
@@ -53,10 +53,10 @@ PoseSetting setting_of(const TuneOptions& options, const TuneRow& row,
   setting.heartbeat = options.heartbeat;
   setting.thresholds.position = row.threshold;
   setting.thresholds.angle = options.angle;
-  // Where orientations do not count they shall not slow the way of the position either.
+  // If orientations do not count, they must not slow the convergence of the position either.
   if (options.angle >= std::numbers::pi) setting.convergence.gentle_turn = 1e9;
   if (row.threshold == 0) {
-    // No time between two samples is as short.
+    // Shorter than the time between any two samples.
     setting.period = 1e-12;
     setting.thresholds = {};
     setting.convergence.curve = deadreckon::ConvergenceCurve::snap;
@@ -64,7 +64,7 @@ PoseSetting setting_of(const TuneOptions& options, const TuneRow& row,
   return setting;
 }
 
-/// A run that waits for a core.
+/// A run to be done on any core.
 struct Job {
   TuneRow* row;
   std::optional<Algorithm> algorithm;
@@ -78,7 +78,7 @@ void run_row(std::span<const Track> tracks, const TuneOptions& options, double s
   row.octets_per_s = kUpdateOctets * row.packets_per_s;
 }
 
-/// By halving the ratio of two thresholds: one is good enough, the other is not.
+/// Bisects the ratio of two thresholds: one has a small enough error, the other does not.
 std::optional<TuneRow> match(std::span<const Track> tracks, const TuneOptions& options,
                              const TuneRow& common, double span) {
   const PoseModel& model = options.models.front();
@@ -102,14 +102,14 @@ std::optional<TuneRow> match(std::span<const Track> tracks, const TuneOptions& o
   return good;
 }
 
-/// Convergence may show the same updates a little differently.
+/// Convergence may differ slightly for the same updates.
 bool same_result(const PoseResult& a, const PoseResult& b) {
   constexpr double kAlike = 0.05;
   return a.updates == b.updates &&
          std::abs(a.position.p99 - b.position.p99) <= kAlike * b.position.p99;
 }
 
-/// Leaves each model out that sends what an earlier one sends at each threshold.
+/// Removes each model that sends the same updates as an earlier one at each threshold.
 void drop_twins(TuneTable& table, std::size_t thresholds) {
   std::vector<TuneRow> kept;
   const auto find_twin = [&](std::size_t begin) -> const TuneRow* {
@@ -182,7 +182,7 @@ TrackSummary summary_of(std::span<const Track> tracks) {
 
 std::vector<double> threshold_ladder(double step) {
   if (!std::isfinite(step) || !(step > 0)) step = 0.1;
-  // Within what a scene file takes for a threshold.
+  // Within the range of thresholds in a scene file.
   const double least = std::clamp(step / 100, 1e-6, 1e3);
   const double most = std::clamp(step * 10, 1e-5, 1e4);
   std::vector<double> ladder;

@@ -16,11 +16,11 @@
 namespace reckon::bench {
 namespace {
 
-constexpr int kPerSample = 32;       // places looked at, for each sample of delay and one more
-constexpr double kPrecision = 1e-9;  // of the distance of places; a least value is flat
+constexpr int kPerSample = 32;       // evaluated places, for each sample of delay and one more
+constexpr double kPrecision = 1e-9;  // of the distance of places; a minimum is flat
 
-/// Stiffness at which the wall needs all of the device's damping at theta [rad]; infinite where the
-/// spring gives damping there.
+/// Stiffness at which the wall needs all of the device's damping at theta [rad]; infinite if the
+/// spring adds damping there.
 double stiffness_at(const ZWidthDevice& device, double wall_damping, double theta) {
   const double per_stiffness = wall_damping_at(1, 0, device.period, theta, device.delay_samples);
   const double left =
@@ -43,7 +43,7 @@ double passive_stiffness(const ZWidthDevice& device, double wall_damping) {
   double least = std::min(of(0), of(std::numbers::pi));
   for (int i = 1; i < places; ++i) {
     const double middle = of(i * step);
-    // A place lower than both beside it has the least value of that stretch about it.
+    // A place lower than both its neighbours has the minimum of that section near it.
     if (middle <= of((i - 1) * step) && middle <= of((i + 1) * step))
       least = std::min(least, -greatest(i - 1, i + 1));
   }

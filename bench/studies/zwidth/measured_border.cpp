@@ -15,21 +15,21 @@
 namespace reckon::bench {
 namespace {
 
-/// Of the energy that went to and fro: less is rounding.
+/// Share of the exchanged energy that is rounding.
 constexpr double kRounding = 1e-12;
 
 struct Wall {
   double stiffness, damping;  // [N/m], [N s/m]
 };
 
-/// The wall's force on a handle at x [m], by two samples [N].
+/// Force of the wall on a handle at x [m], from two samples [N].
 double force_of(const Wall& wall, double x, double before, double period) {
   return -wall.stiffness * x - wall.damping * (x - before) / period;
 }
 
 // --- a hand that moves the handle as it likes ---
 
-/// Handle positions of a hand that swings: whole periods in a round of samples.
+/// Handle positions of a swinging hand: a whole number of periods in a cycle of samples.
 class SwingingHand {
  public:
   explicit SwingingHand(const ZWidthDevice& device)
@@ -41,15 +41,15 @@ class SwingingHand {
           std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(samples_));
   }
 
-  /// Most periods in a round: half the sampling rate.
+  /// Most periods in a cycle: half the sampling rate.
   [[nodiscard]] std::size_t fastest() const { return samples_ / 2; }
 
-  /// Energy that the hand loses in a round with so many periods [J], as a share of what went to and
-  /// fro; below 0 it gains.
+  /// Energy that the hand loses in a cycle with this number of periods [J], as a share of the
+  /// energy exchanged; below 0 it gains.
   [[nodiscard]] double lost(const Wall& wall, std::size_t periods) const {
     const double T = device_.period;
     double net = 0, moved = 0;
-    // As a ring: what a sample's force does comes d samples later, of this round or the next.
+    // As a ring: the force of a sample acts d samples later, in this cycle or the next.
     std::size_t at = 0;
     std::size_t force_at = (samples_ - (delay() * periods) % samples_) % samples_;
     double x = circle_[at], felt = circle_[force_at];
@@ -81,7 +81,7 @@ class SwingingHand {
   std::vector<double> circle_;
 };
 
-/// Stiffest wall that loses energy at these frequencies.
+/// Greatest stiffness of a wall that dissipates energy at these frequencies.
 double border_at(const SwingingHand& hand, double wall_damping, double most,
                  const std::vector<std::size_t>& periods) {
   double low = 0, high = most;
@@ -97,7 +97,7 @@ double border_at(const SwingingHand& hand, double wall_damping, double most,
 
 // --- a handle that nobody holds ---
 
-/// The way of the handle in one period under a held force, from what `advanced` says of it.
+/// Motion of the handle in one period under a held force, computed by `advanced`.
 struct HeldStep {
   double v_of_v, v_of_f, x_of_v, x_of_f;
 
@@ -113,9 +113,9 @@ struct HeldStep {
 };
 
 constexpr std::size_t kSwingSamples = 40'000;
-constexpr double kGone = 1e-18, kGrown = 1e6;  // of the energy at first
+constexpr double kGone = 1e-18, kGrown = 1e6;  // of the initial energy
 
-/// Whether swings grow: the most energy in the last quarter against that in the second.
+/// Whether swings grow: compares the greatest energy in the last quarter with that in the second.
 bool grows(const ZWidthDevice& device, const HeldStep& step, const Wall& wall) {
   const auto delay = static_cast<std::size_t>(device.delay_samples);
   std::vector<double> under_way(delay + 1);
@@ -143,7 +143,8 @@ double energy_border(const ZWidthDevice& device, double wall_damping,
                      const std::function<bool()>& go_on) {
   const SwingingHand hand(device);
   const double most = 3 * (device.damping + std::abs(wall_damping)) / device.period;
-  // The border of a few frequencies, then of those too that gain energy at it, until none does.
+  // Finds the border for a few frequencies, adds each frequency that gains energy at it, and
+  // repeats until none does.
   std::vector<std::size_t> periods{1, hand.fastest() / 2, hand.fastest()};
   for (;;) {
     const double border = border_at(hand, wall_damping, most, periods);

@@ -39,8 +39,8 @@ constexpr std::string_view kExamples =
     "reckon zwidth --delay 20ms --json | jq .passive";
 
 constexpr std::size_t kDampings = 21;
-constexpr double kStiffWall = 2000;  // [N/m], that a wall should have to feel stiff
-/// Borders of stability beyond so many times the passive one are cut in the picture.
+constexpr double kStiffWall = 2000;  // [N/m], a wall of this stiffness feels stiff
+/// Stability borders above this multiple of the passive one are cut in the picture.
 constexpr double kShownBeyond = 2.2;
 
 constexpr std::string_view kPageStyle = "section>svg{display:block;width:100%;max-width:60rem}\n";
@@ -61,7 +61,7 @@ constexpr std::array<std::array<std::string_view, 2>, 7> kMeanings{{
 
 struct ZWidthReport {
   std::string command;  ///< as typed
-  std::string subject;  ///< "device 2 of peer 1"; empty for one made of flags alone
+  std::string subject;  ///< "device 2 of peer 1"; empty for a device given by flags alone
   ZWidthDevice device;
   std::vector<ZWidthRow> rows;  ///< at least one
 };
@@ -77,7 +77,7 @@ std::string device_text(const ZWidthDevice& device) {
                 tools::counted(static_cast<std::uint64_t>(device.delay_samples), "sample")));
 }
 
-/// A row, on the device of a report.
+/// A row for the device of a report.
 auto zwidth_fields(const ZWidthDevice& device) {
   return [&device](const ZWidthRow& row) {
     Fields fields;
@@ -130,7 +130,7 @@ std::string zwidth_text(const ZWidthReport& report) {
   return out + fmt::format("\n{}\n{}\n", agreement_text(report), stiff_wall_text(report.device));
 }
 
-/// Borders by theory as lines, what was measured as circles.
+/// Theoretical borders as lines, measured ones as circles.
 std::string zwidth_svg(const ZWidthReport& report) {
   struct Curve {
     std::string_view name;
@@ -222,7 +222,7 @@ class ZWidthStudy final : public Study {
   }
 
  private:
-  /// What the scene says of the device, and its name.
+  /// The device settings of the scene, and the name of the device.
   void take_device_of_scene(ZWidthReport& report) const {
     std::vector<peer::DeviceConfig> all;
     try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A project whose own files are called as folders and files of Reckon are or were, with its own
-// folder first on the include path. Each name means what it says.
+// A project whose files have names that files and folders of Reckon have or had, with its own
+// folder first on the include path. Each include must find its own file.
 #include <cstdio>
 
 #include "haptics/scene.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a stranger says, from an address of its own, in the name of a host.
+// Datagrams that a stranger sends from its own address in the name of a host.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace reckon::fuzz::leaders {
 
-/// Once in the name of the host, and once as a life that nobody has announced.
+/// One datagram in the name of the host, and one with an epoch that was never announced.
 [[nodiscard]] std::vector<Datagram> forged(const Fault& fault, const SimulatedHost& victim);
 
 }  // namespace reckon::fuzz::leaders

@@ -12,9 +12,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A leader that is silent for so long has been followed by another one.
+// After this silence another leader has succeeded.
 constexpr nanoseconds kPatience = milliseconds(1500);
-// Later a sleeper may have heard a leader, or been named by one that leaves.
+// After kHears a host that slept may have received a leader's claim, or been named by a departing
+// one.
 constexpr nanoseconds kHears = milliseconds(500), kWakes = milliseconds(10);
 
 }  // namespace

@@ -13,17 +13,15 @@
 namespace reckon::fuzz::leaders {
 namespace {
 
-// Others than the first ones of the verb.
+// Seeds that the verb does not try first.
 constexpr std::uint64_t kFirst = 1'000'000;
 
 std::uint64_t seeds() { return test::tries(80U, 300U); }
 
-TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
-  expect_holds(kSimulation, kFirst, seeds());
-}
+TEST(Leaders, OneLeaderPerCellIntroducesNewcomers) { expect_holds(kSimulation, kFirst, seeds()); }
 
-// Absences shorter than a look, maps that waited while their reader slept, parts of snapshots that
-// a newcomer could not take, heirs that nobody had told all.
+// Old failures: absences shorter than a check, maps that waited while their reader slept, parts of
+// snapshots that a newcomer could not take, heirs with incomplete states.
 TEST(Leaders, HoldWhereTheyOnceDidNot) {
   for (const std::uint64_t seed :
        {14281U, 20520U, 10649U, 12761U, 14727U, 17585U, 9540U, 6447U, 22065U, 15348U}) {

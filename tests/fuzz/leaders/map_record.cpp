@@ -13,7 +13,7 @@
 namespace reckon::fuzz::leaders {
 namespace {
 
-// Changes of a map are said together, so a group looks used for a little longer than it is.
+// Changes of a map are sent together, so a group looks used slightly longer than it is.
 constexpr nanoseconds kSaidTogether = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -39,7 +39,7 @@ void MapRecord::look(const aoim::LeaderRole& role, nanoseconds now) {
   if (leads && !leads_) {
     began_ = now;
     had_map_ = believed_ != 0;
-    // Its own map of before, which it has not said anew, gives nothing away.
+    // Its own earlier map, which it has not sent again, grants no group.
     version_.reset();
     if (map.leader() == own) version_ = map.version();
     std::fill(given_.begin(), given_.end(), Given());

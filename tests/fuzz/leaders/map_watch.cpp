@@ -12,14 +12,14 @@
 namespace reckon::fuzz::leaders {
 namespace {
 
-// Two leaders have met, and one has taken over what the other says, after this.
+// After this time two leaders have met, and one has adopted the other's map.
 constexpr nanoseconds kMet = std::chrono::seconds(3);
 
 bool has_own_map(const SimulatedHost& host) {
   return host.role().leads(aoim::kWholeScene) && host.role().directory().leader() == host.epoch();
 }
 
-// Of all hosts, for who has led before may still say its last map.
+// Checks any host: an earlier leader may still send its last map.
 bool has_touched(const SimulatedHost& host, aoim::GroupIndex group, nanoseconds now) {
   bool has = false;
   const auto look = [&](aoim::GroupIndex one) { has = has || one == group; };
@@ -59,7 +59,8 @@ MapWatch::Sentence MapWatch::leases_end(const std::vector<Place>& places, nanose
   return {};
 }
 
-// Of cells in which somebody is: of others a leader gives the group back before it meets another.
+// Only cells with members count: a leader takes back the groups of others before it meets another
+// leader.
 std::set<std::uint16_t> MapWatch::contested(const std::vector<Place>& places, nanoseconds now) {
   std::set<aoim::CellId> inhabited;
   for (const Place& place : places) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Looks at maps of groups: leases, quarantines, merges. Part of Watch.
+// Checks group maps: leases, quarantines, merges. Part of Watch.
 #pragma once
 
 #include <optional>
@@ -18,19 +18,20 @@ class MapWatch {
 
   explicit MapWatch(nanoseconds calm) : calm_(calm) {}
 
-  /// L14: maps are believed of leaders alone, and who leads keeps to the quarantine.
+  /// L14: hosts use maps of leaders only, and a leader observes the quarantine.
   [[nodiscard]] static Sentence kept(const std::vector<Place>& places);
-  /// L15: who has heard no map for the lease uses none of its groups.
+  /// L15: a host that has received no map for the lease uses none of its groups.
   [[nodiscard]] static Sentence leases_end(const std::vector<Place>& places, nanoseconds now);
   /// L16: a group that two leaders had given to two cells when the calm began, or that one had
-  /// given and the other had in quarantine, is nobody's from 3 s on, until its quarantine is over.
+  /// given and the other had in quarantine, belongs to no cell from 3 s on, until its quarantine is
+  /// over.
   [[nodiscard]] Sentence merged(const std::vector<Place>& places, nanoseconds now);
-  /// L20: a group that a leader had given to a cell of its own when the calm began, and that nobody
-  /// else had in use or in quarantine, is that cell's as long as it leads.
+  /// L20: a group that a leader had given to a cell of its own when the calm began, and that no
+  /// other host used or had in quarantine, stays with that cell while the leader leads.
   [[nodiscard]] Sentence nothing_lost(const std::vector<Place>& places, nanoseconds now);
 
  private:
-  /// A group that its leader alone has given away.
+  /// A group that only its leader has given away.
   struct Own {
     std::uint32_t leader = 0;
     aoim::CellId cell;
@@ -42,7 +43,7 @@ class MapWatch {
                                                    nanoseconds now);
 
   nanoseconds calm_;
-  std::optional<std::vector<Own>> own_;               ///< since the calm began
+  std::optional<std::vector<Own>> own_;               ///< when the calm began
   std::optional<std::set<std::uint16_t>> contested_;  ///< when the calm began
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A host's place in a run, as the trial moves it and the watch looks at it.
+// A host's place in a run: the trial changes it, and the watch reads it.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,16 +14,16 @@
 namespace reckon::fuzz::leaders {
 
 struct Place {
-  std::unique_ptr<SimulatedHost> host;  ///< null: does not run
+  std::unique_ptr<SimulatedHost> host;  ///< null: not running
   nanoseconds clock{};
   nanoseconds asleep{};     ///< frozen since then
   nanoseconds awake{};      ///< frozen until then
-  nanoseconds disturbed{};  ///< when it last started, stood still, or was cut off from others
+  nanoseconds disturbed{};  ///< when it last started, froze, or was cut off from others
   std::uint32_t lives = 0;
-  std::size_t waiting = 0;  ///< datagrams that its socket holds
+  std::size_t waiting = 0;  ///< datagrams in its socket
 };
 
-/// The scene and the cells that it has joined.
+/// The scene and the cells that the host has joined.
 [[nodiscard]] inline std::vector<aoim::CellId> cells_of(const SimulatedHost& host) {
   std::vector<aoim::CellId> cells{aoim::kWholeScene};
   for (const aoim::GroupIndex group : host.aoim().subscriptions().cells().joined()) {

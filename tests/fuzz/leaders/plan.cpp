@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, kFaultKinds> kNames = {
     "clock step",   "move",         "leader's restart", "leader's return", "leader's pause",
     "forged claim", "forged leave", "forged map",       "forged states"};
 
-// Places in 2 x 3 cells of 100 m, so that peers share cells.
+// A position in 2 x 3 cells of 100 m, so that peers share cells.
 aoim::Position draw_place(Dice& dice) { return {200.0 * dice.unit(), 300.0 * dice.unit(), 0.0}; }
 
 LossyLine draw_line(Dice& dice) {
@@ -52,7 +52,7 @@ Fault draw_fault(Plan& plan, Dice& dice) {
   return fault;
 }
 
-// Hosts that go from cell to cell, so that groups are given back and wanted.
+// Hosts that move from cell to cell, so that groups are given back and requested.
 void wander(Plan& plan, std::size_t times, Dice& dice) {
   for (std::size_t i = 0; i < times; ++i) {
     Fault fault = draw_fault(plan, dice);
@@ -62,7 +62,7 @@ void wander(Plan& plan, std::size_t times, Dice& dice) {
   }
 }
 
-// Two sides that do not meet until the calm, each with time to hand out groups of its own.
+// A split into two sides until the calm, long enough for each to hand out groups of its own.
 void divide(Plan& plan, Dice& dice) {
   Fault fault = draw_fault(plan, dice);
   fault.kind = FaultKind::split;

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Faults to plant in the leaders of cells: name, file of aoim, text that is there once, text in its stead."""
+"""Planted faults in the leaders of cells: name, file of aoim, text that occurs once, replacement."""
 
 PLANTS = [
     ("what leaders relay not passed on", "participant.cpp",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The simulation of leaders as a program; docs/robustness.md says what is promised.
+// The simulation of leaders as a program; docs/robustness.md lists its invariants.
 #include "reckon/tests/fuzz/leaders/trial.hpp"
 #include "reckon/tests/fuzz/search/seeded_search.hpp"
 

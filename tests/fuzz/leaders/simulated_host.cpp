@@ -21,7 +21,7 @@ aoim::AreaOfInterestConfig config_of(const Plan& plan, std::size_t host) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = aoim::CellScheme::square;
   config.grid.cell_size = 100.0;
-  config.grid.pool = plan.hand_out ? 20 : 16;  // never fewer than are handed out
+  config.grid.pool = plan.hand_out ? 20 : 16;  // at least the number of groups handed out
   config.presence.capacity = 64;
   config.tracked = 256;
   config.leader.on = true;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One process with entities that it tells, and what it knows of the others' by their updates and by
-// the snapshots of leaders.
+// One process with entities whose states it sends, and the states of other hosts as known from
+// updates and from snapshots of leaders.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 
 namespace reckon::fuzz::leaders {
 
-/// A number that a forged state has and no true one reaches.
+/// The version of a forged state; no true state reaches it.
 inline constexpr double kForgedVersion = 9999.0;
 
-/// Of the beacon that a host carries.
+/// The tag of the beacon that a host carries.
 [[nodiscard]] constexpr std::uint32_t beacon_of(std::size_t host) noexcept {
   return static_cast<std::uint32_t>(1 + host);
 }
-/// Of one that nobody carries.
+/// The tag of a beacon without a carrier.
 inline constexpr std::uint32_t kForgedBeacon = 0xBADBEAC;
 
-/// Of an entity, as last heard.
+/// The last received state of an entity.
 struct Known {
   std::uint32_t epoch = 0;
   double version = 0.0;
@@ -43,7 +43,7 @@ class SimulatedHost : private aoim::ParticipantHandler {
   void say_goodbye(nanoseconds now, aoim::DatagramSink sink);
   void move(const aoim::Position& place) noexcept { place_ = place; }
   void set_clock(nanoseconds clock) { aoim_.set_utc_offset(clock, true); }
-  /// All of its entities change, and say so with the next step.
+  /// Changes all of its entities; the next step sends them.
   void change() noexcept { ++version_; }
 
   [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
@@ -57,11 +57,11 @@ class SimulatedHost : private aoim::ParticipantHandler {
   [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept {
     return aoim_.subscriptions().hears(group);
   }
-  /// Whether it listens to what happens in the cell of another one.
+  /// Whether it has joined the cell of the other host.
   [[nodiscard]] bool listens_to(const SimulatedHost& other) const noexcept {
     return aoim_.subscriptions().cells().is_joined(aoim_.cells().group(other.place_));
   }
-  /// Where it says its states.
+  /// The group to which it sends its states.
   [[nodiscard]] aoim::GroupIndex group() const noexcept { return aoim_.route(place_); }
   [[nodiscard]] const std::map<pdu::EntityId, Known>& known() const noexcept { return known_; }
   [[nodiscard]] std::size_t entities() const noexcept { return sent_.size(); }
@@ -71,7 +71,7 @@ class SimulatedHost : private aoim::ParticipantHandler {
     return {id.site, id.application, static_cast<std::uint16_t>(index + 1)};
   }
   [[nodiscard]] const MapRecord& maps() const noexcept { return maps_; }
-  /// Updates said because somebody was new, not because something changed.
+  /// Updates sent as introductions, not because of changes.
   [[nodiscard]] std::uint64_t introductions() const noexcept { return introductions_; }
 
  private:
@@ -90,7 +90,7 @@ class SimulatedHost : private aoim::ParticipantHandler {
   void take(const pdu::EntityState& state, std::uint32_t epoch, bool relayed);
 
   aoim::Position place_;
-  std::uint32_t beacon_ = 0;  ///< that it carries; 0: none
+  std::uint32_t beacon_ = 0;  ///< the beacon that it carries; 0: none
   double version_ = 1.0;
   aoim::Participant participant_;
   aoim::AreaOfInterestManager& aoim_ = participant_.manager();

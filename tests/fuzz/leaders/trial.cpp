@@ -23,12 +23,12 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kLook = milliseconds(50), kBegin = seconds(100), kChangeGap = seconds(1);
-// When the calm begins, who leads the scene hears no last map of another leader for so long.
+// When the calm begins, the scene leader receives no last map of another leader for this time.
 constexpr nanoseconds kMapsUnheard = milliseconds(900);
 
-// The same with PDUs of no type in the place of maps: what else is in it is heard.
+// The datagram with PDUs of no type in place of maps; its other PDUs are received.
 std::shared_ptr<const Datagram> without_maps(const std::shared_ptr<const Datagram>& datagram) {
-  constexpr std::ptrdiff_t kPduType = 2;  // of a header
+  constexpr std::ptrdiff_t kPduType = 2;  // offset in a PDU header
   const auto changed = std::make_shared<Datagram>(*datagram);
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram->octets)) {
     if (bundled.header.pdu_type != pdu::PduType::group_map) continue;
@@ -41,7 +41,7 @@ std::shared_ptr<const Datagram> without_maps(const std::shared_ptr<const Datagra
 struct Delivery {
   std::size_t to = 0;
   std::shared_ptr<const Datagram> datagram;
-  std::optional<nanoseconds> came{};  ///< since when it has waited in a socket
+  std::optional<nanoseconds> came{};  ///< when it arrived at a socket
 };
 
 class Trial {
@@ -120,7 +120,7 @@ class Trial {
     log(fmt::format("host {} starts as {:x}", i, epoch));
   }
 
-  // Starts and faults that are due.
+  // Executes the starts and faults that are due.
   void befall() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       if (places_[i].lives == 0 && now_ >= plan_.hosts[i].start) start(i);
@@ -141,7 +141,7 @@ class Trial {
     });
   }
 
-  // Who leads the scene, and is awake; the fault's host where nobody does.
+  // The awake scene leader; the fault's host if there is none.
   [[nodiscard]] std::size_t befallen(const Fault& fault) const {
     if (!is_of_leader(fault.kind)) return fault.host;
     const auto leading = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
@@ -209,14 +209,14 @@ class Trial {
 
   void change_states() {
     if (now_ >= plan_.calm + seconds(6)) return;
-    // The last time all do, and none of that is lost.
+    // The last time all hosts do it, and no datagram is lost.
     const double share = now_ >= plan_.calm + seconds(5) ? 1.0 : 0.5;
     for (Place& place : places_) {
       if (place.host && dice_.chance(share)) place.host->change();
     }
   }
 
-  // The leader of some cell in which others are.
+  // Kills the leader of a cell that others are in.
   void kill_a_leader() {
     std::vector<std::size_t> leaders;
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -269,7 +269,7 @@ class Trial {
     }
   }
 
-  // As much as would be lost once in thousands of times, so that it happens in many seeds.
+  // Without this, the loss would occur once in thousands of seeds; now it occurs in many.
   [[nodiscard]] bool loses_maps(std::size_t from, std::size_t to) const {
     if (!plan_.loses_maps || now_ < plan_.calm || now_ >= plan_.calm + kMapsUnheard) return false;
     const auto leads = [](const Place& place) {
@@ -278,8 +278,8 @@ class Trial {
     return leads(places_[to]) && !leads(places_[from]);
   }
 
-  // On their way to the newcomer of the calm half of the parts, and each of them once: what is said
-  // again arrives.
+  // Drops half of the snapshot parts to the newcomer of the calm, each part once: a repeated part
+  // arrives.
   bool loses_part(std::size_t to, const Datagram& datagram) {
     if (to + 1 != places_.size() || !places_[to].host) return false;
     bool loses = false;
@@ -287,7 +287,8 @@ class Trial {
       pdu::CellSnapshot part;
       if (bundled.header.pdu_type != pdu::PduType::cell_snapshot) continue;
       if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
-      // Who follows the newcomer's beacon is a newcomer to its cell, too, and is told by itself.
+      // A host that follows the newcomer's beacon is also a newcomer to its cell, and gets its own
+      // introduction.
       const std::uint16_t serial = plan_.beacons ? part.serial : 0;
       const auto say = [&](std::uint16_t of) {
         return said_.emplace(part.epoch, part.column, part.row, of, part.part).second;
@@ -349,7 +350,7 @@ class Trial {
   std::vector<Fault> splits_;
   std::vector<std::pair<nanoseconds, std::size_t>> returns_;
   std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t, std::uint16_t>>
-      said_;  ///< parts of snapshots, on the way to the newcomer of the calm
+      said_;  ///< snapshot parts on their way to the newcomer of the calm
   std::size_t fault_ = 0;
   nanoseconds now_{};
   Sink sink_{};

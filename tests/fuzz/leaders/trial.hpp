@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs a plan: one thread, a clock that jumps from event to event, a network in memory, and a watch
-// that looks every 50 ms whether the invariants hold.
+// Runs a plan: one thread, a clock that jumps from event to event, an in-memory network, and a
+// watch that checks the invariants every 50 ms.
 #pragma once
 
 #include "reckon/tests/fuzz/leaders/plan.hpp"
@@ -9,7 +9,7 @@
 
 namespace reckon::fuzz::leaders {
 
-/// The hash covers all that was received.
+/// The hash covers all received datagrams.
 using Outcome = SeededOutcome<>;
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);

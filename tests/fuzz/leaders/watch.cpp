@@ -12,21 +12,23 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// In the calm: one leader after this, groups after the quarantine and what the map takes.
+// In the calm: time until there is one leader, and until groups are given after the quarantine and
+// a map.
 constexpr nanoseconds kElected = seconds(4), kGiven = milliseconds(10'600);
-// A newcomer is told so soon; one that is alone in its cell leads after it has listened.
+// Times for a newcomer: to get the map; to lead when it is alone in its cell, after it has
+// listened.
 constexpr nanoseconds kMapped = milliseconds(700);
-// One whose leader leaves meanwhile is told the rest by the next.
+// Time for a newcomer to get the rest from the next leader when its leader leaves meanwhile.
 constexpr nanoseconds kRetold = milliseconds(300);
 constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced = seconds(2);
-// Two that have heard each other for so long use maps that agree.
+// After this mutual reception two hosts use maps that agree.
 constexpr nanoseconds kAgreed = seconds(4);
 constexpr std::uint32_t kForgedVersionOfMap = 1U << 30;
 
-// A beacon of who has died is nowhere after this.
+// After this time no host knows the beacon of a dead host.
 constexpr nanoseconds kUnlit = seconds(5);
 
-// Who has died is forgotten as a member after this.
+// After this time no host counts a dead host as a member.
 constexpr nanoseconds kForgotten = milliseconds(3700);
 
 std::optional<Finding> judge(int invariant, nanoseconds now,
@@ -45,7 +47,7 @@ bool is_in(const std::vector<Place>& places, std::uint32_t life, aoim::CellId ce
 
 }  // namespace
 
-// L1: in each cell one of those in it leads, and all in it know which.
+// L1: in each cell one of its members leads, and all members name it.
 Watch::Sentence Watch::one_leader(const std::vector<Place>& places) const {
   std::map<aoim::CellId, std::uint32_t> named;
   std::map<aoim::CellId, std::size_t> leading;
@@ -68,7 +70,7 @@ Watch::Sentence Watch::one_leader(const std::vector<Place>& places) const {
   return {};
 }
 
-// L2: who leads in the calm goes on leading, as long as it is in the cell.
+// L2: a leader in the calm continues to lead while it is in the cell.
 Watch::Sentence Watch::steady(const std::vector<Place>& places) {
   std::map<aoim::CellId, std::uint32_t> leaders;
   for (const Place& place : places) {
@@ -87,7 +89,7 @@ Watch::Sentence Watch::steady(const std::vector<Place>& places) {
   return {};
 }
 
-// L3: no group is used for two cells by two that have heard each other for long.
+// L3: two hosts that have received each other for long use no group for different cells.
 Watch::Sentence Watch::groups_apart(const std::vector<Place>& places, nanoseconds now) const {
   std::map<std::uint16_t, std::pair<aoim::CellId, std::uint32_t>> used;
   for (const Place& place : places) {
@@ -105,7 +107,7 @@ Watch::Sentence Watch::groups_apart(const std::vector<Place>& places, nanosecond
   return {};
 }
 
-// L4: where there are groups enough, each cell in which somebody is has one, the same for all.
+// L4: if there are enough groups, each occupied cell has one, the same for all.
 Watch::Sentence Watch::groups_given(const std::vector<Place>& places, nanoseconds now) const {
   if (plan_.pool < 17) return {};
   std::map<aoim::CellId, aoim::GroupIndex> given;
@@ -123,7 +125,7 @@ Watch::Sentence Watch::groups_given(const std::vector<Place>& places, nanosecond
   return {};
 }
 
-// L5: each knows the last state of all entities in the cells that it has joined.
+// L5: each host knows the last state of all entities in the cells that it has joined.
 Watch::Sentence Watch::states_known(const std::vector<Place>& places) const {
   for (const Place& place : places) {
     if (!place.host) continue;
@@ -146,7 +148,7 @@ Watch::Sentence Watch::states_known(const std::vector<Place>& places) const {
   return {};
 }
 
-// L17: who listens to a cell hears the group in which its states are said.
+// L17: a host that has joined a cell receives the group of its states.
 Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanoseconds now) const {
   for (const Place& speaker : places) {
     if (!plan_.hand_out || !speaker.host || now < speaker.awake) continue;
@@ -161,8 +163,7 @@ Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanosecond
   return {};
 }
 
-// L21: who follows a beacon listens to the cell in which it is, and to none where nobody carries
-// it.
+// L21: a host that follows a beacon joins the cell of its carrier, and none if there is no carrier.
 Watch::Sentence Watch::beacons_found(const std::vector<Place>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place &place = places[i], &next = places[(i + 1) % places.size()];
@@ -179,7 +180,7 @@ Watch::Sentence Watch::beacons_found(const std::vector<Place>& places) {
   return {};
 }
 
-// L18: a newcomer does not wait for the next map where others have one.
+// L18: a newcomer does not wait for the next map if others have one.
 Watch::Sentence Watch::newcomer_asks(const std::vector<Place>& places, nanoseconds now) const {
   const Place& newcomer = places.back();
   const bool led = std::any_of(places.begin(), places.end() - 1, [](const Place& place) {
@@ -191,14 +192,14 @@ Watch::Sentence Watch::newcomer_asks(const std::vector<Place>& places, nanosecon
                      (now - plan_.newcomer) / milliseconds(1));
 }
 
-// L19: what is on its way to a newcomer once need not be said again.
+// L19: a snapshot part on its way to a newcomer is not sent again.
 void Watch::note_said_again(const pdu::CellSnapshot& part) {
   if (plan_.loses_parts || !plan_.hand_out || said_again_) return;
   said_again_ = fmt::format("{:x} says part {} of cell {} {} again, which was not lost", part.epoch,
                             part.part, part.column, part.row);
 }
 
-// L6: what a stranger says in another's name changes nothing.
+// L6: forged datagrams change nothing.
 Watch::Sentence Watch::nothing_forged(const std::vector<Place>& places) const {
   for (const Place& place : places) {
     if (!place.host) continue;
@@ -239,7 +240,7 @@ Watch::Sentence Watch::in_bounds(const std::vector<Place>& places, nanoseconds n
   return {};
 }
 
-// L8: nobody but leaders says anything for a newcomer, but where it is the heir of one who left.
+// L8: only leaders introduce a newcomer, unless it is the heir of a departed leader.
 Watch::Sentence Watch::only_the_leader_tells(const std::vector<Place>& places) const {
   if (const auto& newcomer = places.back().host) {
     const aoim::LeaderRole& role = newcomer->role();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Looks at all hosts and says which invariant does not hold.
+// Checks all hosts and reports a violated invariant.
 #pragma once
 
 #include <map>
@@ -24,10 +24,10 @@ class Watch {
 
   /// The first invariant that does not hold at this instant.
   [[nodiscard]] std::optional<Finding> look(const std::vector<Place>& places, nanoseconds now);
-  /// On its way to the newcomer is a part of a snapshot that was on its way before.
+  /// A snapshot part is sent to the newcomer although it is already on its way.
   void note_said_again(const pdu::CellSnapshot& part);
   void newcomer_starts(const std::vector<Place>& places);
-  /// A host has done something.
+  /// A host has acted.
   void note(const Place& place, nanoseconds now) { lead_watch_.note(place, now); }
 
  private:
@@ -55,10 +55,10 @@ class Watch {
   const Plan& plan_;
   LeadWatch lead_watch_;
   MapWatch map_watch_;
-  std::map<aoim::CellId, std::uint32_t> leaders_;  ///< of the calm
-  std::uint32_t who_tells_ = 0;                    ///< life that leads the newcomer's cell, and
-  nanoseconds other_tells_since_{};                ///< since when
-  std::vector<std::uint64_t> introductions_;       ///< by host, when the newcomer started
+  std::map<aoim::CellId, std::uint32_t> leaders_;  ///< leaders during the calm
+  std::uint32_t who_tells_ = 0;                    ///< the life that leads the newcomer's cell
+  nanoseconds other_tells_since_{};                ///< since when it leads
+  std::vector<std::uint64_t> introductions_;       ///< by host, at the newcomer's start
   Sentence said_again_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using aoim::PresenceEventKind;
 
-constexpr nanoseconds kWaits = std::chrono::milliseconds(2300);  // who was heard within this time
+constexpr nanoseconds kWaits = std::chrono::milliseconds(2300);  // limit for counted claimants
 
 bool has_strangers(const Plan& plan) noexcept {
   return std::any_of(plan.faults.begin(), plan.faults.end(),
@@ -59,7 +59,7 @@ void ClaimWatch::see_event(std::size_t life, const aoim::PresenceEvent& event) {
   }
 }
 
-// One that has had no other number, so that all know it by this one.
+// A claimant that has had no other number, so that all peers know it by this one.
 bool ClaimWatch::waits(std::size_t life, std::size_t claimant, aoim::PeerId id,
                        nanoseconds now) const {
   const Life& other = lives_[claimant];

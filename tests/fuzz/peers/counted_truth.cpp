@@ -16,7 +16,7 @@ constexpr std::int64_t kFarthest = aoim::SequenceTracker::kFarthest;
 
 }  // namespace
 
-// A number may arrive a window late.
+// A number may arrive later by up to a window.
 void CountedTruth::begin(Heard& heard, std::uint32_t sequence) {
   heard.numbers.clear();
   heard.origin = sequence - std::min<std::uint32_t>(sequence, kWindow);
@@ -54,7 +54,7 @@ SequenceVerdict CountedTruth::note(std::uint32_t epoch, aoim::GroupIndex group,
     return SequenceVerdict::duplicate;
   }
   take(heard, sequence);
-  // What was held is no longer far.
+  // The held number is no longer far.
   if (heard.held && *heard.held - std::int64_t{heard.highest} <= kWindow &&
       *heard.held > heard.highest) {
     take(heard, *heard.held);
@@ -79,7 +79,7 @@ SequenceVerdict CountedTruth::take_far(Heard& heard, std::uint32_t sequence) {
     ++counts_.too_old;
     return SequenceVerdict::too_old;
   }
-  // Two agree.
+  // Two numbers agree.
   const std::uint32_t low = std::min(sequence, *heard.held), high = std::max(sequence, *heard.held);
   heard.held.reset();
   const std::int64_t gap = std::int64_t{low} - heard.highest;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer's sequence tracker should have counted, from the sets of numbers that arrived: no
-// windows, no serial arithmetic.
+// Expected counts of a peer's sequence tracker, from the sets of numbers that arrived: no windows,
+// no serial arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@
 
 namespace reckon::fuzz {
 
-/// Numbers do not wrap: who tests the wrap takes the base off. A number far from all before (see
-/// SequenceTracker::note) is held until a second one agrees with it; then what lies between is
-/// missing, or the numbering begins anew where that is too far.
+/// Numbers do not wrap: a test of the wrap subtracts the base. A number far from all before (see
+/// SequenceTracker::note) is held until a second one agrees with it. Then the numbers between are
+/// missing, or the numbering begins again if the gap is too large.
 class CountedTruth {
  public:
-  /// The verdict that a datagram of this life and number deserves.
+  /// The expected verdict on a datagram of this life and number.
   aoim::SequenceVerdict note(std::uint32_t epoch, aoim::GroupIndex group, std::uint32_t sequence);
   void forget(std::uint32_t epoch);
   void forget(aoim::GroupIndex group);
-  /// `received`, `lost`, `duplicated`, `reordered`, `too_old` and `leaps` as they should be.
+  /// The expected values of `received`, `lost`, `duplicated`, `reordered`, `too_old` and `leaps`.
   [[nodiscard]] aoim::SequenceCounts counts() const;
 
  private:
   struct Heard {
     std::uint32_t origin = 0;   ///< number of numbers[0]: none below it is accepted
-    std::vector<bool> numbers;  ///< those that arrived
+    std::vector<bool> numbers;  ///< whether each number has arrived
     std::uint32_t lowest = 0, highest = 0, distinct = 0;
     std::optional<std::uint32_t> held;  ///< far from all others, and alone
   };
@@ -44,7 +44,7 @@ class CountedTruth {
   }
 
   std::map<std::pair<std::uint32_t, aoim::GroupIndex>, Heard> heard_;
-  aoim::SequenceCounts counts_;  ///< `lost`: of those forgotten
+  aoim::SequenceCounts counts_;  ///< `lost`: of forgotten lives
 };
 
 }  // namespace reckon::fuzz

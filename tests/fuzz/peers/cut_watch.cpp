@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kTold = milliseconds(3500);
-constexpr nanoseconds kAcquainted = milliseconds(2500);  // hearing each other for so long before
+constexpr nanoseconds kAcquainted = milliseconds(2500);  // required mutual reception before the cut
 
 }  // namespace
 
@@ -23,8 +23,8 @@ nanoseconds CutWatch::patience() const noexcept {
   return kTold + pdu::from_seconds(3 * longest);
 }
 
-// Where datagrams are lost besides, nobody can say when a list arrives; where a stranger speaks in
-// the name of one that is not heard, it may be believed.
+// With other losses the arrival time of a list is unknown. A stranger that sends in the name of an
+// unheard peer may be believed.
 bool CutWatch::concerns(const Fault& fault) const noexcept {
   return fault.kind == FaultKind::one_way && plan_.line.loss == 0 && !has_forgery(plan_) &&
          fault.until - fault.at > patience();
@@ -44,7 +44,7 @@ bool CutWatch::knows(std::size_t life, std::size_t other, nanoseconds now) const
          !peer->quiet && !peer->unheard && now - peer->first_heard >= kAcquainted;
 }
 
-// Nothing else lies between the two, and what was cut before has healed for long.
+// No other cut affects the two, and earlier cuts have healed for long.
 bool CutWatch::is_alone(std::size_t fault, std::size_t from, std::size_t to,
                         nanoseconds now) const noexcept {
   for (std::size_t i = 0; i < plan_.faults.size(); ++i) {

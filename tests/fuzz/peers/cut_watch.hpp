@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A cut in one direction, where nothing else befalls the two on its ends: who is not heard is told
-// that, for the others' lists leave it out, and who does not hear is told of the silence.
+// A cut in one direction without another fault between its two ends. The unheard peer reports it,
+// because the others' lists omit it; the deaf peer reports the silence.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace reckon::fuzz {
 
-/// Stands beside a trial: I11.
+/// Observes a trial: invariant I11.
 class CutWatch {
  public:
   /// (life, other, sentence)
@@ -23,27 +23,27 @@ class CutWatch {
 
   CutWatch(const Plan& plan, const std::vector<Life>& lives) : plan_(plan), lives_(lives) {}
 
-  /// How long a cut lasts until both are told: the silence that is told, one for which a peer is
-  /// still listed and the wait for the next list, and what was under way.
+  /// How long a cut lasts until both must have reported it: the reported silence, the time a silent
+  /// peer stays listed and the wait for the next list, and the datagrams under way.
   [[nodiscard]] nanoseconds patience() const noexcept;
-  /// Whether a fault is a cut that lasts for so long.
+  /// Whether a fault is a cut that lasts that long.
   [[nodiscard]] bool concerns(const Fault& fault) const noexcept;
 
   void see_event(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
-  /// The cut with this number begins.
+  /// The cut with this index begins.
   void see_begin(std::size_t fault, nanoseconds now);
   /// It has lasted for patience().
   void look(std::size_t fault, nanoseconds now, const Report& report) const;
 
  private:
-  /// Two lives that heard each other when the cut began.
+  /// Two lives that received each other when the cut began.
   struct Pair {
     std::size_t fault, unheard, deaf;
-    nanoseconds slept;  ///< by both
-    std::size_t ids;    ///< that both have had
+    nanoseconds slept;  ///< of both together
+    std::size_t ids;    ///< number of IDs that both have had
     nanoseconds begun;
   };
-  /// When each was told last.
+  /// Times of the latest reports.
   struct Told {
     nanoseconds quiet{-1}, unheard{-1};
   };

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kLeap = 1U << 30;
 
-// Presence that the forger sends, of itself or of its victim; false: none.
+// Fills the presence that the forger sends, of itself or of its victim; false: none.
 bool disguise(const Fault& fault, std::uint32_t count, std::uint32_t utc_second,
               pdu::Presence& told) {
   const auto invented = static_cast<std::uint32_t>(mixed(fault.side, count));
@@ -47,7 +47,7 @@ PeerDatagram forged(const Fault& fault, const Life& victim, std::uint32_t count,
   if (disguise(fault, count, second, told)) append(datagram.octets, told);
   datagram.epoch = told.epoch;
 
-  // Every other one is a bare presence, as a plain sender would put it.
+  // Every other datagram is a bare presence, as a plain sender would send it.
   if (fault.kind != FaultKind::forged_leap && count % 2 == 1) return datagram;
   pdu::DatagramTrailer trailer;
   trailer.epoch = told.epoch;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One process from its start to its end, and what the simulation alone knows of it.
+// One process from its start to its end, with data that only the simulation has.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace reckon::fuzz {
 
 struct PeerDatagram : Datagram {
-  std::size_t sender = kNobody;                ///< life; nobody: forged
-  std::uint32_t epoch = 0;                     ///< of the life it names
+  std::size_t sender = kNobody;                ///< life that sent it; nobody: forged
+  std::uint32_t epoch = 0;                     ///< epoch in the datagram
   std::optional<aoim::PeerId> announces = {};  ///< the number under which it announces its sender
 };
 using SharedDatagram = std::shared_ptr<const PeerDatagram>;
@@ -28,20 +28,20 @@ struct Life {
   nanoseconds born{};
   std::unique_ptr<SimulatedPeer> peer;
   bool alive = true, frozen = false;
-  bool left = false;    ///< said good-bye
-  nanoseconds ended{};  ///< when it left or was killed
+  bool left = false;    ///< sent its leave announcement
+  nanoseconds ended{};  ///< when it departed or was killed
   nanoseconds frozen_at{};
-  nanoseconds slept{}, slept_long{};  ///< all in all; in naps that it must notice
+  nanoseconds slept{}, slept_long{};  ///< total sleep; sleep in pauses that it must notice
   nanoseconds wake{};                 ///< when its next step is due
-  std::vector<SharedDatagram> held;   ///< in the socket of a frozen process
+  std::vector<SharedDatagram> held;   ///< datagrams in the socket of a frozen process
   nanoseconds id_since{};
-  std::vector<aoim::PeerId> ids;  ///< that it has had, the present one last
-  /// When a usable datagram of a life was received last and how long we had napped then; when any
-  /// was, and how long we had slept.
+  std::vector<aoim::PeerId> ids;  ///< all numbers it has had, the present one last
+  /// When a usable datagram, and when any datagram of a life was received last, and how long this
+  /// process had slept then.
   struct Heard {
     std::uint32_t epoch = 0;
     nanoseconds usable{}, slept_long{}, any{}, slept{};
-    nanoseconds announced = nanoseconds::max();  ///< when an announcement came first
+    nanoseconds announced = nanoseconds::max();  ///< when an announcement arrived first
   };
   std::vector<Heard> heard;
 
@@ -66,11 +66,11 @@ struct Life {
     one->usable = now;
     one->slept_long = slept_long;
   }
-  /// Since when nothing came from a life, without what we slept through.
+  /// Time without a datagram of a life, minus own sleep.
   [[nodiscard]] nanoseconds silence(const Heard& one, nanoseconds now) const noexcept {
     return now - one.any - (slept - one.slept);
   }
-  /// Since when nothing usable came, without what we know that we slept through.
+  /// Time without a usable datagram, minus the own sleep that it must notice.
   [[nodiscard]] nanoseconds known_silence(const Heard& one, nanoseconds now) const noexcept {
     return now - one.usable - (slept_long - one.slept_long);
   }

@@ -13,12 +13,12 @@
 namespace reckon::fuzz {
 namespace {
 
-// Others than the first ones of the verb.
+// Seeds that the verb does not try first.
 constexpr std::uint64_t kFirst = 1'000'000;
 
 std::uint64_t seeds() { return test::tries(80U, 300U); }
 
-TEST(Peers, FindAndKeepEachOtherWhateverBefallsThem) { expect_holds(kSimulation, kFirst, seeds()); }
+TEST(Peers, FindAndKeepEachOther) { expect_holds(kSimulation, kFirst, seeds()); }
 
 TEST(Peers, RunTheSameFromTheSameSeed) {
   for (std::uint64_t seed = 1; seed <= test::tries(5U, 20U); ++seed)
@@ -26,7 +26,7 @@ TEST(Peers, RunTheSameFromTheSameSeed) {
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }
 
-TEST(PeersPlan, DrawsEveryKindOfFaultAndKeepsThemInTime) {
+TEST(PeersPlan, DrawsEveryKindOfFaultInTime) {
   std::array<std::size_t, kFaultKinds> drawn{};
   std::size_t most = 0;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {

@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::uint16_t kSite = 7;
-constexpr nanoseconds kJump = milliseconds(8500);  // into the calm, when all is settled
+constexpr nanoseconds kJump = milliseconds(8500);  // after the calm begins, when all is settled
 constexpr std::array<std::string_view, kFaultKinds> kNames = {
     "kill",           "restart",      "good-bye and return",
     "pause",          "split",        "one-way cut",
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, kFaultKinds> kNames = {
     "forged restart", "forged elder", "forged leap",
     "forged rename"};
 
-// Few peers are drawn most often: they are quick, and their faults meet.
+// Few peers are drawn most often: such runs are fast, and their faults coincide.
 std::size_t draw_peers(Dice& dice) {
   const double kind = dice.unit();
   if (kind < 0.70) return 2 + dice.below(5);
@@ -47,7 +47,7 @@ LossyLine draw_line(Dice& dice) {
 
 void draw_hosts(Plan& plan, Dice& dice) {
   const bool together = dice.chance(0.6);
-  // All want one number, or each its own, or some share.
+  // All request one number, or each its own, or some share.
   const double kind = dice.unit();
   const std::size_t numbers = kind < 0.4 ? 1 : kind < 0.7 ? kMostPeers : 1 + dice.below(4);
   for (std::size_t i = 0; i < plan.hosts.size(); ++i) {
@@ -62,7 +62,7 @@ void draw_hosts(Plan& plan, Dice& dice) {
 
 Fault draw_fault(const Plan& plan, Dice& dice) {
   Fault fault;
-  // Each kind as often as another, but strangers only in one seed of three.
+  // All kinds are equally frequent, but strangers occur only in one seed of three.
   const bool strangers = mixed(plan.seed, 3) % 3 == 0;
   const auto honest = static_cast<std::size_t>(FaultKind::flood);
   fault.kind = static_cast<FaultKind>(dice.below(strangers ? kFaultKinds : honest));
@@ -77,7 +77,7 @@ Fault draw_fault(const Plan& plan, Dice& dice) {
   return fault;
 }
 
-// So much disorder that a datagram is overtaken by a hundred others.
+// So much reordering that a hundred others overtake a datagram.
 void draw_chatter(Plan& plan, Dice& dice) {
   if (!dice.chance(0.05) || plan.at_first > 8) return;
   plan.chatterer = dice.below(plan.at_first);

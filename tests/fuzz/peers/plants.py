@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Faults to plant: name, file of aoim, text that is there once, text in its stead."""
+"""Planted faults: name, file of aoim, text that occurs once, replacement."""
 
 PLANTS = [
     ("duplicate accepted", "groups/sequence_tracker.cpp",

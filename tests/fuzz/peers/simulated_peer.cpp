@@ -23,7 +23,7 @@ constexpr double kSweep = 200.0, kJump = 110.0;  // [m]
 constexpr nanoseconds kChatterPeriod = milliseconds(2), kChatter = std::chrono::seconds(1);
 constexpr std::uint64_t kSceneHash = 0x5CE7E;
 
-// Stands for a one-way function: no forger here turns it round.
+// A stand-in for a one-way function: no forger here inverts it.
 aoim::ChainLink followed(const aoim::ChainLink& link, std::uint32_t number) noexcept {
   aoim::ChainLink value{};
   std::uint64_t state = mixed(0x0C4A1, number, 0);
@@ -58,7 +58,7 @@ pdu::Presence presence_of(const Plan& plan, std::size_t host, std::uint32_t epoc
   return own;
 }
 
-// There and back over the sweep.
+// Back and forth over the sweep.
 double swept(double way) noexcept {
   const double turn = std::fmod(way, 2 * kSweep);
   return turn < kSweep ? turn : 2 * kSweep - turn;
@@ -100,7 +100,7 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
                                       nanoseconds now, const aoim::SourceAddress& from) {
   const std::uint64_t noted = aoim_.sequences().counts().received;
   const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
-  // The numbers of who has not announced itself are nobody's.
+  // Sequence numbers of a sender without an announcement belong to no peer.
   misjudged_ = false;
   if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
@@ -121,7 +121,7 @@ void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& inc
   misjudged_ = deserved != (verdict == IncomingVerdict::stranger ? IncomingVerdict::use : verdict);
 }
 
-// Only the owner of an entity may speak for it: an echo of an old name is not.
+// Only the owner of an entity may send its state; an echo of an old name is ignored.
 void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint32_t epoch,
                                   nanoseconds now) {
   const aoim::Peer* sender = find(epoch);
@@ -150,7 +150,7 @@ void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint
   }
 }
 
-// Who may speak for an entity is read from the table of peers.
+// The table of peers tells the owner of an entity.
 void SimulatedPeer::claim(const aoim::PeerId&, std::uint32_t) noexcept {}
 
 void SimulatedPeer::drop(const aoim::PresenceEvent::Dropped& life, bool) noexcept {

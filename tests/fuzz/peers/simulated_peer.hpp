@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One process of the simulation: the product's participant, and as little of entities as is needed
-// to see who sends and who shows what.
+// One process of the simulation: the product's peer logic, and the minimum of entities needed to
+// check who sends and who shows them.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct ShownEntity {
 struct OwnEntity {
   std::uint16_t number = 1;
   aoim::Position home;
-  double speed = 0.0;  ///< [m/s], to and fro along x over 200 m
+  double speed = 0.0;  ///< [m/s], back and forth along x over 200 m
   nanoseconds next_heartbeat{}, last_sent = nanoseconds(-1'000'000'000'000);
   aoim::GroupIndex last_group;
   nanoseconds jump_at = nanoseconds::max();
@@ -49,12 +49,12 @@ class SimulatedPeer : private aoim::ParticipantHandler {
   SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds now,
                 nanoseconds clock);
 
-  /// What the loop does with one datagram. The events that follow are kept until take_events().
+  /// Handles one datagram as the loop does. Resulting events are kept until take_events().
   aoim::Incoming receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
                          nanoseconds now, const aoim::SourceAddress& from);
-  /// What the loop does else; to be called whenever next() is reached and after receive().
+  /// The other work of the loop. Call it whenever next() is reached and after receive().
   void step(nanoseconds now, aoim::DatagramSink sink);
-  /// The last step: says good-bye.
+  /// The last step: sends the leave announcement.
   void leave(nanoseconds now, aoim::DatagramSink sink);
   [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
   void set_clock(nanoseconds clock) noexcept;
@@ -66,19 +66,19 @@ class SimulatedPeer : private aoim::ParticipantHandler {
   [[nodiscard]] bool is_joined(aoim::GroupIndex group) const noexcept {
     return aoim_.subscriptions().hears(group);
   }
-  /// When we joined the group where an entity at `position` speaks; long ago where we have not.
+  /// When this process joined the group of an entity at `position`; the minimum if it has not.
   [[nodiscard]] nanoseconds joined(const aoim::Position& position) const noexcept {
     const auto found = joined_.find(aoim_.route(position).value);
     return found == joined_.end() ? nanoseconds::min() : found->second;
   }
   [[nodiscard]] const std::vector<OwnEntity>& entities() const noexcept { return entities_; }
   [[nodiscard]] const std::vector<ShownEntity>& shown() const noexcept { return shown_; }
-  /// Our record of this life; null where we have none.
+  /// Its record of this life; null without one.
   [[nodiscard]] const aoim::Peer* find(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool shows(const pdu::EntityId& id, std::uint32_t epoch) const noexcept;
-  /// How near an entity there is to one of ours [m].
+  /// Distance from an entity at `position` to the nearest own entity [m].
   [[nodiscard]] double distance_to(const aoim::Position& position, nanoseconds now) const noexcept;
-  /// Whether this life is a member that speaks from there.
+  /// Whether this life is a listed member at that address.
   [[nodiscard]] bool lists(std::uint32_t epoch, const aoim::SourceAddress& from) const noexcept {
     return aoim_.presence().standing(epoch, &from) == aoim::Standing::member;
   }
@@ -86,9 +86,9 @@ class SimulatedPeer : private aoim::ParticipantHandler {
   [[nodiscard]] std::uint64_t counted() const noexcept {
     return aoim_.sequences().counts().received;
   }
-  /// What the tracker's counts should be.
+  /// The expected counts of the tracker.
   [[nodiscard]] const CountedTruth& truth() const noexcept { return truth_; }
-  /// The verdict on the last datagram is not what the truth says.
+  /// The verdict on the last datagram was not the expected one.
   [[nodiscard]] bool was_misjudged() const noexcept { return misjudged_; }
 
  private:
@@ -113,7 +113,7 @@ class SimulatedPeer : private aoim::ParticipantHandler {
   std::vector<ShownEntity> shown_;
   std::vector<aoim::PresenceEvent> events_;
   std::vector<aoim::Focus> foci_;
-  std::map<std::uint16_t, nanoseconds> joined_;  ///< when, by group
+  std::map<std::uint16_t, nanoseconds> joined_;  ///< join time by group
   CountedTruth truth_;
   bool misjudged_ = false;
   nanoseconds next_look_{};

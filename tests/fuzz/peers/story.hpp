@@ -17,7 +17,7 @@ class Story {
   /// @param life the life concerned; kNobody: all
   void tell(std::size_t life, std::string text) { lines_.push_back({life, std::move(text)}); }
 
-  /// The last lines, of the two lives that a finding concerns where there is one.
+  /// The last lines; with a finding, those of the two lives it concerns.
   [[nodiscard]] std::vector<std::string> lines(const std::optional<LivesFinding>& finding) const {
     std::vector<std::string> lines;
     for (const Line& line : lines_) {

@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kUtc = seconds(1'800'000'000);
-constexpr nanoseconds kArrival = milliseconds(500);  // of what is under way when the faults end
+constexpr nanoseconds kArrival = milliseconds(500);  // of datagrams under way when the faults end
 constexpr nanoseconds kProbe = seconds(12), kEnd = milliseconds(14'300);
 constexpr nanoseconds kLook = milliseconds(50);
 constexpr nanoseconds kEcho = std::chrono::microseconds(50);
@@ -254,7 +254,7 @@ void Trial::end_fault(std::size_t which) {
   }
 }
 
-// The loop reads what the socket has held, then goes on.
+// The loop reads its socket, then continues.
 void Trial::wake_up(std::size_t life) {
   lives_[life].frozen = false;
   const nanoseconds nap = now_ - lives_[life].frozen_at;
@@ -332,7 +332,7 @@ void Trial::receive(std::size_t life, const PeerDatagram& datagram) {
   if (!listed && to.peer->counted() != counted) watch_.see_counted_stranger(life, datagram, now_);
   note(static_cast<std::uint64_t>(now_.count()));
   note(datagram.epoch + static_cast<std::uint64_t>(incoming.verdict));
-  // Of the stranger's datagrams those count that name its own inventions.
+  // Of the stranger's datagrams only those with forged epochs count.
   const bool named = datagram.sender != kNobody || !is_a_life(datagram.epoch);
   if (named) {
     const bool known = to.peer->find(datagram.epoch) != nullptr;

@@ -8,8 +8,8 @@
 
 namespace reckon::fuzz {
 
-/// The hash covers all received datagrams and what followed from them. The log has the two lives
-/// that the finding concerns, or all lives if there is no finding.
+/// The hash covers all received datagrams and their effects. The log has the two lives that the
+/// finding concerns, or all lives if there is no finding.
 using Outcome = SeededOutcome<LivesFinding>;
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);

@@ -20,9 +20,8 @@ constexpr nanoseconds kPatience = milliseconds(6100);
 constexpr nanoseconds kDispute = milliseconds(500);
 constexpr nanoseconds kQuiet = milliseconds(2400), kStraggler = milliseconds(250);
 constexpr nanoseconds kLately = seconds(5);
-constexpr nanoseconds kSlack =
-    milliseconds(150);  // between two steps of a process that has nothing to do
-// Who is younger, or has not been heard for so long, is no witness.
+constexpr nanoseconds kSlack = milliseconds(150);  // between two steps of an idle process
+// A peer younger than this, or unheard for this long, is no witness.
 constexpr nanoseconds kWitness = seconds(2);
 constexpr nanoseconds kFarewell = seconds(1);
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
@@ -71,7 +70,7 @@ void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const 
   }
 }
 
-// A life ends in the table of another: with right?
+// A life ends in the table of another: checks whether that is justified.
 void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const bool restarted = event.kind == PresenceEventKind::restarted;
   const std::uint32_t epoch = restarted ? event.former_epoch : event.announced.epoch;
@@ -94,7 +93,7 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
     tell("restarted, having answered,");
   }
   const bool gave_up = std::count(ended.ids.begin(), ended.ids.end(), event.peer()) > 1;
-  // Of two that live, one that was listed first, at another address, takes it back.
+  // If two live, the one that was listed first, at another address, takes the ID back.
   const auto since = [&](const Life& one) {
     const auto found = listed_.find({life, one.epoch, event.peer()});
     return found == listed_.end() ? nanoseconds::max() : found->second;
@@ -106,8 +105,8 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
   if (event.kind == PresenceEventKind::departed && !gave_up && !goes_back) tell("departed");
 }
 
-// The old life has spoken since the young one came. Only where that is plain: one that was never
-// renamed and came not long ago, to one that has never slept.
+// The old life has sent since the new one came. It is checked only if the case is plain: a new life
+// that was never renamed and came recently, at a peer that has never slept.
 bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_t young_epoch,
                          nanoseconds now) const noexcept {
   const std::size_t young = life_of(young_epoch);
@@ -121,7 +120,7 @@ bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_
   return came < now && now - came < kLately && old_heard->usable > came + kStraggler;
 }
 
-// What it said before its good-bye may come after it.
+// Datagrams sent before a leave announcement may arrive after it.
 void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const std::size_t other = life_of(event.announced.epoch);
   if (other == kNobody || !lives_[other].left) return;
@@ -138,9 +137,9 @@ void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nan
   }
 }
 
-// Most of the others know it under this id, and at no fewer addresses than those that do not: the
-// processes of one host are one witness, and who has just begun is none. Two that are alone cannot
-// tell who was first.
+// Most of the others know it under this id, and at no fewer addresses than the rest. The processes
+// of one host are one witness; a peer that has just started is none. Two peers alone cannot decide
+// who was first.
 bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept {
   std::size_t others = 0, witnesses = 0;
   std::set<std::uint8_t> with, without;  // the last octet of their addresses
@@ -197,7 +196,8 @@ void Watch::see_received(std::size_t life, const PeerDatagram& datagram,
   see_too_old(life, datagram, incoming, now);
 }
 
-// Against what the life itself has said: a stranger may have said more in its name.
+// Compares with the numbers that the life itself has sent: a stranger may have sent more in its
+// name.
 void Watch::see_too_old(std::size_t life, const PeerDatagram& datagram,
                         const aoim::Incoming& incoming, nanoseconds now) {
   std::uint32_t& highest = highest_[{life, datagram.sender, datagram.group.value}];
@@ -241,7 +241,7 @@ void Watch::check_listed(std::size_t life, nanoseconds now) {
     const std::uint32_t epoch = peer.announced.epoch;
     const Life::Heard* heard = own.heard_of(epoch);
     const std::size_t listed = life_of(epoch);
-    // A stranger who was heard first keeps it alive.
+    // A stranger that was received first keeps it alive.
     if (listed != kNobody && peer.source != lives_[listed].from) continue;
     if (heard == nullptr || own.silence(*heard, now) <= kPatience + kSlack) continue;
     report(4, now, life, life_of(epoch),

@@ -1,34 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What must hold of peers whatever befalls them, checked as it happens. "Calm" begins when all
-// faults have ended and what was under way has arrived.
+// Invariants of peers under all faults, checked as they happen. "Calm" begins when all faults have
+// ended and all delayed datagrams have arrived.
 //
-//   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
-//       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
-//       hearing, one wants the id of a life that ended on another host in the last 4.5 s (and
-//       as long as anybody has slept), or a stranger spoke in the name of a peer. A newcomer in
-//       the calm is in by 2 s, a new life by 1 s
-//   I2  from then on nobody is renamed but who came after
-//   I3  a life heard within 0.5 s, or 2.4 s where it has spoken since the other came, is not taken
-//       for restarted, one heard within the patience not for
-//       timed out, one that has not said good-bye to its id not for departed, unless one at another
-//       address that was listed under it before takes it back; one that has is no newcomer for a
-//       second
-//   I4  nobody is listed longer than the patience after the last datagram of it
-//   I5  tables stay within their bounds, the next step is not long past
+//   I1  from 2 s into the calm on, the ids of live peers differ and each lists all others: after
+//       3 s if a peer has slept; after 5 s if two have held one id for 2 s while cut off from each
+//       other, if one requests the id of a life that ended on another host in the last 4.5 s (plus
+//       the longest sleep), or if a stranger has sent in the name of a peer. In the calm a newcomer
+//       is listed after 2 s, a new life after 1 s
+//   I2  from then on only newcomers are renamed
+//   I3  a life received within 0.5 s, or 2.4 s if it has sent since the other came, is not taken
+//       for restarted; a life received within the patience is not taken for timed out; a life that
+//       has not given up its id is not taken for departed, unless one at another address that was
+//       listed under the id before takes it back; a departed life is no newcomer for a second
+//   I4  no life is listed longer than the patience after its last datagram
+//   I5  tables stay within their bounds, and the next step is not long overdue
 //   I6  an entity in reach is shown one heartbeat after I1, to a newcomer 2 s after its start; then
-//       nothing is shown whose owner is not listed under that id
-//   I7  sequence verdicts and counts are those of the sets of numbers that arrived; only numbers of
-//       those listed are counted, and what a life says is not too old for a stranger's leap
-//   I8  the same seed runs the same (checked by whoever runs it)
+//       no entity is shown whose owner is not listed under that id
+//   I7  sequence verdicts and counts equal those of the sets of received numbers; only numbers of
+//       listed lives are counted, and a stranger's leap does not make a life's datagrams too old
+//   I8  the same seed runs the same (checked by the caller)
 //   I9  a forged datagram in the name of a life whose source is known is not used and ends no life;
 //       an id that most of the others believe is not given up to a stranger
 //   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
-//   I11 of a cut in one direction both ends are told (CutWatch)
-//   I12 a number that is given up goes at once to one that waits for it (ClaimWatch)
-//   I13 what stands in reach of a peer that has jumped elsewhere is shown to it a second later,
-//   where
-//       it was not heard before
+//   I11 both ends of a cut in one direction report it (CutWatch)
+//   I12 a number that is given up goes at once to a peer that waits for it (ClaimWatch)
+//   I13 an entity in reach of a peer that has jumped elsewhere is shown to it a second later, even
+//       if the peer did not receive its group before
 #pragma once
 
 #include <map>
@@ -42,7 +40,7 @@
 
 namespace reckon::fuzz {
 
-/// An id held so long is not given up to a stranger.
+/// An id held this long is not given up to a stranger.
 inline constexpr nanoseconds kHeld = std::chrono::seconds(2);
 
 /// "7:1".
@@ -50,12 +48,12 @@ inline constexpr nanoseconds kHeld = std::chrono::seconds(2);
   return std::to_string(id.site) + ':' + std::to_string(id.application);
 }
 
-/// With the lives that it concerns.
+/// A finding with the lives that it concerns.
 struct LivesFinding : Finding {
   std::size_t life = kNobody, other = kNobody;
 };
 
-/// Stands beside a trial and looks at its lives.
+/// Observes a trial and checks its lives.
 class Watch {
  public:
   Watch(const Plan& plan, const std::vector<Life>& lives, nanoseconds calm, nanoseconds probe)
@@ -66,11 +64,11 @@ class Watch {
   void see_received(std::size_t life, const PeerDatagram& datagram, const aoim::Incoming& incoming,
                     nanoseconds now);
   void see_step(std::size_t life, nanoseconds now);
-  /// A number was counted of one that is not listed, or of itself.
+  /// A number was counted for a life that is not listed, or for itself.
   void see_counted_stranger(std::size_t life, const PeerDatagram& datagram, nanoseconds now);
-  /// To be called every 50 ms.
+  /// Call it every 50 ms.
   void look(nanoseconds now);
-  /// Keeps the first that is reported.
+  /// Keeps the first report.
   void report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
               std::string sentence);
 
@@ -116,9 +114,10 @@ class Watch {
     nanoseconds at;
   };
   std::vector<Farewell> farewells_;
-  using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< to, of, group
+  using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< to, from, group
   std::map<Numbering, std::uint32_t> highest_;
-  /// Since when a life lists an epoch under an id, also where it was taken for over meanwhile.
+  /// Since when a life lists an epoch under an id, including times when it took the epoch for
+  /// ended.
   std::map<std::tuple<std::size_t, std::uint32_t, aoim::PeerId>, nanoseconds> listed_;
   std::optional<LivesFinding> finding_;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What must hold once all faults have ended and what was under way has arrived.
+// Invariants that hold once all faults have ended and all delayed datagrams have arrived.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using std::chrono::seconds;
 constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
-constexpr nanoseconds kAwaited = milliseconds(4500);  // who may have been cut off
+constexpr nanoseconds kAwaited = milliseconds(4500);  // for peers that may have been cut off
 constexpr nanoseconds kRestartSeen = seconds(1), kJumpSeen = seconds(1);
 constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
 
@@ -48,7 +48,7 @@ nanoseconds Watch::settling() const noexcept {
   return slept ? kSettleSlept : kSettle;
 }
 
-// Two that were apart have held one id for long.
+// Two peers that were apart have held one id for long.
 bool Watch::has_old_dispute() const noexcept {
   for (const Life& a : lives_) {
     for (const Life& b : lives_) {
@@ -59,8 +59,8 @@ bool Watch::has_old_dispute() const noexcept {
   return false;
 }
 
-// One wants the id of a life that has ended lately on another host: it may have been cut off. Who
-// has slept waits for that much longer.
+// A peer requests the id of a life that has ended recently on another host: it may have been cut
+// off. A peer that has slept waits that much longer.
 bool Watch::has_legacy() const noexcept {
   nanoseconds awaited = kAwaited;
   for (const Life& life : lives_) {
@@ -76,7 +76,7 @@ bool Watch::has_legacy() const noexcept {
   return false;
 }
 
-// Those that have lived for `young` at least.
+// Checks lives that are at least `young` old.
 void Watch::check_agreement(nanoseconds now, nanoseconds young) {
   const auto counts = [&](const Life& life) { return life.alive && now - life.born >= young; };
   for (std::size_t a = 0; a < lives_.size(); ++a) {
@@ -96,7 +96,7 @@ void Watch::check_agreement(nanoseconds now, nanoseconds young) {
   }
 }
 
-// The new life of the host probed is seen by all others, the old one by nobody.
+// All others list the new life of the probed host, and none the old one.
 void Watch::check_restart(nanoseconds now) {
   const Life& young = lives_.back();
   if (!young.alive || young.born < probe_ || young.ids.size() > 1) return;
@@ -109,7 +109,7 @@ void Watch::check_restart(nanoseconds now) {
   }
 }
 
-// It has joined cells of whose entities it has heard nothing yet.
+// It has joined cells of whose entities it has received nothing yet.
 void Watch::check_jumped(nanoseconds now) {
   const nanoseconds since = now - plan_.jump_at;
   if (plan_.jumper == kNobody || since < kJumpSeen || since > kJumpSeen + milliseconds(200)) return;
@@ -143,14 +143,15 @@ void Watch::check_shown(nanoseconds now) {
 
 void Watch::check_shown_by(std::size_t life, nanoseconds now) {
   const Life& own = lives_[life];
-  // For a heartbeat and more: what comes near in a cell that is heard already says so with its
-  // next.
+  // Checked for more than a heartbeat: an entity that approaches in a joined cell is known with its
+  // next heartbeat.
   const auto in_reach = [&](const OwnEntity& entity) {
     for (int i = 0; i < 15; ++i) {
       const nanoseconds then = now - i * milliseconds(400);
       if (own.peer->distance_to(entity.at(then), then) > kSurelyInReach) return false;
     }
-    // Between two of these moments somebody may have jumped away and come back by his own speed.
+    // Between two of these moments an own entity may have jumped away and come back by its own
+    // speed.
     const bool jumped = plan_.jumper != kNobody && plan_.jump_at <= now;
     return !jumped || now - plan_.jump_at > milliseconds(5600) ||
            own.peer->distance_to(entity.at(plan_.jump_at), plan_.jump_at) <= kSurelyInReach;

@@ -22,7 +22,7 @@ class Agenda {
   };
 
   void add(std::chrono::nanoseconds at, Event event) { put_back({at, order_++, std::move(event)}); }
-  /// Puts an entry back that was taken: it keeps its order.
+  /// Puts a taken entry back; it keeps its order.
   void put_back(Entry entry) {
     entries_.push_back(std::move(entry));
     std::push_heap(entries_.begin(), entries_.end(), is_later);

@@ -15,11 +15,11 @@
 
 namespace reckon::fuzz {
 
-/// What the line does to each datagram until the calm.
+/// The behaviour of the line for each datagram until the calm.
 struct LossyLine {
   double loss = 0.0, duplicates = 0.0;  ///< probabilities
   std::chrono::nanoseconds delay{};
-  double jitter = 0.0;  ///< up to so many delays more: disorder
+  double jitter = 0.0;  ///< maximum additional delay, as a multiple: disorder
 
   friend bool operator==(const LossyLine&, const LossyLine&) = default;
 };

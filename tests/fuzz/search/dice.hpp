@@ -32,7 +32,7 @@ class Dice {
   std::uint64_t state_;
 };
 
-/// A number that follows from others, evenly spread.
+/// A hash of other numbers, evenly distributed.
 [[nodiscard]] inline std::uint64_t mixed(std::uint64_t a, std::uint64_t b,
                                          std::uint64_t c = 0) noexcept {
   return Dice(a * pdu::kGoldenStep + b * 0xd1b54a32d192ed03ULL + c).next();

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plants faults in copies of sources of aoim, one at a time, and wants the simulation of peers, or of leaders, to find each: what ./run fuzz peers --plant does. The faults are in plants.py of each.
+"""Plants faults in copies of sources of aoim, one at a time. The simulation of peers, or of leaders, must find each
+one. This is `./run fuzz peers --plant`. The faults are in plants.py of each simulation.
 
-  plant.py BUILD [SEEDS [TARGET]]  builds in BUILD/plants on BUILD/release, prints a table; status 1 where a fault was not found
-  plant.py --check                 status 1, and a line for each, where the text that a plant replaces is not there once
+  plant.py BUILD [SEEDS [TARGET]]  builds in BUILD/plants on BUILD/release, prints a table; status 1 if a fault was not found
+  plant.py --check                 status 1, and a line for each, if the text that a plant replaces does not occur exactly once
 """
 import concurrent.futures
 import os
@@ -26,7 +27,7 @@ SEEDS = 10_000
 
 
 def complaints():
-    """A line for each plant that cannot be planted."""
+    """A line for each plant that cannot be applied."""
     for name, file, old, new in PLANTS[PEERS] + PLANTS[LEADERS]:
         count = (ROOT / "aoim" / file).read_text(encoding="utf-8").count(old)
         if count != 1 or old == new:
@@ -38,8 +39,8 @@ def program_of(target, release):
 
 
 def planted_program(plant, target, folder, release):
-    """The simulation with one fault in it: the object of all files that are compiled with the faulty one stands before the
-    library that has the sound ones."""
+    """The simulation with one fault: the object of all files that are compiled together with the faulty one comes
+    before the library with the correct ones."""
     _, file, old, new = plant
     folder.mkdir(parents=True)
     faulty = folder / pathlib.Path(file).name
@@ -63,7 +64,7 @@ def planted_program(plant, target, folder, release):
 
 
 def finding(program, first, number):
-    """What the first seed that breaks something says: seed, invariant, sentence; none where all hold."""
+    """Report of the first seed that violates an invariant: seed, invariant, sentence; none if all hold."""
     told = subprocess.run(["nice", "-n", "19", str(program), "--first", str(first), "--seeds", str(number)],
                           capture_output=True, text=True, check=False).stdout
     found = re.search(r"seed (\d+) breaks ([IL]\d+) at [\d.]+ s: (.*)", told)
@@ -71,7 +72,7 @@ def finding(program, first, number):
 
 
 def hunt(plant, target, build, number):
-    """Row of the table: fault, seed that found it and that holds without it, invariant, sentence."""
+    """Row of the table: fault, the first seed that finds it and passes without it, invariant, sentence."""
     program = planted_program(plant, target, build / "plants" / plant[0].replace(" ", "_"), build / "release")
     sound = program_of(target, build / "release")
     first = 1
@@ -86,7 +87,7 @@ def hunt(plant, target, build, number):
 
 
 def main(build, number=SEEDS, target=PEERS):
-    """`build` holds release/, with the target's simulation built from the tree as it is."""
+    """`build` has release/ with the target's simulation, built from the current tree."""
     faults = list(complaints())
     for fault in faults:
         print(f"plant.py: {fault}", file=sys.stderr)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the searches without libFuzzer share: how they end, and the lines that run.py reads of both
-// kinds.
+// Common parts of the searches without libFuzzer: their end, and the output lines that run.py reads
+// from both kinds.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,12 +14,12 @@
 
 namespace reckon::fuzz {
 
-/// Counts runs from its construction on.
+/// Counts runs since its construction.
 class RunStatistics {
  public:
   void add() noexcept { ++runs_; }
   [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
-  /// In libFuzzer's words.
+  /// Prints them in libFuzzer's format.
   void print() const {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_;
     fmt::print("stat::number_of_executed_units: {}\nstat::average_exec_per_sec:     {:.0f}\n",
@@ -31,14 +31,14 @@ class RunStatistics {
   std::uint64_t runs_ = 0;
 };
 
-/// Prints a finding and how to see it again.
+/// Prints a finding and how to replay it.
 inline void print_finding(std::string_view sentence, std::string_view target,
                           std::string_view replay) {
   fmt::print("reckon fuzz: {}\n        again: ./run fuzz {} --replay {}\n", sentence, target,
              replay);
 }
 
-/// What `run` returns; 2, with a sentence, where it throws.
+/// Returns the result of `run`; 2, with a sentence, if it throws.
 template <typename Run>
 int guarded(Run&& run) {
   try {

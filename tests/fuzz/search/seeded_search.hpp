@@ -27,7 +27,7 @@ class SeededSearch {
   explicit SeededSearch(const SeededSimulation<Plan, Outcome>& simulation)
       : simulation_(simulation) {}
 
-  /// @return 0 where every invariant held, 1 where one did not, or what CLI11 says
+  /// @return 0 if every invariant held, 1 if one did not, or the code of CLI11
   int run(int argc, char** argv) const {
     CLI::App app{std::string(simulation_.about)};
     std::uint64_t first = 1, seeds = 10'000, every = 1, again = 0;
@@ -42,8 +42,8 @@ class SeededSearch {
   }
 
  private:
-  static constexpr std::uint64_t kRunTwice = 16;  // every so many seeds, for the hash
-  static constexpr std::uint64_t kTold = 5;       // findings of an invariant
+  static constexpr std::uint64_t kRunTwice = 16;  // every nth seed runs twice, to compare the hash
+  static constexpr std::uint64_t kTold = 5;       // printed findings of an invariant
 
   template <typename Finding>
   void tell(const Plan& plan, const Finding& finding) const {
@@ -67,7 +67,8 @@ class SeededSearch {
     return plan.line == simulation_.calmed(plan).line;
   }
 
-  // With as few faults as still break the same invariant, and a calm line if that does.
+  // The plan with as few faults as still break the same invariant, and a calm line if that still
+  // does.
   [[nodiscard]] Plan simplest(const Plan& plan, int invariant) const {
     const auto fails = [&](const Plan& fewer) {
       const Outcome outcome = simulation_.try_out(fewer, false);

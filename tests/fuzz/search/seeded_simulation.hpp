@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A simulation whose plans follow from seeds: what its program and its tests need of it.
+// A simulation with plans by seed: the interface for its program and its tests.
 #pragma once
 
 #include <chrono>
@@ -23,13 +23,13 @@ struct Finding {
 template <typename FindingType = Finding>
 struct SeededOutcome {
   std::optional<FindingType> finding;
-  std::uint64_t hash = 0;      ///< of all that the run depends on
-  std::uint64_t received = 0;  ///< datagrams, or what the simulation counts in their place
+  std::uint64_t hash = 0;      ///< of everything the run depends on
+  std::uint64_t received = 0;  ///< datagrams, or another count of the simulation
   std::vector<std::string> log;
 };
 
 /// A Plan has `seed`, `faults` and `line`; an Outcome is a SeededOutcome. A plan and a fault have a
-/// text_of() beside them.
+/// text_of().
 template <typename Plan, typename Outcome>
 struct SeededSimulation {
   std::string_view target;  ///< of `./run fuzz`
@@ -38,7 +38,7 @@ struct SeededSimulation {
   int same_again = 0;       ///< number of the invariant that a seed runs the same way twice
   Plan (*plan_of)(std::uint64_t seed) = nullptr;
   Outcome (*try_out)(const Plan& plan, bool keep_log) = nullptr;
-  Plan (*calmed)(Plan plan) = nullptr;              ///< the same with a line that does no harm
+  Plan (*calmed)(Plan plan) = nullptr;              ///< the same plan with a harmless line
   std::string_view counted = "datagrams received";  ///< what `received` of an outcome counts
 };
 

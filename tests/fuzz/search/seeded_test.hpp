@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of all seeded simulations expect of their runs.
+// Common expectations of the tests of seeded simulations.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace reckon::fuzz {
 
 /// Fails at the first of `count` seeds that breaks an invariant.
-/// @param see called with (plan, outcome) of each seed that does not
+/// @param see called with (plan, outcome) of each other seed
 template <typename Plan, typename Outcome, typename See>
 void expect_holds(const SeededSimulation<Plan, Outcome>& simulation, std::uint64_t first,
                   std::uint64_t count, See&& see) {
@@ -32,7 +32,7 @@ void expect_holds(const SeededSimulation<Plan, Outcome>& simulation, std::uint64
   expect_holds(simulation, first, count, [](const Plan&, const Outcome&) {});
 }
 
-/// Fails where a second run of a seed differs from the first.
+/// Fails if a second run of a seed differs from the first.
 template <typename Plan, typename Outcome>
 void expect_same_again(const SeededSimulation<Plan, Outcome>& simulation, std::uint64_t seed) {
   const Plan plan = simulation.plan_of(seed);

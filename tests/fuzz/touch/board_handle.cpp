@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A board that runs the example's program, behind a serial line.
+// A board that runs the example firmware, behind a serial line.
 #include <algorithm>
 #include <utility>
 
@@ -18,7 +18,7 @@ using std::chrono::nanoseconds;
 constexpr double kFinest = 1e-6;     // [m] per count
 constexpr double kPlainStep = 2e-5;  // [m] per count
 constexpr nanoseconds kReady = milliseconds(1000);
-constexpr std::uint16_t kQuestions = 4'096;  // between two talks
+constexpr std::uint16_t kQuestions = 4'096;  // requests in one exchange
 constexpr unsigned kOften = 100;             // of a thousand frames
 
 double step_of(const Scenario& s) {
@@ -78,7 +78,7 @@ class BoardHandle final : public ModelHandle {
     }
   }
   [[nodiscard]] nanoseconds now() const override { return wired_.board.now(); }
-  // Its books are not kept apart.
+  // It has one energy ledger for both.
   [[nodiscard]] double port_work_now() const override { return work_now(); }
   [[nodiscard]] double work_now() const override { return wired_.board.books(); }
   [[nodiscard]] nanoseconds known_until() const override {

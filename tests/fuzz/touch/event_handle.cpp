@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device below the calls of the kernel.
+// A force feedback device behind the calls of the kernel.
 #include <linux/input.h>
 
 #include <cerrno>
@@ -20,7 +20,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kReady = milliseconds(500);
 
-constexpr double kSteps = 2;  // of its places, one of each axis
+constexpr double kSteps = 2;  // position steps, one per axis
 
 class EventHandle final : public ModelHandle {
  public:
@@ -50,7 +50,7 @@ class EventHandle final : public ModelHandle {
     return {model_->force(0), model_->force(1), 0};
   }
   [[nodiscard]] bool tells_why() const override { return is_gone_; }
-  // The servo knows its places by whole steps.
+  // The servo knows its positions to a whole step.
   [[nodiscard]] double work_known() const override {
     return ModelHandle::work_known() +
            kSteps * settings_.scale.travel / 65535 * model_->greatest_force();
@@ -119,7 +119,7 @@ class EventHandle final : public ModelHandle {
   haptics::EvdevSettings settings_;
   haptics::EvdevExchange exchange_;
   haptics::EvdevDevice device_;
-  test::EvdevModel* model_ = nullptr;  // of the loop's
+  test::EvdevModel* model_ = nullptr;  // owned by the loop
   std::unique_ptr<haptics::EvdevLoop> loop_;
   bool is_gone_ = false;
 };

@@ -20,11 +20,12 @@ using namespace std::chrono_literals;
 constexpr double kHeld = 0.1;      // [N]
 constexpr double kSettled = 1.5;   // [s]
 constexpr double kTakenOff = 100;  // steps
-constexpr double kSpoken = 1e-3;   // [J], of a model's books
-// Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
+constexpr double kSpoken = 1e-3;   // [J], threshold for the share of a model's ledger
+// Share of the energy of samples whose reading failed: a light hand on a stiff grip turns round
+// within two samples.
 constexpr double kEstimated = 0.5;
-constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
-// A grip that leads a light hand along a track: 10 N push it aside by half a millimetre.
+constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it grows with the square of the period
+// A grip that leads a light hand along a track: 10 N displace it by half a millimetre.
 constexpr double kFirm = 20000;      // [N/m]
 constexpr double kFirmDamping = 60;  // [N s/m]
 constexpr double kFirmMass = 0.05;   // [kg]
@@ -70,14 +71,14 @@ haptics::SimulatedDeviceConfig device_of(const Scenario& s, std::size_t hand, co
   return config;
 }
 
-// How far `force` is from what `held` can fall to, which is any part of it [N].
+// Distance of `force` from any part of `held`, to which the force may fall at once [N].
 double step_of(const Eigen::Vector3d& held, const Eigen::Vector3d& force) {
   const double square = held.squaredNorm();
   const double part = square > 0 ? std::clamp(held.dot(force) / square, 0.0, 1.0) : 0.0;
   return (force - part * held).norm();
 }
 
-// A servo without the field allows nothing.
+// For a servo without this field nothing is allowed.
 template <class Snapshot>
 double encoder_allowance(const Snapshot& snapshot) {
   if constexpr (requires { snapshot.encoder_allowance; }) {
@@ -238,8 +239,8 @@ void Hand::note_transfer() {
   }
 }
 
-// A force held for longer than the servo reckoned may take what no servo can know in time: as much
-// as it took is open, not more. What a sample took whose reading failed is estimated.
+// A force held longer than the servo assumed may release energy that no servo can know in time:
+// exactly that energy is open. The energy of a sample whose reading failed is estimated.
 void Hand::keep_books(double before, double dt, bool failed) {
   const double took = std::max(0.0, before - handle_->port_work());
   if (dt > 1.0001 * std::chrono::duration<double>(period_).count())
@@ -272,7 +273,7 @@ void Hand::note_step(double dt) {
   held_ = snapshot_.force;
 }
 
-// The servo's reading is older than the books, and bodies are no part of them.
+// The servo's reading is older than the ledger, which does not include bodies.
 void Hand::keep_model_books(double port, double dt) {
   const double allowed = allowance() + handle_->rounding();
   least_port_ = std::min(least_port_, port);
@@ -293,9 +294,10 @@ void Hand::keep_model_books(double port, double dt) {
   books_.claimed = std::max(books_.claimed, gap - allowed);
 }
 
-// What surfaces put into our springs by moving, be those held or not: a hand that lacks energy
-// would else never believe in any. Along x one stands `depth` beyond the hand. What they take back
-// is not counted: an honest hand takes back more than it brought where energy comes late.
+// Energy that surfaces put into the own springs by moving, whether their force is held or not: else
+// a hand that lacks energy would never believe in any. Along x a surface is `depth` beyond the
+// hand. Energy that surfaces take back is not counted: an honest hand takes back more than it
+// brought if energy arrives late.
 void Hand::note_surfaces() {
   for (std::size_t i = 0; i < snapshot_.count; ++i) {
     const haptics::ContactAccount& account = snapshot_.contacts[i];
@@ -329,7 +331,7 @@ void Hand::watch() {
 
 double Hand::mean_force() const { return force_time_ > 0 ? force_sum_ / force_time_ : 0.0; }
 
-// A failed reading, which is counted, takes the force off for so many steps.
+// A failed reading, which is counted, removes the force for kTakenOff steps.
 double Hand::told_so_far() const {
   const double told = told_in_all(snapshot_.tally) + speechless_;
   if (model_ == nullptr) return told;

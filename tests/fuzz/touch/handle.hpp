@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a hand of a scenario holds: a simulated device, or the model of a real one with its line and
-// the thread that has it.
+// The device of a hand in a scenario: a simulated one, or the model of a real one with its line and
+// thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,33 +20,32 @@ class Handle {
   Handle& operator=(const Handle&) = delete;
 
   [[nodiscard]] virtual haptics::HapticDevice& device() = 0;
-  /// What its forces took from the hand [J], of its own books.
+  /// Energy that its forces took from the hand [J], by its own ledger.
   [[nodiscard]] virtual double port_work() const = 0;
-  /// And what its damping took [J].
+  /// The same, with the energy taken by its damping [J].
   [[nodiscard]] virtual double work() const = 0;
-  /// Most that work() was since the instant of which the servo's meter tells [J]; none where that
-  /// is too long ago.
+  /// Greatest work() since the instant of the servo's meter [J]; none if that is too long ago.
   [[nodiscard]] virtual double work_known() const { return work(); }
-  /// Most that whole steps of its forces may have put into the books of the servo [J].
+  /// Greatest energy that whole force steps may have put into the servo's ledger [J].
   [[nodiscard]] virtual double rounding() const { return 0; }
-  /// Whether the next reading fails, at a cost that is estimated.
+  /// Whether the next reading fails; its energy is then estimated.
   [[nodiscard]] virtual bool fails() const { return false; }
-  /// Of its own [N].
+  /// Its actual force [N].
   [[nodiscard]] virtual Eigen::Vector3d force() const = 0;
-  /// For how long the servo stands still from now on, beside its period.
+  /// How long the servo pauses from now on, besides its period.
   [[nodiscard]] virtual std::chrono::nanoseconds silence() { return {}; }
-  /// Whether it tells that it shows nothing now.
+  /// Whether it reports that it shows no force now.
   [[nodiscard]] virtual bool tells_why() const { return false; }
-  /// Whether the hand kept within what is stated of the device.
+  /// Whether the hand kept within the stated limits of the device.
   [[nodiscard]] virtual bool keeps_limits() const { return true; }
 };
 
-/// Holds its force through a reading that fails, as hardware does.
+/// Holds its force through a failed reading, as hardware does.
 class SimulatedHandle final : public Handle, private haptics::SimulatedDevice {
  public:
   using SimulatedDevice::enable;
   using SimulatedDevice::SimulatedDevice;
-  /// So many of the readings to come.
+  /// Fails this many of the next readings.
   void fail(int readings) { failures_ = readings; }
 
   [[nodiscard]] haptics::HapticDevice& device() override { return *this; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The judge of touch: what it calls wrong, and what it lets pass.
+// The judge of touch: the cases that it rejects, and the cases that it accepts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace reckon::fuzz {
 namespace {
 
-TEST(TouchJudge, CallsAForceWrongFromAFifthAndATenthOfANewtonOn) {
+TEST(TouchJudge, CallsForcesWrongBeyondBothTolerances) {
   EXPECT_FALSE((Rest{1.0, 0.81, false}.is_wrong()));
   EXPECT_TRUE((Rest{1.0, 0.79, false}.is_wrong()));
   EXPECT_TRUE((Rest{1.0, 1.21, false}.is_wrong()));
@@ -31,7 +31,7 @@ TEST(TouchJudge, WantsNineTenthsBackAfterAnInterruption) {
 }
 
 // Springs in series: 1/(1/300 + 1/500 + 1/300) of 20 mm, and 1/(1/300 + 1/1400) of 15 mm.
-TEST(TouchJudge, KnowsWhatHandsAndWallsShouldShow) {
+TEST(TouchJudge, ExpectsSeriesSpringsForHandsAndWalls) {
   const std::vector<Shows> stiff(2, {1e4, 1e4}), soft(2, {1e4, 700}), other = {{1e4, 0}, {400, 0}};
   Scenario pair = scenario_of("press1=0.02");
   EXPECT_NEAR(right_forces(pair, stiff, 5)[0], 20e-3 / (2 / 300.0 + 1 / 500.0), 1e-3);
@@ -43,7 +43,7 @@ TEST(TouchJudge, KnowsWhatHandsAndWallsShouldShow) {
 }
 
 // 100 N/m against a grip of 300, 15 mm away; 0.2 N along each axis; 300 N/m from 30 mm on.
-TEST(TouchJudge, KnowsWhatARegionShouldShow) {
+TEST(TouchJudge, ExpectsTheForceOfARegion) {
   std::vector<Shows> shows(2, {1e4, 1e4});
   const auto force = [&](const char* line) {
     const Scenario scenario = scenario_of(std::string("press2=0.01 ") + line);
@@ -72,7 +72,7 @@ TEST(TouchJudge, WaitsUntilAllIsOver) {
   EXPECT_TRUE(std::isinf(still_since(scenario_of("amplitude1=0.01"))));
 }
 
-TEST(TouchJudge, PromisesNothingOverASlowLineOrWithALiar) {
+TEST(TouchJudge, PromisesNothingOverBadLinesOrForLiars) {
   EXPECT_TRUE(is_promised(scenario_of("press1=0.02 delay=0.05 device_delay=3 servo_rate=250")));
   EXPECT_FALSE(is_promised(scenario_of("delay=0.05 jitter=0.1")));
   EXPECT_FALSE(is_promised(scenario_of("loss=0.01")));
@@ -82,7 +82,7 @@ TEST(TouchJudge, PromisesNothingOverASlowLineOrWithALiar) {
   EXPECT_TRUE(is_promised(scenario_of("press1=-0.01 wall=500")));
   EXPECT_TRUE(is_promised(scenario_of("model=1 press1=0.02")));
   EXPECT_FALSE(is_promised(scenario_of("model=1 press1=0.03")));  // may be out of its reach
-  EXPECT_FALSE(is_promised(scenario_of("model=4 press1=0.02")));  // of a hand nothing is told ahead
+  EXPECT_FALSE(is_promised(scenario_of("model=4 press1=0.02")));  // hands are not uploaded ahead
   EXPECT_TRUE(is_promised(scenario_of("model=4 press1=-0.03 wall=500 wall_gap=0.02")));
   EXPECT_FALSE(is_promised(scenario_of("model=4 press1=-0.03 wall=500 wall_gap=0.01")));
   EXPECT_FALSE(is_promised(scenario_of("press1=0.02 press2=-0.02")));  // might change sides
@@ -100,7 +100,7 @@ TEST(TouchJudge, MeasuresALiarBesideItsTwin) {
   for (std::size_t i = 50; i < later.size(); ++i) later[i] = liar[i - 50];
   EXPECT_NEAR(excess_over(liar, later).power, 0.0, 1e-9);
   EXPECT_NEAR(excess_over(liar, later).burst, 0.0, 1e-9);
-  for (double& energy : later) energy *= 0.5;  // allows three quarters
+  for (double& energy : later) energy *= 0.5;  // half of it is below the allowance
   EXPECT_NEAR(excess_over(liar, later).power, 0.25, 1e-9);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Heavy hands on stiff grips that hardly touch, with coarse encoders over a slow line: they part
-// and meet again, and must come to rest. And touches through the models of devices.
+// Heavy hands on stiff grips that hardly touch, with coarse encoders over a slow line: they part,
+// meet again, and must come to rest. Also touches through device models.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -15,8 +15,8 @@ constexpr double kSeconds = 6.6;
 
 class LightTouch : public ::testing::TestWithParam<double> {};
 
-// 9.95 mm and a start inside by half a step of the encoder; 3 Hz, 0.7 N in place of 0.04 N where a
-// loan pays for it.
+// 9.95 mm, starting inside by half an encoder step: 3 Hz, 0.7 N instead of 0.04 N if a loan pays
+// for it.
 TEST_P(LightTouch, DoesNotRingOnALoan) {
   for (const double rate : {0.0, 50.0, 100.0}) {
     for (const double press : {0.0049, 0.005157, 0.0055, 0.007}) {
@@ -36,8 +36,8 @@ TEST_P(LightTouch, DoesNotRingOnALoan) {
 INSTANTIATE_TEST_SUITE_P(Encoders, LightTouch,
                          ::testing::Values(0.0, 1e-6, 1e-5, 3e-5, 5e-5, 8.189e-5, 1e-4));
 
-// Springs in series, 1/(1/300 + 1/100) of 13 mm = 0.975 N, that all four can show.
-TEST(ModelTouch, AWallIsFeltThroughEachAndNoEnergyIsMade) {
+// Springs in series, 1/(1/300 + 1/100) of 13 mm = 0.975 N, which all four can show.
+TEST(ModelTouch, EachModelShowsAWallWithoutMakingEnergy) {
   for (const char* model : {"model=1", "model=2", "model=3", "model=4"}) {
     const Scenario scenario = scenario_of(std::string("press1=-0.03 wall=100 wall_gap=0.02 "
                                                       "model_damping=6 ") +
@@ -52,8 +52,8 @@ TEST(ModelTouch, AWallIsFeltThroughEachAndNoEnergyIsMade) {
   }
 }
 
-// In and out of walls, beside another hand, under what befalls it.
-TEST(ModelTouch, RunsTheSameEachTimeAndKeepsItsBooks) {
+// In and out of walls, beside another hand, with faults.
+TEST(ModelTouch, RunsRepeatAndKeepTheirBooks) {
   for (const char* model :
        {"model=1 fault=1", "model=2 fault=6", "model=3 fault=8", "model=4 fault=4"}) {
     const Scenario scenario = scenario_of(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The line between the hands of a scenario: what it delays, loses, doubles and keeps to itself.
+// The line between the hands of a scenario: delay, loss, duplicates and silence.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ class Line {
 
   /// At `now` [s].
   void send(double now, std::size_t from, std::size_t to, const haptics::RemoteHand& hand);
-  /// Whether anything has come; then `set` is all that `to` knows. What is older than the newest
-  /// is dropped, but for a duplicate.
+  /// Whether anything has arrived; then `set` is all that `to` knows. Older datagrams than the
+  /// newest are dropped, except duplicates.
   bool deliver(double now, std::size_t to, haptics::ContactSet& set);
 
  private:
@@ -38,7 +38,7 @@ class Line {
     haptics::RemoteHand hand;
   };
 
-  // What the scenario keeps to itself, beside the law.
+  // False for silences of the scenario, besides the impairment law.
   [[nodiscard]] bool carries(double now, std::size_t from) const;
 
   const Scenario& scenario_;

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kTick = std::chrono::microseconds(50);
-// A meter that is older is not compared.
+// An older meter value is not compared.
 constexpr nanoseconds kKnownAgo = std::chrono::milliseconds(50);
 
 }  // namespace

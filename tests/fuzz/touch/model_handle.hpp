@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The model of a device in the first hand: its own clock, what befalls it, and its books.
+// The model of a device in the first hand: its own clock, its faults, and its energy ledger.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,14 @@
 
 namespace reckon::fuzz {
 
-/// All times are those of its clock, which begin() is far from the start of: until then the device
-/// is taken up, homed and led to where the hand begins.
+/// All times are of its clock. begin() is far from the clock's start: before it the device is set
+/// up, homed and led to the hand's first position.
 class ModelHandle : public Handle {
  public:
   using Way = std::function<Eigen::Vector3d(double)>;  // [m], at a time [s] after begin()
 
   [[nodiscard]] std::chrono::nanoseconds begin() const { return begin_; }
-  /// Lets its time pass. @param beside called every 50 us
+  /// Advances its time. @param beside called every 50 us
   void run(std::chrono::nanoseconds until,
            const std::function<void(std::chrono::nanoseconds)>& beside);
 
@@ -34,11 +34,11 @@ class ModelHandle : public Handle {
   /// @param scenario outlives it
   ModelHandle(const Scenario& scenario, Way way) : scenario_(scenario), way_(std::move(way)) {}
 
-  /// So long before begin_at() that no reading of the servo's is older.
+  /// Begins so long before begin_at() that no reading of the servo is older.
   void begin_books();
-  /// A constructor's last call, when the device is ready.
+  /// The last call of a constructor, when the device is ready.
   void begin_at(std::chrono::nanoseconds now);
-  /// Where the hand wants it at a time of its clock [s].
+  /// The hand's goal at a time of its clock [s].
   [[nodiscard]] Eigen::Vector3d wanted(double t) const;
   /// The model calls it every 50 us.
   void tick(std::chrono::nanoseconds now);
@@ -48,11 +48,11 @@ class ModelHandle : public Handle {
   [[nodiscard]] virtual std::chrono::nanoseconds now() const = 0;
   [[nodiscard]] virtual double port_work_now() const = 0;
   [[nodiscard]] virtual double work_now() const = 0;
-  /// The instant before which the servo knows all.
+  /// The servo knows everything before this instant.
   [[nodiscard]] virtual std::chrono::nanoseconds known_until() const = 0;
-  /// Begins it. @param lasts its length
+  /// Begins a fault. @param lasts its length
   virtual void befall(Fault fault, std::chrono::nanoseconds lasts) = 0;
-  /// Of those that do not end by themselves.
+  /// Ends a fault that does not end by itself.
   virtual void mend(Fault fault) = 0;
 
  private:
@@ -73,7 +73,7 @@ class ModelHandle : public Handle {
                                                         std::chrono::nanoseconds period,
                                                         ModelHandle::Way way);
 
-// Of each kind.
+// One for each kind of device.
 [[nodiscard]] std::unique_ptr<ModelHandle> usb_handle(const Scenario& scenario,
                                                       std::chrono::nanoseconds period,
                                                       ModelHandle::Way way);

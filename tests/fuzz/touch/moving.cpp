@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCube = 0.04;       // [m], of the heap and the pinched one
+constexpr double kCube = 0.04;       // [m], of the heap and the pinched cube
 constexpr double kPaddleFrom = 0.2;  // [m], from the cube
 constexpr double kPaddleFor = 0.4;   // [s]
 const Vector3d kHeapAt(40, 0, 0), kPinchAt(0, 20, 0);
@@ -36,15 +36,15 @@ haptics::Shape cube_of(double edge) { return haptics::BoxShape{Vector3d::Constan
 
 bool is_box(const Scenario& s) { return static_cast<Falling>(s[Shared::body]) == Falling::box; }
 
-// [N/m], no more than a body of its mass can take at the rate of the hand that it falls on, whose
-// period is whole nanoseconds.
+// [N/m], at most the stiffness that a body of its mass allows at the rate of the hand below it,
+// whose period is whole nanoseconds.
 double stiffness_of_falling(const Scenario& s) {
   const double period = 1 / s.of_device(0, Shared::servo_rate, Shared::other_rate);
   return std::min(s[Shared::body_stiffness],
                   0.99 * haptics::stiffest_push(s[Shared::body_mass], period));
 }
 
-// Half of what it is high, turned about y [m].
+// Half of its height, turned about y [m].
 double half_height(const Scenario& s) {
   const double turned = s[Shared::body_turned], half = 0.5 * s[Shared::body_size];
   return is_box(s) ? half * (std::abs(std::cos(turned)) + std::abs(std::sin(turned))) : half;
@@ -125,7 +125,7 @@ MovingBooks::MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics
       stiffness_(std::min(stiffness_of_falling(scenario), stiffest)),
       begin_(has_body() ? energy() : 0.0) {}
 
-// How far a place is from the falling body [m]; 0 inside.
+// Distance of a position from the falling body [m]; 0 inside.
 double MovingBooks::clear_of(const Vector3d& place) const {
   const haptics::BodyState& body = world_->states().front();
   const Vector3d from = body.orientation.conjugate() * (place - body.position);
@@ -134,8 +134,8 @@ double MovingBooks::clear_of(const Vector3d& place) const {
   return (from.cwiseAbs().array() - half).max(0.0).matrix().norm();
 }
 
-// A contact ends soon after the handle is as far outside the body as the greatest force stretches
-// its spring, and 10 mm.
+// A contact ends when the handle is farther outside the body than the stretch of its spring at the
+// greatest force plus 10 mm.
 void MovingBooks::note(const haptics::ServoSnapshot& hand, double dt) {
   if (world_ == nullptr) return;
   const Scenario& s = scenario_;
@@ -154,7 +154,7 @@ void MovingBooks::note(const haptics::ServoSnapshot& hand, double dt) {
   if (hand.mesh_force.norm() > kLeast) haunted_ = std::max(haunted_, clear_ - 2 * dt);
 }
 
-// Of a body whose moments of inertia are all the same.
+// For a body with equal moments of inertia.
 double MovingBooks::energy() const {
   const haptics::BodyState& body = world_->states().front();
   const double mass = scenario_[Shared::body_mass], size = scenario_[Shared::body_size];

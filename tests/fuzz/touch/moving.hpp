@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What moves beside the first hand of a scenario: a body that falls on it, a far heap, and a paddle
-// that pinches a cube. And books of it.
+// Moving objects beside the first hand of a scenario: a body that falls on it, a distant heap, and
+// a paddle that pinches a cube; with their energy ledgers.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,23 +18,24 @@ namespace reckon::fuzz {
 
 /// The falling body first, then the pinched cube, then the heap. @param home of the hand [m]
 void add_moving(const Scenario& scenario, const Eigen::Vector3d& home, haptics::Scene& scene);
-/// Of the paddle; null where there is none.
+/// The mover of the paddle; null without one.
 [[nodiscard]] std::shared_ptr<haptics::ObjectMover> paddle_of(const Scenario& scenario);
 
-/// What bodies do, step by step.
+/// Motion of the bodies, step by step.
 class MovingBooks {
  public:
-  /// @param world null: no books  @param stiffest [N/m] that the hand's device shows of a body
+  /// @param world null: no ledger
+  /// @param stiffest [N/m] greatest stiffness of bodies that the hand's device shows
   MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world,
               double stiffest);
 
   /// @param dt [s], since the last step
   void note(const haptics::ServoSnapshot& hand, double dt);
-  /// What the falling body has now beyond what it began with [J].
+  /// Energy of the falling body beyond its initial energy [J].
   [[nodiscard]] double gained() const { return has_body() ? energy() - begin_ : 0.0; }
-  /// Whether that is exact: while the hand pushes it, its speed is that of a little before.
+  /// Whether gained() is exact: while the hand pushes the body, its speed is slightly old.
   [[nodiscard]] bool are_exact() const { return !is_pushed_; }
-  /// Of the falling body and the pinched cube [m], those that are there.
+  /// Positions of the falling body and the pinched cube [m], where they exist.
   [[nodiscard]] std::vector<Eigen::Vector3d> places() const;
   void judge(Outcome& out) const;
 

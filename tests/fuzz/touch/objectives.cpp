@@ -17,20 +17,21 @@ namespace reckon::fuzz {
 namespace {
 
 constexpr double kLiarPower = 0.3;  // [W], of any second
-constexpr double kSource = 0.05;    // of a potential's force at rest
+constexpr double kSource = 0.05;    // share of a potential's force at rest
 constexpr double kPassed = 0.05;    // [s]
-constexpr double kPinched = 1.2;    // of the speed of what pinches
+constexpr double kPinched = 1.2;    // times the speed of the paddle
 
 void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
   for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
 }
 
-// Without the models of devices, which have aims of their own.
+// Without device models, which have objectives of their own.
 void anything(Scenario& s) { s[Shared::model] = 0; }
 
 void anything_through_a_model(Scenario& s) { s[Shared::model] = std::max(1.0, s[Shared::model]); }
 
-// Hands that come to rest, without effects but springs, on a line that brings all of it soon.
+// Hands that come to rest, with springs as the only effect, on a line that delivers everything
+// soon.
 void honest_rest(Scenario& s) {
   using enum Shared;
   s[model] = 0;
@@ -80,7 +81,7 @@ void row_at_rest(Scenario& s) {
   s[Shared::hands] = std::max(s[Shared::hands], 3.0);
 }
 
-// All has happened after 3.5 s. A wall is pressed by hands that keep away from each other.
+// All faults are over after 3.5 s. Hands that keep apart press a wall.
 void interrupted_rest(Scenario& s) {
   using enum Shared;
   constexpr double kLast = 3.5;
@@ -102,7 +103,7 @@ void interrupted_rest(Scenario& s) {
   s[silent_hand] = 0;
 }
 
-// Which is told before the hand is in it.
+// The wall is uploaded before the hand is in it.
 void press_a_rendered_wall(Scenario& s) {
   using enum Shared;
   put_out_of_play(s, {late, lag, report});
@@ -112,7 +113,7 @@ void press_a_rendered_wall(Scenario& s) {
   s.path(0, Path::press) = -std::max(std::abs(s.path(0, Path::press)), 0.03);
 }
 
-// The same, through a model, on which all has happened after 1.5 s: it may have to be homed anew.
+// The same through a device model, where all faults are over after 1.5 s: it may need homing again.
 void model_at_rest(Scenario& s) {
   using enum Shared;
   constexpr double kLast = 1.5, kReach = 0.02;
@@ -128,7 +129,7 @@ void model_at_rest(Scenario& s) {
   keep_sides(s);
 }
 
-// The second hand lies to the first, which holds still.
+// The second hand lies to the first, which rests.
 void resting(Scenario& s) {
   using enum Shared;
   put_out_of_play(
@@ -140,8 +141,8 @@ void resting(Scenario& s) {
   s.path(1, Path::side) = 0;
 }
 
-// The same over a quick line that treats liar and twin alike, with grips that do not ring, and a
-// path that leads nobody through the other's middle: there the twin's run differs without any lie.
+// The same over a fast line that treats liar and twin alike, with grips that do not ring. The path
+// does not lead through the other's centre: there the twin's run would differ without any lie.
 void resting_on_a_fair_line(Scenario& s) {
   using enum Shared;
   resting(s);
@@ -154,8 +155,8 @@ void resting_on_a_fair_line(Scenario& s) {
   s.path(1, Path::press) = std::max(s.path(1, Path::press), amplitude - kDeepestGoals);
 }
 
-// Hands that keep away from one another, each in a region of its own that is weight, spring, magnet
-// or border, or outside of its border.
+// Hands that keep apart, each in a region of its own: weight, spring, magnet or border, or outside
+// of the border.
 void resting_in_a_region(Scenario& s) {
   using enum Shared;
   constexpr std::array kPotentials{3.0, 4.0, 5.0, 7.0};  // rows of haptics::RegionTypes
@@ -199,19 +200,19 @@ std::string energy_text(const Outcome& o) {
 double energy(const Outcome& o) { return -o.least_held - o.least_sum; }
 double meter(const Outcome& o) { return o.meter; }
 double rate(const Outcome& o) { return o.excess; }
-// What is told is no violation: rather what nobody tells.
+// A reported reduction is no violation and counts half: unreported errors are worse.
 double wrong(const Outcome& o) { return o.told ? 0.5 * o.wrong : o.wrong; }
 double hiccup(const Outcome& o) { return o.told ? 0.5 * o.lacks : o.lacks; }
 double made(const Outcome& o) { return -o.model.left; }
 double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
-// A touch of any length is worse than none.
+// A contact of any length is worse than none.
 double haunted(const Outcome& o) { return o.haunted + 1e-4 * o.pushed; }
 double pinched(const Outcome& o) { return o.pinched; }
-// 1 mN and 1 um.
+// Scales: 1 mN and 1 um.
 double heap(const Outcome& o) { return std::max(1e3 * o.heap_force, 1e6 * o.heap_place); }
-// What a spring that was loaded slowly gives within 50 ms is told beside it.
+// Energy that a slowly loaded spring gives back within 50 ms is printed beside it.
 double liar(const Outcome& o) { return o.liar.power / kLiarPower; }
 
 std::string meter_text(const Outcome& o) { return joules(o.meter) + " above the device's books"; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the adversary of touch makes worse, one after the other, and what it may choose for that.
+// The objectives that the touch adversary maximises in turn, and its permitted choices.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,22 @@
 
 namespace reckon::fuzz {
 
-/// One thing to make worse.
+/// One quantity to maximise.
 struct Objective {
   std::string name;
   double seconds;                                 // of simulated time
   std::function<double(const Outcome&)> badness;  // higher is worse
   std::function<std::string(const Outcome&)> text;
-  void (*rules)(Scenario&);  // what it is not allowed to choose
-  double most = 1e300;       // of badness; more breaks a promise
+  void (*rules)(Scenario&);  // restricts the permitted choices
+  double most = 1e300;       // maximum badness; more breaks a promise
   Outcome (*run)(const Scenario&, double seconds) = try_out;
 };
 
 [[nodiscard]] const std::vector<Objective>& objectives();
 
-/// Runs it as long as the objective takes. More badness than that allows is a violation too, where
-/// its rules let the scenario as it is; so is a wrong force that no servo tells.
-/// @param strict one that is told too
+/// Runs a scenario as long as the objective takes. Badness above its maximum is also a violation if
+/// its rules leave the scenario unchanged; so is a wrong force that no servo reports.
+/// @param strict a reported wrong force is a violation, too
 [[nodiscard]] Outcome judged(const Objective& objective, const Scenario& scenario, bool strict);
 
 }  // namespace reckon::fuzz

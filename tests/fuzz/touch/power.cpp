@@ -11,7 +11,7 @@ namespace {
 constexpr double kAsMuch = 1.5;
 constexpr std::size_t kSecond = 1000, kBurst = 50, kShift = 100;  // samples
 
-// What came in the `window` before each sample.
+// The energy received within the `window` before each sample.
 std::vector<double> came_within(const std::vector<double>& book, std::size_t window) {
   std::vector<double> came(book.size());
   for (std::size_t i = 0; i < book.size(); ++i) {

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kLongAfter = 1e9;                // [s]
 constexpr double kAnyStiffness = 1e9;             // [N/m], more than any region's
-constexpr double kFeltLeast = 0.2;                // [N], less is not spoken of
-constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
-constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
+constexpr double kFeltLeast = 0.2;                // [N], less is not judged
+constexpr double kOff = 0.2, kOffLeast = 0.1;     // share of the right force; [N]
+constexpr double kLack = 0.1, kLackLeast = 0.05;  // share of the right force; [N]
 
 constexpr double kBack = 1, kHomed = 5;  // [s]
 constexpr double kSlow = 0.5;            // [s], of a press against a soft spring
@@ -35,7 +35,7 @@ std::vector<double> goals_of(const Scenario& s, double time) {
   return goals;
 }
 
-// A damper takes as much from what its own device shows with.
+// A damper takes part of the stiffness that its own device can show.
 double stiffness_between(const Scenario& s, const Shows& one, const Shows& other) {
   const double damper = std::min(s[Shared::record_damping], 0.5 * s[Shared::damping]);
   const double left = 1 - damper / s[Shared::damping];
@@ -49,8 +49,8 @@ double wall_force(const Scenario& s, const Shows& shows, std::size_t hand, doubl
   return std::max(0.0, depth) * wall * grip / (wall + grip);
 }
 
-// The forces of a row of which the bits of `pressed` say which neighbours touch; false where these
-// are not those that do.
+// The forces of a row in which the bits of `pressed` mark the touching neighbours; false if these
+// are not the ones that touch.
 bool solve_row(const Scenario& s, const std::vector<double>& goals,
                const std::vector<double>& springs, std::size_t pressed,
                std::vector<double>& forces) {
@@ -77,8 +77,8 @@ bool solve_row(const Scenario& s, const std::vector<double>& goals,
   return true;
 }
 
-// A wall that a device renders is told before the hand is in it, or it begins deeper. Of hands, and
-// of what was taken off in between, the same is true.
+// A wall that a device renders must be uploaded before the hand is in it, else it begins deeper.
+// The same holds for hands, and for effects removed in between.
 bool is_told_in_time(const Scenario& s) {
   const auto fault = static_cast<Fault>(s[Shared::fault]);
   const bool is_taken_off = fault != Fault::none && fault != Fault::damage;
@@ -86,13 +86,13 @@ bool is_told_in_time(const Scenario& s) {
          s[Shared::wall_gap] >= event_way(s);
 }
 
-// When a model is back for sure after what befell it, homed and where its hand wants it.
+// When a model has surely recovered from its fault, is homed and at its goal.
 double mended_at(const Scenario& s) {
   const double last = s[Shared::fault_every] > 0 ? s[Shared::calm_after] : s[Shared::fault_at];
   return last + s[Shared::fault_for] + (s.model() == Model::polhem ? kHomed : kBack);
 }
 
-// Of the region about hand `hand`, at `place` from the region's origin [N].
+// The force of the region about hand `hand`, at `place` from the region's origin [N].
 Eigen::Vector3d region_pull(const haptics::DeclaredRegionEffects& effects,
                             const Eigen::Vector3d& place) {
   const double way = place.norm();
@@ -113,12 +113,12 @@ Eigen::Vector3d region_pull(const haptics::DeclaredRegionEffects& effects,
   return -pull * (held * counted.array()).matrix();
 }
 
-/// What a hand feels that rests in a region of potentials, against its grip.
+/// The rest state of a hand in a region of potentials, against its grip.
 struct Held {
   Eigen::Vector3d place, force;  ///< from the region's origin [m]; [N]
 };
 
-// Of a potential's force that a device shows which holds springs of `most` [N/m].
+// The share of a potential's force that a device shows which holds springs of `most` [N/m].
 double region_share(const haptics::DeclaredRegionEffects& effects, double most) {
   constexpr double kWeightRise = 0.005, kStiffestWeight = 150;  // [m], [N/m]
   double stiffness = 0;
@@ -131,7 +131,7 @@ double region_share(const haptics::DeclaredRegionEffects& effects, double most) 
   return stiffness > most ? most / stiffness : 1.0;
 }
 
-// A spring that is at most as stiff as 50 grips is followed by small steps.
+// A spring of at most 50 times the grip's stiffness is followed in small steps.
 Held held_in_region(const Scenario& s, std::size_t hand, double most, double time) {
   const haptics::Scene scene = solids_of(s, Eigen::Vector3d::Zero());
   const haptics::SceneRegion& region = scene.regions.front();
@@ -145,8 +145,8 @@ Held held_in_region(const Scenario& s, std::size_t hand, double most, double tim
   return held;
 }
 
-// Weight, spring, magnet, border: where hands stay well inside what acts, or outside a border, and
-// away from one another.
+// Weight, spring, magnet, border: hands stay well inside the acting region, or outside a border,
+// and apart from each other.
 bool is_region_promised(const Scenario& s) {
   constexpr double kMargin = 2e-3, kApart = 2 * kRadius + 5e-3;  // [m]
   if (s[Shared::wall] > 0) return false;

@@ -45,26 +45,26 @@ constexpr Row kSharedRows[] = {
     {"overlap", 0, 0.03, 0, false},                   // [m], of neighbours at the start
     {"outage_at", 0, 3, 0, false},                    // [s]
     {"outage_for", 0, 2, 0, false},                   // [s]
-    {"late", 0, 0.1, 0, false},                       // probability that a servo step is
+    {"late", 0, 0.1, 0, false},                       // probability that a servo step is late
     {"late_by", 0.0005, 0.0088, 0.001, false},        // [s], at most
-    {"holds", 0, 1, 0, true},                         // 1: the device lets go after 10 ms, not 1.5
+    {"holds", 0, 1, 0, true},                         // 1: the device releases after 10 ms, not 1.5
     {"failed", 0, 0.01, 0, false},                    // probability that readings begin to fail
-    {"failed_run", 1, 5, 1, true},                    // so many of them
+    {"failed_run", 1, 5, 1, true},                    // length of such a run
     {"calm_after", 0, 10, 10, false},                 // [s], no step is late, no reading fails
     {"device_delay", 0, 16, 0, true, 4},              // [samples], of a written force
     {"servo_rate", 250, 4000, 1000, false},           // [Hz]
     {"encoder", 0, 1e-4, 0, false},                   // [m], step; 0 is exact, with velocities
-    {"other_hand", 0, 4, 0, true},                    // whose device is another one; 0 nobody's
-    {"other_delay", 0, 16, 0, true, 4},               // [samples], of that
-    {"other_rate", 250, 4000, 1000, false},           // [Hz], of that
-    {"duplicates", 0, 0.6, 0, false},                 // probability of one, which nobody weeds out
-    {"unknown_hand", 0, 4, 0, true},                  // whom nobody has heard of; 0 nobody
+    {"other_hand", 0, 4, 0, true},                    // with another device; 0: none
+    {"other_delay", 0, 16, 0, true, 4},               // [samples], of that device
+    {"other_rate", 250, 4000, 1000, false},           // [Hz], of that device
+    {"duplicates", 0, 0.6, 0, false},                 // probability of an unfiltered duplicate
+    {"unknown_hand", 0, 4, 0, true},                  // undiscovered hand; 0: none
     {"unknown_until", 0, 3, 0, false},                // [s]
-    {"silent_hand", 0, 4, 0, true},                   // of whom nothing is heard; 0 nobody
+    {"silent_hand", 0, 4, 0, true},                   // hand without received updates; 0: none
     {"silent_at", 0, 3, 1, false},                    // [s]
     {"silent_for", 0, 3, 0, false},                   // [s]; a model expires after 0.72 s
-    {"silent_move", -0.04, 0.04, 0, false},           // [m], its grip meanwhile, and stays there
-    {"off_hand", 0, 4, 0, true},                      // whose operator lets the switch go; 0 nobody
+    {"silent_move", -0.04, 0.04, 0, false},           // [m], of its grip meanwhile; it stays there
+    {"off_hand", 0, 4, 0, true},                      // hand that releases its switch; 0: none
     {"off_at", 0, 3, 1, false},                       // [s]
     {"off_for", 0, 1, 0.2, false},                    // [s]
     {"wall", 0, 5000, 0, false},                      // [N/m], static, beside each hand
@@ -74,48 +74,48 @@ constexpr Row kSharedRows[] = {
     {"solid_stiffness", 0, 5000, 0, false},           // [N/m]
     {"solid_gap", -0.005, 0.03, 0.01, false},         // [m], from a hand's place
     {"solid_tilt", 0, 6.283185307179586, 0, false},   // [rad], of its normal, from x
-    {"effect", 0, kMostSurfaceEffects, 0, true},      // of wall and solid, by its row; 0 none
+    {"effect", 0, kMostSurfaceEffects, 0, true},      // row of the surface effect; 0: none
     {"effect_strength", 0, 1, 0.5, false},            // decades of its values, see solids_of()
-    {"region", 0, kMostRegionEffects, 0, true},       // of a ball about each hand's place; 0 none
-    {"region_strength", 0, 1, 0.5, false},            // the same of that
-    {"region_off", 0, 0.06, 0, false},                // [m], along x, of its middle from that place
+    {"region", 0, kMostRegionEffects, 0, true},       // row of the effect of its ball; 0: none
+    {"region_strength", 0, 1, 0.5, false},            // the same for the region
+    {"region_off", 0, 0.06, 0, false},                // [m], along x, of its centre from that place
     {"body", 0, 2, 0, true},                          // falls on the first hand: box, ball; 0 none
     {"body_mass", 0.004, 20, 0.2, false},             // [kg]
     {"body_size", 0.01, 0.1, 0.04, false},            // [m]
     {"body_stiffness", 50, 2000, 400, false},         // [N/m]
     {"body_drop", 0, 1, 0.1, false},                  // [m], from its lowest point to the place
-    {"body_beside", 0, 0.05, 0, false},               // [m], along x, of its middle
+    {"body_beside", 0, 0.05, 0, false},               // [m], along x, of its centre
     {"body_turned", 0, 6.283185307179586, 0, false},  // [rad], about y
-    {"body_floor", 0, 0.5, 0, false},                 // [m], below the place; 0 none
+    {"body_floor", 0, 0.5, 0, false},                 // [m], below the place; 0: none
     {"pile", 0, 30, 0, true},                         // cubes that fall in a heap 40 m away
     {"pile_mass", 0.02, 10, 0.2, false},              // [kg], at most, of each
     {"pile_bounce", 0, 1, 0, false},                  // restitution
-    {"paddle", 0, 2, 0, false},                       // [m/s], it pinches a cube 20 m away; 0 none
+    {"paddle", 0, 2, 0, false},                       // [m/s], it pinches a cube 20 m away; 0: none
     {"paddle_mass", 0.01, 5, 0.1, false},             // [kg], of that cube
     {"paddle_turned", 0, 1.6, 0, false},              // [rad], about z
-    {"liar", 0, 4, 0, true},                          // who lies; 0 nobody
+    {"liar", 0, 4, 0, true},                          // lying hand; 0: none
     {"lie_given", 0, 20, 0, false},                   // [W]
     {"lie_need", 0, 0.2, 0, false},                   // [J]
-    {"lie_wave", 0.5, 100, 5, false},                 // [Hz], of what changes
-    {"lie_softest", 0, 1, 1, false},                  // of the stiffness, in turn with all of it
-    {"lie_jump", 0, 0.12, 0, false},                  // [m], to where the hand is not, in turn
-    {"lie_swing", 0, 0.08, 0, false},                 // [m], by which it is said to swing
-    {"lie_odd", 0, 0.3, 0, false},                    // probability of a value that is absurd
+    {"lie_wave", 0.5, 100, 5, false},                 // [Hz], of changing lies
+    {"lie_softest", 0, 1, 1, false},                  // share of the stiffness, in alternation
+    {"lie_jump", 0, 0.12, 0, false},                  // [m], false displacement, in alternation
+    {"lie_swing", 0, 0.08, 0, false},                 // [m], amplitude of a false swing
+    {"lie_odd", 0, 0.3, 0, false},                    // probability of an absurd value
     {"lie_rename", 0, 1, 0, true},                    // another hand every 50 ms
-    {"model", 0, 4, 0, true},                         // what the first hand holds
-    {"model_damping", 0, 10, 2, false},               // [N s/m], of that
-    {"chain", 0.001, 0.02, 0.006, false},             // [s], stated of that
-    {"phase_in", 0, 0.999, 0.5, false},               // [ms] of a frame, when it reports
-    {"phase_out", 0, 0.999, 0, false},                // [ms] of a frame, when it takes a force
+    {"model", 0, 4, 0, true},                         // device model of the first hand
+    {"model_damping", 0, 10, 2, false},               // [N s/m], of that model
+    {"chain", 0.001, 0.02, 0.006, false},             // [s], stated delay of that model
+    {"phase_in", 0, 0.999, 0.5, false},               // [ms] within a frame, of its report
+    {"phase_out", 0, 0.999, 0, false},                // [ms] within a frame, when it takes a force
     {"lag", 0, 0.005, 0, false},                      // [s], of its line, timer or program
-    {"report", 0.0005, 0.008, 0.001, false},  // [s], between those of board and event device
-    {"stated", 0, 1, 1, false},               // of its damping
-    {"drawn", 0, 3, 0, true},                 // beside it: walls, effects, bodies
-    {"drawn_seed", 1, 999, 1, true},          // of those and of the hand's way
-    {"fault", 0, 10, 0, true},                // that befalls it
+    {"report", 0.0005, 0.008, 0.001, false},  // [s], between reports of board and event device
+    {"stated", 0, 1, 1, false},               // stated share of its damping
+    {"drawn", 0, 3, 0, true},                 // drawn beside it: walls, effects, bodies
+    {"drawn_seed", 1, 999, 1, true},          // of those and of the hand's path
+    {"fault", 0, 10, 0, true},                // its fault
     {"fault_at", 0, 3, 1, false},             // [s]
     {"fault_for", 0, 0.5, 0.02, false},       // [s]
-    {"fault_every", 0, 1, 0, false},          // [s], once more; 0 never
+    {"fault_every", 0, 1, 0, false},          // [s], period of repetition; 0: none
 };
 static_assert(std::size(kSharedRows) == kShared);
 
@@ -154,7 +154,7 @@ double fitting(const Gene& gene, double value) {
   return std::clamp(std::stod(fmt::format("{:.4g}", inside)), gene.low, gene.high);
 }
 
-// Ranges of several decades, like delays and grips, are drawn by their size as often as evenly.
+// Wide ranges, such as delays and grips, are drawn logarithmically as often as evenly.
 double drawn(const Gene& gene, Random& random) {
   const double part = unit(random) < 0.5 ? unit(random) : std::pow(10.0, -3.0 * unit(random));
   const double high = unit(random) < 0.1 ? gene.high : std::min(gene.high, gene.rarely_above);
@@ -176,7 +176,7 @@ const Gene* gene_of(std::string_view name) {
   return found == genes().end() ? nullptr : &*found;
 }
 
-// The gene that it names; null for the seed.
+// The gene that the word names; null for the seed.
 const Gene* read_word(std::string_view word, Scenario& scenario) {
   const auto equals = word.find('=');
   const std::string_view name = word.substr(0, equals);
@@ -261,7 +261,7 @@ void Scenario::tidy() {
   }
 }
 
-// The switch of an operator, and another simulated device, are none of a model's.
+// A model has no operator switch and no other simulated device.
 void Scenario::tidy_model() {
   using enum Shared;
   Scenario& s = *this;
@@ -276,12 +276,12 @@ void Scenario::tidy_model() {
   unless(is_model, {model_damping, chain, lag, stated, drawn, fault});
   unless(is_usb, {phase_in, phase_out});
   unless(what == Model::board || what == Model::event, {report});
-  // It shows flat faces that stand along its axes, and nothing else.
+  // It shows only flat faces along its axes.
   unless(what != Model::event, {model_damping, stated, wall_tilt, solid_tilt, effect,
                                 effect_strength, region, region_strength, region_off, drawn});
   if (what == Model::event) s[solid] = std::min(s[solid], 2.0);
   unless(!is_model, {body, pile, paddle});
-  // Bodies that stand in a wall are thrown out of it.
+  // Bodies inside a wall would be thrown out of it.
   unless(static_cast<Drawn>(s[drawn]) != Drawn::bodies && s[body] == 0, {wall, solid});
   unless(s[drawn] > 0, {drawn_seed});
   unless(s[fault] > 0, {fault_at, fault_for, fault_every});
@@ -321,7 +321,7 @@ Scenario any_scenario(Random& random) {
   for (std::size_t i = 0; i < kGenes; ++i) {
     if (unit(random) < 0.5) out.values[i] = drawn(genes()[i], random);
   }
-  // Somebody has to come, or nobody touches.
+  // One hand has to approach, or none touch.
   out.path(0, Path::press) = 0.04 * unit(random);
   return out;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the adversary of touch may choose: two to four hands, their devices, their line, their
-// faults and their lies, as a vector of numbers in ranges that reads and writes as one line.
+// The choices of the touch adversary: two to four hands, their devices, line, faults and lies, as a
+// vector of numbers in ranges that is read and written as one line.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace reckon::fuzz {
 
-/// Of the whole scenario. Units and ranges: genes().
+/// Genes of the whole scenario. Units and ranges: genes().
 enum class Shared : std::size_t {
   hands,
   stiffness,
@@ -107,16 +107,16 @@ enum class Shared : std::size_t {
   count
 };
 
-/// What the first hand holds.
+/// The device of the first hand.
 enum class Model { simulated, falcon, polhem, board, event };
 /// What is drawn beside the first hand, see test::DrawnTouch.
 enum class Drawn { nothing, walls, effects, bodies };
 /// What falls through the place of the first hand.
 enum class Falling { nothing, box, ball };
-/// What befalls the device of the first hand; what its kind does not know, is none.
+/// The fault of the first hand's device; a fault that its kind does not have is none.
 enum class Fault {
   none,
-  hang,      ///< nothing ends on its line
+  hang,      ///< transfers on its line do not end
   mute,      ///< no reports
   cut,       ///< a transfer is refused, or ends early
   damage,    ///< of reports
@@ -124,11 +124,11 @@ enum class Fault {
   errors,    ///< of the line
   reset,     ///< of its port
   unplug,
-  power,   ///< unplugged, and its power with it
+  power,   ///< unplugged, with loss of power
   silence  ///< the servo does not step
 };
 
-/// Of the way that the grip of one hand wants to go.
+/// Genes of the path of one hand's grip.
 enum class Path : std::size_t {
   kind,
   begin,
@@ -150,15 +150,15 @@ inline constexpr std::size_t kGenes = kShared + kMostHands * kPath;
 struct Gene {
   std::string name;
   double low, high;
-  double plain;                 ///< what leaves it out of play
+  double plain;                 ///< its neutral value
   bool whole;                   ///< takes whole numbers only
-  double rarely_above = 1e300;  ///< a search draws higher ones one time in ten
+  double rarely_above = 1e300;  ///< a search draws higher values one time in ten
 };
 
-/// All of them; of the paths as press1 .. press4.
+/// All genes; those of paths as press1 .. press4.
 [[nodiscard]] const std::array<Gene, kGenes>& genes();
 
-/// Same scenario, same run: `seed` is for whatever the line and the faults draw.
+/// Equal scenarios give equal runs: the line and the faults draw from `seed`.
 struct Scenario {
   std::uint32_t seed = 1;
   std::array<double, kGenes> values{};
@@ -174,9 +174,9 @@ struct Scenario {
   }
   [[nodiscard]] double& path(std::size_t hand, Path gene) { return values[index(hand, gene)]; }
   [[nodiscard]] double path(std::size_t hand, Path gene) const { return values[index(hand, gene)]; }
-  /// Leaves out what has no effect, like the lies where nobody lies.
+  /// Removes genes without effect, such as lies without a liar.
   void tidy();
-  /// What device `hand` has in place of `all` where it is the one that differs.
+  /// The value of device `hand`: `other` for the one that differs, else `all`.
   [[nodiscard]] double of_device(std::size_t hand, Shared all, Shared other) const {
     return (*this)[(*this)[Shared::other_hand] == static_cast<double>(hand + 1) ? other : all];
   }
@@ -190,17 +190,17 @@ struct Scenario {
   void tidy_model();
 };
 
-/// "seed=7 stiffness=812.5 press1=0.02": what is not plain, exact to the last bit.
+/// "seed=7 stiffness=812.5 press1=0.02": all values that are not neutral, exact to the last bit.
 [[nodiscard]] std::string line_of(const Scenario& scenario);
-/// @throws std::invalid_argument naming the word, what is wrong with it and what may stand there
+/// @throws std::invalid_argument with the word, its fault and the permitted values
 [[nodiscard]] Scenario scenario_of(std::string_view line);
 /// The genes that a line names. The same errors.
 [[nodiscard]] std::vector<std::size_t> genes_in(std::string_view line);
 
 using Random = std::mt19937_64;
-/// Any scenario: about half of the faults and lies are out of play.
+/// A random scenario: about half of the faults and lies are neutral.
 [[nodiscard]] Scenario any_scenario(Random& random);
-/// A neighbour: one to four numbers moved, drawn anew or put out of play.
+/// A neighbour: one to four numbers moved, drawn again or made neutral.
 [[nodiscard]] Scenario neighbour(const Scenario& scenario, Random& random);
 
 }  // namespace reckon::fuzz

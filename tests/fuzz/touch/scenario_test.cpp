@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A scenario that is found can be had again, from its line.
+// A scenario that was found can be restored from its line.
 #include "reckon/tests/fuzz/touch/scenario.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(TouchScenario, ComesBackFromItsLineToTheLastBit) {
+TEST(TouchScenario, IsRestoredExactlyFromItsLine) {
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
     Scenario scenario = any_scenario(random);
@@ -28,7 +28,7 @@ TEST(TouchScenario, ComesBackFromItsLineToTheLastBit) {
   }
 }
 
-TEST(TouchScenario, SaysOnlyWhatIsNotPlain) {
+TEST(TouchScenario, WritesOnlyChangedValues) {
   EXPECT_EQ(line_of(Scenario()), "seed=1");
   Scenario scenario;
   scenario.seed = 12;
@@ -82,7 +82,7 @@ TEST(TouchScenario, FindsAnHonestSlowPressRight) {
   EXPECT_EQ(outcome.violation, "");
 }
 
-TEST(TouchScenario, FindsASlowPressRightOfDevicesThatAreUnlike) {
+TEST(TouchScenario, SlowPressIsRightForUnlikeDevices) {
   for (const char* devices : {"servo_rate=250 device_delay=1", "servo_rate=4000 device_delay=4",
                               "servo_rate=2000 other_hand=2 other_rate=500 other_delay=1"}) {
     const Outcome outcome = try_out(scenario_of(std::string("press1=0.02 ") + devices), 6);
@@ -91,7 +91,7 @@ TEST(TouchScenario, FindsASlowPressRightOfDevicesThatAreUnlike) {
   }
 }
 
-// One of which nothing was ever heard is not felt; one that was silent is felt again.
+// A hand that was never received is not felt; one that was silent is felt again.
 TEST(TouchScenario, KeepsQuietAboutAHand) {
   EXPECT_GT(try_out(scenario_of("press1=0.02 unknown_hand=2 unknown_until=3"), 3).rows, 0.9);
   EXPECT_GT(try_out(scenario_of("press1=0.02 silent_hand=2 silent_at=0 silent_for=3"), 3).rows,
@@ -100,7 +100,7 @@ TEST(TouchScenario, KeepsQuietAboutAHand) {
             0.1);
 }
 
-TEST(TouchScenario, MeetsWhatStandsBesideAHand) {
+TEST(TouchScenario, HandsTouchTheSolidsBesideThem) {
   for (const char* solid : {"solid=1", "solid=2", "solid=3", "solid=4"}) {
     const std::string line = "press1=-0.03 solid_stiffness=1000 solid_gap=0.002 ";
     EXPECT_LT(try_out(scenario_of(line + solid), 2).least_held, 1) << solid;
@@ -108,7 +108,7 @@ TEST(TouchScenario, MeetsWhatStandsBesideAHand) {
   EXPECT_EQ(try_out(scenario_of("press1=-0.03"), 2).least_held, Outcome().least_held);
 }
 
-// A body that falls on the hand; one that is too heavy goes on, and another lies on a floor.
+// A body falls on the hand; a heavy one falls past it, and another lies on a floor.
 TEST(TouchScenario, LetsBodiesFallOnAHand) {
   for (const char* body : {"body=1 body_mass=0.1", "body=2 body_mass=0.3 body_beside=0.002",
                            "body=1 body_mass=5 body_floor=0.1"}) {
@@ -128,8 +128,8 @@ TEST(TouchScenario, PinchesACubeBesideAHeap) {
   EXPECT_LE(outcome.heap_place, 1e-6);
 }
 
-// Weight, spring, magnet and border, whose force the judge has from laws of its own.
-TEST(TouchScenario, FindsTheForceOfARegionRightAtRest) {
+// Weight, spring, magnet and border; the judge computes their force independently.
+TEST(TouchScenario, RegionForceIsRightAtRest) {
   for (const char* region : {"region=3 region_strength=0.9", "region=4 region_off=0.015",
                              "region=5 region_off=0.01", "region=7 region_off=0.036"}) {
     const Scenario scenario = scenario_of(std::string("press2=0.01 ") + region);

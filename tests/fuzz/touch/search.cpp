@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The adversary of touch: climbs from random scenarios to those that break a promise, or come
-// nearest to it. `./run fuzz touch`; docs/robustness.md says what is promised.
+// The touch adversary: climbs from random scenarios to scenarios that break a promise, or come
+// nearest to it. `./run fuzz touch`; docs/robustness.md lists the promises.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@
 namespace reckon::fuzz {
 namespace {
 
-constexpr int kPatience = 30;  // neighbours in vain, then begins anew
+constexpr int kPatience = 30;  // neighbours without improvement before it starts elsewhere
 
 struct Worst {
   double badness = -1e300;
@@ -30,7 +30,7 @@ struct Worst {
 
 class Search {
  public:
-  /// @param fixed genes that keep a value  @param strict see judged()
+  /// @param fixed genes with a fixed value @param strict see judged()
   Search(std::uint64_t seed, double seconds, std::map<std::size_t, double> fixed, bool strict)
       : random_(seed),
         fixed_(std::move(fixed)),
@@ -40,8 +40,8 @@ class Search {
         end_(Clock::now() +
              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
-  /// The first scenario that breaks a promise. @param only one objective, all where it is empty: in
-  /// the first round each has its turn, however short the search is
+  /// The first scenario that breaks a promise. @param only one objective, or all if empty: in the
+  /// first round each has its turn, however short the search is
   std::optional<Worst> climb_all(const std::string& only) {
     for (bool is_first = only.empty(); !over(end_); is_first = false) {
       for (std::size_t i = 0; i < objectives().size() && !over(end_); ++i) {
@@ -52,10 +52,10 @@ class Search {
     return std::nullopt;
   }
 
-  /// Leaves out what a violation does not need.
+  /// Removes genes that a violation does not need.
   [[nodiscard]] Worst simplest(Worst broken, const Objective& objective) {
     const auto without = [](Scenario fewer, std::size_t part) -> std::optional<Scenario> {
-      const std::size_t gene = kGenes - 1 - part;  // the first one first
+      const std::size_t gene = kGenes - 1 - part;  // the first gene first
       if (fewer.values[gene] == genes()[gene].plain) return {};
       fewer.values[gene] = genes()[gene].plain;
       return fewer;
@@ -112,7 +112,7 @@ class Search {
   RunStatistics statistics_;
 };
 
-// All objectives, for as long as the longest takes.
+// Runs all objectives, for as long as the longest takes.
 int replay(const std::string& line, bool strict) {
   const Scenario scenario = scenario_of(line);
   int status = 0;
@@ -126,7 +126,8 @@ int replay(const std::string& line, bool strict) {
   return status;
 }
 
-// Out of play are all whose names begin so: "press" is that of each hand. @param with a line
+// Fixes all genes whose names begin so at their neutral value: "press" is that of each hand. @param
+// with a line
 std::map<std::size_t, double> fixed_by(const std::vector<std::string>& without,
                                        const std::string& with) {
   std::map<std::size_t, double> fixed;

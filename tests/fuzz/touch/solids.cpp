@@ -22,7 +22,7 @@ enum class Solid { none, wall, box, pit, tetrahedron };
 constexpr double kSize = 0.04;  // [m], of a box
 constexpr double kPit = 0.015;  // [m], radius
 
-// Meshes come from files. Gone with the process.
+// Meshes come from files. The file is removed with the process.
 class TetrahedronFile {
  public:
   TetrahedronFile() {
@@ -42,7 +42,7 @@ class TetrahedronFile {
                                 ("reckon_touch_" + std::to_string(::getpid()) + ".off");
 };
 
-// The side that faces a hand is half a size from the object's origin, that of a wall is there.
+// A box faces a hand half its size from the object's origin; the side of a wall is at the origin.
 haptics::Shape shape_of(Solid solid, const Vector3d& normal) {
   switch (solid) {
     case Solid::box:
@@ -82,7 +82,7 @@ haptics::SceneObject object_of(const char* name, Solid solid, double stiffness, 
   return object;
 }
 
-// Defaults times 0.1 to 10, and where there is none a hundredth of the most times that.
+// Defaults times 0.1 to 10; without a default a hundredth of the maximum takes its place.
 template <class Effect>
 typename Effect::Parameters values_of(double strength) {
   typename Effect::Parameters values{};
@@ -95,7 +95,7 @@ typename Effect::Parameters values_of(double strength) {
   return values;
 }
 
-// The effect of this row of a list, from 1 on; none where it refuses its values.
+// Declares the effect of this row of a list, counted from 1; nothing if it refuses its values.
 template <class Types>
 void declare(haptics::EffectDeclarations<Types>& effects, std::size_t number, double strength) {
   std::size_t row = 0;

@@ -25,13 +25,14 @@ using haptics::ContactSet;
 using haptics::RemoteHand;
 
 constexpr double kLongest = 0.06;  // [s], between two updates by threshold
-constexpr double kLeast = 0.2;     // [N], that counts as felt
-constexpr double kTold = 0.1;      // [s] of kWatched, for which a servo says that it shows less
+constexpr double kLeast = 0.2;     // [N], least force that counts as felt
+constexpr double kTold = 0.1;      // [s] of kWatched, for which a servo reports a reduced force
 constexpr double kArm = 1.8;       // [m/s]
 
 class Trial {
  public:
-  /// @param twin what the liar showed, in whose place an honest hand is led along it; may be null
+  /// @param twin the motion that the liar showed; an honest hand is led along it in the liar's
+  ///     place; may be null
   explicit Trial(const Scenario& scenario, const Track* twin = nullptr)
       : scenario_(scenario),
         random_(scenario.seed),
@@ -45,7 +46,7 @@ class Trial {
     shown_.period = 1 / scenario.of_device(liar(), Shared::servo_rate, Shared::other_rate);
   }
 
-  /// Until the next time at which a servo steps.
+  /// Runs until the next servo step.
   void step();
   void run_until(double seconds);
   void run(double seconds);
@@ -54,10 +55,10 @@ class Trial {
 
   [[nodiscard]] double time() const { return pdu::to_seconds(now_ - begin_); }
   [[nodiscard]] Outcome outcome() const;
-  /// What the forces have put into the first hand and the device's damping did not take [J], every
+  /// Energy that forces put into the first hand and the device's damping did not take [J], every
   /// kSampled.
   [[nodiscard]] const std::vector<double>& put_in() const { return put_in_; }
-  /// Where the liar was shown.
+  /// The positions that the liar showed.
   [[nodiscard]] const Track& shown() const { return shown_; }
 
  private:
@@ -119,7 +120,7 @@ void Trial::run(double seconds) {
   run_until(seconds);
 }
 
-// All go by the clock of the first hand's model, where there is one.
+// All use the clock of the first hand's model, if it has one.
 void Trial::run_until(double seconds) {
   ModelHandle* const model = hands_[0]->model();
   if (model == nullptr) {
@@ -185,7 +186,7 @@ RemoteHand Trial::record_of(std::size_t from, std::size_t to) {
   return hand;
 }
 
-// In turn and to and fro at the frequency of its lies.
+// A false swing and an alternating false displacement at the frequency of its lies.
 void Trial::show_elsewhere(deadreckon::KinematicState& state) const {
   const double speed = 2 * std::numbers::pi * scenario_[Shared::lie_wave];
   const double sine = std::sin(speed * time());
@@ -227,7 +228,7 @@ void Trial::lie(RemoteHand& hand, std::size_t from) {
   *fields[random_() % std::size(fields)] = odd;
 }
 
-// Energy under way or thrown away only adds to what is there.
+// Energy under way or discarded only adds to the sum.
 void Trial::measure() {
   double sum = 0, open = 0;
   bool exact = true;

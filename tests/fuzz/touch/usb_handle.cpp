@@ -25,7 +25,7 @@ constexpr nanoseconds kSettles = milliseconds(50);
 constexpr nanoseconds kGlance = milliseconds(10);
 constexpr nanoseconds kMotionStep = std::chrono::microseconds(100);
 constexpr double kThere = 1e-3;  // [m]
-constexpr double kStill = 1e-8;  // [m] in a glance
+constexpr double kStill = 1e-8;  // [m] in a poll
 constexpr int kDamaged = 5;
 constexpr unsigned kErrors = 3;
 
@@ -119,7 +119,7 @@ class UsbHandle final : public ModelHandle {
   [[nodiscard]] bool is_ready() const {
     return runs() && (plugged_.model.position() - wanted(0)).norm() < kThere;
   }
-  // What a device does that was told nothing for 10 ms is not of the servo's books: its own
+  // Work of a device that has received no command for 10 ms is not in the servo's ledger: its own
   // watchdog is slower.
   void book_own_work(nanoseconds now) {
     if (plugged_.model.commands() != std::exchange(commands_, plugged_.model.commands()))

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that presses into a wall while the device runs, and holds the handle still while it does
-// not.
+// A hand that presses into a wall while the device runs, and holds the handle still otherwise.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +20,13 @@ class HeldHand {
   static constexpr double kGap = 0.001;  ///< [m]
 
   [[nodiscard]] const Eigen::Vector3d& start() const { return start_; }
-  /// From here it goes so deep into the wall, and in and out from then on.
+  /// From `from` on it presses `depth` into the wall, then moves in and out.
   void press(const Eigen::Vector3d& from, double depth, std::chrono::nanoseconds now) {
     from_ = from;
     to_ = start_ - (kGap + depth) * Eigen::Vector3d::UnitZ();
     since_ = pdu::to_seconds(now);
   }
-  /// Where it wants the handle [m] at a time [s].
+  /// The goal of the handle [m] at a time [s].
   [[nodiscard]] Eigen::Vector3d operator()(double t) const {
     constexpr double kWay = 0.03;     // [s]
     constexpr double kDepth = 0.002;  // [m], in and out

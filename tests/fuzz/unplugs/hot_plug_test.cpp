@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices that come and go as the kernel tells it: umockdev has them in /sys and tells of them, the
-// real libusb finds and opens them by itself, and a model answers what it asks the opened one.
+// Devices that come and go through the kernel's events: umockdev puts them into /sys and sends the
+// events, the real libusb finds and opens them by itself, and a model answers its requests.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <umockdev.h>
@@ -24,11 +24,11 @@ struct Unref {
   void operator()(UMockdevTestbed* bed) const { g_object_unref(bed); }
 };
 
-/// A bus with a root hub, and the places on it.
+/// A bus with a root hub and its ports.
 class Bus {
  public:
   Bus() : bed_(umockdev_testbed_new()) {
-    // A hub of its own number; the rest of it is not looked at.
+    // A hub with its own number; the rest of its descriptor is not read.
     add(1, "/devices/usb1", {18, 1, 0, 2, 9, 0, 0, 64, 0x6B, 0x1D, 2, 0,    0, 1,
                              0,  0, 0, 1, 9, 2, 9, 0,  0,    1,    0, 0xE0, 0});
   }
@@ -62,7 +62,7 @@ class Bus {
   std::unique_ptr<UMockdevTestbed, Unref> bed_;
 };
 
-TEST(HotPlug, DevicesThatComeAndGoAreFoundByThemselves) {
+TEST(HotPlug, FindsDevicesThatComeAndGo) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   Bus bus;
   const UsbSite site = bus.site(2);
@@ -72,7 +72,7 @@ TEST(HotPlug, DevicesThatComeAndGoAreFoundByThemselves) {
   EXPECT_TRUE(is_usb_given_back());
 }
 
-// Each is pulled out while the other goes on or is pulled out too.
+// Each is pulled out while the other continues or is pulled out too.
 TEST(HotPlug, TwoDevicesDoNotDisturbEachOther) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   Bus bus;

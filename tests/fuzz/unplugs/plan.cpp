@@ -49,7 +49,7 @@ class Draw {
   [[nodiscard]] nanoseconds between(unsigned from_us, unsigned to_us) {
     return microseconds(from_us + below(to_us - from_us));
   }
-  /// Index of the part of a hundred that is drawn; what is left is the last.
+  /// Index of the percentage that is drawn; the remainder is the last index.
   template <std::size_t n>
   [[nodiscard]] std::size_t part(const std::array<unsigned, n>& percents) {
     unsigned drawn = below(100);
@@ -64,7 +64,7 @@ class Draw {
   std::mt19937 random_;
 };
 
-// Half of them are plain.
+// Half of them are plain unplugs.
 FaultKind kind_of(DeviceKind device, Draw& draw) {
   const std::span<const FaultKind> kinds = faults_of(device);
   if (draw.happens(50)) return kinds[0];
@@ -79,7 +79,7 @@ nanoseconds after_of(Phase phase, Draw& draw) {
   return part == 1 ? draw.between(10'000, 80'000) : draw.between(80'000, 250'000);
 }
 
-// Before it is noticed, before it is looked for, and later.
+// Before it is noticed, before the next search, and later.
 nanoseconds lasts_of(Draw& draw) {
   switch (draw.part(std::array{30U, 55U, 12U})) {
     case 0:

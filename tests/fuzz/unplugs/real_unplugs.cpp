@@ -34,11 +34,11 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr nanoseconds kLongest = seconds(30);  // that is waited for, on a busy host
+constexpr nanoseconds kLongest = seconds(30);  // longest wait, on a busy host
 constexpr nanoseconds kZeroWithin = milliseconds(10);
 const Vector3d kForce(0.2, 0.1, 0.3);
 
-/// What a device does in the rounds; the thread of the servo calls it.
+/// The device in the rounds; the servo's thread calls it.
 class Plug {
  public:
   virtual ~Plug() = default;
@@ -48,7 +48,7 @@ class Plug {
   virtual void plug() = 0;
   virtual bool shows_force() = 0;
   virtual std::uint64_t commands() = 0;
-  /// A millisecond of what goes on beside the thread.
+  /// A millisecond of work beside the thread.
   virtual void tend(const std::vector<std::string>& notices) = 0;
 };
 
@@ -75,7 +75,7 @@ class Rounds {
     return microseconds(random_() % microseconds_most);
   }
 
-  // A step of the servo.
+  // A servo step.
   void step() {
     is_read_ = plug_.device().read(clock_.now()).ok;
     plug_.device().write(kForce, clock_.now());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Some unplugs in real time; `unplugs_in_real_time` makes more. A busy host may miss 10 ms, so that
-// no time is asserted.
+// Some unplugs in real time; `unplugs_in_real_time` makes more. A busy host may miss 10 ms, so no
+// time is asserted.
 #include "reckon/tests/fuzz/unplugs/real_unplugs.hpp"
 
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@ void expect_all(const RealOutcome& outcome) {
   EXPECT_TRUE(is_usb_given_back());
 }
 
-TEST(RealUnplugs, OfAFalconWhoseThreadRuns) {
+TEST(RealUnplugs, OfAFalconWithARunningThread) {
   expect_all(unplug_usb(DeviceKind::falcon, kRounds, 1));
 }
 
-TEST(RealUnplugs, OfAPolhemWhoseThreadRuns) {
+TEST(RealUnplugs, OfAPolhemWithARunningThread) {
   expect_all(unplug_usb(DeviceKind::polhem, kRounds, 2));
 }
 

@@ -26,13 +26,13 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kServoStep = milliseconds(1);
-// Set up anew, with a firmware to load and homed, and the force is back.
+// Time until it is set up again, with a firmware download and homing, and the force is back.
 constexpr nanoseconds kBackWithin = seconds(5);
 constexpr double kFelt = 0.1;    // [N]
 constexpr double kDeep = 0.015;  // [m], of a hand in the wall that must feel it
-// A handle that moves while nobody tells it a force.
+// A handle that moves while no force is commanded.
 constexpr nanoseconds kLoose = milliseconds(30);
-constexpr nanoseconds kHurts = milliseconds(600);       // a line, and what came of it
+constexpr nanoseconds kHurts = milliseconds(600);       // disturbance of a line and its effects
 constexpr nanoseconds kPersonTakes = milliseconds(20);  // to home it
 constexpr nanoseconds kPersonTriesAgain = milliseconds(500);
 
@@ -57,7 +57,7 @@ class Trial {
   [[nodiscard]] Outcome run();
 
  private:
-  // Time.
+  // --- time
   void step();
   bool go(const std::function<bool()>& until, nanoseconds longest);
   void pass_beside(nanoseconds now);
@@ -68,7 +68,7 @@ class Trial {
     agenda_.add(now() + time, std::move(act));
   }
 
-  // What befalls it.
+  // --- faults
   void play(const Fault& fault);
   bool reach(const Fault& fault);
   void open_anew();
@@ -114,7 +114,7 @@ Trial::Trial(const Plan& plan, bool keep_log)
   tried_->begin_program();
 }
 
-// It may have been told to stop while it was setting the device up.
+// It may have been asked to stop during the setup of the device.
 void Trial::end_program() {
   ends_ = false;
   const bool is_sound = !hurt_at_ || now() - *hurt_at_ > kHurts;
@@ -125,7 +125,7 @@ void Trial::end_program() {
     tried_->pass(tried_->obeys_within());
     if (!tried_->rests()) watch_.fail(2, now(), "the end of the program leaves a force on");
   }
-  watch_.happens(1);  // who is new says all of it anew
+  watch_.happens(1);  // a new loop reports everything again
   tried_->begin_program();
 }
 
@@ -180,7 +180,7 @@ void Trial::home(nanoseconds now) {
   homing_since_ = now + kPersonTriesAgain;
 }
 
-// Where its places are known it stays where it is; else it is brought to where it can be homed.
+// If its position is known, the handle stays; otherwise it is brought to where it can be homed.
 void Trial::hold_handle(nanoseconds now) {
   if (runs()) {
     ran_at_ = now;
@@ -281,7 +281,7 @@ void Trial::strike(const Fault& fault) {
   }
 }
 
-// So that it is set up from the begin.
+// Makes the loop set the device up from the beginning.
 void Trial::open_anew() {
   if (tried_->is_plugged() && tried_->stage() != Stage::away) {
     pull(false);
@@ -290,7 +290,7 @@ void Trial::open_anew() {
   plug();
 }
 
-// Lets time pass until it is struck; at once is left to who calls.
+// Advances time until the fault is executed; a fault of phase `any` is left to the caller.
 bool Trial::reach(const Fault& fault) {
   if (fault.phase == Phase::any) return true;
   if (!go([this] { return agenda_.is_empty(); }, seconds(10))) return false;
@@ -346,7 +346,7 @@ void Trial::play(const Fault& fault) {
   mix(tried_->commands());
 }
 
-// A hand in the wall; or one that comes into it, over and over.
+// A hand in the wall; or one that enters it repeatedly.
 bool Trial::comes_to_feel() {
   const nanoseconds outside = tried_->shows_after();
   const nanoseconds end = now() + kBackWithin;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs a plan: one thread, the kernel's calls answered by a model of the device, a servo, a hand
-// that presses into a wall, and a clock that is the model's.
+// Runs a plan: one thread, kernel calls answered by a model of the device, a servo, a hand that
+// presses into a wall, and the model's clock.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace reckon::fuzz::unplugs {
 
-/// The hash covers notices and places of the handle; `received` counts unplugs.
+/// The hash covers notices and positions of the handle; `received` counts unplugs.
 struct Outcome : SeededOutcome<> {
   std::uint64_t pressed = 0;  ///< unplugs while the motors had a force
 };

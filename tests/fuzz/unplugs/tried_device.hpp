@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A device of one kind, its line and the thread's part that has it, as a trial of the storm of
-// unplugs sees them. What is common to all kinds is the trial's.
+// A device of one kind with its line and its thread's loop, as seen by a trial of the unplug
+// simulation. The trial contains the common parts of all kinds.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,10 +27,10 @@ enum class Stage : std::uint8_t {
   away,  ///< no line is open
   opened,
   homing,
-  running,  ///< it says that forces are shown
+  running,  ///< it reports that forces are shown
 };
 
-/// The call to the kernel at which something is to happen, counted down.
+/// Counts kernel calls down to one at which an action follows.
 class NthCall {
  public:
   void arm(unsigned calls, std::function<void()> act) {
@@ -49,7 +49,7 @@ class NthCall {
   std::function<void()> act_;
 };
 
-/// All time is the model's.
+/// All times are of the model.
 class TriedDevice {
  public:
   using Vector3d = Eigen::Vector3d;
@@ -60,53 +60,53 @@ class TriedDevice {
   TriedDevice& operator=(const TriedDevice&) = delete;
   virtual ~TriedDevice() = default;
 
-  // As the servo has it.
+  // As the servo uses it.
   [[nodiscard]] virtual haptics::HapticDevice& device() = 0;
   [[nodiscard]] virtual haptics::Scene scene() const = 0;
   [[nodiscard]] virtual Vector3d origin() const = 0;  ///< [m], of frame D in frame S
 
-  // Time, and the handle in the hand. Places have the wall along z.
+  // Time, and the handle in the hand. In positions the wall is along z.
   [[nodiscard]] virtual nanoseconds now() const = 0;
-  /// The thread does nothing meanwhile.
+  /// Advances the time without work of the thread.
   virtual void pass(nanoseconds time) = 0;
-  /// Called at least every millisecond of its time, whoever lets it pass.
+  /// Called at least every millisecond of its time, whichever function advances it.
   virtual void beside(Beside call) = 0;
   [[nodiscard]] virtual Vector3d place() const = 0;
-  /// Holds the handle here until it is let go.
+  /// Holds the handle at `place` until let_go().
   virtual void lead(const Vector3d& place) = 0;
   virtual void let_go() = 0;
   [[nodiscard]] virtual bool is_led() const = 0;
 
-  // What it does, by its own measure.
+  // --- state by its own measure
   [[nodiscard]] virtual nanoseconds watchdog() const = 0;    ///< of the device itself
-  [[nodiscard]] virtual bool rests() const = 0;              ///< its motors
+  [[nodiscard]] virtual bool rests() const = 0;              ///< whether its motors rest
   [[nodiscard]] virtual double force() const = 0;            ///< [N]
   [[nodiscard]] virtual std::uint64_t commands() const = 0;  ///< that it has obeyed
-  /// [N], of the force that a servo tells of, what it asks for.
+  /// [N], requested part of the force that a servo reports
   [[nodiscard]] virtual double asked(const haptics::ServoSnapshot& servo) const {
     return servo.force.norm();
   }
-  /// [J], of its own, with what the servo owes and allows for.
+  /// [J], own energy ledger, including the servo's debts and allowances
   [[nodiscard]] virtual double books(const haptics::ServoSnapshot& servo) const = 0;
 
-  // The thread's part.
+  // --- the thread's loop
   virtual void begin_program() = 0;
-  /// May let time pass.
+  /// May advance the time.
   virtual void end_program() = 0;
   [[nodiscard]] virtual bool has_program() const = 0;
-  virtual void stop() {}  ///< it is told that it will end
+  virtual void stop() {}  ///< called before its end
   virtual void step(std::chrono::microseconds longest) = 0;
   [[nodiscard]] virtual std::vector<std::string> take_notices() = 0;
   [[nodiscard]] virtual Stage stage() const = 0;
-  /// After it has ended the device has obeyed its last command.
+  /// After this time the device has obeyed its last command.
   [[nodiscard]] virtual nanoseconds obeys_within() const = 0;
-  /// What it holds of the host and does not need, or lacks, as a sentence.
+  /// A superfluous or missing resource of the host, as a sentence.
   [[nodiscard]] virtual std::optional<std::string> surplus() const = 0;
   [[nodiscard]] NthCall& calls() { return calls_; }
-  /// Times that it tried to open its line.
+  /// Attempts to open its line.
   [[nodiscard]] virtual unsigned tries() const = 0;
 
-  // What befalls it.
+  // --- faults
   virtual void pull(bool loses_power) = 0;
   virtual void plug() = 0;
   [[nodiscard]] virtual bool is_plugged() const = 0;
@@ -114,22 +114,22 @@ class TriedDevice {
   virtual bool loosen() = 0;
   virtual void be_another(const Fault& fault, nanoseconds time) = 0;
   virtual void be_itself() = 0;
-  /// Nobody may open it. @param error errno; 0: it may be opened again
+  /// Forbids opening it. @param error errno; 0: it may be opened again
   virtual void deny(int /*error*/) {}
   /// Any other fault of its kind. @return whether its line breaks
   virtual bool strike(const Fault& fault, nanoseconds time) = 0;
   virtual void lose_place() = 0;
   [[nodiscard]] virtual bool can_be_homed_anywhere() const { return true; }
   virtual void home() = 0;
-  /// After it was taken up, until it shows walls to a hand that comes into them. 0: also to one
-  /// that is in them already.
+  /// Time from the setup until it shows walls to a hand that enters them. 0: also to a hand already
+  /// in them.
   [[nodiscard]] virtual nanoseconds shows_after() const { return nanoseconds(0); }
 
  protected:
   NthCall calls_;
 };
 
-/// In front of the wall, where the hand begins [m].
+/// The first position of the hand, in front of the wall [m].
 [[nodiscard]] Eigen::Vector3d start_of(DeviceKind kind);
 /// @param hand outlives it
 [[nodiscard]] std::unique_ptr<TriedDevice> tried_usb_device(const Plan& plan, const HeldHand& hand);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device of Linux, the kernel's calls answered by a model.
+// A force feedback device of Linux; a model answers the kernel calls.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -18,24 +18,24 @@ using test::EvdevModel;
 
 constexpr std::int32_t kCoarse = 1'023;  // steps of an axis of another device
 
-/// How another device differs.
+/// The differences of another device.
 struct Shape {
   std::optional<int> hidden_axis;
   bool is_coarse = false;
 };
 
-/// What befalls the calls; it outlives the loops that make them.
+/// Faults of the calls; it outlives the loops that make them.
 struct Calls {
   Calls(EvdevModel& of, NthCall& counted) : model(of), nth(counted) {}
 
   EvdevModel& model;
   NthCall& nth;
-  bool is_dead = false;  // the file that is open
+  bool is_dead = false;  // for the open file
   Shape shape;
   unsigned tries = 0;
-  std::uint64_t commands = 0;  // that changed or played an effect
+  std::uint64_t commands = 0;  // calls that changed or played an effect
   nanoseconds busy_until{0};
-  nanoseconds slow{0};  // each of the next uploads
+  nanoseconds slow{0};  // of each of the next uploads
   unsigned slow_left = 0;
   unsigned read_errors = 0;
   unsigned long refused = 0;  // request; 0: a play
@@ -47,7 +47,7 @@ std::int32_t coarse(std::int32_t reading) {
   return static_cast<std::int32_t>((std::int64_t{reading} + 32'768) * kCoarse / 65'535);
 }
 
-/// A file that was open when the device was pulled out stays as dead as it was.
+/// A file that was open when the device was pulled out stays dead.
 class StruckCalls final : public haptics::EventCalls {
  public:
   explicit StruckCalls(Calls& calls) : calls_(calls), model_(calls.model) {}
@@ -87,7 +87,7 @@ class StruckCalls final : public haptics::EventCalls {
   EvdevModel& model_;
 };
 
-// The change is on its way at once, as it has to be within the delay that is stated.
+// The change leaves at once, because it has to be within the stated delay.
 int StruckCalls::upload(int file, void* effect) noexcept {
   if (is_busy()) return -EAGAIN;
   const int result = model_.control(file, EVIOCSFF, effect);
@@ -169,7 +169,7 @@ class TriedEventDevice final : public TriedEventLoop {
 
   double force() const override { return std::hypot(model_.force(0), model_.force(1)); }
   std::uint64_t commands() const override { return calls_of_.commands; }
-  // Of its springs: the device's own books owe and allow for nothing.
+  // Energy of its springs: the device's own ledger has no debts and no allowances.
   double books(const haptics::ServoSnapshot&) const override { return model_.least_absorbed(); }
 
   unsigned tries() const override { return calls_of_.tries; }
@@ -181,7 +181,7 @@ class TriedEventDevice final : public TriedEventLoop {
   }
   void plug() override { model_.plug(true); }
   bool is_plugged() const override { return model_.is_plugged(); }
-  // The kernel tells of it where an effect is played.
+  // The kernel reports it when an effect is played.
   bool loosen() override {
     refuse(0, EIO, 1'000'000);
     return false;
@@ -242,7 +242,7 @@ void TriedEventDevice::be_another(const Fault& fault, nanoseconds) {
   }
 }
 
-// To upload, to erase, to play one, or to say where it is.
+// Refuses an upload, an erase, a play or a position request.
 void TriedEventDevice::strike_effects(const Fault& fault) {
   static constexpr std::array<unsigned long, 4> kRequests{EVIOCSFF, EVIOCRMFF, 0, EVIOCGABS(ABS_X)};
   static constexpr std::array kErrors{ENOSPC, EIO, EINVAL, ENOMEM, EPERM};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What devices that render springs by themselves have in common in a trial: the loop that tells
-// them walls, and the servo's side. Their x is the trial's z.
+// Common parts of devices that render springs by themselves in a trial: the loop that uploads
+// walls, and the servo's side. Their x is the trial's z.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ class TriedEventLoop : public TriedDevice {
 
   nanoseconds watchdog() const override { return haptics::EvdevLoop::kLength + kTakesUp; }
   bool rests() const override { return force() == 0; }
-  // It tells of what the device shows by itself, until its effects end.
+  // The servo reports the device's own force until its effects end.
   double asked(const haptics::ServoSnapshot& servo) const override {
     return servo.enabled ? servo.force.norm() : 0;
   }
@@ -70,11 +70,11 @@ class TriedEventLoop : public TriedDevice {
   }
   void lose_place() override {}
   void home() override {}
-  // A wall in which the hand is already would have to be paid for.
+  // A wall that already contains the hand would cost energy.
   nanoseconds shows_after() const override { return std::chrono::milliseconds(105); }
 
  protected:
-  /// Those that the next loop has.
+  /// The calls of the next loop.
   [[nodiscard]] virtual std::unique_ptr<haptics::EventCalls> make_calls() = 0;
   [[nodiscard]] virtual int open_files() const = 0;
   [[nodiscard]] virtual std::size_t effects() const = 0;
@@ -82,15 +82,15 @@ class TriedEventLoop : public TriedDevice {
 
  private:
   static constexpr std::size_t kEffects = 2;  // of the loop
-  // A change that it takes up while its effects end.
+  // A change that it takes while its effects end.
   static constexpr nanoseconds kTakesUp = std::chrono::milliseconds(2);
-  // A program that begins anew is not there sooner.
+  // A restarted program is not ready sooner.
   static constexpr nanoseconds kBegins = std::chrono::milliseconds(20);
 
   haptics::EvdevSettings settings_;
   haptics::EvdevExchange exchange_;
   haptics::EvdevDevice device_;
-  bool is_ready_ = false;  // the loop said so
+  bool is_ready_ = false;  // the loop reported it
   std::unique_ptr<haptics::EvdevLoop> loop_;
 };
 

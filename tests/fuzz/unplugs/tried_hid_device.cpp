@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device that the kernel does not drive, by its reports.
+// A force feedback device without a kernel driver, by its HID reports.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -17,7 +17,7 @@ using std::chrono::microseconds;
 using test::HidWheel;
 
 constexpr unsigned kUntilPulled = 1'000'000;
-// Calls; each may cost an attempt, and these are half a second apart.
+// Refused calls; each may cost an attempt, and attempts are half a second apart.
 constexpr unsigned kMostRefused = 4;
 
 class TriedHidDevice final : public TriedEventLoop {
@@ -43,7 +43,7 @@ class TriedHidDevice final : public TriedEventLoop {
 
   double force() const override { return std::hypot(model_.wheel.force(0), model_.wheel.force(1)); }
   std::uint64_t commands() const override { return model_.wheel.orders(); }
-  // Of its springs: the device's own books owe and allow for nothing.
+  // Energy of its springs: the device's own ledger has no debts and no allowances.
   double books(const haptics::ServoSnapshot&) const override {
     return model_.wheel.least_absorbed();
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial board that runs the example's program, through the very SerialPort, the kernel's calls
-// answered by a model of its line.
+// A serial board with the example firmware, through the real SerialPort; a model of its line
+// answers the kernel calls.
 #include <fmt/format.h>
 
 #include <array>
@@ -100,11 +100,11 @@ class TriedSerialBoard final : public TriedDevice {
     board_.lose_place(true);
   }
   void plug() override {
-    shim_.lose(0, {});  // it sits
+    shim_.lose(0, {});  // a firm plug
     shim_.plug(false_);
   }
   bool is_plugged() const override { return shim_.is_plugged(); }
-  // Some octets come through.
+  // Some octets still arrive.
   bool loosen() override {
     shim_.lose(kMostLost / 2, std::chrono::seconds(1));
     return false;

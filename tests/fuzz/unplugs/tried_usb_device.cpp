@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A Falcon or a Polhem, through the real libusb, the kernel's calls answered by a model.
+// A Falcon or a Polhem, through the real libusb; a model answers the kernel calls.
 #include <fmt/format.h>
 
 #include <array>
@@ -27,7 +27,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 constexpr nanoseconds kMotionStep = microseconds(100);
-constexpr int kTransfers = 3;  // of a line: two that listen, one that sends
+constexpr int kTransfers = 3;  // per line: two for input, one for output
 
 struct Falcon {
   using Model = test::FalconModel;
@@ -50,7 +50,7 @@ struct Falcon {
   static constexpr bool kCanBeHomedAnywhere = true;
   static void home(Model& model) { model.home(); }
   static void damage(Model& model, int count) { model.damage_visibly(count); }
-  // It does not answer.
+  // Another device does not answer.
   static void be_another(Model& model, nanoseconds time) { model.mute(time); }
   static void be_itself(Model&) {}
 };
@@ -78,7 +78,7 @@ struct Polhem {
   static void be_itself(Model& model) { model.disguise(false); }
 };
 
-// A report in pieces takes a tick of the chip's timer more.
+// A report in pieces takes one more tick of the chip's timer.
 haptics::DeviceLimits limits_of(const haptics::UsbFacts& facts, const Line& line) {
   haptics::UsbSettings settings;
   settings.damping = 2.0;
@@ -99,7 +99,7 @@ class TriedUsbDevice final : public TriedDevice {
 
   haptics::HapticDevice& device() override { return device_; }
   haptics::Scene scene() const override { return test::stiff_floor(); }
-  // The wall lies where the hand's way begins.
+  // The wall is at the beginning of the hand's path.
   Vector3d origin() const override { return HeldHand::kGap * Vector3d::UnitZ() - Kind::start(); }
 
   nanoseconds now() const override { return model_.now(); }
@@ -119,7 +119,7 @@ class TriedUsbDevice final : public TriedDevice {
   bool rests() const override { return model_.motors() == decltype(model_.motors()){}; }
   double force() const override { return model_.force().norm(); }
   std::uint64_t commands() const override { return model_.commands(); }
-  // Without what the device gave by itself.
+  // Without the work that the device did by itself.
   double books(const haptics::ServoSnapshot& servo) const override {
     return model_.port_work() + model_.damping_loss() - own_work_ + servo.loan +
            servo.source_energy() + servo.encoder_allowance;
@@ -204,8 +204,8 @@ std::optional<std::string> TriedUsbDevice<Kind>::surplus() const {
                      has_line ? "with" : "without");
 }
 
-// A device that is pulled out holds its last force until its own watchdog acts. Its driver can do
-// nothing about it, and the servo relies on 10 ms: what comes later is not of its books.
+// A device that is pulled out holds its last force until its own watchdog acts. Its driver cannot
+// change that, and the servo relies on 10 ms: later work is not in its ledger.
 template <class Kind>
 void TriedUsbDevice<Kind>::book_own_work(nanoseconds now) {
   if (model_.commands() != std::exchange(commands_, model_.commands())) commanded_at_ = now;
@@ -213,7 +213,7 @@ void TriedUsbDevice<Kind>::book_own_work(nanoseconds now) {
   if (now - commanded_at_ > haptics::HapticDevice::kWatchdog) own_work_ += work;
 }
 
-// A line that breaks and is there still. A transfer that is called off is none that failed.
+// A line that breaks but stays plugged. A cancelled transfer is not a failed one.
 template <class Kind>
 bool TriedUsbDevice<Kind>::strike_line(const Fault& fault) {
   static constexpr std::array kErrors{EPROTO, EILSEQ, EOVERFLOW, ETIME, EPIPE, ENOSR, ENOENT};

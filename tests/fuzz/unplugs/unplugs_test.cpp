@@ -17,11 +17,11 @@
 namespace reckon::fuzz::unplugs {
 namespace {
 
-// Others than the first ones of the verb, four for each kind of device. Each has 100 faults, most
+// Seeds that the verb does not try first, four for each kind of device. Each has 100 faults, most
 // of them unplugs.
 constexpr std::uint64_t kFirst = 1'000'654, kSeeds = 20;
 
-TEST(Unplugs, LeaveNoForceAndTheDeviceIsTakenUpAgain) {
+TEST(Unplugs, LeaveNoForceUntilSetupIsRepeated) {
   std::array<std::uint64_t, kDeviceKinds> seeds{}, pulled{}, pressed{};
   expect_holds(kSimulation, kFirst, kSeeds, [&](const Plan& plan, const Outcome& outcome) {
     const auto kind = static_cast<std::size_t>(plan.device);
@@ -46,7 +46,7 @@ TEST(Unplugs, RunTheSameFromTheSameSeed) {
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }
 
-TEST(UnplugsPlan, DrawsEveryFaultOfADeviceInEveryPhase) {
+TEST(UnplugsPlan, DrawsEveryFaultInEveryPhase) {
   std::map<std::tuple<DeviceKind, FaultKind, Phase>, unsigned> drawn;
   for (std::uint64_t seed = 1; seed <= 1'000; ++seed) {
     const Plan plan = plan_of(seed);

@@ -21,7 +21,7 @@ constexpr nanoseconds kZeroWithin = milliseconds(10);
 constexpr nanoseconds kUnderWay = milliseconds(3);
 constexpr double kLeastBooks = -1e-9;    // [J]
 constexpr int kRamp = 100;               // steps
-constexpr std::uint64_t kSentences = 6;  // for an event
+constexpr std::uint64_t kSentences = 6;  // per event
 
 double ms_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
 
@@ -84,13 +84,13 @@ void Watch::hear(const std::string& sentence, nanoseconds now) {
     fail(6, now, fmt::format("{} sentences for {} events", sentences_, events_));
 }
 
-// The caches of the allocator come and go.
+// The allocator's caches vary.
 std::optional<std::string> growth() {
   constexpr std::size_t kSettled = 64;          // seeds
   constexpr std::size_t kLeeway = 128 * 1'024;  // octets
   static std::size_t seeds = 0, most = 0;
   static int next_file = -1;
-  const int file = ::dup(STDIN_FILENO);  // the lowest number that is free
+  const int file = ::dup(STDIN_FILENO);  // the lowest free number
   ::close(file);
   const std::size_t now = mallinfo2().uordblks;
   if (++seeds <= kSettled) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Looks whether the invariants of docs/robustness.md hold for a device that is unplugged.
+// Checks the invariants of docs/robustness.md for a device that is unplugged.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,10 @@
 
 namespace reckon::fuzz::unplugs {
 
-/// What can be seen of the device and its thread.
+/// The observable state of the device and its thread.
 struct Sight {
   nanoseconds now{};
-  bool runs = false;  ///< the thread says that forces are shown
+  bool runs = false;  ///< the thread reports that forces are shown
   bool motors_rest = true;
   std::uint64_t commands = 0;  ///< that the device has obeyed
 };
@@ -28,18 +28,19 @@ class Watch {
   Watch(nanoseconds watchdog, double force_limit)
       : watchdog_(watchdog), force_limit_(force_limit) {}
 
-  /// The line breaks here and now.
+  /// The line breaks now.
   void broken(nanoseconds now);
-  /// What the device gets from now on is of another line.
+  /// Later commands to the device use another line.
   void plugged() { ran_at_.reset(); }
   void see(const Sight& sight);
-  /// @param asked [N], of what it shows what the servo still asks for  @param books [J], of the
-  /// device's own, with what is owed and allowed
+  /// @param asked [N], part of its shown force that the servo still requests
+  /// @param books [J], from the device's own ledger, including debts and allowances
   void see(const haptics::ServoSnapshot& servo, double asked, double books, nanoseconds now);
   void hear(const std::string& sentence, nanoseconds now);
-  /// So much befalls it, of each of which it may say something.
+  /// Counts events; each may cause one notice.
   void happens(unsigned times) { events_ += times; }
-  /// @param surplus what the thread's part holds of the host beyond its line, as a sentence
+  /// @param surplus resource of the host that the thread's loop holds beyond its line, as a
+  ///     sentence
   void owns(const std::optional<std::string>& surplus, nanoseconds now) {
     if (surplus) fail(7, now, *surplus);
   }
@@ -51,18 +52,18 @@ class Watch {
   nanoseconds watchdog_;
   double force_limit_;
   std::optional<Finding> finding_;
-  std::optional<nanoseconds> broken_at_;  // and not taken up again
+  std::optional<nanoseconds> broken_at_;  // until it is set up again
   bool was_down_ = false;                 // since then
-  std::optional<nanoseconds> ran_at_;     // last, on this plug
+  std::optional<nanoseconds> ran_at_;     // last time, on this plug
   bool runs_ = false;
   std::uint64_t steps_ = 0;  // of the servo since it runs
   std::uint64_t commands_ = 0;
   nanoseconds commanded_at_{};
-  std::string heard_;  // last
+  std::string heard_;  // the last one
   std::uint64_t sentences_ = 0, events_ = 0, events_before_ = 0;
 };
 
-/// Called after each run: how memory or open files of the program have grown, as a sentence.
+/// Call it after each run: growth of the program's memory or open files, as a sentence.
 [[nodiscard]] std::optional<std::string> growth();
 
 }  // namespace reckon::fuzz::unplugs

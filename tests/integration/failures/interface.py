@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The interface of a host goes and comes back, or comes back as another."""
+"""The interface of a host disappears and returns, with the same or with another identity."""
 import subprocess
 import time
 
@@ -78,7 +78,7 @@ def address_changed(setup):
         check(not bob.events("gone"), "the peer was dropped because its address changed")
         check(not alice.events("gone"), "the peer lost the other because its own address changed")
         check(sent < 3, f"sent after {sent:.2f} s")
-        check(believed < 2.3, f"accepted {believed:.2f} s after its first datagram from there")  # notices are gathered for 0.3 s
+        check(believed < 2.3, f"accepted {believed:.2f} s after its first datagram from there")  # messages wait 0.3 s
         return f"sends after {sent:.2f} s, is accepted after {believed:.2f} s more, none was dropped"
 
 
@@ -113,7 +113,7 @@ def address_changed_ipv6(setup):
         bed.ip(1, "-6", "addr", "add", "fd77::99/64", "dev", "e0")
         told_after = wait_told(alice, "with fd77::99, carries us again", 8, since) - since
         check(ports & set(local_ports(bed, 1, "udp6")), "the own port is another one")
-        time.sleep(8)  # longer than a silent peer is waited for
+        time.sleep(8)  # longer than the time-out of a silent peer
         check(not bob.events("gone"), "the peer was dropped because its address changed")
         check(not alice.events("gone"), "the peer lost the other because its own address changed")
         check(told_after < 5, f"taken after {told_after:.2f} s")

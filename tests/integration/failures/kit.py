@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the failure cases share: how one is declared, where things are, peers that meet."""
+"""Shared parts of the failure cases: declaration of a case, paths, and a pair of peers."""
 import pathlib
 import re
 import shutil
@@ -19,7 +19,7 @@ CASES = {}  # name -> (fault, bar, function)
 
 
 def case(name, fault, bar):
-    """Declares a case: a function of the setup that returns what was measured, or raises Failure."""
+    """Declares a case: a function of the setup that returns the measured result, or raises Failure."""
     def declare(function):
         CASES[name] = (fault, bar, function)
         return function
@@ -27,7 +27,7 @@ def case(name, fault, bar):
 
 
 class Setup:
-    """Where programs and scenes are."""
+    """Paths of programs and scenes."""
 
     def __init__(self, arguments, folder):
         self.folder = pathlib.Path(folder)
@@ -42,7 +42,7 @@ class Setup:
         return Testbed(hosts, self.reckon)
 
     def changed_scene(self, name, old, new):
-        """The shipped scene with a piece of its text changed."""
+        """The shipped scene with one part of its text replaced."""
         text = self.scene.read_text()
         check(text.count(old) == 1, f"'{old}' is not once in {self.scene}")
         path = self.folder / "scenes" / f"{name}.toml"
@@ -50,7 +50,7 @@ class Setup:
         return path
 
     def passes(self, program, pattern):
-        """Runs cases of a test program of the build; how many passed."""
+        """Runs cases of a test program of the build; returns the number that passed."""
         found = sorted(pathlib.Path(self.tests or ".").glob(f"*/{program}")) if self.tests else []
         if not found:
             raise Skip(f"needs {program} of a build, see --tests")
@@ -68,7 +68,7 @@ def need(program, package):
 
 
 def pair(bed, setup, names=("ALICE", "BOB"), scene=None, more=()):
-    """A peer on host 1 and one on host 2 that see each other. `more` are options of both."""
+    """A peer on host 1 and one on host 2 that see each other. `more` has options for both."""
     peers = [bed.peer(i + 1, scene or setup.scene, name, i + 1, more) for i, name in enumerate(names)]
     for peer, other in zip(peers, reversed(names)):
         check(peer.wait_event("appeared", 8, other), f"{other} was never shown; {peer.error_text()}")
@@ -76,19 +76,19 @@ def pair(bed, setup, names=("ALICE", "BOB"), scene=None, more=()):
 
 
 def told(peer, pattern):
-    """Sentences of a peer that match."""
+    """Messages of a peer that match."""
     return [e["text"] for e in peer.events("notice") if re.search(pattern, e["text"])]
 
 
 def wait_told(peer, pattern, timeout=5.0, since=0.0):
-    """The moment at which a peer said something; raises Failure where it did not."""
+    """Waits for a message of a peer and returns its time; raises Failure if there is none."""
     found = peer.wait_line(f'"event":"notice".*{pattern}', timeout, since)
     check(found, f"'{pattern}' was not told within {timeout} s: {told(peer, '.')}")
     return found[0]
 
 
 def sends_after(sniffer, host, moment, timeout=10.0, address=None):
-    """Seconds from a moment to the first datagram that a host sends after it."""
+    """Seconds from `moment` to the first datagram that a host sends after it."""
     end = time.monotonic() + timeout
     while time.monotonic() < end:
         for when, source, _, _ in list(sniffer.datagrams):

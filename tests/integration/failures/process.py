@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The process itself: stopped, short of threads, told to go, its reader gone, its disk full, its clock
-set."""
+"""Faults of the process: stopped, without threads, ended by a signal, without a reader, with a full disk, with a
+changed clock."""
 import pathlib
 import signal
 import subprocess
@@ -49,9 +49,9 @@ def no_thread(setup):
 
 
 def leaves(setup, number, name):
-    """Ends a peer by a signal; how long until the other one knew, and the exit status."""
+    """Ends a peer by a signal; returns the time until the other one reported it, and the exit status."""
     with setup.testbed(2) as bed:
-        under_nohup = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which peers would inherit
+        under_nohup = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # peers would inherit an ignored signal
         try:
             alice, bob = pair(bed, setup)
         finally:
@@ -81,14 +81,14 @@ def reader_goes(setup):
         check(bob.wait_event("appeared", 8, "ALICE"), "never shown")
         alice.process.stdout.close()
         since = bob.seconds()
-        bob.report()  # whose going is ALICE's next line
+        bob.report()  # the departure of BOB is ALICE's next line
         status = alice.wait_status(5)
         check(status == 0, f"exit status {status}: {alice.error_text()}")
         return f"exit status {status}, {bob.seconds() - since:.1f} s after the next line"
 
 
 class Unread(Program):
-    """Its stdout is a pipe that nobody reads."""
+    """Its stdout is a pipe without a reader."""
 
     def _read(self, stream, lines):
         if stream is self.process.stderr:
@@ -108,7 +108,7 @@ def disk_full(setup):
     with setup.testbed(3) as bed:
         alice, bob = pair(bed, setup)
         path = pathlib.Path(setup.folder) / "full.pcapng"
-        disk = pathlib.Path(setup.folder) / "disk"  # mounted for this program alone
+        disk = pathlib.Path(setup.folder) / "disk"  # mounted only for this program
         disk.mkdir()
         recorder = bed.run(3, ["sh", "-c", f"mount -t tmpfs -o size=32k none {disk} && {setup.reckon} "
                                f"record {disk}/full.pcapng --iface e0 --for 30s; status=$?; "

@@ -24,7 +24,7 @@ def order(name):
 
 
 def measure(name, arguments):
-    """(verdict, what was measured or why not)"""
+    """(verdict, measured result or reason of the failure)"""
     fault, bar, function = kit.CASES[name]
     print(f"{name}: {fault}\n  bar: {bar}", flush=True)
     try:
@@ -34,7 +34,7 @@ def measure(name, arguments):
         verdict, text = "skipped", str(reason)
     except testbed.Failure as sentence:
         verdict, text = "FAILED", str(sentence)
-    except Exception as error:  # of the case itself: the others are run all the same
+    except Exception as error:  # in the case itself: the other cases run anyway
         traceback.print_exc()
         verdict, text = "FAILED", f"the case broke off: {error!r}"
     print(f"  {verdict}: {text}", flush=True)

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sockets that the kernel refuses: descriptors, memberships, a port that is taken, firewalls, and a
-reader that is too slow."""
+"""Sockets that the kernel refuses: descriptors, memberships, a port in use, firewalls, and a reader that is too slow."""
 import json
 import signal
 import socket
@@ -79,7 +78,7 @@ def narrow_wire(setup):
         waits = []
         for _ in range(60):
             time.sleep(0.05)
-            # As JSON: the text says "6Kb" for some numbers of octets and "6100b" for others.
+            # JSON, because the text prints "6Kb" for some numbers of octets and "6100b" for others.
             queue = json.loads(bed.system(1, "tc -s -j qdisc show dev e0"))
             waits.append(8 * sum(stage["backlog"] for stage in queue) / 1e6)
         lines = told(alice, "takes less than is sent")
@@ -153,17 +152,17 @@ def buffer_full(setup):
         return f"{dropped} of {sent} dropped and counted, told"
 
 
-# Whoever is behind the slow wire holds still and touches nobody: what the two show of it is not theirs.
+# The peer behind the slow link does not move and touches nobody: the values shown by the other two do not include it.
 ASIDE = """
 [[operator]]
 passive = true
 position = "0 500 0 mm"
 """
-ROUNDS = 4  # of each; they take turns, for a host is now busier, now less
+ROUNDS = 4  # of each; they alternate, because the load of a host varies
 
 
 def reports_of_three(setup, wire):
-    """What two peers report after 12 s beside a third; the third's is last."""
+    """Reports of two peers after 12 s beside a third; the third's report is last."""
     scene = setup.folder / "scenes/three_hands.toml"
     scene.write_text(setup.scene.read_text() + ASIDE)
     with setup.testbed(3) as bed:
@@ -176,16 +175,16 @@ def reports_of_three(setup, wire):
 
 
 def jump(reports, share):
-    """[mm] by which an update moved what the two showed of each other, the mean of both."""
+    """[mm] by which an update moved the shown positions of the two, as the mean of both."""
     return 1e3 * sum(report["pose_jump_m"][share] for report in reports[:2]) / 2
 
 
-# Most updates of hands in contact are said for the force: their median jump, a fiftieth of the threshold, is
-# 0.007 to 0.015 mm from run to run with nobody else there.
+# Hands in contact send most updates because of the force: their median jump, a fiftieth of the threshold, is 0.007 to
+# 0.015 mm from run to run without a third peer.
 @case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back; p99 error of theirs at an update within 2 %")
 def slow_peer(setup):
     need("tc", "iproute2")
-    errors = {"": [], "64kbit": []}  # (p50, p99) [mm], by the third's wire
+    errors = {"": [], "64kbit": []}  # (p50, p99) [mm], by the third's link
     for _ in range(ROUNDS):
         for wire, found in errors.items():
             reports = reports_of_three(setup, wire)

@@ -27,12 +27,12 @@ using ::testing::HasSubstr;
 
 const std::vector<std::string> kMethods{"gzip", "bzip2", "xz", "lz4"};
 
-/// Compresses what `write(archive)` writes to a file.
+/// Compresses the output of `write(archive)` into a file.
 template <typename Write>
 void compress_to(const std::string& path, const std::string& method, Write&& write) {
   archive* out = archive_write_new();
   ASSERT_EQ(archive_write_add_filter_by_name(out, method.c_str()), ARCHIVE_OK);
-  // Of lz4, blocks of 64 KiB; other methods have no such option.
+  // lz4 uses blocks of 64 KiB; the other methods have no such option.
   (void)archive_write_set_filter_option(out, "lz4", "block-size", "4");
   ASSERT_EQ(archive_write_set_format_raw(out), ARCHIVE_OK);
   ASSERT_EQ(archive_write_open_filename(out, path.c_str()), ARCHIVE_OK);
@@ -51,7 +51,7 @@ void compress(const std::string& from, const std::string& to, const std::string&
               [&](archive* out) { archive_write_data(out, octets.data(), octets.size()); });
 }
 
-/// Datagrams of 1,400 octets that are drawn, so that they hardly shrink.
+/// Random datagrams of 1,400 octets, so that they hardly compress.
 std::vector<Kept> drawn_samples(int count) {
   std::mt19937 random(41);
   std::vector<Kept> out;
@@ -77,7 +77,7 @@ TEST(ArchivedCapture, IsReadAsThePlainOne) {
   }
 }
 
-TEST(ArchivedCapture, TellsTheMethodWhereItEndsTooEarlyOrIsDamaged) {
+TEST(ArchivedCapture, ErrorsOfDamagedFilesNameTheMethod) {
   const ScratchFolder folder;
   const std::vector<Kept> written = drawn_samples(1000);
   write_all(folder.file("a.pcapng"), written);
@@ -111,7 +111,7 @@ TEST(ArchivedCapture, IsRefusedWhereItHoldsNoCapture) {
   }
 }
 
-/// In a process of its own with 1 GiB of address space.
+/// Runs in a child process with 1 GiB of address space.
 template <typename Body>
 int status_in_little_memory(Body&& body) {
   const pid_t child = fork();
@@ -125,11 +125,11 @@ int status_in_little_memory(Body&& body) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(ArchivedCapture, StreamsWhatWouldFillTheMemory) {
+TEST(ArchivedCapture, StreamsAFileLargerThanMemory) {
   const ScratchFolder folder;
   write_all(folder.file("a.pcapng"), small_samples(3));
   std::vector<char> begin = octets_of(folder.file("a.pcapng"));
-  // 1.25 GiB of blocks of an unknown type, zeros but for their heads.
+  // 1.25 GiB of blocks of an unknown type: zeros except for the block headers.
   std::vector<char> block(std::size_t{1} << 24);
   const std::uint32_t type = 0xbad;
   const auto length = static_cast<std::uint32_t>(block.size());

@@ -122,7 +122,7 @@ std::string write_pcapng(std::uint32_t resolution, std::uint64_t stamp) {
   return path;
 }
 
-TEST(CaptureFile, TellsATimeBeyondAllClocksAsTheYear2160) {
+TEST(CaptureFile, TimeBeyondAllClocksReadsAsYear2160) {
   constexpr std::chrono::seconds kLatest(6'000'000'000);
   struct Case {
     std::uint32_t resolution;
@@ -140,7 +140,7 @@ TEST(CaptureFile, TellsATimeBeyondAllClocksAsTheYear2160) {
   }
 }
 
-TEST(CaptureFile, GivesWhatComesBeforeTheCutAndSaysSo) {
+TEST(CaptureFile, ReadsUpToTheCutAndReportsIt) {
   const std::string path =
       write_pcap("cut.pcap", 1, {ethernet(ipv4(udp(10))), ethernet(ipv4(udp(300)))});
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 100);
@@ -152,7 +152,7 @@ TEST(CaptureFile, GivesWhatComesBeforeTheCutAndSaysSo) {
   std::filesystem::remove(path);
 }
 
-TEST(CaptureFile, RefusesWhatIsNoCapture) {
+TEST(CaptureFile, RefusesOtherFiles) {
   const std::string path = testing::TempDir() + "/" + std::to_string(getpid()) + "none";
   std::ofstream(path) << "this is no capture at all, only some text";
   try {
@@ -229,7 +229,7 @@ TEST(CaptureFile, ReadsPcapngAsPcap) {
   std::filesystem::remove(copy);
 }
 
-TEST(LiveGroups, HandOutWhatIsSentToThem) {
+TEST(LiveGroups, ReturnDatagramsSentToThem) {
   const SteadyClock clock;
   UdpMulticastOptions options;
   options.interface = "lo";
@@ -250,7 +250,7 @@ TEST(LiveGroups, HandOutWhatIsSentToThem) {
   EXPECT_EQ(source->next(datagram, 20s), SourceEvent::end);
 }
 
-TEST(LiveGroups, CountWhatComesOverEachInterface) {
+TEST(LiveGroups, CountDatagramsOfEachInterface) {
   RECKON_IN_OWN_NETWORK([] {
     test::make_cable();
     const SteadyClock clock;

@@ -83,7 +83,7 @@ TEST(CaptureWriter, KeepsCapturedFramesAsTheyWere) {
   EXPECT_EQ(datagram.captured.size(), frame.size() - 10);
 }
 
-TEST(CaptureWriter, LeavesAFileThatIsReadableWhereverItIsTruncated) {
+TEST(CaptureWriter, FileStaysReadableAfterAnyTruncation) {
   const ScratchFolder folder;
   const std::vector<Kept> written = small_samples(6);
   write_all(folder.file("whole.pcapng"), written);
@@ -115,7 +115,7 @@ TEST(CaptureWriter, IsReadableWhileItGrows) {
   }
 }
 
-TEST(CaptureWriter, EndsWithAWholeBlockWhereTheDiskIsFull) {
+TEST(CaptureWriter, EndsWithWholeBlocksOnAFullDisk) {
   const ScratchFolder folder;
   const std::vector<Kept> written = small_samples(12);
   write_all(folder.file("whole.pcapng"), written);
@@ -137,7 +137,7 @@ TEST(CaptureWriter, EndsWithAWholeBlockWhereTheDiskIsFull) {
   }
 }
 
-TEST(CaptureWriter, TellsThatAFullDeviceTakesNothing) {
+TEST(CaptureWriter, ReportsAFullDevice) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   try {
     CaptureWriter writer({.path = "/dev/full", .overwrite = true});
@@ -203,7 +203,7 @@ TEST(CaptureWriter, KeepsAllFilesTogetherWithinTheirBound) {
     for (const Kept& kept : written) {
       writer.write(kept.view());
       writer.flush();
-      EXPECT_LE(octets_in(folder), 4000U + 200U);  // the last file may exceed its own by a datagram
+      EXPECT_LE(octets_in(folder), 4000U + 200U);  // the last file may exceed its by a datagram
       EXPECT_EQ(octets_in(folder), writer.octets());
     }
     writer.close();

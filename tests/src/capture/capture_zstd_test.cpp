@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Captures in zstd frames, and whatever else a capture file may turn out to be.
+// Captures in zstd frames, and other files given as captures.
 #include <gmock/gmock.h>
 #include <zstd.h>
 
@@ -27,7 +27,7 @@ void write_octets(const std::string& path, const std::vector<char>& octets, std:
   std::ofstream(path, std::ios::binary).write(octets.data(), static_cast<std::streamsize>(size));
 }
 
-/// Several MiB that compress, so that they fill several frames.
+/// Several MiB of compressible datagrams, so that they fill several frames.
 std::vector<Kept> many_samples() {
   std::mt19937 random(5);
   std::vector<Kept> out;
@@ -63,7 +63,7 @@ TEST(CompressedCapture, IsThePlainOneWhenZstdDecompressesIt) {
                 ("zstd -dc " + folder.file("a.pcapng.zst") + " | cmp - " + folder.file("a.pcapng"))
                     .c_str()),
             0);
-  // And the other way round: what zstd makes, in one frame, is read.
+  // The other way round: reads a file that zstd wrote as one frame.
   EXPECT_EQ(
       std::system(("zstd -q " + folder.file("a.pcapng") + " -o " + folder.file("b.zst")).c_str()),
       0);
@@ -124,7 +124,7 @@ TEST(CompressedCapture, GivesItsGoodPartWhereverItIsTruncated) {
   EXPECT_EQ(most, written.size());
 }
 
-TEST(CompressedCapture, CountsTheFramesBeforeTheOneThatIsTorn) {
+TEST(CompressedCapture, ErrorCountsTheFramesBeforeATornOne) {
   const ScratchFolder folder;
   write_all(folder.file("whole.pcapng.zst"), many_samples());
   const std::vector<char> octets = octets_of(folder.file("whole.pcapng.zst"));
@@ -148,7 +148,7 @@ TEST(CompressedCapture, IsReadableWhileItGrows) {
   }
 }
 
-TEST(CompressedCapture, IsWholeWhereTheDiskIsFull) {
+TEST(CompressedCapture, IsWholeOnAFullDisk) {
   const ScratchFolder folder;
   const std::vector<Kept> written = small_samples(40);
   write_all(folder.file("whole.pcapng.zst"), written);
@@ -192,7 +192,7 @@ TEST(CompressedCapture, RotatesByItsSizeOnTheDisk) {
   expect_beginning(read, written);
 }
 
-TEST(CompressedCapture, TellsWhereItIsDamaged) {
+TEST(CompressedCapture, ErrorNamesTheDamagedFrame) {
   const ScratchFolder folder;
   write_all(folder.file("a.pcapng.zst"), many_samples());
   std::vector<char> octets = octets_of(folder.file("a.pcapng.zst"));
@@ -205,7 +205,7 @@ TEST(CompressedCapture, TellsWhereItIsDamaged) {
   EXPECT_GT(read.datagrams.size(), 500U);
 }
 
-TEST(CompressedCapture, GivesEveryFlushBeforeTheDamageWhateverItsOctetsSay) {
+TEST(CompressedCapture, ReturnsEveryFlushBeforeTheDamage) {
   const ScratchFolder folder;
   const std::vector<Kept> written = small_samples(30);
   std::vector<std::uintmax_t> ends;  // of the file after each datagram
@@ -232,7 +232,7 @@ TEST(CompressedCapture, GivesEveryFlushBeforeTheDamageWhateverItsOctetsSay) {
   }
 }
 
-TEST(CompressedCapture, ReadsOnlyWhatIsThereWhereItIsDamagedAnywhere) {
+TEST(CompressedCapture, RandomDamageYieldsOnlyWrittenDatagrams) {
   const ScratchFolder folder;
   write_all(folder.file("a.zst"), small_samples(30));
   const std::vector<char> octets = octets_of(folder.file("a.zst"));
@@ -245,12 +245,12 @@ TEST(CompressedCapture, ReadsOnlyWhatIsThereWhereItIsDamagedAnywhere) {
     try {
       (void)read_all(folder.file("b.zst"));
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("give a pcap or pcapng file"));  // its head is damaged
+      EXPECT_THAT(error.what(), HasSubstr("give a pcap or pcapng file"));  // its header is damaged
     }
   }
 }
 
-TEST(CaptureFile, RefusesWhatIsNoCaptureWithTheRemedy) {
+TEST(CaptureFile, RefusalOfAnotherFileNamesTheRemedy) {
   const ScratchFolder folder;
   const std::vector<char> zeros(100);
   write_octets(folder.file("empty"), zeros, 0);
@@ -267,14 +267,14 @@ TEST(CaptureFile, RefusesWhatIsNoCaptureWithTheRemedy) {
   EXPECT_THAT(refusal(folder.file("zstd")), HasSubstr("its zstd frame 1 is damaged"));
 }
 
-TEST(CaptureFile, SaysWhatIsWrongWithWhatWasCompressed) {
+TEST(CaptureFile, ReportsDamageInsideCompressedData) {
   const ScratchFolder folder;
   std::vector<char> frame(ZSTD_compressBound(100'000));
   const std::vector<char> text(100'000, 'x');
   const std::size_t size = ZSTD_compress(frame.data(), frame.size(), text.data(), text.size(), 3);
   write_octets(folder.file("text.zst"), frame, size);
   EXPECT_THAT(refusal(folder.file("text.zst")), HasSubstr("decompressed: unknown file format"));
-  // A block of pcapng that cannot be, in the middle of a frame that is whole.
+  // An invalid pcapng block in the middle of a valid frame.
   write_all(folder.file("a.pcapng"), many_samples());
   std::vector<char> octets = octets_of(folder.file("a.pcapng"));
   std::fill(octets.begin() + 500'000, octets.begin() + 504'000, '\x7f');
@@ -287,7 +287,7 @@ TEST(CaptureFile, SaysWhatIsWrongWithWhatWasCompressed) {
   EXPECT_EQ(read.report.problem.find("zstd"), std::string::npos) << read.report.problem;
 }
 
-TEST(CaptureFile, ReadsTimesThatNobodyCanCountAsTheLastOnes) {
+TEST(CaptureFile, UncountableTimesReadAsTheLatest) {
   const ScratchFolder folder;
   std::mt19937 random(1);
   write_all(folder.file("a.pcapng"), {make(random, 10, false, nanoseconds::max())});
@@ -297,7 +297,7 @@ TEST(CaptureFile, ReadsTimesThatNobodyCanCountAsTheLastOnes) {
             6'000'000'000s);
 }
 
-TEST(CaptureFile, RefusesAFrameThatWantsMoreMemoryThanIsGiven) {
+TEST(CaptureFile, RefusesAFrameAboveTheMemoryLimit) {
   const ScratchFolder folder;
   // A frame header of RFC 8878: no content size, a window of 2 GiB.
   std::ofstream(folder.file("huge.zst"), std::ios::binary) << "\x28\xb5\x2f\xfd" << '\0' << "\xa8";

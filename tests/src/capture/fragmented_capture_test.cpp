@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A capture of IP fragments against what tshark makes of it.
+// A capture of IP fragments, compared with the reassembly of tshark.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ using blocks::kEthernet;
 using blocks::PcapngFile;
 using test::ScratchFolder;
 
-/// Fragments of datagrams of 3,000 to 9,000 octets, of both families, by turns, with copies, and
-/// one of a third datagram lost.
+/// Fragments of datagrams of 3,000 to 9,000 octets, alternating IPv4 and IPv6, with copies. Each
+/// third datagram lacks one fragment.
 std::vector<Bytes> mixed_fragments(std::vector<Bytes>& whole) {
   std::mt19937 random(31);
   std::vector<Bytes> out;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the UDP datagram lies in a captured frame, and frames that lie.
+// Finds the UDP datagram in a captured frame, also behind false headers.
 #include "reckon/peer/capture/frame_parser.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(ParseFrame, FindsUdpBehindIpv6ExtensionHeaders) {
   EXPECT_EQ(extended.datagram.bytes.size(), 50u);
 }
 
-TEST(ParseFrame, TellsFragmentsAsSuch) {
+TEST(ParseFrame, MarksFragments) {
   const Parsed first = parse(LinkLayer::raw_ip, ipv4(udp(64, 3000), 17, 0x2000));
   EXPECT_EQ(first.datagram.portion, Portion::first_fragment);
   EXPECT_EQ(first.datagram.bytes.size(), 64u);
@@ -97,7 +97,7 @@ TEST(ParseFrame, IgnoresEthernetPadding) {
   EXPECT_EQ(parsed.datagram.portion, Portion::whole);
 }
 
-TEST(ParseFrame, TellsWhatTheCaptureCut) {
+TEST(ParseFrame, MarksADatagramCutByTheCapture) {
   Bytes frame = ethernet(ipv4(udp(100)));
   const std::size_t on_wire = frame.size();
   frame.resize(on_wire - 60);
@@ -107,7 +107,7 @@ TEST(ParseFrame, TellsWhatTheCaptureCut) {
   EXPECT_EQ(parsed.datagram.bytes.size(), 40u);
 }
 
-TEST(ParseFrame, SkipsWhatIsNotUdp) {
+TEST(ParseFrame, SkipsOtherProtocols) {
   EXPECT_EQ(parse(LinkLayer::ethernet, ethernet(Bytes(28, 0), 0x0806)).content,
             FrameContent::not_udp);
   EXPECT_EQ(parse(LinkLayer::raw_ip, ipv4(Bytes(30, 0), 6)).content, FrameContent::not_udp);
@@ -126,7 +126,7 @@ TEST(ParseFrame, CallsLyingHeadersMalformed) {
 }
 
 TEST(ParseFrame, FindsUdpInsideTunnelsAndMirrors) {
-  // The inner addresses differ from those of the tunnel.
+  // The inner addresses differ from the addresses of the tunnel.
   const Bytes packet = ipv6(udp(60));
   const Bytes frame = ethernet(packet, 0x86dd);
   const Bytes tagged = Bytes(12, 1) + u16(0x8100) + u16(7) + u16(0x86dd) + packet;
@@ -168,7 +168,7 @@ TEST(ParseFrame, NamesTunnelsThatItCannotRead) {
   EXPECT_EQ(parse(LinkLayer::raw_ip, gre(ip, 0x880b, 0x2001)).unread, "GRE of PPTP");
   EXPECT_EQ(parse(LinkLayer::ethernet, pppoe(ip, 0x00fd)).unread, "compressed or encrypted PPPoE");
   EXPECT_EQ(parse(LinkLayer::raw_ip, gre(Bytes(40, 0xff), 0x88be, 0x1000)).unread, "ERSPAN");
-  // The control of a link has no datagrams, and a datagram to the port of VXLAN may be another.
+  // Link control carries no datagrams, and a datagram to the VXLAN port may be something else.
   EXPECT_EQ(parse(LinkLayer::ethernet, pppoe(ip, 0xc021)).unread, "");
   EXPECT_EQ(parse(LinkLayer::raw_ip, gre({}, 0)).content, FrameContent::not_udp);
   const Bytes other = u16(1) + u16(4789) + u16(20) + u16(0) + Bytes(12, 7);

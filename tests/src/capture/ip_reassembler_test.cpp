@@ -21,14 +21,14 @@ using namespace frames;
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-/// A datagram that was returned.
+/// A datagram that the reassembler returned.
 struct Returned {
   std::uint64_t frame;
   Portion portion;
   Bytes bytes;
 };
 
-/// Frames one after another into a reassembler.
+/// Passes frames one after another to a reassembler.
 class Feed {
  public:
   explicit Feed(const ReassemblyLimits& limits = {}) : reassembler_(limits) {}
@@ -103,7 +103,7 @@ TEST(IpReassembler, PutsFragmentsInAnyOrderTogether) {
   }
 }
 
-TEST(IpReassembler, GivesTheFrameThatWouldHaveCarriedAllOfIt) {
+TEST(IpReassembler, BuildsTheFrameOfTheWholeDatagram) {
   const Bytes datagram = numbered_udp(3000);
   for (const auto& [fragment, whole] : {std::pair{&fragment4, ethernet(ipv4(datagram))},
                                         std::pair{&fragment6, ethernet(ipv6(datagram), 0x86dd)}}) {
@@ -120,7 +120,7 @@ TEST(IpReassembler, GivesTheFrameThatWouldHaveCarriedAllOfIt) {
     EXPECT_EQ(out.source.text(), fragment == &fragment4 ? "10.0.0.1:3001" : "[fd00::7]:3001");
     EXPECT_EQ(out.group.port, 3000);
     if (fragment == &fragment4) {
-      // The made frame has no checksum.
+      // The expected frame has no checksum.
       EXPECT_NE(built[24] << 8 | built[25], 0);
       built[24] = built[25] = 0;
     }
@@ -161,7 +161,7 @@ TEST(IpReassembler, IsNotDisturbedByCopies) {
     feed.add(frame);
     feed.add(frame);
   }
-  feed.add(fragment4(datagram, 3, 8, 2 * kPiece), 50ms);  // no copy of a fragment: a new datagram
+  feed.add(fragment4(datagram, 3, 8, 2 * kPiece), 50ms);  // a new datagram, not a copy
   feed.add(frames[3], 90ms);
   feed.finish();
   ASSERT_EQ(feed.returned().size(), 2U);
@@ -170,7 +170,7 @@ TEST(IpReassembler, IsNotDisturbedByCopies) {
   EXPECT_EQ(feed.counts().lost, 1U);
 }
 
-TEST(IpReassembler, TakesALateCopyForOneAndAMuchLaterOneForANewDatagram) {
+TEST(IpReassembler, MuchLaterCopyStartsANewDatagram) {
   const std::vector<Bytes> frames = fragments(numbered_udp(7000), 3, fragment4);
   Feed feed;
   feed.add(frames);
@@ -209,7 +209,7 @@ TEST(IpReassembler, UsesAnIdentifierAgainForTheNextDatagram) {
     EXPECT_EQ(feed.returned()[i].bytes, payload_of(numbered_udp(3000, i)));
 }
 
-TEST(IpReassembler, GivesUpWhatIsTooOldWithItsBeginning) {
+TEST(IpReassembler, ReturnsTheBeginningOfAnExpiredDatagram) {
   const Bytes datagram = numbered_udp(7000);
   const std::vector<Bytes> frames = fragments(datagram, 9, fragment4);
   Feed feed({.age = 2s});
@@ -224,7 +224,7 @@ TEST(IpReassembler, GivesUpWhatIsTooOldWithItsBeginning) {
   EXPECT_EQ(feed.returned()[1].bytes, first_of(payload_of(datagram), 2 * kPiece - 8));
   EXPECT_EQ(feed.counts().lost, 1U);
 
-  // The missing one comes after all, and belongs to nothing.
+  // The missing fragment arrives too late and belongs to no datagram.
   feed.add(frames[2], 12s + 2ns);
   feed.finish();
   EXPECT_EQ(feed.counts().late, 1U);
@@ -232,7 +232,7 @@ TEST(IpReassembler, GivesUpWhatIsTooOldWithItsBeginning) {
   EXPECT_EQ(feed.returned().size(), 2U);
 }
 
-TEST(IpReassembler, GivesUpWhatHasNoBeginningOrNoEnd) {
+TEST(IpReassembler, ReturnsFragmentsWithoutBeginningOrEnd) {
   const Bytes datagram = numbered_udp(7000);
   for (const auto& fragment : {fragment4, fragment6}) {
     const std::vector<Bytes> frames = fragments(datagram, 9, fragment);
@@ -255,12 +255,12 @@ TEST(IpReassembler, RefusesADatagramWhoseFragmentsOverlap) {
   const Bytes datagram = numbered_udp(7000);
   const Bytes other = numbered_udp(7000, 1);
   const std::vector<Bytes> contradictions = {
-      fragment4(other, 5, kPiece),                    // other octets in the same place
-      fragment4(other, 5, kPiece, 1488),              // into the next one
-      fragment4(other, 5, 1472, 1480),                // out of the one before
-      fragment4(datagram, 5, 8, 8 * 1000),            // over several, and to the end
-      fragment4(datagram, 5, 2 * kPiece, 1488),       // into a gap
-      fragment4(numbered_udp(1600), 5, kPiece),       // an end where others have gone on
+      fragment4(other, 5, kPiece),                    // different octets in the same place
+      fragment4(other, 5, kPiece, 1488),              // overlaps the next fragment
+      fragment4(other, 5, 1472, 1480),                // overlaps the fragment before
+      fragment4(datagram, 5, 8, 8 * 1000),            // overlaps several, up to the end
+      fragment4(datagram, 5, 2 * kPiece, 1488),       // reaches into a gap
+      fragment4(numbered_udp(1600), 5, kPiece),       // ends before later fragments
       fragment4(numbered_udp(9000), 5, 4 * kPiece)};  // beyond the end
   for (const Bytes& contradiction : contradictions) {
     Feed feed;
@@ -287,7 +287,7 @@ TEST(IpReassembler, RefusesFragmentsThatCannotBe) {
   const Bytes far = ethernet(ipv4(Bytes(64, 1), 17, 0x1fff));  // 65,528 + 64 octets
   EXPECT_EQ(feed.add(far), FragmentFate::malformed);
   EXPECT_EQ(feed.counts().frames, 0U);
-  // All of it fits 65,535 octets, but not with its header.
+  // The payload fits into 65,535 octets, but not together with its header.
   std::vector<Bytes> frames = fragments(numbered_udp(65'520), 2, fragment4);
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) feed.add(frames[i]);
   EXPECT_EQ(feed.add(frames.back()), FragmentFate::malformed);
@@ -296,8 +296,9 @@ TEST(IpReassembler, RefusesFragmentsThatCannotBe) {
   EXPECT_EQ(feed.returned().back().bytes.size(), 65'507U);
 }
 
-TEST(IpReassembler, TellsWhatIsNoUdpInTheEnd) {
-  // Behind the fragment header: destination options, then ICMP, which only the first one shows.
+TEST(IpReassembler, ReturnsNothingForReassembledIcmp) {
+  // Behind the fragment header: destination options, then ICMP, which only the first fragment
+  // shows.
   const Bytes packet = Bytes{58, 0, 0, 0, 0, 0, 0, 0} + Bytes(3000, 5);
   Bytes first = fragment6(packet, 8, 0);
   Bytes last = fragment6(packet, 8, kPiece, 3000);
@@ -311,12 +312,12 @@ TEST(IpReassembler, TellsWhatIsNoUdpInTheEnd) {
   feed.add(last);
   feed.add(udp_first);
   feed.finish();
-  // Its UDP header has a length of 0x0505, which is within it.
+  // The UDP length field is 0x0505, which is within the datagram.
   ASSERT_EQ(feed.returned().size(), 1U);
   EXPECT_EQ(feed.returned()[0].bytes.size(), 0x0505U - 8U);
 }
 
-TEST(IpReassembler, ShowsTheBeginningOfWhatTheCaptureCut) {
+TEST(IpReassembler, ReturnsTheStartOfDatagramsThatWereCut) {
   const Bytes datagram = numbered_udp(3000);
   Feed feed;
   for (const Bytes& frame : fragments(datagram, 1, fragment4)) {
@@ -339,7 +340,7 @@ TEST(IpReassembler, HoldsNoMoreThanItsBounds) {
     Bytes spread = fragment4(datagram, random() % 65'536, offset, 8);
     feed.add(spread, nanoseconds(i));
   }
-  // The one that passes the bound is added before the oldest goes.
+  // A fragment that exceeds the bound is added before the oldest datagram is dropped.
   EXPECT_LE(feed.most_octets(), (1U << 20) + 3 * 65'536U);
   const FragmentCounts before = feed.counts();
   EXPECT_GT(before.lost, 15'000U);
@@ -347,7 +348,7 @@ TEST(IpReassembler, HoldsNoMoreThanItsBounds) {
   EXPECT_LE(feed.counts().lost - before.lost, 300U);
 }
 
-TEST(IpReassembler, GivesUpWhatComesInTooManyPieces) {
+TEST(IpReassembler, GivesUpADatagramInTooManyPieces) {
   const Bytes datagram = numbered_udp(60'000);
   Feed feed;
   for (std::size_t offset = 0; offset < 8000; offset += 16)
@@ -355,8 +356,8 @@ TEST(IpReassembler, GivesUpWhatComesInTooManyPieces) {
   EXPECT_EQ(feed.counts().lost, 1U);
 }
 
-// 14 s, so that IPv4 identifiers come round.
-TEST(IpReassembler, Takes5000DatagramsOf7000OctetsASecondWithOneFragmentIn100Lost) {
+// 14 s, so that IPv4 identifiers wrap.
+TEST(IpReassembler, Reassembles5000DatagramsASecondAtOnePercentLoss) {
   std::mt19937 random(17);
   Feed feed;
   constexpr std::size_t kDatagrams = 70'000;

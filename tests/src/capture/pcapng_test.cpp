@@ -38,7 +38,7 @@ std::vector<std::size_t> sizes_of(const ReadBack& read) {
 
 Bytes cooked(const Bytes& ip) { return Bytes(14, 0) + u16(0x0800) + ip; }
 
-TEST(Pcapng, HasInterfacesOfDifferentLinkTypesAndSnapLengths) {
+TEST(Pcapng, MixesInterfaceLinkTypesAndSnapLengths) {
   const ScratchFolder folder;
   for (const bool is_swapped : {false, true}) {
     PcapngFile file(is_swapped);
@@ -90,7 +90,7 @@ TEST(Pcapng, HasAClockForEachInterface) {
                                  -std::chrono::seconds(std::int64_t{1} << 31)));
 }
 
-TEST(Pcapng, GoesOnInAnotherSectionWithOtherInterfacesAndOctetOrder) {
+TEST(Pcapng, ReadsSectionsWithOtherInterfacesAndOctetOrder) {
   const ScratchFolder folder;
   PcapngFile file;
   file.interface(kEthernet, 65535);
@@ -135,7 +135,7 @@ TEST(Pcapng, GivesASimplePacketTheTimeBefore) {
   EXPECT_EQ(read.datagrams[1].datagram.time, read.datagrams[0].datagram.time);
 }
 
-TEST(Pcapng, TellsHowManyFramesAreOfALinkTypeThatIsNotRead) {
+TEST(Pcapng, CountsFramesOfUnreadLinkTypes) {
   const ScratchFolder folder;
   PcapngFile file;
   file.interface(kUsb, 65535);
@@ -150,7 +150,7 @@ TEST(Pcapng, TellsHowManyFramesAreOfALinkTypeThatIsNotRead) {
               HasSubstr("usb.pcapng: 2 of its frames are skipped: link type 220 ("));
 }
 
-TEST(Pcapng, TellsWhatIsDamagedAndKeepsWhatIsBefore) {
+TEST(Pcapng, ReportsDamageAndKeepsTheFramesBefore) {
   struct Case {
     const char* problem;
     void (*plant)(PcapngFile&);
@@ -207,7 +207,7 @@ TEST(Pcapng, IsRefusedWithoutAnInterface) {
                   HasSubstr("a packet before the first interface")));
 }
 
-TEST(Pcapng, GivesWhatIsBeforeEveryTruncation) {
+TEST(Pcapng, ReadsFramesBeforeEveryTruncation) {
   const ScratchFolder folder;
   PcapngFile file;
   file.interface(kEthernet, 65535);

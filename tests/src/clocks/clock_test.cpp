@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(ManualClock, MovesOnlyWhenToldTo) {
+TEST(ManualClock, MovesOnlyByHand) {
   ManualClock clock(5s, 100s);
   EXPECT_EQ(clock.now(), 5s);
   EXPECT_EQ(clock.utc_now(), 105s);
@@ -36,7 +36,7 @@ TEST(SteadyClock, NeverStepsBack) {
   }
 }
 
-TEST(SteadyClock, TellsUtcOfThisCentury) {
+TEST(SteadyClock, ReturnsUtcOfThisCentury) {
   const auto years = std::chrono::duration_cast<std::chrono::years>(SteadyClock{}.utc_now());
   EXPECT_GT(years.count(), 50);
   EXPECT_LT(years.count(), 130);
@@ -60,7 +60,7 @@ TEST(Counters, KeepNamesInOrderAndReferencesValid) {
   EXPECT_EQ(names.back(), "99");
 }
 
-TEST(Counters, SayWhatTheyAreWhoeverMadeThemFirst) {
+TEST(Counters, KeepTheFirstDescription) {
   static constexpr CounterGroup kGroup{"refused", "cause", "what was refused"};
   Counters counters;
   (void)counters.make("late_in", "came late");

@@ -27,13 +27,14 @@ nanoseconds scaled(nanoseconds time, double factor) {
   return nanoseconds(std::llround(factor * static_cast<double>(time.count())));
 }
 
-// Us and one other peer: each sends a datagram a second, with an echo of the other's latest.
+// This peer and one other peer. Each sends one datagram a second, with an echo of the latest
+// datagram of the other.
 struct Pair {
   PeerClocks ours, theirs;
   nanoseconds now = seconds(100);  // our steady time; our UTC is kUtc + now
   nanoseconds ahead{0};            // theirs minus ours
   double drift = 0.0;
-  bool aligned = true;  // what they say of themselves
+  bool aligned = true;  // whether both declare their clocks aligned to UTC
   nanoseconds to_them = milliseconds(1), to_us = milliseconds(1);
   nanoseconds jitter{0};
   double loss = 0.0;
@@ -90,7 +91,7 @@ TEST(PeerClock, KnowsNothingBeforeTheFirstEcho) {
   EXPECT_TRUE(pair.found()) << "their first datagram has answered ours already";
 }
 
-TEST(PeerClock, FindsTheDifferenceExactlyWhenBothWaysAreAlike) {
+TEST(PeerClock, FindsTheDifferenceExactlyWithEqualDelays) {
   for (const nanoseconds ahead : {nanoseconds(milliseconds(800)), nanoseconds(-milliseconds(800)),
                                   nanoseconds(minutes(34)), nanoseconds(-minutes(34))}) {
     Pair pair;
@@ -102,7 +103,7 @@ TEST(PeerClock, FindsTheDifferenceExactlyWhenBothWaysAreAlike) {
   }
 }
 
-// Nothing can tell a longer way there from a clock that is ahead.
+// A longer delay in one direction cannot be distinguished from a clock that is ahead.
 TEST(PeerClock, ErrsByHalfTheDifferenceOfTheWays) {
   Pair pair;
   pair.ahead = milliseconds(50);
@@ -124,11 +125,12 @@ TEST(PeerClock, TakesTheQuickestPacketEachWay) {
     const double error = static_cast<double>(pair.error().count());
     sum += error * error;
   }
-  // One exchange alone errs by 10 ms / sqrt(24) = 2.0 ms; least of 10 to 20 each way by 0.5.
+  // A single exchange errs by 10 ms / sqrt(24) = 2.0 ms; the minimum of 10 to 20 each way errs by
+  // 0.5 ms.
   EXPECT_LT(std::sqrt(sum / 100), 0.9e6);
 }
 
-TEST(PeerClock, FollowsADriftAndTellsIt) {
+TEST(PeerClock, MeasuresADrift) {
   for (const double drift : {50e-6, -200e-6}) {
     Pair pair;
     pair.ahead = milliseconds(-800);
@@ -144,7 +146,7 @@ TEST(PeerClock, FollowsADriftAndTellsIt) {
   }
 }
 
-TEST(PeerClock, StaysWithinHalfTheRoundTripUnderLossAndJitter) {
+TEST(PeerClock, ErrsByAtMostHalfTheRoundTrip) {
   for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
     Pair pair;
@@ -160,14 +162,14 @@ TEST(PeerClock, StaysWithinHalfTheRoundTripUnderLossAndJitter) {
     for (int i = 0; i < 200; ++i) {
       pair.run(1);
       if (!pair.found()) continue;
-      // Half the jitter, where neither way's quickest packet came, and 20 s of drift.
+      // Half the jitter (if no fast packet arrived in one direction) plus 20 s of drift.
       const nanoseconds bound = (pair.to_them + pair.to_us + pair.jitter) / 2 + milliseconds(5);
       EXPECT_LE(std::chrono::abs(pair.error()), bound);
     }
   }
 }
 
-TEST(PeerClock, BelievesTwoClocksThatAreUtcUnlessTheWaysGainsayThem) {
+TEST(PeerClock, TrustsTwoUtcClocksUnlessDelaysContradict) {
   Pair pair;
   pair.to_them = milliseconds(30);
   pair.to_us = milliseconds(12);
@@ -200,7 +202,7 @@ TEST(PeerClock, CarriesOnWhereTheCountOfMicrosecondsWraps) {
   EXPECT_EQ(pair.ours.refused(), 0u);
 }
 
-TEST(PeerClock, LearnsAClockAnewThatHasLeapt) {
+TEST(PeerClock, LearnsAClockAgainAfterALeap) {
   for (const nanoseconds leap : {seconds(10), -seconds(10)}) {
     Pair pair;
     pair.ahead = milliseconds(20);
@@ -239,10 +241,10 @@ TEST(PeerClock, RefusesEchoesWithImpossibleTimes) {
       {{kUs, at - 2000, at - 1000}, at - 1000, true},
       {{kUs, at + 1, at}, at, false},                                // of a datagram not sent yet
       {{kUs, at - 31'000'000, at - 1000}, at, false},                // of one long ago
-      {{kUs, at - 2000, at}, at - 1, false},                         // answered before it was heard
-      {{kUs, at - 2000, at - 31'000'000}, at, false},                // held for too long
+      {{kUs, at - 2000, at}, at - 1, false},                         // answered before received
+      {{kUs, at - 2000, at - 31'000'000}, at, false},                // held too long
       {{kUs, at - 2'500'000, at}, at + 1, false},                    // 2.5 s on the way
-      {{kUs, at - 2000, at - 500'000}, at, false},                   // held for longer than it took
+      {{kUs, at - 2000, at - 500'000}, at, false},                   // held longer than it took
       {{kUs, at - 2000, at + 0x70000000U}, at + 0x70000000U, true},  // a clock 31 min off
   }};
   for (const Case& one : cases) {
@@ -253,7 +255,7 @@ TEST(PeerClock, RefusesEchoesWithImpossibleTimes) {
   }
 }
 
-TEST(PeerClock, ForgetsWhatIsOld) {
+TEST(PeerClock, ForgetsOldMeasurements) {
   Pair pair;
   pair.run(5);
   EXPECT_TRUE(pair.ours.difference(kThem, pair.now + seconds(59)));
@@ -283,9 +285,9 @@ TEST(PeerClocks, EchoEightPeersAtATimeInTurn) {
   EXPECT_FALSE(clocks.fill(exchange, seconds(7))) << "all are silent for more than 5 s";
 }
 
-// Datagrams with any times at all, good exchanges between them: what is told of the clock stays
-// within what trailers can say, and what is impossible is refused.
-TEST(PeerClocks, KeepTheirBoundsWhateverIsHeard) {
+// Datagrams with random times, with good exchanges between them. The published clock difference
+// stays within the range of trailers, and impossible times are refused.
+TEST(PeerClocks, KeepTheirBoundsUnderRandomTimes) {
   Pair pair;
   for (int i = 0; i < 20'000; ++i) {
     if (i % 100 == 0) pair.run(1);
@@ -313,7 +315,7 @@ TEST(PeerClocks, KeepTheirBoundsWhateverIsHeard) {
   EXPECT_GT(pair.ours.refused(), 1000u);
 }
 
-// A flood of invented epochs costs the longest unheard their place, and no memory.
+// A flood of forged epochs evicts the entries that were silent the longest; memory stays constant.
 TEST(PeerClocks, StayBounded) {
   PeerClocks clocks;
   pdu::DatagramTrailer trailer;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sender's clock that leaps, falls silent or lags: what is shown stays continuous and in bounds.
+// A sender's clock that leaps, falls silent or lags: mapped times stay continuous and within
+// bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,13 +18,14 @@ namespace {
 
 using namespace heard;
 
-// The sender's clock leaps: nothing that is shown jumps, and updates are refused for half a second.
+// The sender's clock leaps. Mapped times do not jump; updates are refused for half a second.
 struct Leap {
   nanoseconds size;
   nanoseconds interval;  // between updates
   bool absolute;
 
-  // GoogleTest would print the octets between the members too, which differ from run to run.
+  // GoogleTest would also print the padding octets between the members, which differ from run to
+  // run.
   friend void PrintTo(const Leap& leap, std::ostream* out) {
     *out << leap.size.count() / 1'000'000 << "ms_each_" << leap.interval.count() / 1'000'000
          << "ms_" << (leap.absolute ? "absolute" : "relative");
@@ -50,8 +52,9 @@ TEST_P(SenderClockLeap, KeepsTheTimesGivenContinuous) {
     silent_since = local.elapsed;
     leaps += local.clock.has_leapt() ? 1 : 0;
     if (i < 10) continue;
-    // Absolute: exact before the leap. After it, and for relative time, by as much as no packet of
-    // the few then at hand was quick; the constant 20 ms stay known where they were.
+    // Absolute time: exact before the leap. After it, and for relative time, the error is the delay
+    // of the fastest of the few packets then available; a constant 20 ms that was known stays
+    // known.
     const nanoseconds constant = absolute ? milliseconds(20) : milliseconds(0);
     expect_close(mapped, local.now() - constant - jitter, milliseconds(8));
   }
@@ -70,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(ForthAndBack, SenderClockLeap,
                                          Leap{seconds(2), milliseconds(20), true},
                                          Leap{milliseconds(-1500), milliseconds(20), false}));
 
-// What waited through an outage of 3 s comes within half a second: late, but the clock is the same.
+// Datagrams queued during an outage of 3 s arrive within half a second: late, but the clock did not
+// change.
 TEST(SenderClock, TakesAQueueThatEmptiesForNoLeap) {
   Local local;
   for (int i = 0; i < 1000; ++i) {
@@ -99,9 +103,9 @@ TEST(SenderClock, SurvivesASilenceOfHours) {
   }
 }
 
-// Whatever comes: times are finite, never in the future, never fall; and while the clock of the
-// sender does not leap they are right within the jitter and 20 s of drift.
-TEST(SenderClock, StaysWithinItsBoundsWhateverHappens) {
+// Mapped times are finite, never in the future and never fall, whatever arrives. While the sender's
+// clock does not leap they are right within the jitter and 20 s of drift.
+TEST(SenderClock, KeepsItsBoundsForAnyInput) {
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
@@ -140,7 +144,8 @@ TEST(SenderClock, StaysWithinItsBoundsWhateverHappens) {
       EXPECT_LE(*mapped, local.now());
       EXPECT_GE(*mapped, last);
       last = *mapped;
-      // A word believed is right, a transit unknown is taken for zero: 0 to 0.3 s late or early.
+      // An accepted absolute time is right; an unknown transit is taken as zero: 0 to 0.3 s late or
+      // early.
       const nanoseconds early = local.now() - packet.arrival + packet.sent - *mapped;
       EXPECT_LE(early, ns(0.3 + jitter + 0.01)) << packet.sent.count();
       EXPECT_GE(early, -ns(constant + jitter + 0.01)) << packet.sent.count();

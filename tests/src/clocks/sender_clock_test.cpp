@@ -58,7 +58,7 @@ TEST(SenderClock, RefusesStraysAndGoesOn) {
   }
 }
 
-// A recorded exercise that is played faster, with silences in it.
+// A recorded exercise that is replayed faster, with silences in it.
 TEST(SenderClock, FollowsAReplayAtAnySpeed) {
   for (const int speed : {2, 4, 10, 100}) {
     Local local;
@@ -87,7 +87,7 @@ TEST(SenderClock, FollowsAReplayAtAnySpeed) {
   }
 }
 
-TEST(SenderClock, RefusesWhatIsOlderThanTheLast) {
+TEST(SenderClock, RefusesStatesOlderThanTheLast) {
   Local local;
   const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
   ASSERT_TRUE(local.hear(stamp));
@@ -96,7 +96,7 @@ TEST(SenderClock, RefusesWhatIsOlderThanTheLast) {
   EXPECT_TRUE(local.hear(pdu::to_dis_timestamp(minutes(7) + milliseconds(1), false)));
 }
 
-TEST(SenderClock, GoesByArrivalsWhileAClockStands) {
+TEST(SenderClock, UsesArrivalTimesWhileTheSenderClockStops) {
   Local local;
   const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
   ASSERT_TRUE(local.hear(stamp));
@@ -107,8 +107,8 @@ TEST(SenderClock, GoesByArrivalsWhileAClockStands) {
   }
 }
 
-// Copies of one old packet show no clock that runs.
-TEST(SenderClock, IsNotMovedByCopiesOfAnOldState) {
+// Copies of one old packet are no evidence of a running clock.
+TEST(SenderClock, CopiesOfOldStatesDoNotMoveIt) {
   for (const auto gap : {milliseconds(5), milliseconds(90), milliseconds(260), milliseconds(900)}) {
     Local local;
     const auto stamp = [&](nanoseconds back) {
@@ -127,9 +127,9 @@ TEST(SenderClock, IsNotMovedByCopiesOfAnOldState) {
   }
 }
 
-// A host that calls itself absolute and is not: its word would be extrapolated 0.8 s too far, or be
-// cut at our present.
-TEST(SenderClock, DoesNotBelieveAnAbsoluteClockThatNoNetworkExplains) {
+// A host declares absolute time, but its clock is off. Its time would be extrapolated 0.8 s too
+// far, or be cut to the present.
+TEST(SenderClock, RejectsAnImplausibleAbsoluteClock) {
   for (const auto wrong : {milliseconds(800), milliseconds(-800)}) {
     Local local;
     for (int i = 0; i < 500; ++i, local.elapsed += milliseconds(20)) {
@@ -150,7 +150,7 @@ TEST(SenderClock, BelievesNoAbsoluteClockWhileOursIsNot) {
   }
 }
 
-TEST(SenderClock, UsesWhatAnExchangeHasFound) {
+TEST(SenderClock, UsesTheMeasuredDifference) {
   for (const bool absolute : {true, false}) {
     Local local;
     for (int i = 0; i < 1000; ++i, local.elapsed += milliseconds(20)) {
@@ -163,8 +163,8 @@ TEST(SenderClock, UsesWhatAnExchangeHasFound) {
   }
 }
 
-// A change of the estimate moves the time given by a tenth of what passes at most, and by 3 ms/s
-// where it is 8 ms or less.
+// When the estimate changes, the mapped time moves by a tenth of the elapsed time at most, and by 3
+// ms/s for a change of 8 ms or less.
 TEST(SenderClock, TakesUpAChangeOfTheEstimateSlowly) {
   const auto largest_rate = [](nanoseconds change) {
     Local local;
@@ -191,14 +191,14 @@ TEST(SenderClock, TakesUpAChangeOfTheEstimateSlowly) {
   EXPECT_LT(largest_rate(milliseconds(-90)), 0.0303);
 }
 
-// A sender of relative time: its own clock starts anywhere, transit is a constant part plus jitter.
+// A sender of relative time: its clock starts anywhere; transit is a constant plus jitter.
 void expect_relative(nanoseconds origin, bool says_absolute) {
   Local local;
   for (int i = 0; i < 2000; ++i, local.elapsed += milliseconds(10)) {
     const nanoseconds jitter = microseconds((i * 7919) % 3000);
     const nanoseconds sent = local.elapsed - milliseconds(20) - jitter;
     const auto mapped = local.hear(pdu::to_dis_timestamp(origin + sent, says_absolute));
-    // The constant 20 ms are taken for zero; the jitter is taken out once the least has been seen.
+    // The constant 20 ms are taken as zero; the jitter is removed once the minimum has been seen.
     if (i > 200) expect_close(mapped, local.now() - jitter, microseconds(40));
   }
 }
@@ -216,15 +216,15 @@ TEST(SenderClock, TreatsAnUnsynchronisedAbsoluteClockAsRelative) {
 TEST(SenderClock, FollowsADriftingSender) {
   Local local;
   for (int i = 0; i < 60'000; ++i, local.elapsed += milliseconds(10)) {
-    // 100 ppm slow: after 600 s it is 60 ms behind where it began.
+    // 100 ppm slow: after 600 s it is 60 ms behind its start.
     const nanoseconds sent(std::llround(0.9999 * static_cast<double>(local.elapsed.count())));
     const auto mapped = local.hear(pdu::to_dis_timestamp(minutes(1) + sent, false));
-    // At most 20 s of drift are not taken up yet.
+    // The drift of at most 20 s is not yet compensated.
     expect_close(mapped, local.now(), milliseconds(3));
   }
 }
 
-TEST(SenderClock, GivesNoEarlierTimeWhenATransitBecomesKnown) {
+TEST(SenderClock, TimesNeverFallWhenTheTransitBecomesKnown) {
   Local local;
   std::optional<nanoseconds> last;
   for (int i = 0; i < 100; ++i, local.elapsed += milliseconds(10)) {
@@ -240,7 +240,7 @@ TEST(SenderClock, GivesNoEarlierTimeWhenATransitBecomesKnown) {
   expect_close(last, local.now() - milliseconds(110), kUnit);
 }
 
-TEST(SenderClock, TellsHowFastASenderFallsBehind) {
+TEST(SenderClock, MeasuresTheDriftOfASender) {
   for (const double drift : {100e-6, -200e-6, 0.0}) {
     Local local;
     for (int i = 0; i < 6000; ++i, local.elapsed += milliseconds(20)) {

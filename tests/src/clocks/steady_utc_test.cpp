@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-// A host whose UTC drifts and is set, read every 2 ms.
+// A host whose UTC drifts and is set; it is read every 2 ms.
 struct Host {
   SteadyUtc steady_utc;
   nanoseconds now = seconds(5);
@@ -27,7 +27,7 @@ struct Host {
 
   Host() { given = steady_utc.at(now, utc); }
 
-  // Runs and sees that what is given neither jumps nor runs at another rate than promised.
+  // Runs and checks that the result neither jumps nor runs at another rate than promised.
   void run(nanoseconds time, nanoseconds step = milliseconds(2)) {
     for (const nanoseconds end = now + time; now < end;) {
       now += step;
@@ -60,7 +60,7 @@ TEST(SteadyUtc, FollowsAHostThatIsSlewedOrDrifts) {
   }
 }
 
-TEST(SteadyUtc, GoesOnWithoutAJumpWhenTheHostLeaps) {
+TEST(SteadyUtc, ContinuesWithoutAJumpWhenTheHostLeaps) {
   for (const nanoseconds leap : {nanoseconds(seconds(10)), nanoseconds(-seconds(10)),
                                  nanoseconds(hours(20)), nanoseconds(-hours(400'000))}) {
     Host host;
@@ -69,14 +69,14 @@ TEST(SteadyUtc, GoesOnWithoutAJumpWhenTheHostLeaps) {
     host.run(seconds(10));
     EXPECT_EQ(host.leaps, 1);
     EXPECT_FALSE(host.steady_utc.is_aligned());
-    // 500 ppm of the 9.5 s since the leap was told.
+    // 500 ppm of the 9.5 s since the leap was reported.
     EXPECT_NEAR(
         static_cast<double>((std::chrono::abs(leap) - std::chrono::abs(host.behind())).count()),
         9.5 * 500e3, 2e3);
   }
 }
 
-TEST(SteadyUtc, TellsALeapOnceItHasLastedHalfASecond) {
+TEST(SteadyUtc, ReportsALeapAfterHalfASecond) {
   Host host;
   host.utc += seconds(3);
   host.run(milliseconds(498));
@@ -85,7 +85,7 @@ TEST(SteadyUtc, TellsALeapOnceItHasLastedHalfASecond) {
   EXPECT_EQ(host.leaps, 1);
 }
 
-TEST(SteadyUtc, IsAlignedAgainOnceALeapIsWorkedOff) {
+TEST(SteadyUtc, IsAlignedAgainAfterSlewingOverALeap) {
   Host host;
   host.utc += seconds(1);
   host.run(seconds(1700), milliseconds(20));  // (1 s - 0.128 s) / 500e-6 = 1744 s
@@ -108,7 +108,7 @@ TEST(SteadyUtc, IsAlignedAgainWhenTheHostLeapsBack) {
   EXPECT_EQ(host.behind(), nanoseconds(0));
 }
 
-// Preempted between reading the two clocks.
+// The process was preempted between reading the two clocks.
 TEST(SteadyUtc, TakesOneLateReadingForNoLeap) {
   Host host;
   for (int i = 0; i < 100; ++i) {
@@ -121,7 +121,7 @@ TEST(SteadyUtc, TakesOneLateReadingForNoLeap) {
   EXPECT_EQ(host.behind(), nanoseconds(0));
 }
 
-TEST(SteadyUtc, NeverJumpsWhateverTheHostDoes) {
+TEST(SteadyUtc, NeverJumpsForAnyHostClock) {
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);

@@ -68,7 +68,7 @@ struct Line {
     }
     expected[entity] = state;
   }
-  /// What arrives, by entity.
+  /// The states that arrive, by entity.
   std::map<std::uint16_t, pdu::EntityState> pass(nanoseconds now, bool lost) {
     std::map<std::uint16_t, pdu::EntityState> taken;
     bundler.set_utc_offset(nanoseconds(0), true);
@@ -98,7 +98,7 @@ std::uint64_t value_of(const Counters& counters, std::string_view name) {
 
 class StateCompression : public ::testing::TestWithParam<CompressedForm> {};
 
-TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
+TEST_P(StateCompression, RestoresSentStatesUnderLoss) {
   for (const double loss : {0.0, 0.2}) {
     Line line(GetParam());
     std::mt19937_64 random(4);
@@ -134,7 +134,7 @@ TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
 INSTANTIATE_TEST_SUITE_P(Forms, StateCompression,
                          ::testing::Values(CompressedForm::compact, CompressedForm::residual));
 
-TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
+TEST(StateCompressor, SendsKeysOftenFirstThenRarely) {
   StateCompressor compressor(CompressedForm::residual);
   std::array<std::byte, StateCompressor::kRoom> octets;
   std::string kinds;
@@ -149,11 +149,11 @@ TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
   EXPECT_TRUE(crossed.is_key);
 }
 
-/// Owners and one receiver without datagrams between them.
+/// Owners and one receiver, without datagrams between them.
 struct Keys {
   explicit Keys(std::size_t capacity = 100) : restorer(kForm, capacity) {}
 
-  /// Its first keys, which the receiver hears from `speaker`.
+  /// Sends the entity's first keys, which the receiver gets from `speaker`.
   void tell(std::uint16_t entity, const KeySpeaker& speaker, nanoseconds now) {
     pdu::EntityState state = state_of(entity, now);
     state.entity_id.site = speaker.simulation.site;
@@ -162,10 +162,10 @@ struct Keys {
     auto& compressor = compressors.try_emplace(state.entity_id, kForm).first->second;
     std::array<std::byte, StateCompressor::kRoom> octets;
     static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
-    static_cast<void>(compressor.compress(state, kGroup, false, now, octets));  // a key, too
+    static_cast<void>(compressor.compress(state, kGroup, false, now, octets));  // also a key
     restorer.note_plain(state, speaker);
   }
-  /// What the owner says then, as `speaker`.
+  /// The verdict on a later state of `owner` that arrives from `speaker`.
   RestoreVerdict lean(std::uint16_t entity, const KeySpeaker& owner, const KeySpeaker& speaker,
                       nanoseconds now) {
     pdu::EntityState state = state_of(entity, now);
@@ -207,11 +207,11 @@ TEST(OwnedKeys, ForgetTheFirstWhereThereIsNoRoom) {
   EXPECT_EQ(keys.lean(3, kOwner, kOwner, kNext), RestoreVerdict::good);
 }
 
-TEST(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
+TEST(OwnedKeys, AreAcceptedAndUsedOnlyFromTheirOwner) {
   const KeySpeaker others[] = {
       {},                         // no peer
       {{9, 9}, 88, at_host(2)},   // another peer
-      {{9, 9}, 77, kOwner.from},  // nor by a number that looks like it
+      {{9, 9}, 77, kOwner.from},  // another peer with the owner's epoch and address
       {kSender, 0, kOwner.from},  // a plain program at its host
   };
   for (const KeySpeaker& other : others) {
@@ -226,7 +226,7 @@ TEST(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
   }
 }
 
-TEST(OwnedKeys, EndWithTheLifeThatSaidThem) {
+TEST(OwnedKeys, EndWithTheEpochOfTheirSender) {
   Keys keys;
   KeySpeaker reborn = kOwner;
   reborn.epoch = 78;
@@ -241,23 +241,23 @@ TEST(OwnedKeys, EndWithTheLifeThatSaidThem) {
   EXPECT_EQ(keys.lean(1, reborn, reborn, kNext + milliseconds(300)), RestoreVerdict::awaits_key);
 }
 
-TEST(OwnedKeys, GoAlongToANewAddressAndAreNewAfterOneComesBack) {
+TEST(OwnedKeys, FollowTheOwnerToANewAddress) {
   Keys keys;
   KeySpeaker moved = kOwner;
   moved.from = at_host(3);
   keys.tell(1, kOwner, kStart);
   EXPECT_EQ(keys.lean(1, kOwner, moved, kNext), RestoreVerdict::good);
-  keys.tell(1, moved, kNext);  // it, or who was taken for it while it was not heard
+  keys.tell(1, moved, kNext);  // the owner, or a peer that was taken for it while it was silent
   EXPECT_EQ(keys.lean(1, kOwner, moved, kNext + milliseconds(100)), RestoreVerdict::good);
   EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(200)), RestoreVerdict::awaits_key);
   keys.tell(1, kOwner, kNext + milliseconds(300));
   EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(400)), RestoreVerdict::good);
 }
 
-TEST(OwnedKeys, OfOthersAreNotTakenByAHostThatInventsEntities) {
+TEST(OwnedKeys, SurviveAHostThatInventsEntities) {
   Keys keys(100);
   for (std::uint16_t entity = 1; entity <= 20; ++entity) keys.tell(entity, kOwner, kStart);
-  for (std::uint16_t life = 0; life < 4; ++life) {  // by other names, from other ports
+  for (std::uint16_t life = 0; life < 4; ++life) {  // with other names, from other ports
     const auto port = static_cast<std::uint16_t>(4000 + life);
     const KeySpeaker inventor{{9, life}, 90U + life, at_host(2, port)};
     for (std::uint16_t entity = 1; entity <= 1000; ++entity) keys.tell(entity, inventor, kStart);

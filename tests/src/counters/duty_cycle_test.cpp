@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-// What a sorted list says, against which the buckets may round up by 1/32.
+// Compares with a sorted list; the buckets may round up by 1/32.
 void expect_percentiles_of(std::vector<std::int64_t> values) {
   DurationHistogram histogram;
   for (const std::int64_t value : values) histogram.add(nanoseconds{value});
@@ -104,7 +104,7 @@ TEST(DutyCycle, RecordsWithoutAllocating) {
 TEST(PassTimes, CountsPassesThatTakeLongerThanTheLimit) {
   PassTimes passes(1ms);
   passes.record(5ms, 5ms + 20us);
-  passes.record(7ms, 8ms);         // just as long as it may
+  passes.record(7ms, 8ms);         // exactly the limit
   passes.record(9ms, 11ms + 4us);  // longer
   EXPECT_EQ(passes.times().count(), 3u);
   EXPECT_EQ(passes.overruns(), 1u);

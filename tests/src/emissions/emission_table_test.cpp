@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who emits what, since when: merges, expiry, and the bounds of what strangers may fill.
+// The table of emissions by entity and time: merges, expiry, and the limits for strangers.
 #include "reckon/peer/emissions/emission_table.hpp"
 
 #include <gtest/gtest.h>
@@ -141,7 +141,7 @@ TEST_F(Emissions, HoldIffCodesAndRadios) {
   EXPECT_EQ(emits.radio_hz, 251e6);
 }
 
-TEST_F(Emissions, AreOverAfterTwoHeartbeats) {
+TEST_F(Emissions, ExpireAfterTwoHeartbeats) {
   pdu::Transmitter radio;
   radio.header.protocol_version = 7;
   radio.radio_reference_id = kShip;

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::hours;
 using std::chrono::nanoseconds;
 
-constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();  // hour on the wire
+constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();  // last hour on the wire
 
 pdu::StartResume start_at(std::int32_t real, std::int32_t simulation) {
   pdu::StartResume order;
@@ -27,7 +27,7 @@ pdu::StopFreeze stop_at(std::int32_t real) {
   return order;
 }
 
-TEST(ExerciseClock, RunsAndStandsAsOrdersSayWhenTheirTimeHasCome) {
+TEST(ExerciseClock, StartsAndStopsAtTheOrderedTimes) {
   ExerciseClock clock;
   EXPECT_EQ(clock.at(hours(500'000)), hours(500'000));
   clock.take(start_at(500'010, 100), hours(500'000));
@@ -38,7 +38,7 @@ TEST(ExerciseClock, RunsAndStandsAsOrdersSayWhenTheirTimeHasCome) {
   EXPECT_EQ(clock.at(hours(500'021)), hours(110));
 }
 
-TEST(ExerciseClock, NeverGoesBackWhateverHoursItIsTold) {
+TEST(ExerciseClock, NeverGoesBackForAnyHours) {
   ExerciseClock clock;
   clock.take(start_at(0, kLast), hours(500'000));
   const nanoseconds before = clock.at(hours(500'001));

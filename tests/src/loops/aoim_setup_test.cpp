@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::Ge;
 using testing::Le;
 
-/// As a file would say a key's least, most and standard value.
+/// Least, greatest and default value of a key, as text of a scene file.
 std::vector<std::string> corners(const SceneKey& key) {
   if (key.kind == KeyKind::boolean) return {"true", "false"};
   if (key.key == "tier") {
@@ -47,7 +47,7 @@ std::vector<std::string> corners(const SceneKey& key) {
   return values;
 }
 
-/// Constructs what a demo constructs of [aoim] and [network].
+/// Constructs the parts that a demo constructs from [aoim] and [network].
 void construct(const SceneFile& scene) {
   const GroupPool pool = pool_of(scene);
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
@@ -66,13 +66,13 @@ void construct(const SceneFile& scene) {
   }
 }
 
-// Plain DIS programs read no compressed form and know no leaders, who tell plain and whole states
-// and hand out groups.
+// Plain DIS programs neither read compressed states nor support leaders, which send plain and whole
+// states and hand out groups.
 bool excludes_itself(const std::string& text) {
   const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
   const bool compressed = says("compression") && !says("compression = \"none\"");
   const bool led = says("leaders = true");
-  // What these are made of stands in tables of its own.
+  // These schemes need tables of their own.
   if (says("scheme = \"quadtree\"") || says("scheme = \"locales\"")) return true;
   const bool apart = says("\"touch\"") || says("own_group");
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
@@ -83,7 +83,7 @@ bool excludes_itself(const std::string& text) {
          (led && (compressed || says("farthest"))) || (says("hand_out = true") && !led);
 }
 
-TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
+TEST(AoimSetup, TakesEveryCornerOfTheSceneKeys) {
   std::vector<SceneKey> keys;
   for (const SceneKey& key : scene_keys()) {
     const bool ours =
@@ -97,7 +97,7 @@ TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
   for (const SceneKey& a : keys) {
     for (const SceneKey& b : keys) {
       if (a.section == b.section && a.key == b.key) continue;
-      // In one order, in a soak in both.
+      // One order of each pair; a soak tries both.
       if (!test::soaks() && &b < &a) continue;
       for (const std::string& first : corners(a)) {
         for (const std::string& second : corners(b)) {
@@ -120,7 +120,7 @@ TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
   EXPECT_GT(taken, 300);
 }
 
-TEST(AoimSetup, TakesUnevenCellsWithAllThatGoesByCells) {
+TEST(AoimSetup, TakesUnevenCellsWithAllCellOptions) {
   const std::string tree =
       "scheme = \"quadtree\"\nradius = 20\n[aoim.quadtree]\nside = 100\nleaves = \"00 3\"\n";
   const std::string rooms =
@@ -137,7 +137,7 @@ TEST(AoimSetup, TakesUnevenCellsWithAllThatGoesByCells) {
   }
 }
 
-TEST(AoimSetup, RefusesAPoolInTheFileExactlyWhereTheGridWould) {
+TEST(AoimSetup, RefusesAPoolExactlyWhereTheGridDoes) {
   for (std::uint32_t pool = 0; pool <= 1002; ++pool) {
     aoim::GridConfig grid;
     grid.pool = pool;
@@ -157,7 +157,7 @@ TEST(AoimSetup, RefusesAPoolInTheFileExactlyWhereTheGridWould) {
   }
 }
 
-TEST(AoimSetup, TellsHowManyGroupsARadiusNeedsOfThosePoolAndCap) {
+TEST(AoimSetup, CountsTheGroupsThatARadiusNeeds) {
   SceneFile scene;
   scene.aoim.scheme = aoim::CellScheme::square;
   scene.aoim.radius = 3.0;
@@ -178,7 +178,7 @@ TEST(AoimSetup, TellsHowManyGroupsARadiusNeedsOfThosePoolAndCap) {
   EXPECT_EQ(group_needs(scene).within_radius, 0u);
 }
 
-TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
+TEST(AoimSetup, DoublesGroupsForContact) {
   SceneFile scene;
   scene.aoim.pool = 16;
   const auto last = scene.network.group;
@@ -194,7 +194,7 @@ TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
       << "a corner of hexagons";
 }
 
-TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
+TEST(AoimSetup, AddsGroupsForEachNearRowAndContact) {
   SceneFile scene;
   scene.aoim.pool = 16;
   scene.aoim.cell = 100.0;
@@ -216,7 +216,7 @@ TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
   EXPECT_NE(scene_hash(other), scene_hash(scene)) << "who hears what follows from the rows";
 }
 
-TEST(AoimSetup, RefusesTiersWithGroupsOfTheirOwnWhereThereCanBeNone) {
+TEST(AoimSetup, RefusesOwnGroupTiersWhereImpossible) {
   const auto refusal = [](const std::string& tiers, const char* more) {
     return test::refusal("[aoim]\n" + tiers + more);
   };
@@ -233,8 +233,8 @@ TEST(AoimSetup, RefusesTiersWithGroupsOfTheirOwnWhereThereCanBeNone) {
   says(test::kOwnTiers, "[network]\ninterop = true\n", "'interop'");
 }
 
-// What others let their copies be off by is not on the wire.
-TEST(AoimSetup, ShowsRemoteEntitiesNearTheThresholdsOfTheScene) {
+// The thresholds of other peers are not on the wire.
+TEST(AoimSetup, ShowsRemoteEntitiesByTheScenesThresholds) {
   const SceneFile scene = parse_scene_file(
       "[dead_reckoning]\nposition = \"0.25 m\"\nangle = \"0.125 rad\"\n[convergence]\ncurve = "
       "\"linear\"\n[aoim]\n" +
@@ -249,7 +249,7 @@ TEST(AoimSetup, ShowsRemoteEntitiesNearTheThresholdsOfTheScene) {
   EXPECT_EQ(settings.near_rows, 0u);
 }
 
-TEST(AoimSetup, RefusesATierToTouchWhereThereCanBeNone) {
+TEST(AoimSetup, RefusesATouchTierWhereImpossible) {
   const auto refusal = [](const char* more) {
     return test::refusal("[aoim]\n" + test::kTouchTier + more);
   };
@@ -261,7 +261,7 @@ TEST(AoimSetup, RefusesATierToTouchWhereThereCanBeNone) {
   EXPECT_NE(refusal("[network]\ninterop = true\n").find("'interop'"), std::string::npos);
 }
 
-TEST(AoimSetup, BundlesAreNoLongerThanWhatTheLinkSendsUnfragmented) {
+TEST(AoimSetup, BundlesFitTheUnfragmentedPayload) {
   const SceneFile scene =
       parse_scene_file("[scene]\nname = \"b\"\n[network.bundle]\nmax = \"9000 B\"\n", "b.toml");
   const deadreckon::LocalFrame frame(0.82, 0.145, 430.0);

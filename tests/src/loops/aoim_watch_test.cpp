@@ -28,7 +28,7 @@ pdu::Presence presence_of(std::uint16_t application) {
   return own;
 }
 
-/// A manager that looks 20 times a second, as the model loop does.
+/// A manager that is stepped 20 times a second, as in the model loop.
 class AoimWatchTest : public testing::Test {
  protected:
   void begin(const SceneFile& scene) {
@@ -37,7 +37,7 @@ class AoimWatchTest : public testing::Test {
     watch_.emplace(scene_, counters_);
     manager_->start(now_);
   }
-  /// What is told until `length` has passed.
+  /// The notices until `length` has passed.
   std::vector<std::string> run(nanoseconds length) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50)) {
       const aoim::Focus focus{{}, 0.0, scene_.aoim.radius};
@@ -49,7 +49,7 @@ class AoimWatchTest : public testing::Test {
     }
     return told;
   }
-  /// So many other peers announce themselves.
+  /// This number of other peers announce themselves.
   void announce(std::uint16_t peers) {
     for (std::uint16_t i = 2; i < 2 + peers; ++i) {
       std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
@@ -69,12 +69,12 @@ class AoimWatchTest : public testing::Test {
   nanoseconds now_ = seconds(100);
 };
 
-TEST_F(AoimWatchTest, SaysNothingOfASceneInGoodOrder) {
+TEST_F(AoimWatchTest, IsSilentForAHealthyScene) {
   begin({});
   EXPECT_THAT(run(seconds(100)), IsEmpty());
 }
 
-TEST_F(AoimWatchTest, TellsOnceThatTheCapLeavesGroupsOutAndOnceThatItIsOver) {
+TEST_F(AoimWatchTest, ReportsACapOnceAndItsEndOnce) {
   SceneFile scene;
   scene.aoim.scheme = aoim::CellScheme::square;
   scene.aoim.radius = 3.0;
@@ -85,7 +85,7 @@ TEST_F(AoimWatchTest, TellsOnceThatTheCapLeavesGroupsOutAndOnceThatItIsOver) {
   EXPECT_THAT(run(seconds(60)), ElementsAre(HasSubstr("joined again")));
 }
 
-TEST_F(AoimWatchTest, TellsThatPeersFindNoRoom) {
+TEST_F(AoimWatchTest, ReportsPeersWithoutRoom) {
   begin({});
   announce(1024);
   EXPECT_THAT(run(seconds(1)), IsEmpty());
@@ -97,7 +97,7 @@ TEST_F(AoimWatchTest, TellsThatPeersFindNoRoom) {
   EXPECT_THAT(run(seconds(2)), ElementsAre(HasSubstr("no peer is left out")));
 }
 
-TEST_F(AoimWatchTest, TellsOnceThatAllOfAPlainExerciseIsFartherThanTheRadius) {
+TEST_F(AoimWatchTest, ReportsAnInteropExerciseOutOfRangeOnce) {
   SceneFile scene;
   scene.network.interop = true;
   begin(scene);
@@ -119,7 +119,7 @@ TEST_F(AoimWatchTest, TellsOnceThatAllOfAPlainExerciseIsFartherThanTheRadius) {
   EXPECT_THAT(run(seconds(60)), ElementsAre(HasSubstr("nearest is 5000 m away")));
 }
 
-TEST_F(AoimWatchTest, LooksForTheFirstTimeAfterTenSecondsAndNeverWhereCellsDecide) {
+TEST_F(AoimWatchTest, ChecksAfterTenSecondsAndNeverWithCells) {
   SceneFile scene;
   scene.network.interop = true;
   begin(scene);
@@ -131,11 +131,11 @@ TEST_F(AoimWatchTest, LooksForTheFirstTimeAfterTenSecondsAndNeverWhereCellsDecid
   EXPECT_THAT(run(seconds(100)), IsEmpty());
 }
 
-TEST_F(AoimWatchTest, TellsOnceThatPeersAreThereAndNothingOfThemIsNear) {
+TEST_F(AoimWatchTest, ReportsOnceThatNoPeerIsNear) {
   begin({});
   announce(2);
   EXPECT_THAT(run(seconds(9)), IsEmpty());
-  run(seconds(2));  // nobody was there when the first time span began
+  run(seconds(2));  // no peer was present when the first interval began
   announce(2);
   EXPECT_THAT(run(seconds(65)), ElementsAre(HasSubstr("2 other peers are there")));
   announce(2);

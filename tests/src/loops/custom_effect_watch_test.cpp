@@ -32,9 +32,9 @@ class CustomEffectWatchTest : public testing::Test {
   CustomEffectWatch watch_{{report_}};
 };
 
-TEST_F(CustomEffectWatchTest, SaysNothingOfAnEffectThatBehaves) { EXPECT_THAT(look(), IsEmpty()); }
+TEST_F(CustomEffectWatchTest, IsSilentForAGoodEffect) { EXPECT_THAT(look(), IsEmpty()); }
 
-TEST_F(CustomEffectWatchTest, TellsEachFaultOnceByName) {
+TEST_F(CustomEffectWatchTest, ReportsEachFaultOnceByName) {
   report_->not_finite = 3;
   EXPECT_THAT(look(),
               ElementsAre(HasSubstr("the effect honey of table answers with what is no number")));

@@ -15,7 +15,7 @@ std::vector<std::byte> bytes_of(std::initializer_list<int> values) {
   return result;
 }
 
-TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
+TEST(DatagramGate, RefusesDatagramsOutsideTheExercise) {
   const auto header = [](int version, int exercise, int length) {
     return bytes_of({version, exercise, 1, 1, 0, 0, 0, 0, length >> 8, length & 255, 0, 0});
   };
@@ -35,8 +35,8 @@ TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
     EXPECT_EQ(refuse_at_gate(std::span(whole).first(size), 1), Refusal::length);
 }
 
-// What is cut short is counted by the decoder, under the name of its rule.
-TEST(DatagramGate, LeavesWhatItCannotJudgeToTheDecoder) {
+// The decoder counts truncated datagrams, under the name of its rule.
+TEST(DatagramGate, LeavesTruncatedDatagramsToTheDecoder) {
   EXPECT_EQ(refuse_at_gate(bytes_of({7, 1, 1, 1, 0, 0, 0, 0, 0, 144, 0, 0}), 1), Refusal::none);
 }
 

@@ -43,7 +43,7 @@ void expect(const QueuedDatagram* found, std::uint32_t number, std::size_t size)
       << number;
 }
 
-TEST(DatagramRing, TakesTheLongestAndTheEmptyButNothingLonger) {
+TEST(DatagramRing, TakesEmptyToLongestButNothingLonger) {
   DatagramRing ring(kSmall);
   EXPECT_TRUE(ring.empty());
   EXPECT_EQ(ring.front(), nullptr);
@@ -52,7 +52,7 @@ TEST(DatagramRing, TakesTheLongestAndTheEmptyButNothingLonger) {
   EXPECT_FALSE(push(ring, 3, kMaxDatagram + 1));
   EXPECT_FALSE(ring.empty());
   expect(ring.front(), 1, kMaxDatagram);
-  expect(ring.front(), 1, kMaxDatagram);  // looking takes nothing
+  expect(ring.front(), 1, kMaxDatagram);  // front() takes nothing out
   ring.pop();
   expect(ring.front(), 2, 0);
   ring.pop();
@@ -66,7 +66,7 @@ TEST(DatagramRing, HoldsMoreOfTheShortOnes) {
   EXPECT_EQ(held, (std::size_t{2} << 20) / 384);
 }
 
-// Against a queue that cannot be wrong, over many laps and at every fill.
+// Compared with a reference queue, over many laps and at every fill level.
 TEST(DatagramRing, KeepsOrderAndOctetsOfAnyLengths) {
   std::mt19937 random(7);
   DatagramRing ring(kSmall);
@@ -90,10 +90,10 @@ TEST(DatagramRing, KeepsOrderAndOctetsOfAnyLengths) {
     }
     ASSERT_EQ(ring.empty(), wanted.empty());
   }
-  EXPECT_GT(refused, 100u);  // it was full again and again
+  EXPECT_GT(refused, 100u);  // it was full many times
 }
 
-TEST(DatagramRing, ShowsManyAtOnceAndGivesTheirRoomBackTogether) {
+TEST(DatagramRing, ReadsManyAtOnceAndFreesThemTogether) {
   DatagramRing ring(kSmall);
   std::array<QueuedDatagram, 5> out;
   EXPECT_EQ(ring.front(out), 0u);
@@ -109,11 +109,11 @@ TEST(DatagramRing, ShowsManyAtOnceAndGivesTheirRoomBackTogether) {
   EXPECT_GT(read, 8000u);
 }
 
-TEST(DatagramRing, HasRoomForAsManyOfTheLongestAsItSays) {
+TEST(DatagramRing, HasRoomForItsDeclaredNumberOfLongest) {
   std::mt19937 random(3);
   DatagramRing ring(kSmall);
   for (int lap = 0; lap < 3000; ++lap) {
-    // Any place in the ring, any fill.
+    // Any position in the ring, any fill level.
     static_cast<void>(push(ring, 0, std::uniform_int_distribution<std::size_t>(0, 9000)(random)));
     if (lap % 3 != 0 && ring.front() != nullptr) ring.pop();
     const std::size_t room = ring.room();

@@ -21,7 +21,7 @@ constexpr aoim::SourceAddress kCrowder{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF
 
 class LimitWatchTest : public testing::Test {
  protected:
-  /// What is told within this time, looked at 20 times a second.
+  /// The notices within this time, at 20 checks a second.
   std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
       watch_.look(unfelt, kCrowder, {7, 8, 9}, now_, notices_);
@@ -36,18 +36,18 @@ class LimitWatchTest : public testing::Test {
   nanoseconds now_ = seconds(100);
 };
 
-TEST_F(LimitWatchTest, SaysNothingWhereNothingIsLeftOut) {
-  EXPECT_THAT(run(seconds(60)), IsEmpty());
-}
+TEST_F(LimitWatchTest, IsSilentWhileNothingIsLeftOut) { EXPECT_THAT(run(seconds(60)), IsEmpty()); }
 
-TEST_F(LimitWatchTest, TellsOnceThatHandsAreNotFeltAndOnceThatAllAre) {
-  EXPECT_THAT(run(seconds(20), 3), ElementsAre(HasSubstr("32 bodies that a servo takes, most of it from 10.0.0.9:5555")));
+TEST_F(LimitWatchTest, ReportsUnfeltHandsOnceAndTheirEndOnce) {
+  EXPECT_THAT(
+      run(seconds(20), 3),
+      ElementsAre(HasSubstr("32 bodies that a servo takes, most of it from 10.0.0.9:5555")));
   EXPECT_THAT(run(seconds(1), 1), IsEmpty());
-  EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the most
+  EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the maximum
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("felt again")));
 }
 
-TEST_F(LimitWatchTest, TellsOfAFullTableAndOfFullRings) {
+TEST_F(LimitWatchTest, ReportsAFullTableAndFullRings) {
   counters_.make("table_full", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("full with 1234 rows")));
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("room in the table again")));
@@ -57,12 +57,12 @@ TEST_F(LimitWatchTest, TellsOfAFullTableAndOfFullRings) {
                                            HasSubstr("from the network is full")));
 }
 
-TEST_F(LimitWatchTest, TellsThatAKeyIsMissing) {
+TEST_F(LimitWatchTest, ReportsAMissingKey) {
   counters_.make("sealed_unread_in", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("give [network] key")));
 }
 
-TEST_F(LimitWatchTest, SaysWhoseForceModelIsRefusedAndWhenNoneIsAnyMore) {
+TEST_F(LimitWatchTest, ReportsARefusedForceModelAndItsEnd) {
   counters_.make("models_refused", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("force model of 7:8:9 is refused")));
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("no force model has been refused since")));

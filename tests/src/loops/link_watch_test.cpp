@@ -21,12 +21,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A link that fares as the test says.
+// A link whose state the test sets.
 class ToldLink final : public Link {
  public:
   LinkStatistics counts;
   std::deque<std::string> events;
-  std::function<void()> meanwhile = [] {};  // another thread's, when the counts have been read
+  std::function<void()> meanwhile = [] {};  // another thread's, after the counts have been read
 
   bool send(const IpEndpoint&, std::span<const std::byte>) noexcept override { return true; }
   std::size_t receive(std::span<Datagram>) noexcept override { return 0; }
@@ -52,7 +52,7 @@ class ToldLink final : public Link {
 
 class LinkWatchTest : public testing::Test {
  protected:
-  /// What is told within this time, looked at 20 times a second; `each` goes before each look.
+  /// The notices within this time, at 20 checks a second; `each` runs before each check.
   template <typename Each>
   std::vector<std::string> run(nanoseconds length, Each each) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50)) {
@@ -77,7 +77,7 @@ class LinkWatchTest : public testing::Test {
   nanoseconds now_ = seconds(100);
 };
 
-TEST_F(LinkWatchTest, SaysOnceThatLongerBundlesDoNotFit) {
+TEST_F(LinkWatchTest, ReportsOnceThatLongerBundlesDoNotFit) {
   LinkWatch watch(link_, GroupPool::ipv4_default().base(), 9216, counters_);
   for (int i = 0; i < 3; ++i) watch.look(now_, notices_);
   ASSERT_NE(notices_.front(), nullptr);
@@ -87,17 +87,17 @@ TEST_F(LinkWatchTest, SaysOnceThatLongerBundlesDoNotFit) {
   EXPECT_EQ(notices_.front(), nullptr);
 }
 
-TEST_F(LinkWatchTest, SaysNothingOfALinkThatFaresWell) {
+TEST_F(LinkWatchTest, IsSilentForAHealthyLink) {
   EXPECT_THAT(run(seconds(60), [&] { ++link_.counts.sent; }), IsEmpty());
 }
 
-TEST_F(LinkWatchTest, PassesOnWhatTheLinkTells) {
+TEST_F(LinkWatchTest, PassesOnTheEventsOfTheLink) {
   link_.events = {"interface e0 is gone", "interface e0 carries us again"};
   EXPECT_THAT(run(seconds(1)),
               ElementsAre("interface e0 is gone", "interface e0 carries us again"));
 }
 
-TEST_F(LinkWatchTest, SaysLoudlyWhyNobodyCanBeHeard) {
+TEST_F(LinkWatchTest, ReportsWhyTheBaseGroupIsNotJoined) {
   link_.counts.last_join_error = EADDRINUSE;
   base_.set(1);
   unjoined_.set(1);
@@ -109,7 +109,7 @@ TEST_F(LinkWatchTest, SaysLoudlyWhyNobodyCanBeHeard) {
   EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("239.192.1.0:3000 is joined")));
 }
 
-TEST_F(LinkWatchTest, TellsOnceThatGroupsAreRefusedHoweverTheirNumberTrembles) {
+TEST_F(LinkWatchTest, ReportsRefusedGroupsOnceWhileTheirNumberVaries) {
   link_.counts.last_join_error = EMFILE;
   unjoined_.set(12);
   EXPECT_THAT(run(seconds(5)), ElementsAre(AllOf(HasSubstr("12 groups cannot be joined"),
@@ -122,7 +122,7 @@ TEST_F(LinkWatchTest, TellsOnceThatGroupsAreRefusedHoweverTheirNumberTrembles) {
   EXPECT_THAT(run(seconds(5)), ElementsAre("all groups could be joined"));
 }
 
-TEST_F(LinkWatchTest, SaysWhyAJoinFailedThatFailsWhileItLooks) {
+TEST_F(LinkWatchTest, ReportsTheCauseOfAConcurrentJoinFailure) {
   link_.meanwhile = [this] {
     link_.counts.last_join_error = EADDRINUSE;
     unjoined_.set(1);
@@ -132,7 +132,7 @@ TEST_F(LinkWatchTest, SaysWhyAJoinFailedThatFailsWhileItLooks) {
               ElementsAre(AllOf(HasSubstr("DEAF"), HasSubstr("Address already in use"))));
 }
 
-TEST_F(LinkWatchTest, TakesTheBaseGroupForNoOtherWhileItsCountsAreWritten) {
+TEST_F(LinkWatchTest, RecognisesTheBaseGroupDuringConcurrentCounts) {
   link_.counts.last_join_error = EADDRINUSE;
   for (const bool is_base_first : {true, false}) {
     (is_base_first ? base_ : unjoined_).set(1);
@@ -148,7 +148,7 @@ TEST_F(LinkWatchTest, TakesTheBaseGroupForNoOtherWhileItsCountsAreWritten) {
   }
 }
 
-TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {
+TEST_F(LinkWatchTest, ReportsWhetherAllOrSomeSendsFail) {
   link_.counts.last_send_error = EPERM;
   EXPECT_THAT(run(seconds(5), [&] { ++link_.counts.send_errors; }),
               ElementsAre("SENDING fails: Operation not permitted; a firewall refuses it: nft list "
@@ -159,14 +159,14 @@ TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {
               ElementsAre(HasSubstr("sending some datagrams fails: Message too long")));
 }
 
-TEST_F(LinkWatchTest, SaysThatAllSendsFailAlsoWhereSomeLeftJustBefore) {
+TEST_F(LinkWatchTest, ReportsThatAllSendsFailAfterSomeSucceeded) {
   link_.counts.last_send_error = EPERM;
-  link_.counts.sent = 3;  // in the look that finds the first refusal
+  link_.counts.sent = 3;  // during the check that finds the first refusal
   EXPECT_THAT(run(seconds(5), [&] { ++link_.counts.send_errors; }),
               ElementsAre(HasSubstr("SENDING fails")));
 }
 
-TEST_F(LinkWatchTest, TellsOneRefusalThatNoOtherFollows) {
+TEST_F(LinkWatchTest, ReportsASingleRefusal) {
   link_.counts.last_send_error = EMSGSIZE;
   link_.counts.send_errors = 1;
   EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.sent; }),
@@ -174,13 +174,13 @@ TEST_F(LinkWatchTest, TellsOneRefusalThatNoOtherFollows) {
   EXPECT_THAT(run(seconds(3)), ElementsAre(HasSubstr("works again; 1 datagrams")));
 }
 
-TEST_F(LinkWatchTest, TellsThatStatesAreLeftOutForANarrowWire) {
+TEST_F(LinkWatchTest, ReportsStatesHeldBackOnANarrowWire) {
   EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.held_back; }),
               ElementsAre(HasSubstr("takes less than is sent")));
   EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("40 were left out")));
 }
 
-TEST_F(LinkWatchTest, TellsOfWhatTheKernelDropsWhenItBeginsAndWhenItIsOver) {
+TEST_F(LinkWatchTest, ReportsKernelDropsAndTheirEnd) {
   link_.counts.kernel_drops = 17;
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("rmem_max")));
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("17 datagrams were lost")));

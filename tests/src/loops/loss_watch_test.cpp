@@ -12,7 +12,7 @@ namespace {
 
 class LossWatchTest : public testing::Test {
  protected:
-  // Notices while 70 datagrams a second are sent, of which this share is lost.
+  // The notices while 70 datagrams a second are sent, of which this share is lost.
   std::vector<std::string> run(int length, double share) {
     for (int i = 0; i < 20 * length; ++i, now_ += std::chrono::milliseconds(50)) {
       sent_ += 3.5;

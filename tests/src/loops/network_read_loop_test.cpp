@@ -26,7 +26,7 @@ using testing::IsEmpty;
 const GroupPool kPool = GroupPool::ipv4_default();
 constexpr std::uint32_t kWaiting = 10'000;
 
-// Of many lengths, with its number in front.
+// A datagram of varying length that begins with its number.
 std::vector<std::byte> numbered(std::uint32_t number) {
   std::vector<std::byte> octets(4 + number * 7919 % 3000);
   std::memcpy(octets.data(), &number, sizeof number);
@@ -35,7 +35,7 @@ std::vector<std::byte> numbered(std::uint32_t number) {
 
 class ReadLoop : public ::testing::Test {
  protected:
-  // The model loop takes up to `most`, in order and whole.
+  // The model loop takes up to `most` datagrams and checks their order and content.
   void take(std::size_t most) {
     for (std::size_t i = 0; i < most; ++i) {
       const QueuedDatagram* datagram = ring_.front();
@@ -58,14 +58,14 @@ class ReadLoop : public ::testing::Test {
   std::uint32_t taken_ = 0;
 };
 
-TEST_F(ReadLoop, LeavesInTheLinkWhatTheModelLoopHasNoRoomFor) {
+TEST_F(ReadLoop, LeavesDatagramsInTheLinkDuringStalls) {
   for (std::uint32_t i = 0; i < kWaiting; ++i) link_.put(kPool.address(i % 5), numbered(i));
   std::size_t read = loop_.step(nanoseconds(1));
   EXPECT_GT(read, 30u);
   EXPECT_TRUE(loop_.is_full());
   EXPECT_EQ(link_.waiting(), kWaiting - read);
 
-  // The model loop stalls: nothing more is taken, but groups are joined and left.
+  // The model loop stalls: no more datagrams are read, but groups are joined and left.
   ASSERT_TRUE(commands_.push({kPool.address(3), true}));
   ASSERT_TRUE(commands_.push({kPool.address(4), true}));
   ASSERT_TRUE(commands_.push({kPool.address(3), false}));
@@ -73,7 +73,7 @@ TEST_F(ReadLoop, LeavesInTheLinkWhatTheModelLoopHasNoRoomFor) {
   EXPECT_EQ(link_.joined(), std::vector{kPool.address(4)});
   EXPECT_EQ(link_.waiting(), kWaiting - read);
 
-  // It goes on, by fits and starts: all come, each once, in order.
+  // It resumes irregularly: all datagrams arrive, each once, in order.
   for (std::size_t turn = 0; taken_ < kWaiting; ++turn) {
     ASSERT_LT(turn, 100'000u);
     take(turn * turn % 40);
@@ -87,7 +87,7 @@ TEST_F(ReadLoop, LeavesInTheLinkWhatTheModelLoopHasNoRoomFor) {
   EXPECT_GT(counters_.find("read_waits")->value(), 10u);
 }
 
-TEST_F(ReadLoop, SaysThatItIsFullOnlyWhileItIs) {
+TEST_F(ReadLoop, ReportsFullOnlyWhileItIs) {
   EXPECT_EQ(loop_.step(nanoseconds(1)), 0u);
   EXPECT_FALSE(loop_.is_full());
   EXPECT_EQ(counters_.find("read_waits")->value(), 0u);
@@ -101,7 +101,8 @@ TEST_F(ReadLoop, SaysThatItIsFullOnlyWhileItIs) {
   EXPECT_FALSE(loop_.is_full());
 }
 
-// A flood of one and a few words of another: what is queued is theirs, whatever the flood says.
+// A flood of one sender and a few datagrams of another one: the few are queued, whatever the flood
+// sends.
 TEST(NetworkReadLoop, QueuesNeitherJunkNorAFlood) {
   ManualClock clock(seconds(1), nanoseconds(0));
   SimulatedNetworkOptions options;
@@ -139,7 +140,7 @@ TEST(NetworkReadLoop, QueuesNeitherJunkNorAFlood) {
   EXPECT_EQ(loop.muted().front()->who, network.link(1).local_endpoint());
 }
 
-// A reader of exercise 1, and what the links send to it.
+// A reader of exercise 1 and the datagrams that links send to it.
 struct Gate {
   explicit Gate(bool lenient = false, std::size_t links = 3)
       : network({.links = links}, clock),
@@ -212,7 +213,7 @@ TEST(NetworkReadLoop, ReadsALengthOfZeroIfLenient) {
   EXPECT_THAT(gate.reports(), IsEmpty());
 }
 
-TEST(NetworkReadLoop, DropsAndCountsWhatHasWaitedForMoreThanASecond) {
+TEST(NetworkReadLoop, DropsAndCountsDatagramsOlderThanASecond) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
   haptics::SpscRing<GroupCommand> commands(16);
@@ -233,7 +234,7 @@ TEST(NetworkReadLoop, DropsAndCountsWhatHasWaitedForMoreThanASecond) {
   EXPECT_EQ(counters.find("stale_datagrams")->value(), 1u);
 }
 
-TEST(NetworkReadLoop, SaysThatTheBaseGroupIsMissingAndTriesItFirst) {
+TEST(NetworkReadLoop, ReportsAndFirstRetriesAMissingBaseGroup) {
   ManualClock clock;
   SimulatedNetworkOptions options;
   options.max_groups = 1;
@@ -254,7 +255,7 @@ TEST(NetworkReadLoop, SaysThatTheBaseGroupIsMissingAndTriesItFirst) {
   EXPECT_EQ(counters.find("groups_unjoined")->value(), 5u);
 }
 
-TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) {
+TEST(NetworkReadLoop, RetriesARefusedGroupUntilJoinedOrLeft) {
   ManualClock clock;
   SimulatedNetworkOptions options;
   options.max_groups = 2;
@@ -270,7 +271,7 @@ TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) 
   EXPECT_EQ(count("join_errors"), 3u);
   EXPECT_EQ(count("groups_unjoined"), 3u);
 
-  // One is not wanted any more; one place becomes free.
+  // One group is no longer wanted; one place becomes free.
   static_cast<void>(commands.push({pool.address(4), false}));
   static_cast<void>(commands.push({pool.address(0), false}));
   loop.step(seconds(1) + milliseconds(999));
@@ -284,7 +285,7 @@ TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) 
   EXPECT_EQ(count("groups_unjoined"), 0u);
   EXPECT_EQ(count("join_errors"), 3u);
 
-  // Groups 2 and 3 are what is heard.
+  // Groups 2 and 3 are received.
   clock.advance(seconds(3));
   const std::byte octet{1};
   for (std::size_t i = 0; i < 5; ++i) network.link(1).send(pool.address(i), {&octet, 1});
@@ -297,8 +298,8 @@ TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) 
   EXPECT_EQ(inbound.front(), nullptr);
 }
 
-// What comes in contact groups has a ring of its own: it does not wait behind others.
-TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
+// Datagrams of contact groups have a ring of their own: they do not wait behind others.
+TEST(NetworkReadLoop, KeepsContactDatagramsInTheirOwnRing) {
   test::ManualLink link;
   haptics::SpscRing<GroupCommand> commands(16);
   DatagramRing others(std::size_t{64} << 10), felt(std::size_t{64} << 10);
@@ -318,14 +319,14 @@ TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
   EXPECT_EQ(count(others), 4u);
   EXPECT_EQ(count(felt), 2u);
 
-  // Whichever is full, nothing is dropped.
+  // Whichever ring is full, nothing is dropped.
   for (std::uint32_t i = 0; i < 1000; ++i) link.put(kPool.address(100), numbered(i));
   static_cast<void>(loop.step(nanoseconds(2)));
   EXPECT_TRUE(loop.is_full());
   EXPECT_GT(link.waiting(), 0u);
 }
 
-TEST_F(ReadLoop, SaysWhichArrivalsCanBeFelt) {
+TEST_F(ReadLoop, DistinguishesArrivalsThatCanBeFelt) {
   const auto put = [&](const IpEndpoint& from) {
     link_.put(kPool.address(0), numbered(0), from);
     return loop_.step(nanoseconds(1)) > 0 && loop_.has_taken_felt();

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-TEST(NetworkWriteLoop, HandsWhatWaitsToTheLinkInOneBatch) {
+TEST(NetworkWriteLoop, SendsQueuedDatagramsInOneBatch) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
   DatagramRing ring(std::size_t{2} << 20);
@@ -33,7 +33,7 @@ TEST(NetworkWriteLoop, HandsWhatWaitsToTheLinkInOneBatch) {
   EXPECT_EQ(hear(b), sent);
 }
 
-TEST(NetworkWriteLoop, CountsWhatTheKernelRefusesAndSendsTheRest) {
+TEST(NetworkWriteLoop, CountsRefusedDatagramsAndSendsTheRest) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
   DatagramRing ring(std::size_t{2} << 20);

@@ -35,7 +35,7 @@ class LinesOfStrangers : public testing::Test {
     event.heard_for = heard_for;
     gate_.report(event, now_, ring_);
   }
-  // As the model loop does it.
+  // Time passes as in the model loop.
   void pass(nanoseconds length) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
       gate_.look(now_, ring_);
@@ -58,7 +58,7 @@ struct Turmoil {
 
 class RatesOfStrangers : public LinesOfStrangers, public testing::WithParamInterface<Turmoil> {};
 
-TEST_P(RatesOfStrangers, StrangersThatComeAndGoCauseOneLineASecondForTheirHost) {
+TEST_P(RatesOfStrangers, TransientStrangersCauseOneLinePerSecond) {
   constexpr unsigned kSeconds = 20;
   const auto [peers, hosts] = GetParam();
   unsigned caused = 0;
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Turmoils, RatesOfStrangers,
                          testing::Values(Turmoil{20, 1}, Turmoil{200, 1}, Turmoil{2000, 7},
                                          Turmoil{4000, 50}));
 
-TEST_F(LinesOfStrangers, WhoHasBeenHeardForLongIsToldBesideStrangersOfHisHost) {
+TEST_F(LinesOfStrangers, ReportsKnownPeersBesideStrangersOfTheirHost) {
   for (unsigned i = 0; i < 500; ++i) happens(PresenceEventKind::newcomer, 1, i);
   static_cast<void>(lines());
   happens(PresenceEventKind::departed, 1, 9001, seconds(60));
@@ -103,7 +103,7 @@ TEST_F(LinesOfStrangers, StrangersOfOneHostHideNothingOfAnother) {
   EXPECT_THAT(lines(), Contains(HasSubstr("700:1")));
 }
 
-TEST_F(LinesOfStrangers, EightThatComeAtOnceAreToldEach) {
+TEST_F(LinesOfStrangers, ReportsEachOfEightSimultaneousNewcomers) {
   for (unsigned i = 0; i < 8; ++i) happens(PresenceEventKind::newcomer, 1, i);
   EXPECT_THAT(lines(), testing::SizeIs(8));
   happens(PresenceEventKind::newcomer, 1, 8);
@@ -113,12 +113,12 @@ TEST_F(LinesOfStrangers, EightThatComeAtOnceAreToldEach) {
   EXPECT_THAT(lines(), Contains(HasSubstr("1 more lines about strangers at 10.77.0.1")));
 }
 
-TEST_F(LinesOfStrangers, WhatIsAboutThisPeerItselfAlwaysPasses) {
+TEST_F(LinesOfStrangers, AlwaysReportsEventsOfThisPeer) {
   for (unsigned i = 0; i < 100; ++i) happens(PresenceEventKind::identity_changed, 0, i);
   EXPECT_THAT(lines(), testing::SizeIs(100));
 }
 
-TEST_F(LinesOfStrangers, PortsThatFloodInTurnsAreStrangersOfTheirHost) {
+TEST_F(LinesOfStrangers, FloodsFromManyPortsCountAsOneHost) {
   for (std::uint16_t port = 1; port < 200; ++port)
     gate_.report({IpEndpoint::v4(0x0a4d0001u, port), port % 2 == 1, 5}, now_, ring_);
   EXPECT_THAT(lines(), testing::SizeIs(NoticeGate::kAtOnce));

@@ -25,7 +25,7 @@ aoim::PresenceEvent event_of(aoim::PresenceEventKind kind) {
   return event;
 }
 
-TEST(Notice, TellsAnImpostorWithBothAddresses) {
+TEST(Notice, NamesBothAddressesOfAnImpostor) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::impostor);
   event.source = source_of(*IpEndpoint::parse("10.77.0.2:4000"));
   event.other = source_of(*IpEndpoint::parse("[fd00::9]:5000"));
@@ -34,14 +34,14 @@ TEST(Notice, TellsAnImpostorWithBothAddresses) {
                "believed");
 }
 
-TEST(Notice, TellsADisputeOverItsOwnId) {
+TEST(Notice, ReportsADisputeOverItsOwnId) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::disputed);
   event.other = source_of(*IpEndpoint::parse("10.77.0.3:4001"));
   EXPECT_STREQ(notice_of(event).text.data(),
                "7:2, which is this peer, is claimed by another at 10.77.0.3:4001, too");
 }
 
-TEST(Notice, TellsHowLongThePeerSlept) {
+TEST(Notice, ReportsHowLongThePeerSlept) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::slept);
   event.slept = std::chrono::milliseconds(5049);
   EXPECT_STREQ(notice_of(event).text.data(), "this peer slept for 5.0 s");
@@ -52,7 +52,7 @@ bool is_printable(std::string_view text) {
                      [](char letter) { return letter >= ' ' && letter <= '~'; });
 }
 
-TEST(Notice, CarriesNoEscapeSequenceWhereverANameComesFrom) {
+TEST(Notice, NeverContainsAnEscapeSequence) {
   EXPECT_STREQ(make_notice(NoticeKind::other, "'{}' joined", "\x1b[2J\x1b]0;me\x07").text.data(),
                "'?[2J?]0;me?' joined");
   EXPECT_STREQ(make_notice(NoticeKind::other, "'{}'", "two\nlines\r\ttab").text.data(),
@@ -78,12 +78,12 @@ TEST(Notice, IsPrintableForEachOctetThereIs) {
   }
 }
 
-TEST(Notice, IsCutWhereItIsTooLongAndStillEnds) {
+TEST(Notice, IsCutToItsRoomAndTerminated) {
   const Notice notice = make_notice(NoticeKind::other, "{}", std::string(1000, '\x1b'));
   EXPECT_EQ(std::string_view(notice.text.data()), std::string(notice.text.size() - 1, '?'));
 }
 
-TEST(Notice, OfAPeerShowsItsNameWithoutControlCharacters) {
+TEST(Notice, RemovesControlCharactersFromPeerNames) {
   aoim::PresenceEvent event;
   event.kind = aoim::PresenceEventKind::newcomer;
   constexpr std::string_view kName = "\x1b[31mRED";

@@ -21,7 +21,7 @@ IpEndpoint sender(std::uint32_t host, std::uint16_t port) {
 
 class Budget : public testing::Test {
  protected:
-  // So many datagrams a second from one sender for a time; how many were admitted.
+  // Sends `rate` datagrams a second from one sender for `length`; returns how many were admitted.
   std::size_t send(const IpEndpoint& who, unsigned rate, nanoseconds length, bool pressed = false) {
     const nanoseconds gap = nanoseconds(seconds(1)) / rate, end = now_ + length;
     std::size_t admitted = 0;
@@ -53,7 +53,7 @@ TEST_F(Budget, LetsAnIntroductionOfTenThousandEntitiesThrough) {
   EXPECT_TRUE(told().empty());
 }
 
-TEST_F(Budget, MutesAFloodTellsItAndForgivesWhenItEnds) {
+TEST_F(Budget, MutesAFloodUntilItsEnd) {
   const std::size_t admitted = send(sender(1, 4000), 100'000, seconds(2));
   EXPECT_LE(admitted, SenderBudget::kMost);
   EXPECT_EQ(budget_.muted(), 1u);
@@ -82,7 +82,7 @@ TEST_F(Budget, ForgivesAFloodThatFallsSilent) {
   EXPECT_FALSE(events[0].muted);
 }
 
-TEST_F(Budget, HearsTheOthersOfTheNetworkAndOfTheFloodersHost) {
+TEST_F(Budget, AdmitsOtherHostsAndPortsDuringAFlood) {
   std::size_t honest = 0, beside = 0;
   for (int i = 0; i < 200'000; ++i, now_ += microseconds(10)) {
     static_cast<void>(budget_.admit(sender(1, 4000), now_, false));
@@ -105,8 +105,9 @@ TEST_F(Budget, MutesAnAddressThatFloodsFromManyPorts) {
   EXPECT_TRUE(all) << "it is told by its address";
 }
 
-// Of a member that says `slow` datagrams a second while `floods` processes beside it say 19,000
-// each, none of them too many by itself: how many in a hundred are heard.
+// A member sends `slow` datagrams a second. Beside it `floods` processes send 19,000 a second each,
+// none of them too many by itself. The share of the member's datagrams that must be admitted, in
+// per cent.
 struct LocalFlood {
   unsigned floods;
   std::int64_t slow;
@@ -114,7 +115,7 @@ struct LocalFlood {
 
 class BudgetOfAHost : public Budget, public testing::WithParamInterface<LocalFlood> {};
 
-TEST_P(BudgetOfAHost, AMemberIsHeardWhateverOtherProcessesOfItsHostSend) {
+TEST_P(BudgetOfAHost, AdmitsAMemberBesideFloodsOfItsHost) {
   const IpEndpoint member = sender(1, 3000);
   know({sender(2, 3000), member});
   const auto slow = nanoseconds(seconds(1)) / GetParam().slow;
@@ -138,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Rates, BudgetOfAHost,
                          testing::Values(LocalFlood{5, 20}, LocalFlood{6, 100}, LocalFlood{17, 1000},
                                          LocalFlood{60, 5000}));
 
-// Who joins with many processes that all flood gets no more for all of them than his host has.
-TEST_F(Budget, MembersOfOneHostShareWhatTheHostMaySend) {
+// A host that joins with many processes which all flood gets no more than the share of one host.
+TEST_F(Budget, MembersOfOneHostShareItsLimit) {
   constexpr unsigned kMembers = 200;
   std::vector<IpEndpoint> members;
   for (unsigned i = 0; i < kMembers; ++i)
@@ -152,7 +153,7 @@ TEST_F(Budget, MembersOfOneHostShareWhatTheHostMaySend) {
   EXPECT_LE(admitted, 21u * SenderBudget::kMostOfAddress + SenderBudget::kMostOfAddress);
 }
 
-TEST_F(Budget, AMemberThatFloodsIsMutedAndOneThatLeavesIsCountedAsItsHost) {
+TEST_F(Budget, MutesFloodingMembersAndForgetsDepartedOnes) {
   know({sender(1, 3000)});
   EXPECT_LE(send(sender(1, 3000), 100'000, seconds(1)), SenderBudget::kMost);
   EXPECT_EQ(budget_.muted(), 1u);
@@ -166,8 +167,9 @@ TEST_F(Budget, AMemberThatFloodsIsMutedAndOneThatLeavesIsCountedAsItsHost) {
   EXPECT_FALSE(budget_.admit(sender(1, 3000), now_, false));
 }
 
-// Whose place others have taken, and who was muted before it was known, is counted on.
-TEST_F(Budget, WhatIsCountedOfASourceGoesOnWhenItBecomesAMember) {
+// A source keeps its count when its table entry was reused, and when it was muted before it became
+// a member.
+TEST_F(Budget, CountsOnWhenASourceBecomesMember) {
   send(sender(1, 4000), 100'000, milliseconds(200));
   ASSERT_EQ(budget_.muted(), 1u);
   know({sender(1, 4000), sender(7, 9)});
@@ -177,16 +179,16 @@ TEST_F(Budget, WhatIsCountedOfASourceGoesOnWhenItBecomesAMember) {
   EXPECT_EQ(budget_.muted(), 0u);
 }
 
-// What waited in the kernel while this peer stood still came at its own pace.
-TEST_F(Budget, GoesByWhenDatagramsCameNotByWhenTheyWereRead) {
+// Datagrams that waited in the kernel while this peer was stopped count by their arrival times.
+TEST_F(Budget, CountsArrivalTimesInsteadOfReadTimes) {
   std::size_t admitted = 0;
   for (int i = 0; i < 30'000; ++i)
     admitted += budget_.admit(sender(1, 3000), now_ + i * microseconds(67), false) ? 1 : 0;
   EXPECT_EQ(admitted, 30'000u);
 }
 
-// Forged addresses fill the table; those whom it knows are counted on, the new ones go unhindered.
-TEST_F(Budget, KeepsItsMemoryAndItsJudgementAmongForgedAddresses) {
+// Forged addresses fill the table. Known sources are still counted; new ones pass without a limit.
+TEST_F(Budget, ForgedAddressesNeitherGrowNorResetIt) {
   send(sender(1, 4000), 100'000, milliseconds(200));
   ASSERT_EQ(budget_.muted(), 1u);
   for (std::uint32_t i = 0; i < 65'000; ++i, now_ += nanoseconds(1000)) {

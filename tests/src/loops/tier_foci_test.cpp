@@ -10,7 +10,7 @@
 namespace reckon::peer {
 namespace {
 
-TEST(TierFoci, OfTiersByDistanceAreWhatEntitiesSenseAndOfTheTouchTierWhatCanBeTouched) {
+TEST(TierFoci, TouchTierUsesHandsAndOthersUseSensors) {
   const SceneFile scene = parse_scene_file("[aoim]\npool = 16\n" + test::kAllTiers, "x.toml");
   const aoim::TierTable tiers = tiers_of(aoim_config(scene));
   const deadreckon::LocalFrame frame(0.82, 0.145, 430.0);
@@ -22,7 +22,7 @@ TEST(TierFoci, OfTiersByDistanceAreWhatEntitiesSenseAndOfTheTouchTierWhatCanBeTo
   for (std::size_t tier = 0; tier < tiers.count(); ++tier) {
     const auto of_tier = foci[tier]({owned, {&sensed, 1}, {}, {}});
     if (tiers.kind(tier).is_urgent) {
-      EXPECT_TRUE(of_tier.empty());  // without hands of our own nothing can be touched
+      EXPECT_TRUE(of_tier.empty());  // without own hands nothing can be touched
     } else {
       EXPECT_EQ(of_tier.data(), &sensed) << tier;
     }

@@ -35,11 +35,12 @@ TEST(WakeSignal, WaitsNoLongerThanItsTimeout) {
   EXPECT_FALSE(signal.wait(nanoseconds::min()));
 }
 
-// Each side sleeps for ever until the other has moved: one lost notification and it hangs.
+// Each side waits without a time-out until the other has moved: a lost notification would hang the
+// test.
 TEST(WakeSignal, LosesNoNotificationBetweenTwoThreads) {
   constexpr int kRounds = 20'000;
   WakeSignal there, back;
-  int ball = 0;  // no atomic: what was written before notify() is seen after wait()
+  int ball = 0;  // not atomic: a value written before notify() is visible after wait()
   const auto wait_for = [&](WakeSignal& signal) {
     while (!signal.wait(nanoseconds::max())) {
     }
@@ -60,7 +61,7 @@ TEST(WakeSignal, LosesNoNotificationBetweenTwoThreads) {
   EXPECT_EQ(ball, kRounds);
 }
 
-// The waiter looks at the number after each wait, as a loop does at its ring.
+// The waiter reads the number after each wait, as a loop reads its ring.
 TEST(WakeSignal, LosesTheNewestOfManyNotifiersToNobody) {
   WakeSignal signal;
   std::atomic<int> number{0};

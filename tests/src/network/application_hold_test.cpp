@@ -21,7 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Of this process alone, so that tests may run beside each other.
+// A scope of this process alone, so that tests may run in parallel.
 ApplicationScope scope() {
   ApplicationScope scope;
   scope.group = *GroupAddress::parse("239.192.7.7:3000");
@@ -38,7 +38,7 @@ std::string refusal(const ApplicationScope& scope, std::uint16_t wanted) {
   return "";
 }
 
-TEST(ApplicationHold, TakesTheSmallestNumberThatNoneHasAndSaysWhoHasTheFirst) {
+TEST(ApplicationHold, TakesTheSmallestFreeNumberAndReportsIt) {
   const ApplicationHold first(scope(), {});
   const ApplicationHold second(scope(), {});
   const ApplicationHold third(scope(), {});
@@ -50,7 +50,7 @@ TEST(ApplicationHold, TakesTheSmallestNumberThatNoneHasAndSaysWhoHasTheFirst) {
                                     HasSubstr("process " + std::to_string(::getpid()) + " (")));
 }
 
-TEST(ApplicationHold, RefusesANumberThatIsTakenAndSaysByWhom) {
+TEST(ApplicationHold, RefusesATakenNumberAndNamesItsHolder) {
   const ApplicationHold holder(scope(), 7);
   EXPECT_EQ(holder.report(), "");
   EXPECT_THAT(refusal(scope(), 7), AllOf(HasSubstr("application 7 of site"),
@@ -96,7 +96,7 @@ TEST(ApplicationHold, IsFreeWhenItsProcessIsKilled) {
   ::close(ready[1]);
 }
 
-TEST(ApplicationHold, GivesEachOfManyThatAskAtOnceANumberOfItsOwn) {
+TEST(ApplicationHold, GivesParallelRequestsDistinctNumbers) {
   constexpr std::size_t kAsking = 16;
   std::vector<std::unique_ptr<ApplicationHold>> holds(kAsking);
   std::vector<std::thread> threads;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Balances of datagrams over links: of the kernel, impaired, to a list of addresses.
+// Balances of datagrams over real links, impaired links and unicast lists.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
@@ -51,7 +51,7 @@ TEST_F(DatagramBalances, HoldOverARealLink) {
   EXPECT_EQ(hear(b).size(), 5u);
   EXPECT_TRUE(a.send(group(1), datagram(6)));
   EXPECT_TRUE(a.send(group(1), datagram(7)));
-  b.leave(group(1));  // with two unread
+  b.leave(group(1));  // with two datagrams unread
   balance_.look();
   const BalanceReport report = balance_.report(0s, true);
   ASSERT_EQ(report.stretches.size(), 1u);
@@ -69,9 +69,9 @@ TEST_F(DatagramBalances, HoldOverARealLink) {
   EXPECT_EQ(of(sums, DatagramFate::unread), 2u);
 }
 
-// Leaving takes the kernel long while interfaces change elsewhere: what comes meanwhile is at the
-// edge, what was sent before has arrived.
-TEST_F(DatagramBalances, HaveAllThatCameBeforeAGroupWasLeft) {
+// The kernel takes long to leave a group while interfaces change elsewhere. Datagrams that arrive
+// meanwhile may count either way; datagrams sent before have arrived.
+TEST_F(DatagramBalances, CountAllDatagramsBeforeAGroupIsLeft) {
   UdpMulticastOptions options = on("lo");
   UdpMulticast a(options, kClock);
   options.tap = &tap_;
@@ -112,8 +112,8 @@ TEST_F(DatagramBalances, HaveAllThatCameBeforeAGroupWasLeft) {
   }
 }
 
-// A run that is not handed up yet may hold all buffers.
-TEST_F(DatagramBalances, TellOfAGroupThatIsLeftWhileABatchIsFull) {
+// A run that is not yet returned may hold all buffers.
+TEST_F(DatagramBalances, ReportLeftGroupsWhileABatchIsFull) {
   UdpMulticastOptions options = on("lo");
   UdpMulticast a(options, kClock);
   options.tap = &tap_;
@@ -134,8 +134,8 @@ TEST_F(DatagramBalances, TellOfAGroupThatIsLeftWhileABatchIsFull) {
   EXPECT_EQ(of(sums, DatagramFate::unread), 2u);
 }
 
-// What comes behind the last datagram that was read has no other to tell of it.
-TEST_F(DatagramBalances, KnowWhatTheKernelDroppedLast) {
+// After the last datagram that was read, no further datagram carries the count of drops.
+TEST_F(DatagramBalances, CountTheLastKernelDrops) {
   UdpMulticastOptions options = on("lo");
   options.tap = &tap_;
   options.receive_buffer = 4096;
@@ -155,7 +155,7 @@ TEST_F(DatagramBalances, KnowWhatTheKernelDroppedLast) {
   EXPECT_EQ(b.statistics().kernel_drops, report.memberships[0].kernel_drops);
 }
 
-TEST_F(DatagramBalances, TellWhatTheLawDidToWhom) {
+TEST_F(DatagramBalances, RecordTheImpairmentOfEachDatagram) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
   ImpairedLinkOptions options;
@@ -168,7 +168,7 @@ TEST_F(DatagramBalances, TellWhatTheLawDidToWhom) {
   for (std::uint32_t number = 1; number <= 500; ++number)
     network.link(0).send(group(1), datagram(number));
   std::array<Datagram, 8> out;
-  EXPECT_EQ(link.receive(out), 0u);  // all are under way
+  EXPECT_EQ(link.receive(out), 0u);  // all are delayed
   link.settle();
   const LinkStatistics statistics = link.statistics();
   const auto sums = counts();
@@ -179,8 +179,8 @@ TEST_F(DatagramBalances, TellWhatTheLawDidToWhom) {
             500 - statistics.lost_by_law + statistics.duplicated_by_law);
 }
 
-// Three of a list: both ends count each copy under the group that it was sent to.
-TEST_F(DatagramBalances, HoldWhereDatagramsGoToAListOfAddresses) {
+// A list of three peers: both ends count each copy under the group it was sent to.
+TEST_F(DatagramBalances, HoldForUnicastLists) {
   const GroupPool pool = GroupPool::ipv4_default();
   UdpMulticastOptions options = on("lo");
   UdpMulticast c(options, kClock);
@@ -229,7 +229,7 @@ TEST_F(DatagramBalances, HoldWhereDatagramsGoToAListOfAddresses) {
   EXPECT_EQ(report.memberships[0].group, b.local_endpoint());
 }
 
-TEST_F(DatagramBalances, TellThatAListNamesNobodyElse) {
+TEST_F(DatagramBalances, ReportAListWithoutOtherPeers) {
   const GroupPool pool = GroupPool::ipv4_default();
   UdpMulticastOptions options = on("lo");
   options.framed = pool;

@@ -28,7 +28,7 @@ class CopiesOfADatagram : public testing::Test {
   IpEndpoint group_ = IpEndpoint::v4(0xefc00100, 3000), sender_ = IpEndpoint::v4(0x0a090901, 4000);
 };
 
-TEST_F(CopiesOfADatagram, AreThoseOfOtherInterfaces) {
+TEST_F(CopiesOfADatagram, ComeOverOtherInterfaces) {
   EXPECT_FALSE(is_copy(kEth0, "a"));
   EXPECT_TRUE(is_copy(kEth1, "a"));
   EXPECT_TRUE(is_copy(kLo, "a"));
@@ -59,7 +59,7 @@ TEST_F(CopiesOfADatagram, HaveTheSameSenderAndDestination) {
   EXPECT_FALSE(is_copy(kEth0, "a"));
 }
 
-TEST_F(CopiesOfADatagram, OfThisHostMayComeFromSeveralOfItsAddresses) {
+TEST_F(CopiesOfADatagram, MayComeFromSeveralOwnAddresses) {
   EXPECT_FALSE(is_copy(kEth0, "a"));
   sender_ = IpEndpoint::v4(0x7f000001, 4000);
   EXPECT_FALSE(is_copy(kLo, "a")) << "another host";

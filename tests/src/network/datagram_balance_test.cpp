@@ -25,7 +25,7 @@ using balances::DatagramBalances;
 using balances::event;
 using balances::kLife;
 
-TEST_F(DatagramBalances, CountWhatIsMissingUntilItComesLate) {
+TEST_F(DatagramBalances, CountAMissingNumberUntilItArrivesLate) {
   arrive({5, 6, 9, 10});
   arrive({7});
   const Stretch stretch = only_stretch();
@@ -36,7 +36,7 @@ TEST_F(DatagramBalances, CountWhatIsMissingUntilItComesLate) {
   EXPECT_EQ(stretch.copies, 0u);
 }
 
-TEST_F(DatagramBalances, BeginAStretchAtTheLeastNumberThatArrived) {
+TEST_F(DatagramBalances, BeginAStretchAtTheLeastNumberReceived) {
   arrive({20, 17});
   const Stretch stretch = only_stretch();
   EXPECT_EQ(stretch.first, 17u);
@@ -52,8 +52,8 @@ TEST_F(DatagramBalances, CountACopyOnce) {
   EXPECT_EQ(stretch.copies, 3u);
 }
 
-// A group that is left and joined again at once: what came by each membership is told apart.
-TEST_F(DatagramBalances, SayOfWhichMembershipAStretchIs) {
+// A group is left and joined again at once: datagrams of the two memberships are kept apart.
+TEST_F(DatagramBalances, AssignAStretchToItsMembership) {
   const auto change = [this](DatagramFate fate, std::chrono::nanoseconds when) {
     DatagramEvent changed = event(fate, 0);
     changed.time = when;
@@ -119,7 +119,7 @@ TEST_F(DatagramBalances, EndAStretchWhereItsGroupIsLeft) {
   EXPECT_LT(report.memberships[1].left, 0s);
 }
 
-TEST_F(DatagramBalances, TellEachEventOnce) {
+TEST_F(DatagramBalances, ReportEachEventOnce) {
   arrive({1, 2, 3});
   std::uint64_t arrived = 0;
   for (const bool end : {false, true}) {
@@ -131,7 +131,7 @@ TEST_F(DatagramBalances, TellEachEventOnce) {
   EXPECT_EQ(arrived, 4u);
 }
 
-TEST_F(DatagramBalances, ForgetWhoIsSilentForFiveMinutes) {
+TEST_F(DatagramBalances, ForgetASenderAfterFiveMinutesOfSilence) {
   arrive({1, 2});
   EXPECT_TRUE(balance_.report(10s, false).stretches.empty());
   EXPECT_TRUE(balance_.report(200s, false).stretches.empty());
@@ -139,8 +139,8 @@ TEST_F(DatagramBalances, ForgetWhoIsSilentForFiveMinutes) {
   EXPECT_TRUE(balance_.report(310s, true).stretches.empty());
 }
 
-// The tracker believes a number that lies far ahead when a second one agrees.
-TEST_F(DatagramBalances, FollowWhatTheTrackerCountsAsLost) {
+// The tracker accepts a number that is far ahead when a second one agrees.
+TEST_F(DatagramBalances, FollowTheLossesOfTheTracker) {
   aoim::SequenceTracker tracker;
   for (const std::uint32_t number : {3u, 4u, 8u, 6u, 900u, 901u, 903u, 1300u}) {
     const std::uint64_t before = tracker.counts().lost;
@@ -159,7 +159,7 @@ TEST_F(DatagramBalances, FollowWhatTheTrackerCountsAsLost) {
   EXPECT_EQ(static_cast<std::int64_t>(stretch.received) + stretch.lost, 903 - 3 + 1);
 }
 
-TEST_F(DatagramBalances, SayThatEventsWereMissed) {
+TEST_F(DatagramBalances, CountMissedEvents) {
   DatagramTap small(4);
   DatagramBalance balance(small);
   for (int i = 0; i < 6; ++i) small.push(DatagramTap::Loop::read, event(DatagramFate::arrived, 1));

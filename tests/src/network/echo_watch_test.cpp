@@ -19,7 +19,7 @@ class EchoWatchTest : public testing::Test {
  protected:
   EchoWatchTest() { watch_.joined(kBase); }
 
-  /// Sends to the group once a second; the turn that came, `none` where there was none.
+  /// Sends to the group once a second; returns the last turn, `none` if there was none.
   Turn run(int times, bool answered, const GroupAddress& group = kBase) {
     Turn turn = Turn::none;
     for (int i = 0; i < times; ++i) {
@@ -39,7 +39,7 @@ TEST_F(EchoWatchTest, IsContentWhileEachDatagramComesBack) {
   EXPECT_EQ(run(100, true), Turn::none);
 }
 
-TEST_F(EchoWatchTest, TellsSilenceOnceAndItsEndOnce) {
+TEST_F(EchoWatchTest, ReportsSilenceOnceAndItsEndOnce) {
   EXPECT_EQ(run(2, false), Turn::none);
   EXPECT_EQ(run(2, false), Turn::silent);
   EXPECT_EQ(run(100, false), Turn::none);
@@ -47,21 +47,21 @@ TEST_F(EchoWatchTest, TellsSilenceOnceAndItsEndOnce) {
   EXPECT_EQ(run(100, true), Turn::none);
 }
 
-TEST_F(EchoWatchTest, StaysSilentUntilAnEchoComesAlsoWhenItBeginsAnew) {
+TEST_F(EchoWatchTest, StaysSilentAcrossARestartUntilAnEcho) {
   ASSERT_EQ(run(4, false), Turn::silent);
   watch_.restart();
   EXPECT_EQ(run(10, false), Turn::none);
   EXPECT_EQ(run(1, true), Turn::heard);
 }
 
-TEST_F(EchoWatchTest, TakesABurstThatIsNotReadYetForNoSilence) {
+TEST_F(EchoWatchTest, TakesAnUnreadBurstForNoSilence) {
   for (int i = 0; i < 1000; ++i) watch_.send(kBase);
   EXPECT_EQ(watch_.look(now_), Turn::none);
   EXPECT_EQ(watch_.look(now_ + milliseconds(100)), Turn::none);
 }
 
-// Nothing was sent while the process stood still: time alone is no silence.
-TEST_F(EchoWatchTest, TakesAProcessThatStoodStillForNoSilence) {
+// Nothing was sent while the process was stopped: elapsed time alone is no silence.
+TEST_F(EchoWatchTest, TakesAStoppedProcessForNoSilence) {
   watch_.send(kBase);
   EXPECT_EQ(watch_.look(now_), Turn::none);
   now_ += seconds(60);
@@ -69,7 +69,7 @@ TEST_F(EchoWatchTest, TakesAProcessThatStoodStillForNoSilence) {
   EXPECT_EQ(watch_.look(now_), Turn::none);
 }
 
-TEST_F(EchoWatchTest, LooksAtTheFirstGroupAloneAndAtNoneThatWasLeft) {
+TEST_F(EchoWatchTest, WatchesOnlyTheFirstGroupWhileJoined) {
   watch_.joined(kCell);
   EXPECT_EQ(run(20, false, kCell), Turn::none);
   watch_.left(kBase);

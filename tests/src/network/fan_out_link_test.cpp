@@ -89,7 +89,7 @@ TEST(UnicastPeers, ThatAreNoHostAreNamed) {
   EXPECT_THAT(why("255.255.255.255", false), HasSubstr("address of no single host"));
 }
 
-// Three hosts of one list on a network that carries no multicast but what is joined there: nothing.
+// Three hosts of one unicast list. Nothing joins on the network below, so it carries no multicast.
 class FanOut : public testing::Test {
  protected:
   static constexpr std::size_t kHosts = 3;
@@ -135,7 +135,7 @@ TEST_F(FanOut, GoesToAllOfTheListButOneself) {
   EXPECT_EQ(links_[0]->statistics().sent, 2u);
 }
 
-TEST_F(FanOut, IsHeardByThoseAloneWhoHaveJoinedItsGroup) {
+TEST_F(FanOut, ReachesOnlyHostsThatJoinedItsGroup) {
   static_cast<void>(links_[1]->join(pool_.address(0)));
   static_cast<void>(links_[1]->join(pool_.address(255)));
   links_[0]->send(pool_.address(0), octets("a"));
@@ -163,7 +163,7 @@ TEST_F(FanOut, OfABatchKeepsTheOrderForEach) {
   EXPECT_EQ(came, texts);
 }
 
-TEST_F(FanOut, TakesWhatHasNothingInFrontForTheBaseGroups) {
+TEST_F(FanOut, TakesUnframedDatagramsForTheBaseGroup) {
   static_cast<void>(links_[1]->join(pool_.base()));
   network_.link(0).send(links_[1]->local_endpoint(), octets("plain DIS"));
   EXPECT_THAT(heard(1), ElementsAre(Heard{pool_.base(), "plain DIS"}));
@@ -181,14 +181,14 @@ TEST_F(FanOut, InPlainDisPutsNothingInFront) {
   EXPECT_EQ(plain.max_payload(), network_.link(0).max_payload());
 }
 
-TEST_F(FanOut, OfAnyOctetsIsHeardInGroupsThatAreJoinedOrNotAtAll) {
+TEST_F(FanOut, RandomOctetsArriveOnlyInJoinedGroups) {
   static_cast<void>(links_[1]->join(pool_.address(7)));
   std::mt19937 dice(1);
   std::vector<std::byte> noise;
   for (int i = 0; i < 20'000; ++i) {
     noise.resize(dice() % 40);
     for (std::byte& octet : noise) octet = static_cast<std::byte>(dice());
-    if (noise.size() > 12 && i % 2 == 0) {  // as if in front of something
+    if (noise.size() > 12 && i % 2 == 0) {  // as if they were a frame before a datagram
       noise[0] = std::byte{7}, noise[2] = std::byte{148}, noise[3] = std::byte{129};
       noise[8] = std::byte{0}, noise[9] = std::byte{16};
       if (noise.size() > 13 && i % 4 == 0) noise[12] = std::byte{0};
@@ -206,7 +206,7 @@ TEST_F(FanOut, SendsWithoutAllocation) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
-// By the kernel: the run to each address is one message where it can be.
+// Segmentation by the kernel: the run to each address is one message where possible.
 TEST(FanOutOverUdp, CarriesRunsToEachAddress) {
   const GroupPool pool = GroupPool::ipv4_default();
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock), c(on("lo"), kClock);

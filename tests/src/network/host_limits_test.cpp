@@ -26,7 +26,7 @@ NetworkInterface interface_named(std::string_view name) {
   return {};
 }
 
-// The limit of 100 ms may be missed on a machine that is very busy.
+// A very busy machine may miss the limit of 100 ms.
 Finding probe_up_to_five_times(const NetworkInterface& interface,
                                const GroupAddress& group = kGroup) {
   Finding finding = probe_multicast(interface, group);
@@ -36,7 +36,7 @@ Finding probe_up_to_five_times(const NetworkInterface& interface,
   return finding;
 }
 
-TEST(HostLimits, HearOwnMulticastOnLoopback) {
+TEST(HostLimits, ReceiveOwnMulticastOnLoopback) {
   const Finding finding = probe_up_to_five_times(interface_named("lo"));
   EXPECT_EQ(finding.level, FindingLevel::ok) << finding.what;
   EXPECT_NE(finding.what.find("own datagram back after"), std::string::npos);
@@ -65,7 +65,7 @@ TEST(HostLimits, CallAnInterfaceWithoutAddressAProblem) {
   EXPECT_NE(finding.remedy.find("--iface"), std::string::npos);
 }
 
-TEST(HostLimits, SeeAProgramThatHoldsThePortOfTheGroup) {
+TEST(HostLimits, FindAProgramThatHoldsThePort) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(test::run("ip link set lo up"));
     const int holder = socket(AF_INET, SOCK_DGRAM, 0);
@@ -83,7 +83,7 @@ TEST(HostLimits, SeeAProgramThatHoldsThePortOfTheGroup) {
   });
 }
 
-TEST(HostLimits, SeeAFirewallOnThePortOfTheGroup) {
+TEST(HostLimits, FindAFirewallOnThePort) {
   if (!test::run("command -v nft >/dev/null")) GTEST_SKIP() << "needs nft (Debian: nftables)";
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(test::run("ip link set lo up"));
@@ -103,7 +103,7 @@ TEST(HostLimits, SeeAFirewallOnThePortOfTheGroup) {
   });
 }
 
-TEST(HostLimits, SayHowManyGroupsCanBeJoined) {
+TEST(HostLimits, CountTheGroupsThatCanBeJoined) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "without descriptors the sanitizer takes each object for one of another type";
 #endif
@@ -125,14 +125,14 @@ TEST(HostLimits, SayHowManyGroupsCanBeJoined) {
   EXPECT_EQ(status, 0);
 }
 
-TEST(HostLimits, TellAMissingMulticastRoute) {
+TEST(HostLimits, FindAMissingMulticastRoute) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(test::run("ip link set lo up"));
     const NetworkInterface lo = interface_named("lo");
     const Finding missing = probe_multicast_route(lo, kGroup);
     EXPECT_EQ(missing.level, FindingLevel::note);
     EXPECT_NE(missing.what.find("unreachable"), std::string::npos) << missing.what;
-    // The remedy is a command that works, and Reckon's own link did not need it.
+    // The remedy is a working command. Reckon's own link did not need it.
     EXPECT_EQ(probe_up_to_five_times(lo).level, FindingLevel::ok);
     ASSERT_TRUE(test::run(missing.remedy.c_str()));
     EXPECT_EQ(probe_multicast_route(lo, kGroup).level, FindingLevel::ok);
@@ -196,7 +196,7 @@ TEST(HostLimits, RefuseMoreGroupsThanFilesCanBeOpen) {
   EXPECT_EQ(probe_open_files(std::size_t{1} << 40).level, FindingLevel::problem);
 }
 
-TEST(HostLimits, SayWhetherTheKernelCutsAndGathersRuns) {
+TEST(HostLimits, ReportWhetherTheKernelHandlesRuns) {
   const Finding finding = probe_offload(interface_named("lo"), kGroup);
   EXPECT_EQ(finding.level, FindingLevel::ok) << finding.what;
   EXPECT_NE(finding.what.find("cut by the kernel (UDP_SEGMENT)"), std::string::npos);

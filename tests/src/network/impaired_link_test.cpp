@@ -33,7 +33,7 @@ std::array<std::byte, 4> octets_of(std::uint32_t value) {
 // How often each number arrived.
 using Arrivals = std::map<std::uint32_t, int>;
 
-// On loopback tests of other programs may speak in the same group: `from` leaves them out.
+// Tests of other programs may send to the same group on loopback: `from` excludes them.
 void collect(Link& link, Arrivals& arrivals, const IpEndpoint* from = nullptr) {
   std::array<Datagram, 16> batch;
   while (const std::size_t count = link.receive(batch)) {
@@ -66,7 +66,7 @@ ImpairedLinkOptions options() {
   return out;
 }
 
-// What the hub itself lets through.
+// The datagrams that the simulated network itself passes.
 Arrivals through_simulated_network() {
   ManualClock clock;
   SimulatedNetworkOptions network_options;
@@ -104,7 +104,7 @@ TEST(ImpairedLink, DecidesAsTheSimulatedNetworkDoes) {
   EXPECT_GT(link.statistics().duplicated_by_law, 0u);
 }
 
-TEST(ImpairedLink, DecidesAroundTheRealLinkAsTheSimulatedNetworkDoes) {
+TEST(ImpairedLink, ImpairsRealLinksAsTheSimulatedNetworkDoes) {
   const SteadyClock clock;
   UdpMulticastOptions real;
   real.interface = "lo";
@@ -147,7 +147,8 @@ TEST(ImpairedLink, ReleasesAtTheTimeTheLawGives) {
   EXPECT_EQ(batch[0].group, kGroup);
 }
 
-// Slow, then lost, then as the network is; what is under way comes when it would have come.
+// First the law delays, then it loses all, then it equals the network. Delayed datagrams arrive at
+// their original due time.
 TEST(ImpairedLink, FollowsALawThatChangesWhileItRuns) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
@@ -193,7 +194,7 @@ TEST(ImpairedLink, WaitsNoLongerThanTheNextDueTime) {
   }
   EXPECT_EQ(arrivals, (Arrivals{{5, 1}}));
   EXPECT_GE(clock.now() - start, 30ms);
-  EXPECT_LT(clock.now() - start, 2s);  // far below the 5 s asked for, whatever else runs here
+  EXPECT_LT(clock.now() - start, 2s);  // far below the 5 s requested, even on a busy machine
 }
 
 TEST(ImpairedLink, LosesOthersForAnotherReceiver) {
@@ -218,7 +219,7 @@ TEST(ImpairedLink, LosesOthersForAnotherReceiver) {
   EXPECT_NE(at_a, at_b);
 }
 
-TEST(ImpairedLink, CountsWhatItsQueueCannotHold) {
+TEST(ImpairedLink, CountsDatagramsThatDoNotFitItsQueue) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
   ImpairedLinkOptions small;

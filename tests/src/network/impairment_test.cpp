@@ -62,7 +62,7 @@ TEST(Impairment, DependsOnItsArgumentsOnly) {
   for (const std::uint64_t i : order) ASSERT_EQ(other.decide(3, i, i * 1ms), fates[i]) << i;
 }
 
-// The decisions are part of what a seed means: a change here makes old seeds mean other runs.
+// The decisions belong to the meaning of a seed: a change here makes old seeds different runs.
 TEST(Impairment, KeepsItsDecisionsFromVersionToVersion) {
   const Impairment impairment(everything(), 42);
   std::uint64_t sum = 0xcbf29ce484222325u;
@@ -101,7 +101,7 @@ TEST(Impairment, LosesInBurstsOfTheLengthAskedFor) {
       before = now;
     }
     const double mean = static_cast<double>(lost) / static_cast<double>(bursts);
-    // Variance grows by (1 + c) / (1 - c) with the correlation c of neighbours.
+    // The variance grows by (1 + c) / (1 - c) with the correlation c of neighbours.
     const double c = 1.0 - 1.0 / length - share / (1.0 - share) / length;
     const double sigma5 = five_sigma(share) * std::sqrt((1.0 + c) / (1.0 - c));
     EXPECT_NEAR(static_cast<double>(lost) / static_cast<double>(kMany), share, sigma5);
@@ -243,7 +243,7 @@ TEST(Impairment, DecidesWithoutAllocating) {
   EXPECT_GT(copies, 0u);
 }
 
-// A figure for docs/transport.md, not a judgement.
+// A figure for docs/transport.md, not a criterion.
 TEST(Impairment, MeasuredCostOfADecision) {
   for (const bool all : {false, true}) {
     ImpairmentLaw law = everything();

@@ -41,7 +41,7 @@ TEST(InterfaceChoice, TakesTheCableOfALaptop) {
   EXPECT_NE(choice.explanation.find("--iface"), std::string::npos);
 }
 
-TEST(InterfaceChoice, FindsAnInterfaceAgainByItsNameWhateverItsIndexIs) {
+TEST(InterfaceChoice, FindsAnInterfaceAgainByItsName) {
   std::vector<NetworkInterface> all = laptop();
   const NetworkInterface used = all[4];
   all[4].index = 17;
@@ -58,7 +58,7 @@ TEST(InterfaceChoice, FindsAnInterfaceAgainByItsNameWhateverItsIndexIs) {
   EXPECT_EQ(find_again(all, "", used, false).why_not, "is gone");
 }
 
-TEST(InterfaceChoice, FindsTheAddressThatWasAskedForWhereverItIs) {
+TEST(InterfaceChoice, FindsTheRequestedAddressOnAnotherInterface) {
   std::vector<NetworkInterface> all = laptop();
   const NetworkInterface used = all[4];
   all[4].addresses = {*IpEndpoint::parse("10.0.0.7")};
@@ -75,7 +75,7 @@ TEST(InterfaceChoice, PrefersWirelessToBridgesAndTunnels) {
   EXPECT_EQ(choose_interface(all, "", false).interface.name, "docker0");
 }
 
-TEST(InterfaceChoice, TakesALinkLocalAddressOnlyForWantOfABetter) {
+TEST(InterfaceChoice, UsesLinkLocalAddressesOnlyAsLastResort) {
   std::vector<NetworkInterface> all = {make("eth0", 2, "169.254.3.4"), make("eth1", 3, "10.0.0.1")};
   EXPECT_EQ(choose_interface(all, "", false).interface.name, "eth1");
   all.pop_back();
@@ -99,7 +99,7 @@ TEST(InterfaceChoice, ObeysNameAddressAndIndex) {
   EXPECT_EQ(choose_interface(laptop(), "2", false).interface.name, "wlan0");
 }
 
-TEST(InterfaceChoice, ListsWhatThereIsWhenTheNameIsWrong) {
+TEST(InterfaceChoice, ListsTheInterfacesWhenTheNameIsWrong) {
   try {
     (void)choose_interface(laptop(), "eth9", false);
     FAIL() << "no exception";
@@ -111,28 +111,28 @@ TEST(InterfaceChoice, ListsWhatThereIsWhenTheNameIsWrong) {
   }
 }
 
-TEST(InterfaceChoice, SaysWhyTheOneAskedForCannotBeUsed) {
+TEST(InterfaceChoice, RefusesARequestedInterfaceThatIsDown) {
   std::vector<NetworkInterface> all = laptop();
   all[4].up = false;
   EXPECT_THROW((void)choose_interface(all, "eth0", false), std::runtime_error);
   EXPECT_THROW((void)choose_interface(all, "", true), std::runtime_error);  // no IPv6 anywhere
 }
 
-TEST(InterfaceChoice, TakesWhatWasAskedForBeforeTheCableIsIn) {
+TEST(InterfaceChoice, TakesARequestedInterfaceWithoutCarrier) {
   std::vector<NetworkInterface> all = laptop();
   all[4].running = false;
   EXPECT_NE(choose_interface(all, "eth0", false).explanation.find("no carrier"), std::string::npos);
   EXPECT_EQ(choose_interface(all, "", false).interface.name, "wlan0");
 }
 
-TEST(InterfaceChoice, PrefersAnIpv6AddressThatIsNotLinkLocal) {
+TEST(InterfaceChoice, PrefersIpv6AddressesThatAreNotLinkLocal) {
   NetworkInterface interface = make("eth0", 2, "fe80::1");
   interface.addresses.push_back(*IpEndpoint::parse("fd00::2"));
   EXPECT_EQ(interface.address(true)->address_text(), "fd00::2");
   EXPECT_FALSE(interface.address(false));
 }
 
-TEST(Broadcast, IsAnAddressWhoseHostPartMayBeAllOnes) {
+TEST(Broadcast, MayHaveAHostPartOfAllOnes) {
   for (const char* text :
        {"255.255.255.255", "10.9.9.255", "10.9.11.255", "10.9.9.127", "10.9.9.3"})
     EXPECT_TRUE(may_be_broadcast(*IpEndpoint::parse(text))) << text;

@@ -12,7 +12,7 @@
 namespace reckon::peer {
 namespace {
 
-TEST(LanLink, PutsABadNetworkInFrontAlsoForThePeerOfAnotherNumber) {
+TEST(LanLink, ImpairsEachReceiverDifferently) {
   LanLinkOptions options;
   options.udp.interface = "lo";
   LanLink good(options, test::kClock);

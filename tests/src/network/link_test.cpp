@@ -10,7 +10,7 @@
 namespace reckon::peer {
 namespace {
 
-TEST(IpEndpoint, ReadsWhatItWrites) {
+TEST(IpEndpoint, ReadsItsOwnText) {
   for (const char* text : {"239.192.1.0:3000", "0.0.0.0:0", "255.255.255.255:65535",
                            "[ff15::c0:100]:3000", "[::1]:1", "[fe80::1]:3000"}) {
     const auto endpoint = IpEndpoint::parse(text);
@@ -25,7 +25,7 @@ TEST(IpEndpoint, TakesTheDefaultPortWhereNoneIsGiven) {
   EXPECT_EQ(IpEndpoint::parse("[ff15::1]", 3000)->text(), "[ff15::1]:3000");
 }
 
-TEST(IpEndpoint, RefusesWhatIsNoAddress) {
+TEST(IpEndpoint, RefusesTextThatIsNoAddress) {
   for (const char* text :
        {"", "239.1.2", "239.1.2.3.4", "239.1.2.3:", "239.1.2.3:x", "host", "239.1.2.3:70000",
         "[ff15::1", "[ff15::1]3000", "::1:::", "1.2.3.4:1 "}) {
@@ -45,7 +45,7 @@ TEST(IpEndpoint, KnowsMulticastAndLoopback) {
   EXPECT_TRUE(IpEndpoint{}.is_unspecified());
 }
 
-TEST(GroupPool, StandsBehindItsBaseGroup) {
+TEST(GroupPool, FollowsItsBaseGroup) {
   const GroupPool pool = GroupPool::ipv4_default();
   EXPECT_EQ(pool.base().text(), "239.192.1.0:3000");
   EXPECT_EQ(pool.address(0).text(), "239.192.1.1:3000");
@@ -54,7 +54,7 @@ TEST(GroupPool, StandsBehindItsBaseGroup) {
   EXPECT_EQ(GroupPool::ipv6_default().address(255).text(), "[ff15::c0:200]:3000");
 }
 
-TEST(GroupPool, FindsTheIndexOfItsGroupsAndOfNoOthers) {
+TEST(GroupPool, FindsTheIndexOfItsGroupsOnly) {
   for (const GroupPool& pool : {GroupPool::ipv4_default(), GroupPool::ipv6_default()}) {
     std::unordered_set<IpEndpoint> all;
     for (std::size_t i = 0; i < pool.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(GroupPool, HasNoGroupsBehindTheBroadcastAddress) {
   EXPECT_THROW(GroupPool(IpEndpoint::v4(0xffffffffu, 0), 256), std::invalid_argument);
 }
 
-TEST(GroupPool, RefusesWhatLeavesTheMulticastRange) {
+TEST(GroupPool, RefusesAddressesOutsideTheMulticastRange) {
   const auto endpoint = [](const char* text) { return *IpEndpoint::parse(text); };
   EXPECT_THROW(GroupPool(endpoint("10.0.0.1:3000"), 4), std::invalid_argument);
   EXPECT_THROW(GroupPool(endpoint("239.1.1.1"), 4), std::invalid_argument);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Groups whose sockets are read before those of all others.
+// Groups whose sockets are read before all others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class ReadFirst : public testing::Test {
     const GroupAddress to = group(static_cast<std::uint8_t>(number));
     for (int i = 0; i < times; ++i) EXPECT_TRUE(other_.send(to, octets("word")));
   }
-  /// How many of a batch came in the first ones of these groups.
+  /// Counts the datagrams of a batch from the groups that are read first.
   static std::ptrdiff_t of_first(std::span<const Datagram> batch) {
     return std::count_if(batch.begin(), batch.end(), [](const Datagram& datagram) {
       return datagram.group == group(10) || datagram.group == group(11);
@@ -55,7 +55,7 @@ TEST_F(ReadFirst, ComesBeforeAllThatWaitsInOtherGroups) {
   EXPECT_EQ(hear(link_).size(), 400u + 4u - 64u) << "nothing is left behind";
 }
 
-TEST_F(ReadFirst, LeavesHalfOfWhatIsReadToTheOthers) {
+TEST_F(ReadFirst, LeavesHalfOfABatchToTheOthers) {
   for (const int number : {1, 10, 11}) say(number, 200);
   ASSERT_TRUE(link_.wait(1s));
   ASSERT_EQ(link_.receive(batch_), batch_.size());
@@ -63,7 +63,7 @@ TEST_F(ReadFirst, LeavesHalfOfWhatIsReadToTheOthers) {
   EXPECT_EQ(hear(link_).size(), 600u - 32u);
 }
 
-TEST_F(ReadFirst, WakesAndFillsABatchWhereNothingElseComes) {
+TEST_F(ReadFirst, WakesAndFillsABatchAlone) {
   EXPECT_FALSE(link_.wait(0s));
   say(10, 40);
   ASSERT_TRUE(link_.wait(1s));

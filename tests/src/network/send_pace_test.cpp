@@ -13,12 +13,12 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-// A wire that takes datagrams one after the other, each of `charge` octets in the kernel.
+// A wire that sends datagrams one after another, each charged with `charge` octets in the kernel.
 class Wire {
  public:
   explicit Wire(nanoseconds each) : each_(each) {}
 
-  /// Offers a datagram at `now`; what it has to wait for, or nothing where it is held back.
+  /// Offers a datagram at `now`; returns its queueing delay, or zero if it is held back.
   nanoseconds offer(SendPace& pace, nanoseconds now) {
     while (!leaving_.empty() && leaving_.front() <= now) leaving_.pop_front();
     const std::size_t queued = leaving_.size() * kCharge;
@@ -41,8 +41,8 @@ class Wire {
   int sent_ = 0, held_ = 0;
 };
 
-// 1400 octets take 11.2 ms at 1 Mb/s; one comes each 3 ms.
-TEST(SendPace, KeepsTheQueueBelowFiftyMillisecondsOnAWireThatTakesAQuarterOfWhatIsSent) {
+// 1400 octets take 11.2 ms at 1 Mb/s; a datagram is offered every 3 ms.
+TEST(SendPace, KeepsTheQueueShortOnASlowWire) {
   SendPace pace;
   Wire wire(11'200us);
   nanoseconds longest{0};
@@ -51,17 +51,17 @@ TEST(SendPace, KeepsTheQueueBelowFiftyMillisecondsOnAWireThatTakesAQuarterOfWhat
   }
   EXPECT_LE(longest, SendPace::kLongest + 2 * 11'200us);
   EXPECT_GT(longest, SendPace::kLongest / 2);
-  EXPECT_NEAR(wire.sent(), 10.0 / 0.0112, 20);  // the wire is never idle for it
+  EXPECT_NEAR(wire.sent(), 10.0 / 0.0112, 20);  // the wire never idles because of the pace
 }
 
-TEST(SendPace, HoldsNothingBackOnAWireThatKeepsUp) {
+TEST(SendPace, HoldsNothingBackOnAFastWire) {
   SendPace pace;
   Wire wire(2900us);
   for (nanoseconds now = 1s; now < 11s; now += 3ms) wire.offer(pace, now);
   EXPECT_EQ(wire.held(), 0);
 }
 
-TEST(SendPace, LetsABurstThroughThatIsFasterThanTheWire) {
+TEST(SendPace, PassesABurstFasterThanTheWire) {
   SendPace pace;
   Wire wire(11us);
   for (nanoseconds burst = 1s; burst < 3s; burst += 10ms) {
@@ -70,8 +70,8 @@ TEST(SendPace, LetsABurstThroughThatIsFasterThanTheWire) {
   EXPECT_EQ(wire.held(), 0);
 }
 
-// A host whose other threads keep the kernel from its queue for 40 ms: what waits goes then.
-TEST(SendPace, HoldsNothingBackWhileAHostIsBusyForFortyMilliseconds) {
+// Other threads of the host keep the kernel from its queue for 40 ms; the queue then empties.
+TEST(SendPace, HoldsNothingBackOnABusyHost) {
   SendPace pace;
   std::size_t queued = 0;
   for (nanoseconds now = 0ms; now <= 40ms; now += 5ms) {
@@ -94,10 +94,10 @@ TEST(SendPace, HoldsBackOnAWireThatTakesNothing) {
     if (queued > 0) pace.sent(2304);
     queued += 2304;
   }
-  EXPECT_EQ(held, 29);  // from 55 ms on: the first waits since 5 ms, as the pace sees it
+  EXPECT_EQ(held, 29);  // from 55 ms on: the pace counts the first datagram as waiting since 5 ms
 }
 
-TEST(SendPace, FollowsAWireThatBecomesSlowerAndFasterAgain) {
+TEST(SendPace, FollowsAWireThatChangesItsSpeed) {
   SendPace pace;
   Wire slow(11'200us);
   for (nanoseconds now = 1s; now < 3s; now += 3ms) slow.offer(pace, now);

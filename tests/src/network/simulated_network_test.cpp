@@ -41,7 +41,7 @@ std::vector<std::uint32_t> drain(Link& link) {
   return out;
 }
 
-// Everything that reaches link 1 of a network under `law`, with its time, as one number.
+// All datagrams that reach link 1 of a network under `law`, with their times, as one hash.
 std::uint64_t run_hash(const ImpairmentLaw& law, std::uint64_t seed) {
   ManualClock clock;
   SimulatedNetworkOptions options;
@@ -76,7 +76,7 @@ ImpairmentLaw bad_law() {
   return law;
 }
 
-TEST(SimulatedNetwork, ReachesThoseWhoJoinedAndNobodyElse) {
+TEST(SimulatedNetwork, ReachesOnlyLinksThatJoined) {
   ManualClock clock;
   SimulatedNetworkOptions options;
   options.links = 4;
@@ -95,7 +95,7 @@ TEST(SimulatedNetwork, ReachesThoseWhoJoinedAndNobodyElse) {
   EXPECT_EQ(network.link(1).statistics().leaves, 1u);
 }
 
-TEST(SimulatedNetwork, HandsOverNothingOfAGroupThatWasLeftMeanwhile) {
+TEST(SimulatedNetwork, DropsDelayedDatagramsOfALeftGroup) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
   ImpairmentLaw law;
@@ -114,7 +114,7 @@ TEST(SimulatedNetwork, HandsOverNothingOfAGroupThatWasLeftMeanwhile) {
   EXPECT_EQ(network.in_flight(), 0u);
 }
 
-TEST(SimulatedNetwork, OpensAPortLateWhereItIsAskedTo) {
+TEST(SimulatedNetwork, OpensAPortAfterTheJoinDelay) {
   ManualClock clock;
   SimulatedNetworkOptions options;
   options.join_delay = 200ms;
@@ -128,7 +128,7 @@ TEST(SimulatedNetwork, OpensAPortLateWhereItIsAskedTo) {
   EXPECT_EQ(drain(network.link(1)), std::vector<std::uint32_t>{2});
 }
 
-TEST(SimulatedNetwork, TellsGroupSenderAndTime) {
+TEST(SimulatedNetwork, ReturnsGroupSenderAndTime) {
   ManualClock clock(5s);
   SimulatedNetwork network({}, clock);
   EXPECT_FALSE(network.link(1).join(kGroup));
@@ -203,7 +203,7 @@ TEST(SimulatedNetwork, ImpairsEachDirectionByItself) {
   EXPECT_EQ(network.link(1).statistics().lost_by_law, 1u);
 }
 
-TEST(SimulatedNetwork, StaysWithinItsBoundsAndCountsWhatDoesNotFit) {
+TEST(SimulatedNetwork, StaysWithinItsBoundsAndCountsTheExcess) {
   ManualClock clock;
   SimulatedNetworkOptions options;
   options.datagrams_in_flight = 10;
@@ -212,7 +212,7 @@ TEST(SimulatedNetwork, StaysWithinItsBoundsAndCountsWhatDoesNotFit) {
   SimulatedNetwork network(options, clock);
   EXPECT_FALSE(network.link(1).join(kGroup));
   EXPECT_FALSE(network.link(1).join(kOther));
-  EXPECT_FALSE(network.link(1).join(kOther));  // again is no error
+  EXPECT_FALSE(network.link(1).join(kOther));  // joining again is no error
   EXPECT_TRUE(network.link(1).join(GroupPool::ipv4_default().address(2)));
   EXPECT_TRUE(network.link(1).join(network.link(0).local_endpoint()));
   for (std::uint32_t i = 0; i < 25; ++i) network.link(0).send(kGroup, octets_of(i));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a UdpMulticast says when the kernel or the options do not let it.
+// Errors of a UdpMulticast at limits of the kernel and for bad options.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-TEST(UdpMulticast, TellsTheSysctlWhenTheKernelAllowsNoMembership) {
+TEST(UdpMulticast, NamesTheSysctlThatForbidsMemberships) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(
         test::run("ip link set lo up && "
@@ -43,7 +43,7 @@ TEST(UdpMulticast, ReturnsJoinErrorsAndGoesOn) {
   EXPECT_EQ(b.statistics().join_errors, 3u);
 }
 
-// UBSan looks at a vtable through a pipe of its own, for which there is no descriptor left here.
+// UBSan inspects a vtable through a pipe of its own, for which no descriptor is left here.
 [[gnu::no_sanitize("vptr")]] std::error_code join_without_descriptors(Link& link) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
@@ -82,7 +82,7 @@ TEST(UdpMulticast, RefusesBadOptionsWithTheValue) {
   }
 }
 
-// How many of 2,000 datagrams the kernel keeps while nobody reads.
+// How many of 2,000 datagrams the kernel keeps while nothing reads.
 std::size_t kept(std::size_t receive_buffer, std::size_t size) {
   UdpMulticastOptions options = on("lo");
   options.receive_buffer = receive_buffer;
@@ -93,7 +93,7 @@ std::size_t kept(std::size_t receive_buffer, std::size_t size) {
   return hear(b).size();
 }
 
-TEST(ReceiveRoom, HoldsWhatComesWhileTheReaderStandsStill) {
+TEST(ReceiveRoom, HoldsDatagramsWhileTheReaderIsStopped) {
   for (const std::size_t size : {1u, 144u, 208u, 512u, 1000u, 1400u, 1472u, 8192u}) {
     const std::size_t room = receive_room(40'000, std::chrono::milliseconds(50), size);
     EXPECT_EQ(kept(room, size), 2000u) << size;

@@ -69,7 +69,7 @@ class ListenerOnLo : public testing::Test {
  protected:
   IpEndpoint place(const std::string& address) const { return *IpEndpoint::parse(address, port_); }
 
-  /// Texts that arrive within a second, until there are so many.
+  /// The texts that arrive within a second, until there are `count`.
   std::vector<std::string> texts(UdpListener& listener, std::size_t count) {
     std::vector<std::string> out;
     std::array<Datagram, 8> batch;
@@ -94,7 +94,7 @@ class ListenerOnLo : public testing::Test {
   BareSocket sender_;
 };
 
-TEST_F(ListenerOnLo, HearsGroupsBroadcastAndUnicastAndSaysWhere) {
+TEST_F(ListenerOnLo, ReceivesAndLabelsGroupsBroadcastAndUnicast) {
   UdpListener listener({"", {place("239.192.77.1"), place("0.0.0.0")}}, clock_);
   sender_.send(place("239.192.77.1"), "to a group");
   EXPECT_THAT(texts(listener, 1), ElementsAre("to a group"));
@@ -106,7 +106,7 @@ TEST_F(ListenerOnLo, HearsGroupsBroadcastAndUnicastAndSaysWhere) {
   EXPECT_THAT(interfaces_, ElementsAre("lo", "lo", "lo"));
 }
 
-TEST_F(ListenerOnLo, HearsEqualDatagramsAsOftenAsTheyAreSent) {
+TEST_F(ListenerOnLo, ReceivesEqualDatagramsAsOftenAsSent) {
   UdpListener listener({"", {place("239.192.77.1")}}, clock_);
   for (int i = 0; i < 3; ++i) sender_.send(place("239.192.77.1"), "same");
   EXPECT_THAT(texts(listener, 3), ElementsAre("same", "same", "same"));
@@ -132,7 +132,7 @@ TEST_F(ListenerOnLo, TakesNoUnicastFromAnotherProgram) {
   EXPECT_EQ(simulator.next(), "to all");
 }
 
-TEST_F(ListenerOnLo, LetsAProgramThatComesLaterHaveThePort) {
+TEST_F(ListenerOnLo, LetsALaterProgramBindThePort) {
   UdpListener listener({"", {place("127.0.0.1")}}, clock_);
   BareSocket simulator;
   EXPECT_TRUE(simulator.bind_shared(place("0.0.0.0")));

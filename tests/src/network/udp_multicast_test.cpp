@@ -27,7 +27,7 @@ using namespace test;
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-// A socket as programs open it that know nothing of IP_MULTICAST_ALL.
+// A socket of a program that does not set IP_MULTICAST_ALL.
 int careless_socket(std::uint16_t port) {
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0);
   const int yes = 1;
@@ -60,8 +60,9 @@ TEST(UdpMulticast, CarriesADatagramFromOnePeerToAnother) {
   EXPECT_EQ(b.statistics().received_bytes, 5u);
 }
 
-TEST(UdpMulticast, HearsNoGroupThatOnlyOthersJoined) {
-  // The trap: a socket bound to the port alone gets every group that anybody here has joined.
+TEST(UdpMulticast, DoesNotReceiveGroupsThatOnlyOthersJoined) {
+  // The trap: a socket bound to the port alone receives every group that any process of this host
+  // has joined.
   const int careless = careless_socket(group(0).port);
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock), sender(on("lo"), kClock);
   ASSERT_FALSE(a.join(group(1)));
@@ -73,7 +74,7 @@ TEST(UdpMulticast, HearsNoGroupThatOnlyOthersJoined) {
   close(careless);
 }
 
-TEST(UdpMulticast, HearsItsGroupOnItsOwnInterfaceOnly) {
+TEST(UdpMulticast, ReceivesItsGroupOnItsOwnInterfaceOnly) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(
         test::bring_up("ip link set lo up && ip link add v0 type veth peer name v1 && "
@@ -123,8 +124,8 @@ TEST(UdpMulticast, JoinsThreeHundredGroups) {
   EXPECT_EQ(heard.size(), 300u);
 }
 
-// However much waits in some groups, the others get their turn.
-TEST(UdpMulticast, ReadsEachGroupInTurnWhateverWaitsInAnother) {
+// However many datagrams wait in some groups, the others get their turn.
+TEST(UdpMulticast, ReadsEachGroupInTurnDuringFloods) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   for (std::uint8_t number = 1; number <= 3; ++number) ASSERT_FALSE(b.join(group(number)));
   for (int i = 0; i < 400; ++i) {
@@ -144,7 +145,7 @@ TEST(UdpMulticast, ReadsEachGroupInTurnWhateverWaitsInAnother) {
   EXPECT_EQ(hear(b).size(), 746u) << "nothing is left behind";
 }
 
-TEST(UdpMulticast, DoesNotHearItselfUnlessAsked) {
+TEST(UdpMulticast, DoesNotReceiveItsOwnDatagramsUnlessConfigured) {
   UdpMulticastOptions deliver = on("lo");
   deliver.deliver_own = true;
   UdpMulticast deaf(on("lo"), kClock), hearing(deliver, kClock);
@@ -236,7 +237,7 @@ TEST(UdpMulticast, SpeaksIpv6) {
   });
 }
 
-TEST(UdpMulticast, ReachesAllOfTheLanWhereMulticastIsDisabled) {
+TEST(UdpMulticast, ReachesTheLanByBroadcastWithoutMulticast) {
   RECKON_IN_OWN_NETWORK([] {
     test::make_cable();
     ASSERT_TRUE(test::bring_up(
@@ -265,7 +266,7 @@ TEST(UdpMulticast, ReachesAllOfTheLanWhereMulticastIsDisabled) {
   });
 }
 
-TEST(UdpMulticast, CountsWhatTheKernelDropped) {
+TEST(UdpMulticast, CountsKernelDrops) {
   UdpMulticastOptions small = on("lo");
   small.receive_buffer = 4096;
   UdpMulticast a(on("lo"), kClock), b(small, kClock);
@@ -290,12 +291,12 @@ TEST(UdpMulticast, CountsDatagramsLongerThanItsBuffers) {
   EXPECT_EQ(b.statistics().truncated, 1u);
 }
 
-TEST(UdpMulticast, TellsWhenTheKernelTookADatagram) {
+TEST(UdpMulticast, ReportsWhenTheKernelReceivedADatagram) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
   std::array<Datagram, 4> batch;
   nanoseconds age{0};
-  // The kernel begins to stamp a moment after the first socket asks for it.
+  // The kernel starts to add timestamps a moment after the first socket requests them.
   for (int attempt = 0; attempt < 50 && age < 2ms; ++attempt) {
     const nanoseconds sent = kClock.now();
     ASSERT_TRUE(a.send(group(1), octets("x")));
@@ -322,7 +323,7 @@ TEST(UdpMulticast, IsWokenFromAWait) {
   EXPECT_LT(kClock.now() - start, 5s);
 }
 
-TEST(UdpMulticast, KeepsAWakeForTheNextWaitWhenItReceivesInBetween) {
+TEST(UdpMulticast, KeepsAWakeAcrossAReceive) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
   ASSERT_TRUE(a.send(group(1), octets("x")));
@@ -332,14 +333,14 @@ TEST(UdpMulticast, KeepsAWakeForTheNextWaitWhenItReceivesInBetween) {
   EXPECT_TRUE(b.wait(10s));
 }
 
-// CPU time of this thread; on loopback it includes what the kernel does on the way to the receiver.
+// CPU time of this thread; on loopback it includes the kernel's work on the receiving side.
 double cpu_ns() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
   return static_cast<double>(spent.tv_sec) * 1e9 + static_cast<double>(spent.tv_nsec);
 }
 
-// Figures for docs/transport.md, not a judgement.
+// Figures for docs/transport.md, not a criterion.
 TEST(UdpMulticast, MeasuredCostOfADatagram) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Many datagrams at once: whatever the kernel cuts or gathers, each arrives as it was sent.
+// Batches of datagrams with segmentation offload: each arrives as it was sent.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -30,7 +30,7 @@ UdpMulticastOptions with_offload(const char* interface, bool offload) {
   return options;
 }
 
-// Datagrams that differ in every octet, so that none passes for another.
+// Datagrams that differ in every octet, so that none can be mistaken for another.
 struct Traffic {
   std::vector<std::string> texts;
   std::vector<OutgoingDatagram> batch;
@@ -42,7 +42,7 @@ struct Traffic {
     texts.push_back(std::move(text));
     where.push_back(to);
   }
-  // Once all are there: the texts do not move any more.
+  // Call it once all are added: the texts no longer move.
   std::span<const OutgoingDatagram> whole() {
     batch.clear();
     for (std::size_t i = 0; i < texts.size(); ++i) batch.push_back({where[i], octets(texts[i])});
@@ -60,7 +60,7 @@ struct Traffic {
 
 std::map<IpEndpoint, std::vector<std::string>> hear_by_group(Link& link) {
   std::map<IpEndpoint, std::vector<std::string>> out;
-  std::array<Datagram, 7> batch;  // fewer than a run has, so that runs wait for the next call
+  std::array<Datagram, 7> batch;  // shorter than a run, so that runs wait for the next call
   while (link.wait(50ms)) {
     const std::size_t count = link.receive(batch);
     for (std::size_t i = 0; i < count; ++i) out[batch[i].group].push_back(text_of(batch[i]));
@@ -82,7 +82,7 @@ Traffic mixed(const std::vector<GroupAddress>& groups, std::size_t longest) {
   return traffic;
 }
 
-// What a link sends with and without segments reaches links that take runs whole and one by one.
+// Links that send with and without segmentation reach links that receive runs whole and one by one.
 void expect_equal_octets(const UdpMulticastOptions& plain, const std::string& far,
                          const std::vector<GroupAddress>& groups) {
   for (const bool cuts : {false, true}) {
@@ -102,7 +102,7 @@ void expect_equal_octets(const UdpMulticastOptions& plain, const std::string& fa
     EXPECT_EQ(sent.octets, a.statistics().sent_bytes);
     auto heard = hear_by_group(b), heard_singly = hear_by_group(c);
     for (const GroupAddress& group : groups) {
-      // Compared as a whole: what differs is too long to print.
+      // Compared as a whole: a difference would be too long to print.
       EXPECT_TRUE(heard[group] == traffic.sent_to(group)) << group.text() << " cut: " << cuts;
       EXPECT_TRUE(heard_singly[group] == traffic.sent_to(group))
           << group.text() << " cut: " << cuts;
@@ -114,7 +114,7 @@ void expect_equal_octets(const UdpMulticastOptions& plain, const std::string& fa
   }
 }
 
-// From a0 with an MTU of 1400 to b0, which takes what has a source of its own host.
+// From a0 with an MTU of 1400 to b0, which accepts a source address of its own host.
 void make_open_cable() {
   test::make_cable();
   ASSERT_TRUE(
@@ -122,11 +122,11 @@ void make_open_cable() {
                 "echo 1 > b0/accept_local && echo 0 > b0/rp_filter && echo 0 > all/rp_filter"));
 }
 
-TEST(UdpOffload, CarriesTheSameOctetsWithAndWithoutOnLoopback) {
+TEST(UdpOffload, CarriesEqualOctetsOnLoopback) {
   expect_equal_octets(on("lo"), "lo", {group(1), group(2), group(3)});
 }
 
-TEST(UdpOffload, CarriesTheSameOctetsOverACableWithAnMtuOf1400) {
+TEST(UdpOffload, CarriesEqualOctetsAtAnMtuOf1400) {
   RECKON_IN_OWN_NETWORK([] {
     make_open_cable();
     ASSERT_TRUE(test::run("ip link set b0 mtu 1400"));
@@ -179,13 +179,13 @@ TEST(UdpOffload, AllocatesNothing) {
   EXPECT_EQ(received, 6400u);
 }
 
-TEST(UdpOffload, ReadsEachGroupInTurnWhateverRunsWaitInAnother) {
+TEST(UdpOffload, ReadsEachGroupInTurnDuringRuns) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   for (std::uint8_t number = 1; number <= 3; ++number) ASSERT_FALSE(b.join(group(number)));
   Traffic flood;
   for (int i = 0; i < 64; ++i) flood.add(group(1), 500);
   std::array<Datagram, 64> out;
-  a.send_batch(flood.whole());  // from now on it is known that group 1 brings runs
+  a.send_batch(flood.whole());  // from now on group 1 is known to bring runs
   while (b.wait(0ns)) static_cast<void>(b.receive(out));
   for (int i = 0; i < 20; ++i) a.send_batch(flood.whole());
   ASSERT_TRUE(a.send(group(2), octets("genuine")));
@@ -199,7 +199,7 @@ TEST(UdpOffload, ReadsEachGroupInTurnWhateverRunsWaitInAnother) {
   EXPECT_LE(before, 3u) << "calls of 64 datagrams";
 }
 
-TEST(UdpOffload, DoesNotHearItsOwnRuns) {
+TEST(UdpOffload, DoesNotReceiveItsOwnRuns) {
   UdpMulticastOptions hearing = on("lo");
   hearing.deliver_own = true;
   UdpMulticast deaf(on("lo"), kClock), other(hearing, kClock);
@@ -224,12 +224,12 @@ TEST(UdpOffload, CountsRunsOfDatagramsThatAreTooLong) {
   for (int i = 0; i < 5; ++i) traffic.add(group(1), 101);
   for (int i = 0; i < 3; ++i) traffic.add(group(1), 100);
   a.send_batch(traffic.whole());
-  // A last one of 100 belongs to the run of those of 101.
+  // A last datagram of 100 octets belongs to the run of datagrams of 101 octets.
   EXPECT_EQ(hear(b).size() + b.statistics().truncated, 8u);
   EXPECT_GE(b.statistics().truncated, 5u);
 }
 
-TEST(UdpOffload, HandsUpNothingOfAGroupThatWasLeft) {
+TEST(UdpOffload, ReturnsNothingOfALeftGroup) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
   Traffic traffic;
@@ -243,7 +243,7 @@ TEST(UdpOffload, HandsUpNothingOfAGroupThatWasLeft) {
   EXPECT_FALSE(b.wait(0ns));
 }
 
-TEST(UdpOffload, RefusesWhatIsAboveTheMtuAloneAndGoesOn) {
+TEST(UdpOffload, RefusesOnlyDatagramsAboveTheMtu) {
   RECKON_IN_OWN_NETWORK([] {
     make_open_cable();
     UdpMulticast a(on("a0"), kClock), b(on("b0"), kClock);
@@ -270,10 +270,10 @@ int sending_socket(const UdpMulticast& link) {
   return -1;
 }
 
-TEST(UdpOffload, SendsEachAloneWhereTheKernelRefusesToCutAndSaysSo) {
+TEST(UdpOffload, SendsSinglyWhereTheKernelRefusesToSegment) {
   UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
   ASSERT_FALSE(b.join(group(1)));
-  // The kernel cuts nothing on a socket without checksums.
+  // The kernel does not segment on a socket without checksums.
   const int off = 1;
   ASSERT_EQ(setsockopt(sending_socket(a), SOL_SOCKET, SO_NO_CHECK, &off, sizeof off), 0);
   Traffic traffic;
@@ -288,7 +288,7 @@ TEST(UdpOffload, SendsEachAloneWhereTheKernelRefusesToCutAndSaysSo) {
   ASSERT_TRUE(a.take_event(event));
   EXPECT_NE(std::string(event.text.data()).find("UDP_SEGMENT"), std::string::npos);
   EXPECT_FALSE(a.take_event(event));
-  // It does not try again, and needs one call all the same.
+  // It does not try again, and still needs one call.
   const std::uint64_t calls = a.statistics().send_calls;
   EXPECT_EQ(a.send_batch(traffic.whole()).datagrams, 20u);
   EXPECT_EQ(a.statistics().send_calls - calls, 1u);
@@ -303,7 +303,7 @@ TEST(UdpOffload, IsOffWhereItIsNotWanted) {
   EXPECT_TRUE(link.warnings().empty());
 }
 
-TEST(SegmentRun, EndsWithAnotherGroupALongerOneOrAShorterOne) {
+TEST(SegmentRun, EndsAtAnotherGroupOrSize) {
   const std::vector<std::byte> room(40000);
   const auto of = [&](std::uint8_t number, std::size_t size) {
     return OutgoingDatagram{group(number), std::span(room).first(size)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A UdpMulticast whose interface goes and comes back: two links in a namespace of their own, on
-// both ends of a cable.
+// A UdpMulticast whose interface disappears and returns: two links at both ends of a cable, in a
+// network namespace of their own.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// Lets the link look at its host until `done`, at most 5 s; what it told.
+/// Lets the link check its host until `done`, at most 5 s; returns the events it reported.
 template <typename Done>
 std::vector<std::string> recover(Link& link, Done done) {
   std::vector<std::string> told;
@@ -39,7 +39,7 @@ auto until_told(std::size_t sentences) {
   return [sentences](const std::vector<std::string>& told) { return told.size() >= sentences; };
 }
 
-/// Own datagrams come back from the group.
+/// True if the link receives its own datagrams from the group.
 bool hears_itself(Link& link) {
   return recover(
              link,
@@ -50,7 +50,7 @@ bool hears_itself(Link& link) {
          link.statistics().own > 0;
 }
 
-TEST(UdpRecovery, JoinsItsGroupsOnAnInterfaceThatWasMadeAnewAndKeepsItsPort) {
+TEST(UdpRecovery, RejoinsGroupsOnARecreatedInterface) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("a0"), kClock);
@@ -72,7 +72,7 @@ TEST(UdpRecovery, JoinsItsGroupsOnAnInterfaceThatWasMadeAnewAndKeepsItsPort) {
   });
 }
 
-TEST(UdpRecovery, SendsFromANewAddressWithItsOldPort) {
+TEST(UdpRecovery, KeepsItsPortAtANewAddress) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("a0"), kClock);
@@ -86,14 +86,14 @@ TEST(UdpRecovery, SendsFromANewAddressWithItsOldPort) {
     EXPECT_EQ(link.local_endpoint().port, port);
     EXPECT_TRUE(hears_itself(link));
 
-    // Unicast reaches it there.
+    // Unicast reaches it at the new address.
     UdpMulticast other(on("b0"), kClock);
     ASSERT_TRUE(other.send(link.local_endpoint(), octets("to you")));
     EXPECT_THAT(hear(link, 200ms), Contains("to you"));
   });
 }
 
-TEST(UdpRecovery, TakesAnotherPortAndSaysSoWhereItsOwnIsTaken) {
+TEST(UdpRecovery, TakesAnotherPortWhereItsOwnIsTaken) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("a0"), kClock);
@@ -108,7 +108,7 @@ TEST(UdpRecovery, TakesAnotherPortAndSaysSoWhereItsOwnIsTaken) {
   });
 }
 
-TEST(UdpRecovery, SaysWhatIsAmissWithTheInterface) {
+TEST(UdpRecovery, ReportsTheStateOfTheInterface) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("a0"), kClock);
@@ -125,13 +125,13 @@ TEST(UdpRecovery, SaysWhatIsAmissWithTheInterface) {
   });
 }
 
-/// Sentences that a link tells in a second.
+/// The events that a link reports in a second.
 std::vector<std::string> told_in_a_second(Link& link) {
   const auto end = kClock.now() + 1s;
   return recover(link, [end](const auto&) { return kClock.now() >= end; });
 }
 
-TEST(UdpRecovery, SaysOnceThatNoDescriptorIsLeftToLookAtTheHost) {
+TEST(UdpRecovery, ReportsAMissingDescriptorOnce) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "without descriptors the sanitizer takes each object for one of another type";
 #endif
@@ -144,7 +144,7 @@ TEST(UdpRecovery, SaysOnceThatNoDescriptorIsLeftToLookAtTheHost) {
     ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
     const rlimit none{3, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
-    const auto told = told_in_a_second(link);  // two tries and more
+    const auto told = told_in_a_second(link);  // more than two tries
     EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
     ASSERT_EQ(told.size(), 1u) << testing::PrintToString(told);
     EXPECT_THAT(told[0], HasSubstr("a0 cannot be looked at"));
@@ -156,7 +156,7 @@ TEST(UdpRecovery, SaysOnceThatNoDescriptorIsLeftToLookAtTheHost) {
   });
 }
 
-TEST(UdpRecovery, WaitsForTheAddressThatWasAskedForWhereverItIs) {
+TEST(UdpRecovery, WaitsForTheRequestedAddressOnAnyInterface) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("10.66.0.1"), kClock);
@@ -169,7 +169,7 @@ TEST(UdpRecovery, WaitsForTheAddressThatWasAskedForWhereverItIs) {
   });
 }
 
-// The writing thread never finds a closed socket, nor somebody else's.
+// The writing thread never uses a closed socket or another thread's descriptor.
 TEST(UdpRecovery, SendsGoOnInAnotherThreadMeanwhile) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();

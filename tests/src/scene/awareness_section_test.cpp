@@ -64,7 +64,7 @@ TEST(AwarenessSection, IsEachPeersOwn) {
   EXPECT_EQ(read("[aoim]\nkinds = \"platform\"\naura = 5\n").hash, plain);
 }
 
-TEST(AwarenessSection, TellsWhatDoesNotFitTogether) {
+TEST(AwarenessSection, ReportsInconsistentKeys) {
   EXPECT_THAT(awareness_refusal("[aoim]\nkinds = \"platfrom\"\n"), HasSubstr("Platform"));
   EXPECT_THAT(awareness_refusal("[[aoim.occluder]]\nfrom = [0, 0, 0]\nto = [1, 0, 1]\n"),
               HasSubstr("volume"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Beacons in a scene file: who carries them and who follows them.
+// Beacons in a scene file: their carriers and followers.
 #include "reckon/peer/scene/beacon_names.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST(BeaconNames, AreReadFromAList) {
   EXPECT_THROW((void)beacon_names(many), std::invalid_argument);
 }
 
-TEST(BeaconNames, OfASceneAreThoseOfItsEntitiesAndOfWhatItFollows) {
+TEST(BeaconNames, CoverEntitiesAndFollowedBeacons) {
   const SceneFile file =
       parse_scene_file(kHandsOut + "follow = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n", "x.toml");
   EXPECT_EQ(file.entities[0].beacon, "gate");

@@ -32,7 +32,7 @@ std::vector<std::uint32_t> operators_of(const SceneFile& file, std::uint32_t pee
 
 const std::string kTwoOperators = "[[operator]]\npassive = true\n[[operator]]\npassive = true\n";
 
-TEST(DevicesOf, AreOneForEachPeerWhereTheSceneNamesNone) {
+TEST(DevicesOf, AreOneEachWhereTheSceneNamesNone) {
   const SceneFile file = scene(kTwoOperators);
   EXPECT_THAT(operators_of(file, 1), ElementsAre(1));
   EXPECT_THAT(operators_of(file, 2), ElementsAre(2));
@@ -40,7 +40,7 @@ TEST(DevicesOf, AreOneForEachPeerWhereTheSceneNamesNone) {
   EXPECT_THAT(operators_of(scene(""), 1), ElementsAre(1));
 }
 
-TEST(DevicesOf, AreExactlyThoseOfThePeerWhereTheSceneNamesAny) {
+TEST(DevicesOf, AreThePeersOwnWhereAnyAreNamed) {
   const SceneFile file =
       scene(kTwoOperators + "[[device]]\npeer = 2\noperator = 2\n[[device]]\npeer = 2\n");
   EXPECT_THAT(operators_of(file, 1), IsEmpty());
@@ -48,7 +48,7 @@ TEST(DevicesOf, AreExactlyThoseOfThePeerWhereTheSceneNamesAny) {
   EXPECT_THAT(operators_of(file, 3), IsEmpty());
 }
 
-TEST(DevicesOf, AreNoneForAnOwnerOfEntitiesWithoutOperator) {
+TEST(DevicesOf, AreNoneForEntityOwnersWithoutOperator) {
   EXPECT_THAT(operators_of(scene("[[entity]]\n"), 1), IsEmpty());
   EXPECT_THAT(operators_of(scene("[[entity]]\n"), 2), ElementsAre(2));
   const SceneFile file = scene(kTwoOperators + "[[entity]]\npeer = 2\n[[entity]]\npeer = 3\n");
@@ -56,7 +56,7 @@ TEST(DevicesOf, AreNoneForAnOwnerOfEntitiesWithoutOperator) {
   EXPECT_THAT(operators_of(file, 3), IsEmpty());
 }
 
-TEST(EntitiesOf, AreThoseOfThePeerInTheFilesOrder) {
+TEST(EntitiesOf, AreThePeersOwnInFileOrder) {
   const SceneFile file = scene(
       "[[entity]]\nmarking = \"A\"\n[[entity]]\npeer = 2\nmarking = \"B\"\n[[entity]]\n"
       "marking = \"C\"\n");
@@ -75,7 +75,7 @@ TEST(PeersOf, AreAsManyAsHaveSomething) {
   EXPECT_EQ(peers_of(scene(kTwoOperators + "[[device]]\npeer = 7\n")), 7u);
 }
 
-TEST(TracksOf, MoveEachEntityAsItsTableSays) {
+TEST(TracksOf, MoveEntitiesByTheirTables) {
   const test::ScratchFolder folder;
   std::ofstream(folder.file("t.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,10,0,0\n2,20,0,0\n";
   const std::string with = "[[entity]]\ntrack = \"t.csv\"\n";

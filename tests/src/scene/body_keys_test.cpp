@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies in scene files: their keys, what is refused, and what peers have to agree on.
+// Bodies in scene files: their keys, refusals, and their part of the scene hash.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
   EXPECT_EQ(absent.restitution, standard.restitution);
 }
 
-TEST(BodyKeys, RefuseWhatCannotMove) {
+TEST(BodyKeys, RefuseAPlaneWithMass) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
               HasSubstr("a plane has no end, and cannot move"));
@@ -51,7 +51,7 @@ TEST(BodyKeys, GiveSolidsAMass) {
   EXPECT_EQ(file.scene.objects.at(0).matter.mass, 1.0);
 }
 
-TEST(BodyKeys, SayWhatHoldsABody) {
+TEST(BodyKeys, GiveTheGrabSpringsOfObjectsAndHands) {
   const SceneFile file =
       parsed(cube("mass = \"50 g\"\ngrab = {stiffness = \"200 N/m\", most = \"2 N\"}\n") +
              "[hand]\ngrab_stiffness = \"150 N/m\"\ngrab_viscosity = \"0.5 N s/m\"\ngrab_most = "
@@ -73,7 +73,7 @@ TEST(BodyKeys, SayWhatHoldsABody) {
               HasSubstr("holds nothing without a stiffness"));
 }
 
-TEST(BodyKeys, AreMovedByDevicesOfTheFirstPeerAtOneRate) {
+TEST(BodyKeys, NeedDevicesOfPeerOneAtOneRate) {
   const std::string body = cube("mass = \"50 g\"\n");
   EXPECT_THAT(refusal(body), HasSubstr("give it a [[device]] of peer 1"));
   EXPECT_THAT(refusal(body + "[[operator]]\npassive = true\n[[device]]\npeer = 2\noperator = 1\n"),

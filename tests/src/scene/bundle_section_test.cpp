@@ -29,7 +29,7 @@ const BundlePolicy& policy_of(const SceneFile& file, std::string_view type) {
   return bundle_policy_of(file.network, parse_entity_type(type).type);
 }
 
-TEST(BundleSection, GivesEachTypeThePolicyOfTheFirstClassThatFits) {
+TEST(BundleSection, GivesEachTypeItsFirstMatchingClass) {
   const SceneFile file = parse_scene_file(kClasses, "x.toml");
   EXPECT_EQ(policy_of(file, "1.1.225.4.2").hold, milliseconds(20));
   EXPECT_EQ(policy_of(file, "1.1.225.4.2").updates, 0u);
@@ -39,7 +39,7 @@ TEST(BundleSection, GivesEachTypeThePolicyOfTheFirstClassThatFits) {
   EXPECT_EQ(policy_of(file, "1.3.225").updates, 6u);
 }
 
-TEST(BundleSection, TellsAClassWithoutTypeAndATypeThatIsNone) {
+TEST(BundleSection, RefusesAMissingAndAnUnknownType) {
   const auto refusal = [](std::string_view text) -> std::string {
     try {
       (void)parse_scene_file(text, "x.toml");

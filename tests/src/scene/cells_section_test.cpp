@@ -48,7 +48,8 @@ const aoim::QuadTree& tree_of(const aoim::CellPartition& cells) {
   return *cells.as<aoim::QuadTree>();
 }
 
-// A crowd of 300 within 200 m, and 100 all over the square; every fourth at a second instant.
+// A crowd of 300 within 200 m, and 100 spread over the square; every fourth row has a second
+// instant.
 void write_sample(const std::filesystem::path& file, bool backwards = false, int count = 400) {
   std::ofstream out(file);
   out << "t_s,x_m,y_m\n";
@@ -60,7 +61,7 @@ void write_sample(const std::filesystem::path& file, bool backwards = false, int
   }
 }
 
-TEST(CellsSection, MakesTheTreeOfTheLeavesThatAreNamed) {
+TEST(CellsSection, MakesATreeOfTheNamedLeaves) {
   const SceneFile file = read_cells(kTree + kSquare + "leaves = \"0 1 30 31 32 33\"\n");
   const aoim::CellPartition cells = cells_of(file.aoim);
   EXPECT_EQ(tree_of(cells).cells(), 7U);
@@ -87,8 +88,8 @@ TEST(CellsSection, DividesWhereTheSampleHasMost) {
   EXPECT_GE(cells.finest(), 60.0);
 }
 
-// Whoever has the same places has the same tree and meets; who has others does not.
-TEST(CellsSection, HashesTheTreeHoweverItIsSaid) {
+// Peers with equal positions in the sample have the same tree and meet; peers with others do not.
+TEST(CellsSection, HashesTheTreeInsteadOfItsText) {
   const test::ScratchFolder folder;
   write_sample(folder.file("town.csv"));
   write_sample(folder.file("backwards.csv"), true);
@@ -120,7 +121,7 @@ TEST(CellsSection, RefusesTreesThatCannotBe) {
   EXPECT_THAT(tree(""), HasSubstr("density, leaves"));
   EXPECT_THAT(tree("leaves = \"0 4\"\n"), HasSubstr("\"4\""));
   EXPECT_THAT(tree("leaves = \"0 01\"\n"), HasSubstr("take it out"));
-  EXPECT_THAT(tree("leaves = \"0123012\"\n"), HasSubstr("there is no cell"));  // of 31 m
+  EXPECT_THAT(tree("leaves = \"0123012\"\n"), HasSubstr("there is no cell"));  // cells of 31 m
   EXPECT_THAT(tree("leaves = \"0\"\nreach = \"1 m\"\n"), HasSubstr("'reach'"));
   EXPECT_THAT(tree("leaves = \"0\"\nmost = 65\n"), HasSubstr("hand_out"));
   EXPECT_THAT(tree("leaves = \"00 10 20 30\"\nmost = 12\n"), HasSubstr("16 cells"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Effects that a program brings, in its scene files.
+// Scene files with effects that a program adds.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -19,7 +19,7 @@ struct Values {
   double strength = 1.0, speed = 0.1;
 };
 
-/// Each `number` is another effect.
+/// Each `number` makes another effect type.
 template <int number>
 class Own : public haptics::CountedEffect<Own<number>> {
  public:
@@ -76,7 +76,7 @@ TEST(CustomEffectKeys, GiveValuesWithUnitsAndTakeDefaults) {
   EXPECT_TRUE(read("", effects).scene.objects.at(0).custom_effects.empty());
 }
 
-TEST(CustomEffectKeys, ThatCannotBeMeantAreRefusedWithPlaceAndRemedy) {
+TEST(CustomEffectKeys, RefuseBadValuesWithPlaceAndRemedy) {
   const auto effects = haptics::custom_effects<Own<1>>();
   EXPECT_THAT(refusal("honey = { strength = 11 }\n", effects),
               HasSubstr("x.toml:4:22: 'strength'"));
@@ -99,7 +99,7 @@ TEST(CustomEffectKeys, AKeyThatIsTakenIsRefused) {
   EXPECT_THROW(read("", (haptics::custom_effects<Own<1>, Own<1>>())), std::invalid_argument);
 }
 
-/// Of a region; its key is also that of an effect of objects.
+/// An effect of regions whose key an effect of objects also has.
 class Fog : public haptics::CountedEffect<Fog> {
  public:
   using Parameters = Values;
@@ -147,7 +147,7 @@ TEST(CustomEffectKeys, OfRegionsAreTakenThereAlone) {
   EXPECT_THROW(read_region("", (haptics::custom_effects<Fog, Fog>())), std::invalid_argument);
 }
 
-TEST(CustomEffectKeys, CountInTheHashOfTheSceneButNotByTheirOrder) {
+TEST(CustomEffectKeys, EnterTheHashIndependentlyOfTheirOrder) {
   const auto effects = haptics::custom_effects<Own<1>, Own<2>>();
   const auto turned = haptics::custom_effects<Own<2>, Own<1>>();
   const std::string both = "honey = {}\nresin = {}\n", other = "resin = {}\nhoney = {}\n";

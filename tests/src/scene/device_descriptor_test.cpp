@@ -83,7 +83,7 @@ work_space = { from = "-18 -18 -13 cm", to = [0.18, 0.18, 0.13] }
   EXPECT_EQ(device.work_space.to, Vector3d(0.18, 0.18, 0.13));
 }
 
-TEST(DeviceDescriptor, RefusesEachBadKeyWithItsPlaceAndTheRemedy) {
+TEST(DeviceDescriptor, RefusesBadKeysWithPlaceAndRemedy) {
   const struct {
     std::string text;
     const char *place, *says;
@@ -114,7 +114,7 @@ TEST(DeviceDescriptor, RefusesEachBadKeyWithItsPlaceAndTheRemedy) {
     EXPECT_THAT(refusal_of(row.text), AllOf(HasSubstr(row.place), HasSubstr(row.says))) << row.text;
 }
 
-TEST(DeviceDescriptor, AsksForWhatCannotBeAssumed) {
+TEST(DeviceDescriptor, RequiresKeysWithoutSafeDefault) {
   EXPECT_EQ(refusal_of(kThree), "taken");
   EXPECT_EQ(refusal_of(kSix), "taken");
   for (const char* text : {kThree, kSix}) {
@@ -130,7 +130,7 @@ TEST(DeviceDescriptor, AsksForWhatCannotBeAssumed) {
   }
 }
 
-TEST(DeviceDescriptor, SaysWhereItLookedForOneThatIsNotThere) {
+TEST(DeviceDescriptor, RefusalOfAMissingOneNamesSearchedPlaces) {
   const reckon::test::ScratchFolder folder;
   try {
     (void)find_device_descriptor("nothing_like_it", folder.file(""));
@@ -148,7 +148,7 @@ TEST(DeviceDescriptor, SaysWhereItLookedForOneThatIsNotThere) {
   }
 }
 
-TEST(DeviceDescriptor, ThatComesWithReckonIsFoundByItsNameAndTaken) {
+TEST(DeviceDescriptor, DescriptorsOfReckonAreFoundByName) {
   std::size_t found = 0;
   for (const auto& entry :
        fs::directory_iterator(fs::path(reckon::test::source_dir()) / "devices")) {
@@ -161,8 +161,8 @@ TEST(DeviceDescriptor, ThatComesWithReckonIsFoundByItsNameAndTaken) {
   EXPECT_GE(found, 5U);
 }
 
-// A line of a file is a key, and each says in its comment where its value is from.
-TEST(DeviceDescriptor, ThatComesWithReckonSaysWhereEachValueIsFrom) {
+// A line of a file is a key; its comment states the source of the value.
+TEST(DeviceDescriptor, DescriptorsOfReckonStateTheirSources) {
   for (const auto& entry :
        fs::directory_iterator(fs::path(reckon::test::source_dir()) / "devices")) {
     std::ifstream file(entry.path());
@@ -196,7 +196,7 @@ class DescribedDeviceSection : public testing::Test {
   reckon::test::ScratchFolder folder_;
 };
 
-TEST_F(DescribedDeviceSection, HasWhatItsDescriptorSays) {
+TEST_F(DescribedDeviceSection, TakesTheValuesOfItsDescriptor) {
   write("pen.toml", std::string(kThree) +
                         "mass = \"45 g\"\nfriction = \"0.26 N\"\nmax_stiffness = 400\n"
                         "work_space = { from = \"-80 -60 -35 mm\", to = \"80 60 35 mm\" }\n");
@@ -226,7 +226,7 @@ TEST_F(DescribedDeviceSection, ItsOwnKeysGoBeforeTheDescriptor) {
   EXPECT_THAT(refusal("descriptor = \"pen\"\naxes = 6\n"), HasSubstr("take the key out"));
 }
 
-TEST_F(DescribedDeviceSection, ADeviceOfSixAxesNeedsNoMoreThanItsDescriptor) {
+TEST_F(DescribedDeviceSection, SixAxisDeviceNeedsOnlyItsDescriptor) {
   write("six.toml", std::string(kSix) + "inertia = 0.0002\n");
   const DeviceConfig device = device_of("descriptor = \"six\"\nprobe = [{position = [0, 0, 0]}]\n");
   EXPECT_EQ(device.axes, 6);
@@ -236,7 +236,7 @@ TEST_F(DescribedDeviceSection, ADeviceOfSixAxesNeedsNoMoreThanItsDescriptor) {
   EXPECT_THAT(refusal("descriptor = \"pen\"\nmax_torque = 1\n"), HasSubstr("add axes = 6"));
 }
 
-TEST_F(DescribedDeviceSection, ABadDescriptorIsAProblemOfTheSceneWithItsOwnPlace) {
+TEST_F(DescribedDeviceSection, BadDescriptorIsReportedWithBothPlaces) {
   write("bad.toml", std::string(kThree) + "axes = 4\n");
   EXPECT_THAT(refusal("descriptor = \"bad\"\n"),
               AllOf(HasSubstr("x.toml:2:14: 'descriptor': "), HasSubstr("bad.toml:6:8: ")));
@@ -245,13 +245,13 @@ TEST_F(DescribedDeviceSection, ABadDescriptorIsAProblemOfTheSceneWithItsOwnPlace
   EXPECT_THAT(refusal("descriptor = 3\n"), HasSubstr("it wants text"));
 }
 
-TEST_F(DescribedDeviceSection, AFalconGetsTheDampingAndTheDelayOfItsDescriptor) {
+TEST_F(DescribedDeviceSection, FalconTakesDampingAndDelayOfItsDescriptor) {
   write("mine.toml",
         "name = \"my Falcon\"\nmax_force = \"8 N\"\ndamping = 1\nresolution = 0.0001\n"
         "delay = \"3 ms\"\n");
   const DeviceConfig described = device_of("driver = \"falcon\"\ndescriptor = \"mine\"\n");
   const DeviceConfig said = device_of("driver = \"falcon\"\ndamping = 1\ndelay = \"3 ms\"\n");
-  // Of the middle and by the joints, where the table says nothing.
+  // Damping at the centre, and damping of the joints where the table states none.
   EXPECT_NEAR(described.damping, said.damping, 1e-3);
   EXPECT_NEAR(described.joint_damping, haptics::falcon_facts().joints_per_damping, 1e-12);
   EXPECT_EQ(said.joint_damping, 0.0);
@@ -273,8 +273,8 @@ TEST_F(DescribedDeviceSection, ReadsHowTheHandleMovesTheHand) {
   EXPECT_THAT(refusal("kind = \"pointer\"\nscale = 2\n"), HasSubstr("a pointer has no 'scale'"));
 }
 
-// The page and the list are one.
-TEST(DeviceDescriptor, ItsKeysAreThoseOfThePage) {
+// The page contains the generated list.
+TEST(DeviceDescriptor, KeysEqualTheDocumentedOnes) {
   std::ifstream file(fs::path(reckon::test::source_dir()) / "docs" / "devices.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(page, HasSubstr(device_descriptor_markdown()));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The keys of [[device]] that its driver decides.
+// The keys of [[device]] that depend on its driver.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,20 +27,21 @@ DeviceConfig device_of(const std::string& lines) {
   return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").devices.at(0);
 }
 
-// Each of these lines, with the words of its refusal.
+// Each of these lines is refused with this text.
 void expect_refused(const std::vector<std::pair<std::string, std::string>>& cases) {
   for (const auto& [lines, words] : cases)
     EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;
 }
 
-// What a servo may rely on is the driver's to say, as far as the file does not.
+// The driver supplies the limits that the file does not state.
 TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_EQ(device_of("driver = \"simulated\"\n").driver, DeviceDriver::simulated);
   const DeviceConfig plain = device_of("driver = \"falcon\"\n");
   EXPECT_EQ(plain.driver, DeviceDriver::falcon);
   EXPECT_EQ(plain.max_force, 8.9);
   EXPECT_EQ(plain.delay_samples, 6);
-  // Assumed of the middle, less a tenth; elsewhere it is that of the joints.
+  // The assumed damping holds at the centre, less a tenth; elsewhere the damping of the joints
+  // counts.
   EXPECT_NEAR(plain.damping, 0.9 * 0.3, 3e-4);
   EXPECT_NEAR(plain.joint_damping, haptics::falcon_facts().joints_per_damping * 0.3, 1e-12);
   EXPECT_EQ(plain.resolution, 90e-6);
@@ -50,14 +51,14 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_EQ(known.delay_samples, 4);
   EXPECT_NEAR(known.damping, 1.8, 1e-12);
   EXPECT_EQ(known.max_force, 5);
-  // And its device has the same.
+  // Its device has the same limits.
   const haptics::DeviceLimits limits =
       haptics::usb_limits(haptics::falcon_facts(), usb_settings_of(known));
   EXPECT_EQ(limits.delay_samples, 4);
   EXPECT_NEAR(limits.damping, 1.8, 1e-12);
 }
 
-TEST(DeviceSection, RefusesWhatAFalconIsNot) {
+TEST(DeviceSection, RefusesKeysThatContradictAFalcon) {
   const std::string falcon = "driver = \"falcon\"\n";
   expect_refused({{"driver = \"falkon\"\n", "did you mean \"falcon\"?"},
                   {falcon + "kind = \"pointer\"\n", "no pointer moves it"},
@@ -80,7 +81,7 @@ constexpr const char* kWheel =
     "driver = \"evdev\"\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = \"2 kN/m\"\n"
     "max_stiffness = \"1.5 kN/m\"\n";
 
-TEST(DeviceSection, AnEventDeviceIsWhatItsKeysSay) {
+TEST(DeviceSection, EventDeviceTakesItsKeys) {
   const DeviceConfig plain = device_of(kWheel);
   EXPECT_EQ(plain.driver, DeviceDriver::evdev);
   haptics::EvdevSettings settings = evdev_settings_of(plain);
@@ -101,7 +102,7 @@ TEST(DeviceSection, AnEventDeviceIsWhatItsKeysSay) {
   EXPECT_EQ(haptics::evdev_limits(settings).max_force, 5);
 }
 
-TEST(DeviceSection, RefusesAnEventDeviceOfWhichSomethingIsNotSaid) {
+TEST(DeviceSection, RefusesAnEventDeviceWithMissingKeys) {
   const std::string whole = kWheel;
   for (const std::string key : {"travel", "full_force", "full_stiffness", "max_stiffness"}) {
     const std::size_t from = whole.find(key);
@@ -125,27 +126,27 @@ TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
       << "assumed";
   EXPECT_EQ(plain.resolution, 95e-6);
 
-  // To hold the links up costs damping: the slope of the torque, an exchange late, at 50 mm.
+  // Gravity compensation costs damping: the slope of the torque, one exchange late, at 50 mm.
   const DeviceConfig held = device_of(
       "driver = \"polhem\"\ndamping = \"2 N s/m\"\nupper_weight = \"0.17 N m\"\n"
       "fore_weight = \"0.055 N m\"\n");
   EXPECT_NEAR(held.damping, 1.8 - 0.17 * 0.002 / (0.05 * 0.05), 1e-12);
   EXPECT_EQ(polhem_weights_of(held).upper, 0.17);
   EXPECT_EQ(polhem_weights_of(held).fore, 0.055);
-  // And its device has the same.
+  // Its device has the same limits.
   const haptics::DeviceLimits limits =
       haptics::usb_limits(haptics::polhem_facts(), usb_settings_of(held));
   EXPECT_NEAR(limits.damping, held.damping, 1e-12);
 }
 
-TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
+TEST(DeviceSection, JointFrictionReplacesThatOfTheHandle) {
   for (const auto& [name, facts] :
        {std::pair("falcon", &haptics::falcon_facts()), {"polhem", &haptics::polhem_facts()}}) {
     const DeviceConfig device =
         device_of("driver = \"" + std::string(name) + "\"\njoint_damping = \"0.02 N m s/rad\"\n");
     const double square = facts->lever * facts->lever;
     EXPECT_NEAR(device.damping, 0.9 * 0.02 / square, 1e-9) << name;
-    // And its device has the same.
+    // Its device has the same limits.
     const haptics::DeviceLimits limits = haptics::usb_limits(*facts, usb_settings_of(device));
     EXPECT_NEAR(limits.damping, device.damping, 1e-12) << name;
     EXPECT_EQ(limits.lever, facts->lever) << name;
@@ -155,7 +156,7 @@ TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
                 .lever,
             0.0)
       << "of the handle where that is said";
-  // To hold the links up costs the slope of the torque, an exchange late, wherever they are.
+  // Gravity compensation costs the slope of the torque, one exchange late, in every pose.
   const DeviceConfig held = device_of(
       "driver = \"polhem\"\njoint_damping = \"0.02 N m s/rad\"\nupper_weight = \"0.17 N m\"\n");
   const double lever = haptics::polhem_facts().lever;
@@ -166,7 +167,7 @@ TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
        {"driver = \"falcon\"\ndamping = \"1 N s/m\"\n" + joints, "friction is said twice"}});
 }
 
-TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
+TEST(DeviceSection, RefusesKeysThatContradictAPolhem) {
   const std::string polhem = "driver = \"polhem\"\n";
   expect_refused(
       {{polhem + "axes = 6\n", "a Polhem has three axes"},
@@ -180,7 +181,7 @@ TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
        {"fore_weight = \"0.1 N m\"\n", "only a Polhem has links"}});
 }
 
-TEST(DeviceSection, NamesASerialBoardAndWhatIsKnownOfIt) {
+TEST(DeviceSection, GivesASerialBoardItsLimits) {
   const DeviceConfig plain = device_of("driver = \"serial\"\nport = \"/dev/ttyACM0\"\n");
   EXPECT_EQ(plain.driver, DeviceDriver::serial);
   EXPECT_EQ(plain.port, "/dev/ttyACM0");
@@ -198,7 +199,7 @@ TEST(DeviceSection, NamesASerialBoardAndWhatIsKnownOfIt) {
   EXPECT_NEAR(known.resolution, 14.7e-6, 1e-18);
   EXPECT_NEAR(known.damping, 1.8, 1e-12);
   EXPECT_EQ(known.delay_samples, 4);
-  // And its device has the same.
+  // Its device has the same limits.
   const haptics::DeviceLimits limits =
       haptics::usb_limits(haptics::serial_facts(), usb_settings_of(known));
   EXPECT_EQ(limits.max_force, known.max_force);
@@ -207,7 +208,7 @@ TEST(DeviceSection, NamesASerialBoardAndWhatIsKnownOfIt) {
   EXPECT_EQ(limits.delay_samples, 4);
 }
 
-TEST(DeviceSection, RefusesWhatASerialBoardIsNot) {
+TEST(DeviceSection, RefusesKeysThatContradictASerialBoard) {
   const std::string serial = "driver = \"serial\"\n";
   const std::string wired = serial + "port = \"/dev/ttyACM0\"\n";
   expect_refused({{serial, "name that with port = \"/dev/ttyACM0\""},
@@ -218,7 +219,7 @@ TEST(DeviceSection, RefusesWhatASerialBoardIsNot) {
                   {"baud = 9600\n", "only a board on a serial line has it"}});
 }
 
-// Whose device it is, is each host's own matter.
+// Each host chooses its own device driver.
 TEST(DeviceSection, ADriverDoesNotChangeTheWorld) {
   const auto hash = [](const std::string& lines) {
     return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").hash;

@@ -73,7 +73,7 @@ TEST(DeviceSection, NamesAPointerAndHowFarItReaches) {
   EXPECT_EQ(device.reach, 0.3);
 }
 
-TEST(DeviceSection, RefusesAPointerWhoseOperatorMovesTooOrHasNoDamping) {
+TEST(DeviceSection, RefusesPointersWithMovingOrUndampedOperators) {
   const std::string pointer = "[[device]]\nkind = \"pointer\"\n";
   EXPECT_THAT(
       refusal(pointer + "[[operator]]\nsweep = { from = [0, 0, 0], to = [1, 0, 0] }\n"),
@@ -83,7 +83,7 @@ TEST(DeviceSection, RefusesAPointerWhoseOperatorMovesTooOrHasNoDamping) {
               HasSubstr("x.toml:2:8: a pointer needs a grip with damping"));
 }
 
-TEST(DeviceSection, OfSixAxesTurnsAToolOfSomeProbes) {
+TEST(DeviceSection, SixAxisDeviceTurnsAToolOfProbes) {
   const DeviceConfig device = device_of(R"(
 axes = 6
 turn_damping = "0.02 Nm s/rad"
@@ -145,8 +145,8 @@ TEST(DeviceSection, MakesADeviceThatMovesByItself) {
   EXPECT_THAT(refused(mass + "resolution = \"10 um\"\n"), HasSubstr("computed and exact"));
 }
 
-// Whatever rate is accepted: one period missed and the next one late by half of one.
-TEST(DeviceSection, TheSlowestServoMayMissAPeriodAndTheDeviceHoldsItsForce) {
+// At any accepted rate: one period is missed and the next step is half a period late.
+TEST(DeviceSection, DeviceHoldsItsForceOverAMissedPeriod) {
   for (int rate = 50; rate <= 1000; rate += 50) {
     const std::string text = "rate = \"" + std::to_string(rate) + " Hz\"\n";
     if (!refusal("[[device]]\n" + text + kOperator).empty()) continue;
@@ -158,7 +158,7 @@ TEST(DeviceSection, TheSlowestServoMayMissAPeriodAndTheDeviceHoldsItsForce) {
   }
 }
 
-TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
+TEST(DeviceSection, HasTheDefaultsOfItsStruct) {
   const DeviceConfig silent = device_of(""), standard;
   EXPECT_EQ(silent.peer, standard.peer);
   EXPECT_EQ(silent.operator_number, standard.operator_number);
@@ -201,7 +201,7 @@ TEST(DeviceSection, CountsDelayInWholePeriodsRoundedUp) {
   EXPECT_EQ(samples("100 ms", "10 kHz"), 1000);
 }
 
-TEST(DeviceSection, TurnsItsAxesFromThoseOfTheScene) {
+TEST(DeviceSection, TurnsItsAxesRelativeToTheScene) {
   struct Case {
     const char* keys;
     Vector3d right, forward;
@@ -219,7 +219,7 @@ TEST(DeviceSection, TurnsItsAxesFromThoseOfTheScene) {
   }
 }
 
-TEST(DeviceSection, RefusesWhatCannotBeMeant) {
+TEST(DeviceSection, RefusesInconsistentKeys) {
   const std::pair<std::string, const char*> cases[] = {
       {"operator = 2\n",
        "x.toml:2:12: there is no [[operator]] 2: the file has 1; name one of them or add one"},

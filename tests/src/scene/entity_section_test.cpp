@@ -78,7 +78,7 @@ restitution = "50 %"
   EXPECT_EQ(model.restitution, 0.5);
 }
 
-TEST(EntitySection, StartsAForceModelFromThatOfADefaultHand) {
+TEST(EntitySection, ForceModelsDefaultToThatOfAHand) {
   const EntityConfig entity = entity_of("force_model = { kind = \"region\" }\n");
   ASSERT_TRUE(entity.model);
   deadreckon::ForceModel hand = to_force_model(HandModel{});
@@ -120,8 +120,8 @@ TEST(EntitySection, TurnsFromNorthAsDisMeansIt) {
   }
 }
 
-// The oracle: Euler angles of the standard at the place's own north, east and down.
-TEST(EntitySection, TurnsTheSameWayAsTheAnglesOfTheWire) {
+// Reference: Euler angles of the standard in the north, east and down axes of the place.
+TEST(EntitySection, TurnsAsTheAnglesOfTheWire) {
   const SceneFile scene = parse_scene_file(
       "[scene]\norigin = { latitude = \"47 deg\", longitude = \"8 deg\" }\n"
       "[[entity]]\nheading = \"30 deg\"\npitch = \"-20 deg\"\nroll = \"10 deg\"\n",
@@ -136,7 +136,7 @@ TEST(EntitySection, TurnsTheSameWayAsTheAnglesOfTheWire) {
             1e-12);
 }
 
-TEST(EntitySection, FindsPlacesOnEarthWhereverTheOriginStandsInTheFile) {
+TEST(EntitySection, ConvertsGeodeticPlacesByTheScenesOrigin) {
   const std::string place =
       "place = { latitude = \"47.001 deg\", longitude = \"8 deg\", height = 10 }\n";
   const EntityConfig entity = entity_of(
@@ -148,7 +148,7 @@ TEST(EntitySection, FindsPlacesOnEarthWhereverTheOriginStandsInTheFile) {
   EXPECT_EQ(refusal("[[entity]]\nposition = [0, 0, 0]\n" + place),
             "x.toml:3:9: the place is given twice, by position and place: keep one");
   EXPECT_THAT(refusal("[[entity]]\n" + place),
-              HasSubstr("x.toml:2:9: 'place' is 51"));  // 5115 km from 0, 0
+              HasSubstr("x.toml:2:9: 'place' is 51"));  // 5115 km from latitude and longitude 0
   EXPECT_THAT(refusal("[[entity]]\nplace = { latitude = 0 }\n"),
               HasSubstr("[entity.place] needs 'longitude'"));
 }
@@ -178,7 +178,7 @@ TEST(EntitySection, TakesTheStandardsThresholdsUnlessHandsFeelIt) {
   EXPECT_EQ(own.dead_reckoning.heartbeat, seconds(7));
 }
 
-TEST(EntitySection, KeepsTheSceneRuleOrTakesItsOwnWithItsQuantity) {
+TEST(EntitySection, InheritsTheSceneRuleUnlessItHasOne) {
   const std::string scene = "[dead_reckoning]\nrule = \"velocity_aware\"\nspeed_allowance = 0.2\n";
   const auto inherited = entity_of("", scene).dead_reckoning;
   EXPECT_EQ(inherited.rule->name, deadreckon::VelocityAware::kName);
@@ -230,7 +230,7 @@ TEST_F(EntityTracks, AreRefusedWithTheirPlaceInBothFiles) {
               HasSubstr("x.toml:2:9: 'track': cannot read "));
 }
 
-TEST(EntitySection, RefusesWhatCannotBeMeant) {
+TEST(EntitySection, RefusesInconsistentKeys) {
   const std::pair<std::string, const char*> cases[] = {
       {"marking = \"TWELVE CHARS\"\n", "x.toml:2:11: 'marking' has 12 letters; at most 11 fit"},
       {"marking = \"MÜHLE\"\n", "x.toml:2:11: 'marking' has a letter that is not ASCII"},
@@ -264,7 +264,7 @@ TEST(EntitySection, MayUseAMarkingTwice) {
   EXPECT_EQ(refusal("[[entity]]\nmarking = \"A\"\n[[entity]]\nmarking = \"A\"\n"), "");
 }
 
-TEST(SceneHash, IsNotChangedByWhatEachPeerHas) {
+TEST(SceneHash, IsIndependentOfEntitiesAndDevices) {
   const std::string world = "[[object]]\nname = \"a\"\nsphere = 1\n[[operator]]\npassive = true\n";
   const auto plain = parse_scene_file(world, "x.toml").hash;
   EXPECT_EQ(parse_scene_file(world + "[[entity]]\nforce_model = { kind = \"sphere\" }\n"

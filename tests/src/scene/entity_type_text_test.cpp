@@ -27,7 +27,7 @@ TEST(EntityTypeText, IsReadByNumberWithMissingOnesZero) {
   EXPECT_EQ(entity_type_numbers(tank()), "1.1.225.1.2.3.4");
 }
 
-TEST(EntityTypeText, OfAProgramIsThatOfASceneFileOrThrows) {
+TEST(EntityTypeText, ApiReadsItOrThrows) {
   EXPECT_EQ(entity_type("1.1.225.1.2.3.4"), tank());
   try {
     (void)entity_type("1.1.65536");
@@ -59,7 +59,7 @@ TEST(EntityTypeText, IsReadInTheWordsOfTheInspector) {
             (pdu::EntityType{pdu::EntityKind::life_form, pdu::EntityDomain::land}));
 }
 
-TEST(EntityTypeText, ReadsEveryNamedTypeBackFromWhatTheInspectorWrites) {
+TEST(EntityTypeText, ReadsBackTheInspectorsWordsOfNamedTypes) {
   std::mt19937 random(5);
   int named = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -69,7 +69,7 @@ TEST(EntityTypeText, ReadsEveryNamedTypeBackFromWhatTheInspectorWrites) {
     type.country = static_cast<std::uint16_t>(random() % 300);
     type.category = static_cast<std::uint8_t>(random() % 90);
     const std::string words = entity_type_words(type);
-    if (words.find_first_of("0123456789") != std::string::npos) continue;  // not all has a name
+    if (words.find_first_of("0123456789") != std::string::npos) continue;  // some are unnamed
     const EntityTypeText read = parse_entity_type(words);
     ASSERT_TRUE(read.good()) << words << ": " << read.error;
     ASSERT_EQ(entity_type_words(read.type), words);
@@ -78,7 +78,7 @@ TEST(EntityTypeText, ReadsEveryNamedTypeBackFromWhatTheInspectorWrites) {
   EXPECT_GT(named, 2000);
 }
 
-TEST(EntityTypeText, TellsWhichWordIsWrongAndTheNearest) {
+TEST(EntityTypeText, RefusalNamesTheWrongWordAndTheNearest) {
   EXPECT_EQ(parse_entity_type("Platform Lnad").error,
             "'Lnad' is no domain (did you mean \"Land\"?)");
   EXPECT_EQ(parse_entity_type("Platfrom Land").error,

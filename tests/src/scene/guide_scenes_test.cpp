@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The scenes of the guide to areas of interest are scenes.
+// The example scenes in the guide to areas of interest are valid.
 #include <gtest/gtest.h>
 
 #include <fstream>

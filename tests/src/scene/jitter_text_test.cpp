@@ -19,7 +19,7 @@ JitterText read(std::string_view text, std::chrono::nanoseconds delay = 80ms) {
   return read_jitter(text, delay, "--delay 80ms");
 }
 
-TEST(JitterText, IsATimeOrAShareOfTheDelay) {
+TEST(JitterText, IsATimeOrADelayShare) {
   EXPECT_EQ(read("5ms").jitter, 5ms);
   EXPECT_EQ(read("0.25 s").jitter, 250ms);
   EXPECT_EQ(read("40%").jitter, 32ms);
@@ -29,9 +29,9 @@ TEST(JitterText, IsATimeOrAShareOfTheDelay) {
   for (const char* text : {"5ms", "40%", "0", "0%", "100%"}) EXPECT_TRUE(read(text).good()) << text;
 }
 
-TEST(JitterText, OfTimesTakesThoseBeyondTheDelay) { EXPECT_EQ(read("3s", 80ms).jitter, 3s); }
+TEST(JitterText, TakesTimesBeyondTheDelay) { EXPECT_EQ(read("3s", 80ms).jitter, 3s); }
 
-TEST(JitterText, NeedsADelayForAShareButNotForNone) {
+TEST(JitterText, NeedsADelayForAShareAboveZero) {
   EXPECT_THAT(read("40%", 0ns).error,
               AllOf(HasSubstr("'40%' is a share of the delay, which is 0"),
                     HasSubstr("write --delay 80ms too"), HasSubstr("as in 5ms")));
@@ -39,7 +39,7 @@ TEST(JitterText, NeedsADelayForAShareButNotForNone) {
   EXPECT_EQ(read("5ms", 0ns).jitter, 5ms);
 }
 
-TEST(JitterText, SaysBothSpellingsOfWhatIsNeither) {
+TEST(JitterText, RefusalNamesBothSpellings) {
   for (const char* text : {"", "soft", "5", "0.4", "-5ms", "-1%", "101%", "%", "5m%", "5 m", "nan",
                            "inf s", "1e300s"}) {
     EXPECT_THAT(read(text).error, AllOf(HasSubstr("5ms"), HasSubstr("40%"))) << text;
@@ -54,7 +54,7 @@ TEST(JitterText, KnowsAShareByItsEnd) {
   EXPECT_FALSE(is_share_of_delay(""));
 }
 
-TEST(JitterText, StandsInASceneFileInBothSpellings) {
+TEST(JitterText, SceneFilesTakeBothSpellings) {
   const auto jitter = [](const std::string& keys) {
     return parse_scene_file("[impairment]\n" + keys, "x.toml").impairment.law.jitter;
   };
@@ -64,7 +64,7 @@ TEST(JitterText, StandsInASceneFileInBothSpellings) {
   EXPECT_EQ(jitter("jitter = 0.005\n"), 5ms);
 }
 
-TEST(JitterText, IsRefusedWhereItStandsInASceneFile) {
+TEST(JitterText, SceneFilesRefuseItAtItsPlace) {
   const auto error = [](const std::string& keys) { return refusal("[impairment]\n" + keys); };
   EXPECT_THAT(error("jitter = \"40%\"\n"),
               HasSubstr("x.toml:2:10: 'jitter': '40%' is a share of the delay, which is 0; write "

@@ -17,12 +17,12 @@ ManagementRule rule(std::string_view text) {
   return parsed.value_or(ManagementRule());
 }
 
-TEST(ManagementRule, AllowsNobodyUnlessTheSceneSaysSo) {
+TEST(ManagementRule, AllowsNobodyByDefault) {
   EXPECT_FALSE(ManagementRule().allows({1, 2}, true));
   EXPECT_FALSE(parse_scene_file("", "x").network.management.allows({1, 2}, true));
 }
 
-TEST(ManagementRule, AllowsWhomItNames) {
+TEST(ManagementRule, AllowsThePeersThatItNames) {
   EXPECT_FALSE(rule("nobody").allows({1, 2}, true));
   EXPECT_TRUE(rule("members").allows({1, 2}, true));
   EXPECT_FALSE(rule("members").allows({1, 2}, false));
@@ -39,7 +39,7 @@ TEST(ManagementRule, IsWrittenAsItIsRead) {
     EXPECT_EQ(rule(text).text(), text);
 }
 
-TEST(ManagementRule, RefusesWhatNamesNobody) {
+TEST(ManagementRule, RefusesInvalidPeerLists) {
   for (const char* text :
        {"", "all", "1", "1:", ":2", "0:1", "1:65535", "1:2,", "1:2 3:4", "1:70000"})
     EXPECT_FALSE(ManagementRule::parse(text)) << text;

@@ -39,7 +39,7 @@ TEST(Mechanisms, AreReportedAtTheirKeyWithTheRemedy) {
                 "'hand_out' out"));
 }
 
-TEST(Mechanisms, ThatTiersAreAreReportedAtTheRowThatSwitchesThemOn) {
+TEST(Mechanisms, TiersAreReportedAtTheirRow) {
   const std::string tiers =
       "[[aoim.tier]]\nto = \"touch\"\n"
       "[[aoim.tier]]\nfarthest = 9\nactive = 9\noctets = 144\nown_group = true\n"
@@ -55,8 +55,8 @@ TEST(Mechanisms, ThatTiersAreAreReportedAtTheRowThatSwitchesThemOn) {
               HasSubstr("which 'tier' with own_group = true excludes"));
 }
 
-// Each pair that cannot be had together, and one of each kind that can.
-TEST(Mechanisms, ExcludeOneAnotherWhereOneTakesWhatTheOtherNeeds) {
+// Each pair that excludes each other, and one pair of each kind that does not.
+TEST(Mechanisms, ExcludeEachOtherWhereNeedsConflict) {
   const std::string leaders = "leaders = true\n", hand_out = leaders + "hand_out = true\n";
   const std::vector<std::pair<std::string, std::string>> refused{
       {leaders, "[network]\ninterop = true\n"},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[node]] in scene files: poses, copies, choices, what is refused, and the hash.
+// [[node]] in scene files: poses, copies, switches, refusals and the hash.
 #include "reckon/peer/scene/node_section.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +96,7 @@ TEST(NodeSection, ScaleEveryShapeThatHasASize) {
   EXPECT_EQ(solid.parts.at(1).rounding, 0.2);
 }
 
-TEST(NodeSection, CopyASubtreeWithAllThatHangsOnIt) {
+TEST(NodeSection, CopyASubtreeWithItsObjects) {
   const SceneFile file =
       parsed(ball("before", "") + node("arm", "position = \"1 0 0 m\"\n") +
              node("hand", "parent = \"arm\"\nposition = \"0 0 1 m\"\n") +
@@ -128,7 +128,7 @@ TEST(NodeSection, CopyCopies) {
               ElementsAre("x", "b1/x", "b2/x", "c1/b1/x", "c1/b2/x", "c2/b1/x", "c2/b2/x"));
 }
 
-TEST(NodeSection, LetHandsFeelWhatASwitchShowsAndTheFinestLevel) {
+TEST(NodeSection, HandsFeelShownChildrenAndFinestLevels) {
   const std::string door =
       node("door", "kind = \"switch\"\nshows = \"shut\"\n") + node("open", "parent = \"door\"\n") +
       node("shut", "parent = \"door\"\n") + ball("gap", "open") + ball("leaf", "shut");
@@ -150,7 +150,7 @@ TEST(NodeSection, LetHandsFeelWhatASwitchShowsAndTheFinestLevel) {
   EXPECT_EQ(copied.nodes.graph.farthest(copied.nodes.graph.find("fine").value()), 1.0);
 }
 
-TEST(NodeSection, CarryWhatHangsBelowATimeFunction) {
+TEST(NodeSection, CarryObjectsBelowATimeFunction) {
   const std::string wheel =
       node("wheel", "turn_rate = \"90 deg/s\"\n") + node("rim", "parent = \"wheel\"\n");
   EXPECT_EQ(refusal(wheel), "") << "without objects nothing is to be moved";
@@ -165,7 +165,7 @@ TEST(NodeSection, CarryWhatHangsBelowATimeFunction) {
               HasSubstr("'floor' is a plane, which cannot move"));
 }
 
-TEST(SceneNodes, ListWhatATimeFunctionMoves) {
+TEST(SceneNodes, ListTheNodesMovedByATimeFunction) {
   std::vector<NodeConfig> nodes(3);
   nodes[0].name = "table";
   nodes[1].name = "wheel";
@@ -191,7 +191,7 @@ TEST(SceneNodes, ListWhatATimeFunctionMoves) {
             1e-15);
 }
 
-TEST(NodeSection, RefuseWhatHangsNowhere) {
+TEST(NodeSection, RefuseUnknownAndDuplicateNames) {
   EXPECT_EQ(refusal(node("arm", "parent = \"amr\"\n")),
             "x.toml:3:10: there is no node 'amr' (did you mean 'arm'?)");
   EXPECT_EQ(refusal(ball("a", "arm")),
@@ -215,7 +215,7 @@ TEST(NodeSection, RefuseCircles) {
       "end. Name another");
   EXPECT_THAT(refusal(node("a") + node("b", "parent = \"a\"\nuse = \"a\"\n")),
               HasSubstr("x.toml:6:7: 'b' is to be a copy of 'a'"));
-  // From d the circle is met in its middle.
+  // From d the circle is entered in its middle.
   EXPECT_THAT(refusal(node("b") + node("c", "parent = \"b\"\n") +
                       node("e", "parent = \"c\"\nuse = \"b\"\n") + node("d", "use = \"c\"\n")),
               HasSubstr("'e' is to be a copy of 'b', which holds it"));
@@ -250,7 +250,7 @@ TEST(NodeSection, BoundChainsOfCopies) {
               HasSubstr("'n256' is a copy of a copy, more than 256 times: name 'n0' itself"));
 }
 
-TEST(NodeSection, RefuseWhatACopyCannotHave) {
+TEST(NodeSection, RefuseKeysThatACopyCannotHave) {
   const std::string arm = node("arm") + ball("cube", "arm");
   EXPECT_THAT(refusal(arm + node("b", "use = \"arm\"\nturn_rate = 1\n")),
               HasSubstr("'turn_rate' is that of 'arm'"));
@@ -265,7 +265,7 @@ TEST(NodeSection, RefuseWhatACopyCannotHave) {
               HasSubstr("there would be two nodes 'b/hand'"));
 }
 
-TEST(NodeSection, RefuseWhatDoesNotFitTheKind) {
+TEST(NodeSection, RefuseKeysOfAnotherKind) {
   const std::string door = node("door", "kind = \"switch\"\n");
   EXPECT_THAT(refusal(door + ball("a", "door")), HasSubstr("'door' chooses one of its nodes"));
   EXPECT_THAT(refusal(node("door", "kind = \"switch\"\nshows = \"shut\"\n")),
@@ -292,7 +292,7 @@ TEST(NodeSection, RefuseSizesThatCannotBe) {
                       node("b", "parent = \"a\"\nposition = \"2 0 0 km\"\nscale = 0.001\n") +
                       ball("x", "b")),
               HasSubstr("x.toml:12:8: 'x' lies farther than 1000 km from the origin of S"));
-  std::string endless;  // more than a double holds, and back
+  std::string endless;  // beyond the range of a double, and back
   for (int i = 0; i < 220; ++i)
     endless += node(fmt::format("n{}", i),
                     fmt::format("scale = {}\nposition = [1e6, 0, 0]\n{}", i < 110 ? 1e3 : 1e-3,

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 std::uint64_t hash_of(const std::string& text) { return parse_scene_file(text, "x.toml").hash; }
 
-TEST(PredictionKeys, AreRefusedWithTheirPlaceAndTheNearestWord) {
+TEST(PredictionKeys, AreRefusedWithPlaceAndNearestWord) {
   struct Case {
     std::string text, words;
   };
@@ -48,8 +48,8 @@ TEST(PredictionKeys, AreRefusedWithTheirPlaceAndTheNearestWord) {
   for (const auto& [text, words] : cases) EXPECT_THAT(refusal(text), HasSubstr(words)) << text;
 }
 
-// Peers of earlier versions and scenes that say nothing of the reading are to meet.
-TEST(SceneHash, IsNotChangedByTheUsualReadingOfAccelerationsOrByConvergence) {
+// Peers of earlier versions and scenes without these keys must have the same hash.
+TEST(SceneHash, IsIndependentOfDefaultAccelerationReadingAndConvergence) {
   const std::string object = "[[object]]\nname = \"a\"\nsphere = \"50 mm\"\n";
   EXPECT_EQ(hash_of(object), hash_of(object + "[dead_reckoning]\nacceleration = \"component\"\n"
                                               "rule = \"per_axis\"\nforce_share = 0.1\n"
@@ -78,7 +78,7 @@ TEST(PredictionKeys, GivesTheRuleTheReadingAndTheConvergence) {
   EXPECT_EQ(file.convergence.prediction, Prediction::adaptive);
 }
 
-TEST(PredictionKeys, TakesEveryWordOfTheListsOfRulesCurvesAndModels) {
+TEST(PredictionKeys, TakesEveryRuleCurveAndModel) {
   deadreckon::for_each_send_rule([]<class Rule>(std::type_identity<Rule>) {
     std::string text = fmt::format("[dead_reckoning]\nrule = \"{}\"\n", Rule::kName);
     for (const auto& row : Rule::kParameters)

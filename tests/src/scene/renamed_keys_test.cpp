@@ -45,13 +45,13 @@ passive = "0.2 Hz"
 octets = "144 B"
 coarser = 16)";
 
-/// What a refusal says to write: from its first row of tiers to the next problem.
+/// The lines that a refusal suggests: from its first [[aoim.tier]] row to the next problem.
 std::string pasted(const std::string& refusal) {
   const std::size_t begin = refusal.find("\n[[aoim.tier]]\n") + 1;
   return refusal.substr(begin, refusal.find("\nx.toml:", begin) - begin);
 }
 
-TEST(RenamedKeys, AreKeysNoMoreAndAreRefusedWhereTheyStand) {
+TEST(RenamedKeys, AreRefusedAtTheirPlace) {
   for (const RenamedKey& one : renamed_keys()) {
     EXPECT_TRUE(std::ranges::none_of(scene_keys(), [&](const SceneKey& key) {
       return key.section == one.section && key.key == one.key;
@@ -74,7 +74,7 @@ TEST(RenamedKeys, OfChannelsGiveTheUsualRows) {
             parse_scene_file("[aoim]\n" + test::kDistanceTiers, "x").hash);
 }
 
-TEST(RenamedKeys, OfRowsGiveTheSameRowsAndTheirGroups) {
+TEST(RenamedKeys, ChannelRowsMapToTheSameTiers) {
   const std::string rows =
       "[[aoim.channel]]\nfarthest = \"2 m\"\nactive = 9\noctets = 144\nkept = true\n"
       "[[aoim.channel]]\nfarthest = \"3 m\"\nbody = \"full\"\nactive = 9\noctets = 144\n"

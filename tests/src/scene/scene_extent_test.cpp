@@ -14,7 +14,7 @@
 namespace reckon::peer {
 namespace {
 
-/// Two trucks of two peers, so far apart [m], with more of a file behind them.
+/// Two trucks of two peers at a distance of `apart` [m], followed by `more` of a file.
 std::string two_trucks(double apart, const std::string& more = "") {
   return fmt::format(
       "[scene]\nname = \"trucks\"\n"
@@ -25,7 +25,7 @@ std::string two_trucks(double apart, const std::string& more = "") {
 
 AoimConfig aoim_of(const std::string& text) { return parse_scene_file(text, "x.toml").aoim; }
 
-TEST(SceneExtent, ASceneWithoutAreaOfInterestSensesAllItsEntities) {
+TEST(SceneExtent, SceneWithoutRadiusSensesAllItsEntities) {
   for (const auto& [apart, radius] : std::vector<std::pair<double, double>>{
            {0.5, 2}, {2, 2}, {2.1, 10}, {30, 100}, {100, 100}, {551, 1000}, {20'000, 100'000}}) {
     const AoimConfig aoim = aoim_of(two_trucks(apart));
@@ -37,7 +37,7 @@ TEST(SceneExtent, ASceneWithoutAreaOfInterestSensesAllItsEntities) {
 TEST(SceneExtent, TheRadiusIsAtMostAThousandKilometres) {
   const std::string behind =
       "[[entity]]\nmarking = \"C\"\ntype = \"1.1.225.1\"\nposition = [-1e6, 0, 0]\n";
-  const AoimConfig aoim = aoim_of(two_trucks(1e6, behind));  // 2000 km in all
+  const AoimConfig aoim = aoim_of(two_trucks(1e6, behind));  // 2000 km between the outermost
   EXPECT_EQ(aoim.radius, 1e6);
   EXPECT_EQ(aoim.cell, 5e5);
   EXPECT_EQ(aoim_of(two_trucks(30, "[aoim]\nradius = \"1000 km\"\n")).radius, 1e6);
@@ -50,7 +50,7 @@ TEST(SceneExtent, TheRadiusIsAtMostAThousandKilometres) {
   }
 }
 
-TEST(SceneExtent, WhatTheFileStatesStays) {
+TEST(SceneExtent, KeepsValuesStatedInTheFile) {
   const AoimConfig cell = aoim_of(two_trucks(30, "[aoim]\ncell = \"7 m\"\n"));
   EXPECT_EQ(cell.cell, 7);
   EXPECT_NEAR(cell.radius, 100, 1e-9);
@@ -59,7 +59,7 @@ TEST(SceneExtent, WhatTheFileStatesStays) {
   EXPECT_NEAR(radius.cell, 50, 1e-9);
 }
 
-TEST(SceneExtent, HoldsWholeTracks) {
+TEST(SceneExtent, ContainsWholeTracks) {
   const test::ScratchFolder folder;
   std::ofstream(folder.file("round.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n10,300,0,0\n20,0,0,0\n";
   std::ofstream(folder.file("track.toml"))
@@ -76,13 +76,13 @@ TEST(SceneExtent, ASceneOfHandsAloneKeepsTheirReach) {
   EXPECT_EQ(aoim.cell, 1);
 }
 
-TEST(SceneExtent, SaysWhomTheRadiusLeavesOut) {
+TEST(SceneExtent, ReportsEntitiesBeyondTheRadius) {
   EXPECT_EQ(unsensed_note(parse_scene_file(two_trucks(30), "x.toml")), "");
   const std::string note =
       unsensed_note(parse_scene_file(two_trucks(30, "[aoim]\nradius = \"3 m\"\n"), "x.toml"));
   EXPECT_THAT(note, testing::HasSubstr("2 of 2 entities are farther than the radius of 3 m"));
   EXPECT_THAT(note, testing::HasSubstr("the nearest 30 m"));
-  // Alone there is nobody to be out of sight of.
+  // With a single entity none can be out of range.
   EXPECT_EQ(unsensed_note(parse_scene_file("[scene]\nname = \"one\"\n[[entity]]\nmarking = \"A\"\n"
                                            "type = \"1.1.225.1\"\n",
                                            "x.toml")),

@@ -80,7 +80,7 @@ outage = [{ start = "1 s", duration = "200 ms" }]
 
 std::uint64_t hash_of(const std::string& text) { return parse_scene_file(text, "x.toml").hash; }
 
-/// A folder of its own for each test, gone at its end.
+/// A folder of its own for each test; it is removed at the end.
 class SceneFolder : public testing::Test {
  protected:
   SceneFolder()
@@ -147,7 +147,7 @@ TEST(SceneFile, GivesEveryValueInSi) {
   EXPECT_EQ(file.impairment.law.outages[0].duration, milliseconds(200));
 }
 
-TEST(SceneFile, OfNothingIsAnEmptyWorldWithTheDefaults) {
+TEST(SceneFile, EmptyFileIsAnEmptyWorldWithDefaults) {
   const SceneFile file = parse_scene_file("", "empty.toml");
   EXPECT_EQ(file.name, "empty");
   EXPECT_TRUE(file.scene.objects.empty());
@@ -171,19 +171,19 @@ TEST(SceneFile, NamesPeersWhereThereIsNoMulticast) {
   EXPECT_THAT(refusal(many + "]\n"), HasSubstr("x.toml:2:9: 'peers': '10.0.0.2' is one of more"));
 }
 
-TEST(SceneFile, RefusesAnUnknownKeyWithItsPlaceAndTheNearestKey) {
+TEST(SceneFile, RefusesUnknownKeysWithPlaceAndNearestKey) {
   const std::string text = "[[object]]\nname = \"a\"\nsphere = 0.1\nsurface = { stifness = 800 }\n";
   EXPECT_EQ(refusal(text), "x.toml:4:13: unknown key 'stifness' (did you mean 'stiffness'?)");
 }
 
-TEST(SceneFile, SaysWhatASectionTakesWhenNothingIsNear) {
+TEST(SceneFile, ListsASectionsKeysWhenNoneIsNear) {
   EXPECT_THAT(refusal("[aoim]\nzzzzzz = 1\n"),
               testing::AllOf(HasSubstr("x.toml:2:1: unknown key 'zzzzzz'"),
                              HasSubstr("[aoim] takes"), HasSubstr("radius")));
   EXPECT_THAT(refusal("[netwrok]\nport = 3\n"), HasSubstr("did you mean 'network'?"));
 }
 
-TEST(SceneFile, TellsAllProblemsAtOnceInTheOrderOfTheFile) {
+TEST(SceneFile, ReportsAllProblemsInFileOrder) {
   const std::string text =
       "[hand]\nk1 = \"5 m\"\nradius = true\n[network]\nport = 70000\nttl = 1.5\n";
   const std::string told = refusal(text);
@@ -195,7 +195,7 @@ TEST(SceneFile, TellsAllProblemsAtOnceInTheOrderOfTheFile) {
   EXPECT_LT(told.find("k1"), told.find("radius"));
 }
 
-TEST(SceneFile, RefusesWhatCannotBeMeant) {
+TEST(SceneFile, RefusesInconsistentKeys) {
   const auto object = [](const std::string& lines) { return "[[object]]\nname = \"a\"\n" + lines; };
   const auto region = [](const std::string& lines) { return "[[region]]\nname = \"a\"\n" + lines; };
   const std::pair<std::string, const char*> cases[] = {
@@ -265,7 +265,7 @@ TEST_F(SceneFolder, FindsFilesBesideTheSceneFile) {
   EXPECT_EQ(file.operators.at(0).speed, 2);
 }
 
-TEST_F(SceneFolder, TakesAPictureAsASolidAndItsContentIntoTheHash) {
+TEST_F(SceneFolder, ReadsPicturesAndHashesTheirContent) {
   const std::string picture = "P5 4 4 255\n0123456789abcdef";
   write("land.pgm", picture);
   const auto scene = [&](const std::string& heights, const std::string& more = "") {
@@ -304,7 +304,7 @@ TEST_F(SceneFolder, TakesAPictureAsASolidAndItsContentIntoTheHash) {
   EXPECT_THAT(refused(""), HasSubstr("land.pgm: ends early: its pixels need 16 octets"));
 }
 
-TEST_F(SceneFolder, SaysWhichFileIsMissing) {
+TEST_F(SceneFolder, NamesAMissingFile) {
   try {
     (void)load_scene_file(folder_ / "none.toml");
     FAIL();
@@ -325,7 +325,7 @@ TEST_F(SceneFolder, HashFollowsTheContentOfMeshes) {
   EXPECT_NE(load_scene_file(path).hash, before);
 }
 
-TEST(SceneHash, IgnoresCommentsUnitsOrderAndWhatIsEachPeersOwn) {
+TEST(SceneHash, IgnoresSpellingOrderAndPeersOwnKeys) {
   const std::string plain =
       "[scene]\norigin = { latitude = \"47.05 deg\", height = 430 }\n"
       "[[object]]\nname = \"a\"\nsphere = \"50 mm\"\norientation = \"0 0 180 deg\"\n"
@@ -357,8 +357,8 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
   }
 }
 
-// 2^53 + 1 and the largest integer: toml++ gives no double for them.
-TEST(SceneFile, RefusesAWholeNumberThatNoDoubleHoldsByItsValue) {
+// 2^53 + 1 and the largest integer: toml++ returns no double for them.
+TEST(SceneFile, RefusesUnrepresentableWholeNumbersByTheirValue) {
   struct Case {
     const char* number;
     const char* shown;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of keys: each is read and checked, its default is the struct's, the documentation has
-// it.
+// The list of keys: each is read and checked, its default equals the default in the struct, and the
+// documentation contains it.
 #include "reckon/peer/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ using test::refusal;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A file that says `value` for `key`, and nothing else than its section.
+/// A file with `value` for `key`, and nothing besides its section.
 std::string file_with(const SceneKey& key, const std::string& value) {
   const std::string path = key.section;
   std::string text;
@@ -41,7 +41,7 @@ std::string file_with(const SceneKey& key, const std::string& value) {
   return text + key.key + " = " + value + "\n";
 }
 
-/// The place at which file_with has its value.
+/// The place of the value in a file of file_with().
 std::string place_of(const std::string& text, const SceneKey& key) {
   const auto line = std::ranges::count(text, '\n');
   return fmt::format("x.toml:{}:{}: ", line, key.key.size() + 4);
@@ -177,7 +177,7 @@ TEST(NearestKey, IsGivenForATypoOnly) {
   EXPECT_EQ(nearest_word("colour", keys), "");
 }
 
-TEST(NearestKey, TakesMemoryByTheKnownWordsAndNotByTheOneTyped) {
+TEST(NearestKey, UsesMemoryByTheKnownWordsOnly) {
   const std::string typed(1'000'000, 'k');
   const std::vector<std::string_view> keys = {"stiffness", "k1"};
   const test::AllocationGuard guard;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// That no member is without a key, and no word without its value.
+// Every member has a key, and every word its value.
 #include "reckon/peer/scene/scene_sections.hpp"
 
 #include <fmt/format.h>
@@ -21,14 +21,14 @@
 namespace reckon::peer {
 namespace {
 
-/// The place of a member that no file is to say.
+/// The place of a member that no key of a file fills.
 template <class S, class T>
 MemberPlace place_of(const S& whole, const T& member) {
   const auto octets = [](const auto& of) { return reinterpret_cast<const std::byte*>(&of); };
   return {static_cast<std::size_t>(octets(member) - octets(whole)), sizeof(T), alignof(T)};
 }
 
-/// Where the members of a member begin: its alignment explains what is before it.
+/// Where the submembers of a member begin: its alignment explains the padding before it.
 template <class S, class T>
 MemberPlace start_of(const S& whole, const T& member) {
   MemberPlace place = place_of(whole, member);
@@ -36,8 +36,8 @@ MemberPlace start_of(const S& whole, const T& member) {
   return place;
 }
 
-/// The octets of an S that neither a key fills nor one of `unsaid`, as "8 to 16"; what the
-/// alignment of the next member explains is none.
+/// The octets of an S that neither a key nor one of `unsaid` fills, as "8 to 16". Padding that the
+/// alignment of the next member explains does not count.
 template <class S>
 std::vector<std::string> without_key(const Section<S>& section, std::vector<MemberPlace> unsaid) {
   std::vector<MemberPlace> places = section.places();
@@ -56,15 +56,15 @@ std::vector<std::string> without_key(const Section<S>& section, std::vector<Memb
   return found;
 }
 
-TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
+TEST(SceneSections, FillEveryMemberOfASceneExceptThese) {
   const SceneFile file;
   const auto of = [&](const auto& member) { return place_of(file, member); };
   const auto& settings = file.convergence.settings;
   std::vector<MemberPlace> unsaid = {
       of(file.path),
-      of(file.scene),    // its objects, which the check of the file reads
-      of(file.nodes),    // what the tables of nodes come to
-      of(file.devices),  // and these
+      of(file.scene),    // its objects, which the file check reads
+      of(file.nodes),    // the result of the node tables
+      of(file.devices),  // read from their own tables
       of(file.entities),
       of(file.network.group),  // read with its port
       of(file.dead_reckoning.thresholds.of<deadreckon::SeenFrom>().visual_angle),
@@ -72,18 +72,18 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(settings.gentle_share),
       of(settings.gentle_turn),
       of(settings.shortest),
-      of(settings.threshold),  // those of [dead_reckoning]
+      of(settings.threshold),  // from [dead_reckoning]
       of(settings.threshold_angle),
       of(file.hash),
-      of(file.network.exercise_named),       // by the key that is there
-      of(file.network.management),           // by its text
-      of(file.network.touch),                // by its texts
-      of(file.network.peers),                // by their texts
-      of(file.aoim.awareness.kinds_wanted),  // by their names
-      of(file.aoim.quad_tree.cells),         // by what they are said with
+      of(file.network.exercise_named),       // set by which key is present
+      of(file.network.management),           // from its text
+      of(file.network.touch),                // from its texts
+      of(file.network.peers),                // from their texts
+      of(file.aoim.awareness.kinds_wanted),  // from their names
+      of(file.aoim.quad_tree.cells),         // from the keys that describe them
       start_of(file, file.aoim.awareness),
   };
-  // A rule of sending without quantities has a place in their tuple too.
+  // A send rule without quantities has a place in their tuple, too.
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
     const auto& values = file.dead_reckoning.thresholds.of<Rule>();
     if (std::is_empty_v<typename Rule::Parameters>) unsaid.push_back(of(values));
@@ -91,16 +91,16 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
   EXPECT_THAT(without_key(file_section(), unsaid), testing::IsEmpty());
 }
 
-TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
+TEST(SceneSections, FillEveryMemberOfOperatorsAndOutages) {
   const OperatorConfig config;
   const std::vector<MemberPlace> unsaid = {
-      place_of(config, config.kind),  // by the key that is there
+      place_of(config, config.kind),  // set by which key is present
       place_of(config, config.fit_to)};
   EXPECT_THAT(without_key(operator_section(), unsaid), testing::IsEmpty());
   EXPECT_THAT(without_key(outage_section(), {}), testing::IsEmpty());
 }
 
-TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
+TEST(SceneSections, FillEveryMemberOfDevicesNodesAndEntities) {
   const DeviceConfig device;
   EXPECT_THAT(
       without_key(device_section(),
@@ -122,13 +122,13 @@ TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
               testing::IsEmpty());
 }
 
-TEST(SceneSections, TellAMemberWithoutKeyByItsPlace) {
+TEST(SceneSections, ReportAMemberWithoutKeyByItsPlace) {
   Section<Outage> section = outage_section();
   std::erase_if(section.rows, [](const auto& row) { return row.key().key == "duration"; });
   EXPECT_THAT(without_key(section, {}), testing::ElementsAre("8 to 16"));
 }
 
-TEST(SceneSections, SayNoKeyTwice) {
+TEST(SceneSections, HaveEachKeyOnce) {
   const auto& keys = scene_keys();
   for (auto key = keys.begin(); key != keys.end(); ++key) {
     EXPECT_TRUE(std::none_of(key + 1, keys.end(),
@@ -148,7 +148,7 @@ using TypesWithWords =
                    const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);
 
-TYPED_TEST(SceneWords, AreReadAsWhatTheyAreWrittenFor) {
+TYPED_TEST(SceneWords, AreReadAsTheyAreWritten) {
   for (const auto& [name, value] : kWords<TypeParam>) {
     EXPECT_EQ(word_of(value), name);
     const std::optional<TypeParam> read = value_of<TypeParam>(name);

@@ -44,7 +44,7 @@ ellipsoid = "30 20 10 mm"
             Eigen::Vector3d(0.03, 0.02, 0.01));
 }
 
-TEST(SolidSection, ReadsTheStepsOfASolidInTheirOrder) {
+TEST(SolidSection, ReadsTheStepsOfASolidInOrder) {
   const SceneFile file = scene(R"(
 [[object]]
 name = "plate"
@@ -66,7 +66,7 @@ part = [
   EXPECT_TRUE(std::holds_alternative<haptics::PlaneShape>(parts[2].shape));
 }
 
-TEST(SolidSection, TellsPeersApartByEveryNumberOfASolid) {
+TEST(SolidSection, HashDependsOnEveryNumberOfASolid) {
   const auto hash = [](const std::string& part) {
     return scene("[[object]]\nname = \"a\"\npart = [{box = \"10 10 10 cm\"}, {" + part + "}]\n")
         .hash;
@@ -79,7 +79,7 @@ TEST(SolidSection, TellsPeersApartByEveryNumberOfASolid) {
   EXPECT_EQ(hash("sphere = \"60 mm\", operation = \"add\""), first);
 }
 
-TEST(SolidSection, TellsWhatMakesNoSolidAtItsPlace) {
+TEST(SolidSection, RefusesInvalidSolidsAtTheirPlace) {
   const std::string object = "[[object]]\nname = \"a\"\n";
   EXPECT_THAT(refusal(object + "torus = {radius = \"4 mm\", tube = \"10 mm\"}\n"),
               HasSubstr("x.toml:3:9: torus: tube must be above 0 m"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[object.patch]]: parts of a mesh that feel otherwise; what a hand feels objects with.
+// [[object.patch]]: parts of a mesh with another surface; and the contact radius of a hand.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -33,7 +33,7 @@ class PatchKeys : public testing::Test {
   test::TemporaryMesh mesh_{".obj", kTwoFaces};
 };
 
-TEST_F(PatchKeys, GiveEveryValueInSiAndTakeWhatTheyDoNotSayFromTheObject) {
+TEST_F(PatchKeys, GiveSiValuesAndInheritFromTheObject) {
   const auto patches =
       file(
           "surface = { stiffness = \"0.6 kN/m\", damping = 0.5 }\n"
@@ -52,7 +52,7 @@ TEST_F(PatchKeys, GiveEveryValueInSiAndTakeWhatTheyDoNotSayFromTheObject) {
   EXPECT_EQ(patches[1].friction->kinetic_coefficient, 0.2);
 }
 
-TEST_F(PatchKeys, ThatCannotBeMeantAreRefusedWithPlaceAndRemedy) {
+TEST_F(PatchKeys, RefuseBadValuesWithPlaceAndRemedy) {
   EXPECT_THAT(refusal("[[object.patch]]\nsurface = { stiffness = 1 }\n"), HasSubstr("'name'"));
   EXPECT_THAT(refusal("patch = [{ name = \"felt\" }, { name = \"felt\" }]\n"),
               HasSubstr("there is another patch 'felt': keep one"));
@@ -71,8 +71,8 @@ TEST_F(PatchKeys, ThatCannotBeMeantAreRefusedWithPlaceAndRemedy) {
   }
 }
 
-// Peers that read the same file agree on the numbers; who has other values is in another world.
-TEST_F(PatchKeys, AreWhatPeersMustShareInWhateverOrder) {
+// Peers that read the same file agree on the numbers; a peer with other values has another world.
+TEST_F(PatchKeys, AreInTheHashInAnyOrder) {
   const std::string felt = "{ name = \"felt\", surface = { stiffness = 200 } }";
   const std::string steel = "{ name = \"steel\", surface = { stiffness = 900 } }";
   const SceneFile one = file("patch = [" + felt + ", " + steel + "]\n");
@@ -91,7 +91,7 @@ TEST_F(PatchKeys, AreWhatPeersMustShareInWhateverOrder) {
   }
 }
 
-TEST(HandKeys, SayWhatFeelsTheObjects) {
+TEST(HandKeys, GiveTheContactRadius) {
   EXPECT_EQ(parse_scene_file("[hand]\ncontact_radius = \"2 mm\"\n", "x.toml").hand.contact_radius,
             0.002);
   EXPECT_EQ(parse_scene_file("", "x.toml").hand.contact_radius, 0.0);

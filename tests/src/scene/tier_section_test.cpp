@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[aoim.tier]]: who receives an update.
+// [[aoim.tier]]: the recipients of an update.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,13 +32,13 @@ std::string row_to(const std::string& farthest, const std::string& more = "") {
 }
 const std::string kOwnGroup = "own_group = true\n";
 
-TEST(TierSection, IsEverythingToAllUnlessTheFileHasRows) {
+TEST(TierSection, IsEmptyWithoutRows) {
   const aoim::AreaOfInterestConfig config = aoim_config(read_tiers(""));
   EXPECT_TRUE(config.channels.empty());
   EXPECT_TRUE(config.tiers.empty());
 }
 
-TEST(TierSection, ReadsWhoCanTouchAndReceiversByDistance) {
+TEST(TierSection, ReadsTouchAndDistanceTiers) {
   const SceneFile file = read_tiers(R"([aoim]
 budget = "20 kB"
 [[aoim.tier]]
@@ -79,7 +79,7 @@ coarser = 8
   EXPECT_EQ(file.aoim.awareness.budget, 20e3);
 }
 
-// What peers of earlier builds say of the same scene.
+// The hashes that peers of earlier builds compute for the same scenes.
 TEST(TierSection, GivesEachKindOfTierItsHash) {
   const auto hash = [](const std::string& tiers) { return read_tiers("[aoim]\n" + tiers).hash; };
   EXPECT_EQ(hash(""), 0x9b74aa729063af23ULL);
@@ -89,13 +89,13 @@ TEST(TierSection, GivesEachKindOfTierItsHash) {
   EXPECT_EQ(hash("pool = 200\n" + test::kAllTiers), 0xbdfeabfa9f44cd65ULL);
 }
 
-TEST(TierSection, IsAFactOfTheSceneButWhatIsSentByOneStreamIsEachPeersOwn) {
+TEST(TierSection, OnlyTiersWithOwnGroupsEnterTheHash) {
   const auto hash = [](const std::string& rows) { return read_tiers(rows).hash; };
   EXPECT_EQ(hash(row_to("9") + kRow), hash(row_to("8") + kRow));
   EXPECT_NE(hash(row_to("9", kOwnGroup) + kRow), hash(row_to("8", kOwnGroup) + kRow));
 }
 
-TEST(TierSection, HasOneRowToTouchWhichIsTheFirstAndHasNoOtherKey) {
+TEST(TierSection, HasOneTouchRowFirstWithoutOtherKeys) {
   EXPECT_THAT(refusal(kTouchRow + kRow), IsEmpty());
   EXPECT_THAT(refusal(kRow + kTouchRow),
               HasSubstr("x.toml:5:6: the tier with to = \"touch\" is the inmost: move it before"));
@@ -107,7 +107,7 @@ TEST(TierSection, HasOneRowToTouchWhichIsTheFirstAndHasNoOtherKey) {
         << key;
 }
 
-TEST(TierSection, RefusesAGroupWhereThereCanBeNoneWithTheReason) {
+TEST(TierSection, RefusesImpossibleOwnGroupsWithTheReason) {
   EXPECT_THAT(refusal(row_to("9", kOwnGroup) + kRow), IsEmpty());
   EXPECT_THAT(refusal(kRow + kOwnGroup),
               HasSubstr("x.toml:4:13: 'own_group': the last tier goes by the group of the cell"));
@@ -125,7 +125,7 @@ TEST(TierSection, RefusesGroupsThatOnlySomeRowsHave) {
   EXPECT_THAT(refusal(row_to("1", "kept = true\n") + two + kOwnGroup + kRow), IsEmpty());
 }
 
-TEST(TierSection, WantsTheThresholdsOfTheSceneInTheNearestGroup) {
+TEST(TierSection, NearestOwnGroupNeedsTheScenesThresholds) {
   const std::string coarse = "coarser = 2\n";
   EXPECT_THAT(refusal(row_to("9", coarse) + kRow + coarse), IsEmpty());
   EXPECT_THAT(refusal(row_to("9", kOwnGroup + coarse) + kRow + coarse),
@@ -133,7 +133,7 @@ TEST(TierSection, WantsTheThresholdsOfTheSceneInTheNearestGroup) {
                         "tier: a 'coarser' of 1"));
 }
 
-TEST(TierSection, PointsAtTheRowThatDoesNotFitTheOneBefore) {
+TEST(TierSection, RefusesRowsOutOfOrderAtTheirPlace) {
   EXPECT_THAT(refusal(kTouchRow + row_to("5") + row_to("4")),
               HasSubstr("x.toml:7:1: 'tier': farthest must grow from row to row"));
   EXPECT_THAT(refusal(row_to("5") + row_to("6", "kept = true\n")),

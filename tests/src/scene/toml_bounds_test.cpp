@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of a text before it is parsed.
+// Limits of a text, checked before it is parsed.
 #include "reckon/peer/scene/toml_bounds.hpp"
 
 #include <gmock/gmock.h>

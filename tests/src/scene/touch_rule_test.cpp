@@ -61,7 +61,7 @@ TEST(TouchRule, IsWrittenAsItIsRead) {
     EXPECT_FALSE(TouchRule::parse(text)) << text;
 }
 
-TEST(TouchRule, IsAListOrATextInAScene) {
+TEST(TouchRule, IsAListOrTextInAScene) {
   const auto of = [](const std::string& text) { return rule_of(text).text(); };
   EXPECT_EQ(of("touch = [\"1:2\", \"40:1\"]\n"), "1:2, 40:1");
   EXPECT_EQ(of("touch = \"1:2\"\n"), "1:2");
@@ -74,7 +74,7 @@ TEST(TouchRule, IsAListOrATextInAScene) {
 TEST(TouchRule, WantsAKeyForMembers) {
   EXPECT_THAT(touch_problem("touch = \"members\"\n"), HasSubstr("which only a key can prove"));
   EXPECT_THAT(touch_problem("touch = \"members\"\nkey = \"x.key\"\n"),
-              Not(HasSubstr("'touch'")));  // the file is missing alone
+              Not(HasSubstr("'touch'")));  // the only fault is the missing file
 }
 
 }  // namespace

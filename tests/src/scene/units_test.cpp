@@ -48,7 +48,7 @@ TEST(Units, TakeANumberAloneAsSi) {
   EXPECT_EQ(parse_quantity("1e-3", "s").value, 1e-3);
 }
 
-TEST(Units, OfMillimetresAreTheDoubleNearestToTheDecimal) {
+TEST(Units, MillimetresAreTheNearestDoubleToTheDecimal) {
   for (int mm = 1; mm < 1000; ++mm) {
     const double metres = std::stod("0." +
                                     std::string(mm < 10    ? "00"
@@ -59,7 +59,7 @@ TEST(Units, OfMillimetresAreTheDoubleNearestToTheDecimal) {
   }
 }
 
-TEST(Units, RefuseWhatDoesNotFitAndSayWhatWould) {
+TEST(Units, RefuseMisfitsAndNameFittingUnits) {
   EXPECT_THAT(parse_quantity("5 ms", "m").error, HasSubstr("m, mm, um, cm, km"));
   EXPECT_THAT(parse_quantity("5 N/m", "N s/m").error, HasSubstr("'N/m' does not fit here"));
   EXPECT_THAT(parse_quantity("5 m", "").error, HasSubstr("plain number"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One sealer that has become two, as by a snapshot of its machine, and nobody has told them.
+// A sealer that was copied unnoticed, as by a snapshot of its machine.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ using namespace samples;
 constexpr std::size_t kSaid = 300;
 using Head = std::array<std::byte, kEnvelopeHeader>;
 
-// Heads of what is sealed from `now` on, some in each stream, `gap` after each other.
+// Headers of kSaid datagrams sealed from `now` on at intervals of `gap`, some in each stream.
 std::vector<Head> heads_of(EnvelopeSealer& sealer, nanoseconds now, nanoseconds gap) {
   std::vector<Head> heads(kSaid);
   for (std::size_t i = 0; i < kSaid; ++i, now += gap) {
@@ -35,7 +35,7 @@ std::vector<Head> heads_of(EnvelopeSealer& sealer, nanoseconds now, nanoseconds 
   return heads;
 }
 
-// The same of a copy that goes on by itself.
+// The headers of a forked copy that continues by itself.
 std::vector<Head> heads_of_copy(const std::function<std::vector<Head>()>& seal) {
   std::array<int, 2> pipe{};
   EXPECT_EQ(::pipe(pipe.data()), 0);
@@ -58,14 +58,14 @@ std::vector<Head> heads_of_copy(const std::function<std::vector<Head>()>& seal) 
   return heads;
 }
 
-// How many of the one have key and nonce of one of the other: all of the head but its first octet.
+// Counts the headers that both have: the whole header names key and nonce.
 std::size_t shared(const std::vector<Head>& one, const std::vector<Head>& other) {
   const std::set<Head> all(one.begin(), one.end());
   return static_cast<std::size_t>(
       std::ranges::count_if(other, [&](const Head& head) { return all.contains(head); }));
 }
 
-TEST(ClonedSealer, SharesNoKeyAndNonceWithOneThatKnowsNothingOfIt) {
+TEST(ClonedSealer, SharesNoKeyAndNonceWithItsCopy) {
   for (const SealingSuite suite : {SealingSuite::xchacha20_poly1305, fast_suite()}) {
     EnvelopeSealer sealer(group_key(1, suite), 1, 1);
     static_cast<void>(heads_of(sealer, 1s, 100us));
@@ -75,7 +75,7 @@ TEST(ClonedSealer, SharesNoKeyAndNonceWithOneThatKnowsNothingOfIt) {
   }
 }
 
-// In the same microsecond as the last one before, and all in one.
+// All datagrams are sealed in one microsecond, the same as before the copy.
 TEST(ClonedSealer, SharesNoNonceAtAllWithXchacha) {
   EnvelopeSealer sealer(group_key(), 1, 1);
   const auto go_on = [&] { return heads_of(sealer, 1s, 0us); };
@@ -84,9 +84,9 @@ TEST(ClonedSealer, SharesNoNonceAtAllWithXchacha) {
   EXPECT_EQ(shared(go_on(), copy), 0U);
 }
 
-// What is left with AES-GCM, whose nonce has no room for random octets: what is sealed under the
-// salt of before, in the same microsecond.
-TEST(ClonedSealer, SharesAtMostWhatIsLeftOfASaltOfAes) {
+// The nonce of AES-GCM has no room for random octets. A copy can therefore reuse the rest of the
+// old salt in the same microsecond.
+TEST(ClonedSealer, SharesAtMostOneRestOfAesSalt) {
   if (!can_seal(SealingSuite::aes_256_gcm)) GTEST_SKIP() << "this CPU has no AES instructions";
   EnvelopeSealer sealer(group_key(1, SealingSuite::aes_256_gcm), 1, 1);
   static_cast<void>(heads_of(sealer, 1s, 0us));
@@ -111,7 +111,7 @@ struct Clone : testing::Test {
     EXPECT_FALSE(one.join(group_of()) || other.join(group_of()));
     run(200ms);
   }
-  // The boot that the other one hears last.
+  // Runs for `span`; returns the boot of the last datagram that `other` received.
   std::uint64_t run(nanoseconds span) {
     std::uint64_t boot = 0;
     std::array<Datagram, 16> batch;
@@ -131,7 +131,7 @@ struct Clone : testing::Test {
   std::size_t heard_by_one = 0;
 };
 
-TEST_F(Clone, GoesOnUnderAnotherBootWhereItIsTold) {
+TEST_F(Clone, ContinuesUnderAnotherBootOnANewInstance) {
   const std::uint64_t before = run(100ms);
   ASSERT_NE(before, 0U);
   EXPECT_EQ(run(300ms), before);
@@ -144,7 +144,7 @@ TEST_F(Clone, GoesOnUnderAnotherBootWhereItIsTold) {
   EXPECT_GE(heard_by_one, 9U) << "all have proved anew that they are alive";
 }
 
-TEST(SystemInstance, IsAnotherInAForkAndTheSameElse) {
+TEST(SystemInstance, DiffersInAForkOnly) {
   const std::uint64_t own = system_instance();
   EXPECT_EQ(system_instance(), own);
   const pid_t copy = ::fork();

@@ -18,7 +18,7 @@ using namespace samples;
 
 const Octets kPlain(168, std::byte{42});
 
-// What names key and nonce of a datagram.
+// Identifies key and nonce of a datagram.
 using KeyAndNonce =
     std::tuple<std::uint16_t, Sealer, std::uint64_t, std::uint32_t, std::uint16_t, std::uint64_t>;
 KeyAndNonce key_and_nonce(const Octets& datagram) {
@@ -26,7 +26,7 @@ KeyAndNonce key_and_nonce(const Octets& datagram) {
   return {header.epoch, header.sealer, header.salt, header.stamp, header.stream, header.count};
 }
 
-// One who opens, and the room that it has.
+// An opener with its output buffer.
 struct Listener {
   explicit Listener(const GroupKey& key, const Sealer& own = {}, const ExercisePlaces& places = {})
       : opener(key, own, places) {}
@@ -41,7 +41,7 @@ struct Listener {
   OpenedDatagram last;
 };
 
-TEST(EnvelopeOpener, OpensWhatAMemberSealedOnce) {
+TEST(EnvelopeOpener, OpensAMembersDatagramOnce) {
   const GroupKey key = group_key();
   EnvelopeSealer sealer(key, 3, 4);
   Listener listener(key);
@@ -55,7 +55,7 @@ TEST(EnvelopeOpener, OpensWhatAMemberSealedOnce) {
   EXPECT_FALSE(listener.last.is_new);
 }
 
-// 10,000,000 of them in bench/sealing_bench.cpp.
+// bench/sealing_bench.cpp tries 10,000,000 of them.
 TEST(EnvelopeOpener, TakesNoneOf100000Forgeries) {
   for (const SealingSuite suite : {fast_suite(), SealingSuite::xchacha20_poly1305}) {
     const GroupKey key = group_key(2, suite);
@@ -66,7 +66,7 @@ TEST(EnvelopeOpener, TakesNoneOf100000Forgeries) {
   }
 }
 
-TEST(EnvelopeOpener, KeepsItsWindowWhateverIsForged) {
+TEST(EnvelopeOpener, ForgeriesDoNotMoveItsWindow) {
   const GroupKey key = group_key();
   EnvelopeSealer sealer(key, 1, 1);
   Listener listener(key);
@@ -78,7 +78,7 @@ TEST(EnvelopeOpener, KeepsItsWindowWhateverIsForged) {
   EXPECT_EQ(listener.open(sealed(sealer, kPlain)), SealedVerdict::opened);
 }
 
-TEST(EnvelopeOpener, RefusesAnotherGroupSuiteAndStreamAndItsOwn) {
+TEST(EnvelopeOpener, RefusesOtherGroupsSuitesStreamsAndItsOwn) {
   const GroupKey key = group_key();
   EnvelopeSealer sealer(key, 1, 1);
   Listener listener(key);
@@ -95,8 +95,8 @@ TEST(EnvelopeOpener, RefusesAnotherGroupSuiteAndStreamAndItsOwn) {
   EXPECT_EQ(listener.open({}), SealedVerdict::plain);
 }
 
-// To a host, to another group, port, address family, exercise or entry of a list.
-TEST(EnvelopeOpener, OpensNothingOfAnotherPlaceAndMovesNoCountByIt) {
+// A host, another group, another port, another address family and broadcast.
+TEST(EnvelopeOpener, RefusesOtherPlacesWithoutMovingTheWindow) {
   for (const SealingSuite suite : {fast_suite(), SealingSuite::xchacha20_poly1305}) {
     const GroupKey key = group_key(1, suite);
     EnvelopeSealer sealer(key, 1, 1);
@@ -122,7 +122,7 @@ TEST(EnvelopeOpener, OpensNothingOfAnotherExercise) {
   EXPECT_EQ(Listener(key, {}, {2, {}}).open(datagram), SealedVerdict::opened);
 }
 
-TEST(EnvelopeOpener, KnowsAGroupByItsNumberWhereThereIsAList) {
+TEST(EnvelopeOpener, KnowsGroupsByTheirIndexInTheList) {
   const GroupKey key = group_key();
   const ExercisePlaces places{1, GroupPool(group_of(), 8)};
   EnvelopeSealer sealer(key, 1, 1, places);
@@ -134,7 +134,7 @@ TEST(EnvelopeOpener, KnowsAGroupByItsNumberWhereThereIsAList) {
   EXPECT_EQ(listener.open(base), SealedVerdict::opened);
 }
 
-// Of one that is trusted.
+// Receives from one trusted sender.
 struct Acquainted : Listener {
   explicit Acquainted(const GroupKey& key) : Listener(key), sealer(key, 1, 1) {
     EXPECT_EQ(open(said(1s), 1, 1s + 1ms), SealedVerdict::opened);
@@ -147,7 +147,7 @@ struct Acquainted : Listener {
   EnvelopeSealer sealer;
 };
 
-TEST(EnvelopeOpener, TakesNothingThatWasSealedBeforeItsGroupWasJoined) {
+TEST(EnvelopeOpener, RefusesDatagramsSealedBeforeItsGroupWasJoined) {
   const GroupKey key = group_key();
   Acquainted listener(key);
   const Octets before = listener.said(2s), after = listener.said(2s + 20ms);
@@ -167,8 +167,8 @@ TEST(EnvelopeOpener, TakesNothingThatComesASecondLate) {
   EXPECT_EQ(listener.open(other, 1, 3s + 2ms), SealedVerdict::outdated);
 }
 
-// Our clock stood still meanwhile, as of a machine that is a copy of what it was.
-TEST(EnvelopeOpener, TakesNothingFromAheadOfItsTimeUntilThatIsProved) {
+// The local clock stood still meanwhile, as on a restored copy of a machine.
+TEST(EnvelopeOpener, RefusesDatagramsAheadOfTimeUntilProved) {
   const GroupKey key = group_key();
   Acquainted listener(key);
   EXPECT_EQ(listener.open(listener.said(9s), 1, 1s + 2ms), SealedVerdict::outdated);
@@ -177,7 +177,7 @@ TEST(EnvelopeOpener, TakesNothingFromAheadOfItsTimeUntilThatIsProved) {
   EXPECT_EQ(listener.open(listener.said(9s + 10ms), 1, 1s + 13ms), SealedVerdict::opened);
 }
 
-// A second in a thousand for an hour.
+// The clock drifts by one part in a thousand for an hour.
 TEST(EnvelopeOpener, FollowsAClockThatDrifts) {
   const GroupKey key = group_key();
   for (const double rate : {0.999, 1.001}) {
@@ -210,7 +210,7 @@ TEST(EnvelopeOpener, TakesTheEpochBeforeForHalfAMinute) {
             SealedVerdict::unknown_epoch);
 }
 
-TEST(EnvelopeOpener, GivesNoGraceWhenItOpensLongAfterTheChange) {
+TEST(EnvelopeOpener, GivesNoGraceLongAfterTheChange) {
   const GroupKey key = group_key(2);
   EnvelopeSealer sealer(key, 1, 1);
   Listener listener(key);
@@ -235,7 +235,7 @@ TEST(EnvelopeOpener, FollowsATrustedSenderWhoseClockIsAhead) {
   EXPECT_EQ(listener.opener.epoch(), 1U);
 }
 
-TEST(EnvelopeOpener, KeepsFourBootsOfAnAddressBesideThoseThatItTrusts) {
+TEST(EnvelopeOpener, KeepsFourBootsPerAddressBesideTrustedOnes) {
   const GroupKey key = group_key();
   Listener listener(key);
   EnvelopeSealer victim(key, 1, 1);
@@ -252,7 +252,7 @@ TEST(EnvelopeOpener, KeepsFourBootsOfAnAddressBesideThoseThatItTrusts) {
   EXPECT_TRUE(kept->trusted);
 }
 
-TEST(EnvelopeOpener, IsBoundedAndPrefersWhomItTrusts) {
+TEST(EnvelopeOpener, IsBoundedAndPrefersTrustedSenders) {
   const GroupKey key = group_key();
   Listener listener(key);
   EnvelopeSealer trusted(key, 1, 1);
@@ -282,8 +282,8 @@ TEST(EnvelopeOpener, TakesNoHeap) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-// 100,000 in bench/sealing_bench.cpp.
-TEST(EnvelopeSealer, NeverSealsTwiceUnderOneKeyAndNonceOverRestarts) {
+// bench/sealing_bench.cpp makes 100,000 restarts.
+TEST(EnvelopeSealer, NeverReusesKeyAndNonceOverRestarts) {
   const GroupKey key = group_key(2);
   std::set<KeyAndNonce> used;
   std::size_t datagrams = 0;
@@ -297,7 +297,7 @@ TEST(EnvelopeSealer, NeverSealsTwiceUnderOneKeyAndNonceOverRestarts) {
   EXPECT_EQ(used.size(), datagrams);
 }
 
-TEST(EnvelopeSealer, SealsNoMoreAtTheEndOfItsStream) {
+TEST(EnvelopeSealer, StopsAtTheEndOfItsStream) {
   const GroupKey key = group_key();
   EnvelopeSealer sealer(key, 1, 1);
   sealer.skip_to(SealingStream::datagrams, EnvelopeSealer::kMostOfStream - 1);

@@ -33,7 +33,7 @@ std::string refusal(const std::string& text) {
   return "taken";
 }
 
-TEST(KeyFile, ReadsWhatItWrites) {
+TEST(KeyFile, ReadsItsOwnText) {
   GroupKey key = samples::group_key(3);
   const GroupKey read = parse_group_key(group_key_text(key), "g.key");
   EXPECT_EQ(read.group, key.group);
@@ -46,7 +46,7 @@ TEST(KeyFile, ReadsWhatItWrites) {
   }
 }
 
-TEST(KeyFile, TellsPlaceAndRemedyOfEachFaultAndNeverTheSecret) {
+TEST(KeyFile, FaultsNamePlaceAndRemedyButNoSecret) {
   const std::string head = "group g\nsuite aes-256-gcm\n";
   const std::string good = "epoch 1 secret " + kDigits + "\n";
   const std::pair<std::string, std::string> cases[] = {
@@ -124,7 +124,7 @@ TEST_F(KeyFileOnDisk, IsRefusedWhereItBelongsToAnother) {
   EXPECT_THAT(refusal(), HasSubstr("install -m 600"));
 }
 
-TEST_F(KeyFileOnDisk, KeepsTheProcessThatHasReadItOutOfCoreDumps) {
+TEST_F(KeyFileOnDisk, DisablesCoreDumpsOfTheReadingProcess) {
   save_group_key(samples::group_key(), path(), false);
   ASSERT_EQ(refusal(), "taken");
   EXPECT_EQ(::prctl(PR_GET_DUMPABLE), 0);
@@ -141,7 +141,7 @@ TEST_F(KeyFileOnDisk, IsNotOverwrittenUnlessAsked) {
   EXPECT_EQ(load_group_key(path()).epochs.size(), 2U);
 }
 
-TEST_F(KeyFileOnDisk, NamesWhatIsNoKeyFile) {
+TEST_F(KeyFileOnDisk, NamesFilesThatAreNoKeyFile) {
   EXPECT_THAT(refusal(), HasSubstr("reckon key new"));
   std::filesystem::create_directory(path());
   EXPECT_THAT(refusal(), HasSubstr("is no file"));

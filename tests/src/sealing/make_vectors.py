@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the sealed datagrams of sealing_key_test.cpp, made without libsodium: BLAKE2b of Python's hashlib, AES-256-GCM and
-ChaCha20-Poly1305 of OpenSSL (by the module `cryptography`), HChaCha20 below, after draft-irtf-cfrg-xchacha-03, 2.2.
+"""Prints the sealed datagrams of sealing_key_test.cpp, made without libsodium: BLAKE2b from Python's hashlib,
+AES-256-GCM and ChaCha20-Poly1305 from OpenSSL (through the module `cryptography`), HChaCha20 below, according to
+draft-irtf-cfrg-xchacha-03, 2.2.
 
     python3 tests/src/sealing/make_vectors.py
 """

@@ -27,8 +27,9 @@ TEST(ReplayWindow, ReachesExactly1024Back) {
   EXPECT_FALSE(window.is_fresh(5000 - 1024));
 }
 
-// Against a set that forgets nothing, for counts in disorder, with leaps of up to three windows.
-TEST(ReplayWindow, AgreesWithASetOfAllThatWasTaken) {
+// Compared with a set that keeps everything, for counts out of order, with jumps of up to three
+// windows.
+TEST(ReplayWindow, MatchesASetOfAllTakenCounts) {
   std::mt19937_64 random(3);
   ReplayWindow window;
   std::set<std::uint64_t> taken;

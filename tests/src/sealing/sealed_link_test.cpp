@@ -31,7 +31,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(SealedLink, HandsUpInOrderWhatWasHeldUntilTheSenderAnswered) {
+TEST(SealedLink, ReturnsHeldDatagramsInOrderAfterTheAnswer) {
   Network network(2);
   const GroupKey key = group_key();
   Member one(network, 0, key), other(network, 1, key);
@@ -47,7 +47,7 @@ TEST(SealedLink, HandsUpInOrderWhatWasHeldUntilTheSenderAnswered) {
   EXPECT_EQ(other.count("sealed_trusted"), 1U);
 }
 
-/// Sums of what a tap was told, by stream of envelopes, 0 what is in them, and fate.
+/// Sums of the tap's events by stream (0: the contents of envelopes) and fate.
 using Told = std::map<std::pair<int, DatagramFate>, std::uint64_t>;
 Told told(DatagramTap& tap) {
   Told sums;
@@ -55,9 +55,9 @@ Told told(DatagramTap& tap) {
   return sums;
 }
 
-// Below the seal by the envelopes' numbers, above it by the trailers': each envelope that comes is
-// a greeting, is opened, held or refused, and what is handed up arrives above.
-TEST(SealedLink, TellsATapOfEnvelopesAndOfWhatIsInThem) {
+// The tap counts below the seal by envelope numbers and above it by trailers. Each arriving
+// envelope is a greeting, opened, held or refused; returned contents count as arrived above.
+TEST(SealedLink, TapCountsEnvelopesAndTheirContents) {
   constexpr int kContents = 0, kSaid = 1, kGreetings = 2;
   Network network(3);
   const GroupKey key = group_key();
@@ -68,7 +68,7 @@ TEST(SealedLink, TellsATapOfEnvelopesAndOfWhatIsInThem) {
     run(network, 10ms, one, other);
   }
   for (const Octets& recorded : std::vector<Octets>(network.tape))
-    network.hub.link(2).send(kBase, recorded);  // what it said, again
+    network.hub.link(2).send(kBase, recorded);  // replays its datagrams
   run(network, 10ms, one, other);
   ASSERT_EQ(other.heard.size(), 12U);
 
@@ -83,7 +83,7 @@ TEST(SealedLink, TellsATapOfEnvelopesAndOfWhatIsInThem) {
   EXPECT_EQ((in[{kGreetings, DatagramFate::greeting}]), other.count("sealed_hellos_in"));
 }
 
-TEST(SealedLink, NamesTheSenderByItsBootWhateverItsAddressIs) {
+TEST(SealedLink, KnowsSendersByBootAtAnyAddress) {
   const GroupKey key = group_key();
   Network network(3);
   Member one(network, 0, key), other(network, 1, key);
@@ -92,7 +92,7 @@ TEST(SealedLink, NamesTheSenderByItsBootWhateverItsAddressIs) {
   run(network, 10ms, one, other);
   const std::uint64_t boot = other.from.boot;
   EXPECT_NE(boot, 0U);
-  Octets elsewhere;  // what it says arrives by another way
+  Octets elsewhere;  // the envelope of `one`, which arrives by another path
   {
     ImpairmentLaw law;
     law.loss = 1.0;
@@ -108,8 +108,8 @@ TEST(SealedLink, NamesTheSenderByItsBootWhateverItsAddressIs) {
   EXPECT_EQ(other.from.sender, network.hub.link(2).local_endpoint());
 }
 
-// As a host that was suspended: its steady clock stood still meanwhile.
-TEST(SealedLink, HearsASenderAgainARoundTripAfterItsClockStoodStill) {
+// The sender acts as a suspended host: its steady clock stood still meanwhile.
+TEST(SealedLink, ReceivesASuspendedSenderAfterARoundTrip) {
   const GroupKey key = group_key();
   Network network(2);
   ManualClock slow{1s};
@@ -129,8 +129,8 @@ TEST(SealedLink, HearsASenderAgainARoundTripAfterItsClockStoodStill) {
   EXPECT_GT(other.count("sealed_outdated_in"), 0U);
 }
 
-// Whoever passes datagrams on is the address where their senders are heard first.
-TEST(SealedLink, ForgetsNobodyWhomItTrustsForTheSakeOfAnother) {
+// A relay is the address from which its senders are first received.
+TEST(SealedLink, NewSendersNeverEvictTrustedOnes) {
   const GroupKey key = group_key();
   Network network(3);
   Member other(network, 1, key);
@@ -158,8 +158,8 @@ TEST(SealedLink, ForgetsNobodyWhomItTrustsForTheSakeOfAnother) {
   EXPECT_EQ(other.heard.size(), 6U);
 }
 
-// Its windows are forgotten with it, and its answers of then must not bring it back.
-TEST(Greeter, AsksAnewWhenATrustedSenderLostItsPlace) {
+// Its windows are forgotten with it; old answers must not restore it.
+TEST(Greeter, AsksAgainAfterATrustedSenderWasEvicted) {
   const GroupKey key = group_key();
   EnvelopeOpener opener(key, {});
   Octets room(kMaxDatagram), hello(Greeter::kLongest);
@@ -200,8 +200,8 @@ TEST(SealedLink, FindsEachOtherAtHeavyLoss) {
   EXPECT_GT(other.heard.size(), 20U);
 }
 
-// One datagram of each is heard by all others, at the time that one way, one round trip and 50 ms
-// take; and nobody has greeted as often as there are others.
+// Each member's datagram reaches all others within one way, one round trip and 50 ms. Members send
+// at most four greetings each on average, far fewer than there are others.
 TEST(SealedLink, BringsSixtyFourTogetherInOneRoundTrip) {
   constexpr std::size_t kMembers = 64;
   constexpr nanoseconds kOneWay = 10ms;
@@ -229,7 +229,7 @@ TEST(SealedLink, BringsSixtyFourTogetherInOneRoundTrip) {
   RecordProperty("greetings", static_cast<int>(hellos));
 }
 
-TEST(SealedLink, TellsWhatItRefuses) {
+TEST(SealedLink, ReportsRefusedDatagrams) {
   const GroupKey key = group_key();
   Network network(3);
   Member listener(network, 0, key);
@@ -256,7 +256,7 @@ TEST(SealedLink, TellsWhatItRefuses) {
   EXPECT_THAT(listener.heard, IsEmpty());
 }
 
-TEST(SealedLink, TellsAnEpochThatItsFileLacks) {
+TEST(SealedLink, ReportsAnEpochMissingInItsFile) {
   Network network(2);
   network.clock.set(3h);
   Member old(network, 0, group_key(1));

@@ -29,7 +29,7 @@ inline SealedLinkOptions options_of(const GroupKey& key, std::uint16_t applicati
   return options;
 }
 
-/// All that passes the base group goes to `tape`.
+/// Stores all datagrams of the base group in `tape`.
 struct Network {
   explicit Network(std::size_t links, nanoseconds delay = 1ms)
       : hub({.links = links + 1, .datagrams_in_flight = 4096}, clock), recorder(hub.link(links)) {
@@ -51,7 +51,7 @@ struct Network {
   std::vector<Octets> tape;
 };
 
-/// A member, and what its link has handed up.
+/// A member and the contents that its link returned.
 struct Member {
   Member(Network& network, std::size_t index, const GroupKey& key, DatagramTap* tap = nullptr,
          const Clock* clock = nullptr)

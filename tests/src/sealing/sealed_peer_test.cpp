@@ -22,7 +22,7 @@ namespace {
 using namespace samples;
 using Said = std::vector<std::pair<IpEndpoint, Octets>>;
 
-// Keeps all that goes out, and may hear others from an address that they do not have.
+// Stores all sent datagrams, and can replace the sender address of received ones.
 class RecordingLink final : public Link {
  public:
   explicit RecordingLink(Link& inner) : inner_(inner) {}
@@ -71,7 +71,7 @@ FederateOptions options_of(const SceneFile& scene, std::uint32_t number) {
   return options;
 }
 
-// Some peers of one process in simulated time; each hears what another says 10 ms later.
+// Some peers of one process in simulated time; datagrams take 10 ms.
 struct Peers {
   Peers(std::size_t count, const SceneFile& scene) : hub({.links = count}, clock) {
     ImpairmentLaw law;
@@ -89,7 +89,7 @@ struct Peers {
       clock.advance(1ms);
     }
   }
-  // When the last of them had seen another's entity; at most 3 s.
+  // The latest time at which a peer first received a remote entity; runs 3 s.
   nanoseconds seen() {
     const auto first = [](JoinedPeer& peer) {
       peer.peer().views().update();
@@ -122,8 +122,9 @@ class SealedPeer : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-// Without a key a joined peer says what one says that was put together around the bare link.
-TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
+// Without a key a joined peer sends the same octets as a peer constructed directly on the bare
+// link.
+TEST_F(SealedPeer, SendsUnsealedOctetsWithoutAKey) {
   const SceneFile scene = scene_of(1);
   Peers joined(1, scene);
   joined.run(12s);
@@ -153,7 +154,7 @@ TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
   EXPECT_EQ(joined.joined[0]->peer().counters().find("sealed_in"), nullptr);
 }
 
-TEST_F(SealedPeer, SaysNothingPlainAndIsSeen) {
+TEST_F(SealedPeer, SendsNothingUnsealedAndIsReceived) {
   const SceneFile scene = keyed(2);
   Peers peers(2, scene);
   EXPECT_LT(peers.seen(), 3s);
@@ -166,7 +167,7 @@ TEST_F(SealedPeer, SaysNothingPlainAndIsSeen) {
   }
 }
 
-TEST_F(SealedPeer, TellsAPeerWithoutTheKeyThatTheExerciseIsSealed) {
+TEST_F(SealedPeer, ReportsASealedExerciseWithoutTheKey) {
   ManualClock clock{1s, 1h};
   SimulatedNetwork hub({.links = 2}, clock);
   JoinedPeer peer(options_of(scene_of(1), 1), hub.link(0), clock, 1);
@@ -185,7 +186,7 @@ TEST_F(SealedPeer, TellsAPeerWithoutTheKeyThatTheExerciseIsSealed) {
 }
 
 // One round trip is 20 ms here.
-TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
+TEST_F(SealedPeer, JoinsOneRoundTripAnd50MsLater) {
   const std::size_t count = test::tries<std::size_t>(32, 64);
   Peers plain(count, scene_of(count));
   Peers sealed(count, keyed(count));
@@ -195,7 +196,8 @@ TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
   RecordProperty("sealed_ms", static_cast<int>(with / 1ms));
 }
 
-// Datagrams that the second of two does not believe in the two seconds after the first has moved.
+// Counts the datagrams that the second of two peers refuses in the two seconds after the first has
+// changed its address.
 std::uint64_t refused_after_a_move(const SceneFile& scene) {
   Peers peers(2, scene);
   peers.run(3s);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sealed link takes nothing of recordings that are played back.
+// A sealed link accepts no replayed recording.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(SealedLink, TakesNothingOfYesterdaysRecording) {
   EXPECT_EQ(other.heard, std::vector<std::uint8_t>{1});
 }
 
-TEST(SealedLink, TakesNothingOfTodaysRecordingNorOfItsOwnEcho) {
+TEST(SealedLink, RefusesTodaysRecordingAndItsOwnEcho) {
   const GroupKey key = group_key();
   Network network(3);
   Member one(network, 0, key), other(network, 1, key);
@@ -72,8 +72,8 @@ TEST(SealedLink, TakesNothingOfTodaysRecordingNorOfItsOwnEcho) {
   EXPECT_GT(other.count("sealed_replayed_in"), 0U);
 }
 
-// What was said before the newcomer came is genuine, and it has heard none of it.
-TEST(SealedLink, TakesNothingOfASenderThatIsAliveFromBeforeItCame) {
+// The recorded datagrams are genuine, but were sent before the newcomer came.
+TEST(SealedLink, NewcomerRefusesOlderDatagramsOfALiveSender) {
   const GroupKey key = group_key();
   Network network(3);
   Member one(network, 0, key);
@@ -93,8 +93,8 @@ TEST(SealedLink, TakesNothingOfASenderThatIsAliveFromBeforeItCame) {
   EXPECT_EQ(newcomer.heard, std::vector<std::uint8_t>{255});
 }
 
-// Recordings come first and fill what is held of the sender.
-TEST(SealedLink, HoldsTheLastWordsOfASenderWhateverIsPlayedBackBefore) {
+// The recordings arrive first and fill the room for held datagrams of the sender.
+TEST(SealedLink, HoldsTheLatestDatagramDespiteEarlierReplays) {
   const GroupKey key = group_key();
   Network network(3);
   Member one(network, 0, key);
@@ -108,8 +108,8 @@ TEST(SealedLink, HoldsTheLastWordsOfASenderWhateverIsPlayedBackBefore) {
   EXPECT_EQ(newcomer.heard, std::vector<std::uint8_t>{255});
 }
 
-// Boots of other days, each heard for the first time again and again.
-TEST(SealedLink, GreetsEightTimesASecondAtMostForRecordings) {
+// Boots of other days, each received for the first time over and over.
+TEST(SealedLink, RecordingsCauseAtMostEightGreetingsASecond) {
   const GroupKey key = group_key();
   Network network(3);
   Member listener(network, 0, key);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sealed links beside somebody without the key who records all and sends it again, by seeds.
+// Sealed links beside an attacker without the key who records and replays all datagrams; random, by
+// seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,13 +35,13 @@ std::uint32_t below(std::mt19937& random, std::uint32_t end) {
   return static_cast<std::uint32_t>(random() % end);
 }
 
-// What members say in these tests.
+// The content of a datagram in these tests.
 struct Word {
   std::uint32_t speaker = 0, number = 0;
   std::int64_t said_ns = 0;
 };
 
-// Who says words and judges those that it is handed.
+// Sends words and checks the words that it receives.
 class Speaker {
  public:
   Speaker(Link& link, const Clock& clock, const GroupKey& key, std::uint32_t name,
@@ -73,7 +74,7 @@ class Speaker {
       for (std::size_t i = 0; i < count; ++i) judge(batch[i]);
   }
 
-  /// Since when it hears the other one; 0 where it does not.
+  /// When it first received a word of that speaker; 0 if never.
   [[nodiscard]] nanoseconds hears(std::uint32_t speaker) const { return first_[speaker]; }
   [[nodiscard]] std::uint64_t taken() const { return taken_; }
   [[nodiscard]] std::uint64_t count(std::string_view name) const {
@@ -91,7 +92,8 @@ class Speaker {
     return out;
   }
 
-  // Each once, only of groups that it is in, and nothing from before it was but what was under way.
+  // A word must arrive once, in a joined group, and be sent after the join, except for one-way
+  // delay.
   void judge(const Datagram& datagram) {
     Word word;
     ASSERT_EQ(datagram.bytes.size(), sizeof word);
@@ -118,7 +120,7 @@ class Speaker {
   std::unordered_set<std::uint64_t> heard_;
 };
 
-// Records all groups, and has some addresses to speak from.
+// Records all groups and replays from several addresses.
 class Replayer {
  public:
   Replayer(SimulatedNetwork& hub, std::size_t first, std::size_t links) {
@@ -138,7 +140,7 @@ class Replayer {
     if (tape_.size() > last)
       tape_.erase(tape_.begin(), tape_.end() - static_cast<std::ptrdiff_t>(last));
   }
-  /// One of the newest `newest`, to where it was said or to `to`.
+  /// Replays one of the latest `newest` datagrams, to its original group or to `to`.
   void send_one(std::mt19937& random, std::size_t newest, const GroupAddress* to) {
     if (tape_.empty()) return;
     const std::size_t from = tape_.size() - std::min(newest, tape_.size());
@@ -155,9 +157,9 @@ class Replayer {
   std::vector<std::pair<GroupAddress, Octets>> tape_;
 };
 
-// An exercise of three groups behind the base group, whose members come and go in them.
-// RECKON_REPLAYS says how many are sent again.
-TEST(SealedReplays, AreTakenNowhereWhereverTheyWereRecordedAndAreSent) {
+// An exercise with three groups besides the base group, which its members join and leave.
+// RECKON_REPLAYS sets the number of replayed datagrams.
+TEST(SealedReplays, AreRefusedAtAnyTimeAndPlace) {
   constexpr std::size_t kMembers = 4, kAddresses = 4;
   const std::uint64_t wanted = number_from("RECKON_REPLAYS", 40'000);
   std::mt19937 random(static_cast<std::uint32_t>(number_from("RECKON_SEED", 1)));
@@ -195,7 +197,8 @@ TEST(SealedReplays, AreTakenNowhereWhereverTheyWereRecordedAndAreSent) {
     EXPECT_GT(member->count("sealed_replayed_in"), 0U);
     EXPECT_GT(member->count("sealed_forged_in"), 0U) << "of another group";
     EXPECT_EQ(member->count("sealed_trusted"), kMembers - 1);
-    // What opens moves a count: none but what was taken, greetings, and what was not held before.
+    // A datagram that opens moves a window. Such datagrams are: taken words, greetings, and words
+    // that did not fit the held ones.
     EXPECT_EQ(member->count("sealed_in"), member->taken() + member->count("sealed_hellos_in") +
                                               member->count("sealed_held_lost"));
   }
@@ -203,7 +206,7 @@ TEST(SealedReplays, AreTakenNowhereWhereverTheyWereRecordedAndAreSent) {
   RecordProperty("replays", static_cast<int>(sent));
 }
 
-// A tape of a day that is over.
+// A recording of earlier days.
 std::vector<std::pair<GroupAddress, Octets>> yesterday(const GroupKey& key, std::mt19937& random) {
   ManualClock clock{1s};
   SimulatedNetwork hub({.links = 4}, clock);
@@ -225,14 +228,14 @@ std::vector<std::pair<GroupAddress, Octets>> yesterday(const GroupKey& key, std:
   return recorder.tape();
 }
 
-// One newcomer among members, with recordings of today and of other days played beside it.
+// A newcomer joins members while recordings of today and of other days are replayed.
 void come_late(std::uint32_t seed, const GroupKey& key) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   const std::uint32_t count = 1 + below(random, 5), addresses = 1 + below(random, 6);
   const nanoseconds one_way = std::chrono::microseconds(200 + below(random, 40'000));
-  const std::uint32_t pace = 5 + below(random, 45);   // [ms] between two words of a member
-  const std::uint32_t attack = 1 + below(random, 8);  // datagrams a millisecond
+  const std::uint32_t pace = 5 + below(random, 45);   // interval between two words of a member [ms]
+  const std::uint32_t attack = 1 + below(random, 8);  // replayed datagrams a millisecond
   ManualClock clock{std::chrono::seconds(1 + below(random, 1000))};
   SimulatedNetwork hub({.links = count + 1 + addresses, .datagrams_in_flight = 8192}, clock);
   ImpairmentLaw law;
@@ -263,8 +266,9 @@ void come_late(std::uint32_t seed, const GroupKey& key) {
   }
 }
 
-// All hear it, and it hears all, within 0.2 s and a round trip; nobody takes anything recorded.
-TEST(SealedReplays, KeepNoNewcomerFromHearingInTime) {
+// All members receive the newcomer, and it receives all, within 0.2 s and a round trip. No recorded
+// word is taken.
+TEST(SealedReplays, DoNotDelayANewcomer) {
   const GroupKey key = group_key();
   const std::uint64_t seeds = number_from("RECKON_SEEDS", test::tries(200, 1000));
   for (std::uint32_t seed = 1; seed <= seeds && !testing::Test::HasFailure(); ++seed)

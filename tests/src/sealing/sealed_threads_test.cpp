@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sealed links as peers run them: a reader and a writer each, over sockets whose address changes,
-// and a third thread that asks how they fare.
+// Sealed links as peers run them: a reader and a writer thread each, over sockets whose address
+// changes, and a third thread that polls their state.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,13 +20,13 @@ namespace {
 using namespace samples;
 using namespace test;
 
-// A link that notices where two send at the same time.
+// A link that detects concurrent sends.
 class OneSenderLink final : public Link {
  public:
   explicit OneSenderLink(Link& inner) : inner_(inner) {}
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
     if (sending_.exchange(true, std::memory_order_relaxed)) met = true;
-    std::this_thread::yield();  // so that another one has the time to come in
+    std::this_thread::yield();  // gives another sender time to enter
     const bool sent = inner_.send(to, bytes);
     sending_.store(false, std::memory_order_relaxed);
     return sent;
@@ -61,7 +61,7 @@ struct Member {
   SealedLink sealed;
 };
 
-// One that reads and writes all the time, each in a thread.
+// A member that reads and writes continuously, each in its own thread.
 struct Talker : Member {
   using Member::Member;
   ~Talker() {
@@ -85,7 +85,7 @@ struct Talker : Member {
   std::thread reader{[this] { read(); }}, writer{[this] { write(); }};
 };
 
-// Asks, at most 10 s, until one has the address and hears again.
+// Waits at most 10 s until the talker has the address and receives again.
 bool hears_from(Talker& talker, const std::string& address) {
   LinkEvent event;
   std::size_t before = 0;
@@ -102,13 +102,13 @@ bool hears_from(Talker& talker, const std::string& address) {
   return false;
 }
 
-TEST(SealedThreads, GreetAndTalkOneAtATimeWhileTheirAddressChanges) {
+TEST(SealedThreads, SendOneAtATimeDuringAddressChanges) {
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     Talker one(1), other(2);
     std::string last = "10.66.0.1";
     for (std::uint16_t i = 0; i < 5; ++i) {
-      Member newcomer(static_cast<std::uint16_t>(3 + i));  // whom both greet
+      Member newcomer(static_cast<std::uint16_t>(3 + i));  // greeted by both
       std::array<Datagram, 16> batch;
       newcomer.sealed.receive(batch);
       const std::string next = "10.66.0." + std::to_string(20 + i);

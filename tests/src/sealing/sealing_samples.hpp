@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A group, its members, and those who want to be taken for one.
+// A sealed group, its members and forgers.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline Octets from_hex(std::string_view digits) {
   return out;
 }
 
-/// Epoch 1 from the beginning; each further one an hour after the one before, from UTC hour 1 on.
+/// Epoch 1 from the beginning; each further epoch begins an hour later, the second at UTC hour 1.
 inline GroupKey group_key(std::size_t epochs = 1,
                           SealingSuite suite = SealingSuite::xchacha20_poly1305,
                           std::uint8_t seed = 1) {
@@ -47,7 +47,7 @@ inline GroupKey group_key(std::size_t epochs = 1,
   return key;
 }
 
-/// The suite that users have where the CPU can.
+/// The default suite of users whose CPU supports it.
 inline SealingSuite fast_suite() {
   return can_seal(SealingSuite::aes_256_gcm) ? SealingSuite::aes_256_gcm
                                              : SealingSuite::xchacha20_poly1305;
@@ -55,7 +55,7 @@ inline SealingSuite fast_suite() {
 
 inline IpEndpoint address(std::uint32_t host) { return IpEndpoint::v4(0x0a000000 + host, 4000); }
 
-/// A group of a sealed exercise: the base group, then those behind it.
+/// A group of a sealed exercise: 0 is the base group, others follow it.
 inline GroupAddress group_of(std::uint32_t number = 0) {
   return GroupAddress::v4(0xEFC00100 + number, 3001);
 }
@@ -68,13 +68,13 @@ inline Octets sealed(EnvelopeSealer& sealer, std::span<const std::byte> plain,
   return {out.begin(), out.end()};
 }
 
-/// As it arrives.
+/// A datagram as it arrives.
 inline Datagram arrived(std::span<const std::byte> octets, const IpEndpoint& from, nanoseconds at,
                         const GroupAddress& group = group_of()) {
   return {group, from, octets, at};
 }
 
-/// Datagrams that are genuine and have been taken, and all that an outsider can make of them. The
+/// Genuine datagrams that have been taken, and all forgeries an outsider can make from them. The
 /// opener must refuse every one.
 class Forger {
  public:
@@ -89,7 +89,7 @@ class Forger {
 
   [[nodiscard]] const std::vector<Octets>& genuine() const { return genuine_; }
 
-  /// The next forgery; never one of the genuine ones, but for a replay.
+  /// The next forgery; equal to a genuine datagram only as a replay.
   [[nodiscard]] const Octets& next() {
     const Octets& one = genuine_[random_() % genuine_.size()];
     forged_ = one;
@@ -125,7 +125,7 @@ class Forger {
 
   std::byte any_octet() { return static_cast<std::byte>(1 + random_() % 255); }
   void flip(std::size_t bit) { forged_[bit / 8] ^= static_cast<std::byte>(1 << bit % 8); }
-  /// The head of one datagram on the body of another: another member's boot.
+  /// Puts the header of one datagram before the body of another: another member's boot.
   void splice(const Octets& other) { std::copy_n(other.begin(), 16, forged_.begin()); }
 
   std::mt19937 random_;
@@ -133,7 +133,7 @@ class Forger {
   Octets forged_;
 };
 
-/// Takes the genuine ones, then counts how many of so many forgeries are taken.
+/// Opens the genuine datagrams, then counts how many of the `forgeries` are taken.
 inline std::uint64_t taken_of(Forger& forger, EnvelopeOpener& opener, std::uint64_t forgeries) {
   std::vector<std::byte> room(kMaxDatagram);
   std::uint64_t taken = 0;

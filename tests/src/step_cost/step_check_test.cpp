@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that a host cannot run: how they are told, and that a federate refuses them.
+// Scenes that a host cannot run: a federate reports and refuses them.
 #include "reckon/peer/step_cost/step_check.hpp"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ class SlowScene : public testing::Test {
   test::ScratchFolder folder_;
 };
 
-TEST_F(SlowScene, IsFoundByItsMeshesAndClosedFormsAreNot) {
+TEST_F(SlowScene, IsFoundByMeshesButNotByPrimitives) {
   const SceneFile dear = mesh(), cheap = scene("sphere = \"5 cm\"\n");
   const haptics::EffectPlan dear_plan(dear.scene), cheap_plan(cheap.scene);
   const auto found = find_step_too_dear(dear.scene, dear_plan, 0.005, 1ns);
@@ -65,7 +65,7 @@ TEST_F(SlowScene, IsFoundByItsMeshesAndClosedFormsAreNot) {
   EXPECT_EQ(costs.dearest_object, "corner");
 }
 
-TEST_F(SlowScene, IsRefusedOnALanUnlessItIsToRunAllTheSame) {
+TEST_F(SlowScene, IsRefusedOnALanUnlessForced) {
   haptics::SimulatedDevice hand({}, [](double) { return haptics::HandTarget(); });
   FederateOptions options;
   test::write_obj(test::sliver_cone(100'000), folder_.file("corner.obj"));
@@ -75,7 +75,7 @@ TEST_F(SlowScene, IsRefusedOnALanUnlessItIsToRunAllTheSame) {
   options.interface = "lo";
   options.loops = FederateLoops::threads;
   options.devices.emplace_back().device = &hand;
-  options.devices[0].period = 100us;  // as short as there is
+  options.devices[0].period = 100us;  // the shortest possible
   EXPECT_THROW(JoinedPeer{options}, StepTooDear);
   options.even_if_slow = true;
   JoinedPeer joined(options);
@@ -83,7 +83,7 @@ TEST_F(SlowScene, IsRefusedOnALanUnlessItIsToRunAllTheSame) {
   EXPECT_THAT(joined.peer().notices().front()->text.data(),
               HasSubstr("a servo step that touches corner takes"));
 
-  // Simulated time takes what time it takes.
+  // Simulated time may take any wall time.
   options.even_if_slow = false;
   ManualClock clock(1s, 1h);
   test::ManualLink link;

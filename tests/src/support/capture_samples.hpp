@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams for tests of captures: made, written, read back; and a disk that is full.
+// Datagrams for tests of captures: make, write, read back; and a full disk.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ inline Kept make(std::mt19937& random, std::size_t size, bool ipv6, nanoseconds 
   return out;
 }
 
-/// Sizes around everything that could be special, IPv4 and IPv6, times that need nanoseconds.
+/// Datagrams with all special sizes, IPv4 and IPv6, and times that need nanoseconds.
 inline std::vector<Kept> edge_samples() {
   std::mt19937 random(7);
   std::vector<Kept> out;
@@ -96,7 +96,7 @@ inline ReadBack read_all(const std::string& path) {
   return out;
 }
 
-/// What a refusal to open says.
+/// The error text of opening `path`.
 inline std::string refusal(const std::string& path) {
   try {
     (void)open_capture(path);
@@ -114,7 +114,7 @@ inline void expect_equal(const Kept& found, const Kept& wanted) {
   EXPECT_EQ(found.bytes, wanted.bytes);
 }
 
-/// The first `found.size()` of the datagrams written.
+/// Expects `found` to equal the first datagrams of `wanted`.
 inline void expect_beginning(const std::vector<Kept>& found, const std::vector<Kept>& wanted) {
   ASSERT_LE(found.size(), wanted.size());
   for (std::size_t i = 0; i < found.size(); ++i) expect_equal(found[i], wanted[i]);
@@ -134,8 +134,8 @@ inline std::vector<char> octets_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The kernel writes no file beyond `octets` while this lives: it takes what fits, then refuses, as
-/// a full disk does.
+/// Limits files of this process to `octets` during its lifetime. The kernel writes what fits, then
+/// refuses, as a full disk does.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t octets) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -155,8 +155,8 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-/// Writes until the disk is full, each datagram by itself where it is compressed, as a slow source
-/// has it; what the error says.
+/// Writes until the disk is full; returns the error text. A compressed writer is flushed after each
+/// datagram, as with a slow source.
 inline std::string fill(const std::string& path, const std::vector<Kept>& datagrams,
                         std::uint64_t& safe) {
   CaptureWriter writer(options_for(path));
@@ -173,7 +173,7 @@ inline std::string fill(const std::string& path, const std::vector<Kept>& datagr
   return {};
 }
 
-/// What all files of a rotation hold, one after another.
+/// The datagrams of all files of a rotation, in order.
 inline std::vector<Kept> read_files(const std::vector<std::string>& paths) {
   std::vector<Kept> out;
   for (const std::string& path : paths) {

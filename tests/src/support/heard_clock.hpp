@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sender's clock as a receiver gets to know it, at times that a test sets.
+// A sender's clock as a receiver estimates it, at times that a test sets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ struct Local {
   }
 };
 
-/// That `actual` is there, and `expected` within `tolerance`.
+/// Expects that `actual` has a value, within `tolerance` of `expected`.
 inline void expect_close(std::optional<nanoseconds> actual, nanoseconds expected,
                          nanoseconds tolerance) {
   ASSERT_TRUE(actual.has_value());

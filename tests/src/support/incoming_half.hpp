@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The incoming half of a peer without a network: a scene, its groups and cells, and the remote
-// entities, which hear what a test gives them at times that the test sets.
+// entities. A test sets their updates and times.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,13 +35,13 @@ struct IncomingHalf {
     stand_at({0, 0, 0}, nanoseconds(0));
   }
 
-  /// Where the focus of the scene's radius is [m, m/s].
+  /// Moves the focus of the scene's radius there [m, m/s].
   void stand_at(const Eigen::Vector3d& place, nanoseconds now, double speed = 0) {
     const std::array<aoim::Focus, 1> here{
         {{{place.x(), place.y(), place.z()}, speed, scene.aoim.radius}}};
     static_cast<void>(aoim.listen(aoim::kCellTier, here, now));
   }
-  /// Gives an update the state of an entity that was true at `stamp`.
+  /// Sets the state of an entity at `stamp` in an update.
   void put_state(peer::Inbound& update, const pdu::EntityId& id,
                  const deadreckon::KinematicState& state, nanoseconds stamp,
                  deadreckon::AccelerationReading wire = {}) const {
@@ -57,7 +57,7 @@ struct IncomingHalf {
     arrival.from = from;
     remote.take(update, arrival, {});
   }
-  /// Of a counter; the greatest number where there is none of this name.
+  /// The value of a counter; the largest number if there is none of this name.
   [[nodiscard]] std::uint64_t count(std::string_view name) const {
     const peer::Counter* found = counters.find(name);
     return found == nullptr ? ~0ULL : found->value();

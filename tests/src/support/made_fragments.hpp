@@ -14,7 +14,7 @@ namespace reckon::peer::frames {
 /// Octets of a fragment in Ethernet with an MTU of 1500.
 inline constexpr std::size_t kPiece = 1480;
 
-/// A datagram of `payload` octets that differ, from port 3001 to 3000: UDP header and payload.
+/// A datagram with `payload` numbered octets, from port 3001 to 3000: UDP header and payload.
 inline Bytes numbered_udp(std::size_t payload, std::size_t number = 0) {
   Bytes out = udp(payload);
   for (std::size_t i = 8; i < out.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Frames as a capture has them, made octet by octet.
+// Captured frames, built octet by octet.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace reckon::peer::frames {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// One after another.
+/// Concatenates.
 inline Bytes operator+(Bytes a, const Bytes& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -22,11 +22,11 @@ inline Bytes u16(std::size_t value) {
   return {static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
 }
 
-/// From port 3001 to 3000, with a header that tells `length_field` octets.
+/// From port 3001 to 3000, with `length_field` octets in the length field of the header.
 inline Bytes udp(std::size_t payload, std::size_t length_field) {
   return u16(3001) + u16(3000) + u16(length_field) + u16(0) + Bytes(payload, 0x5a);
 }
-/// With the right length.
+/// With the correct length.
 inline Bytes udp(std::size_t payload) { return udp(payload, payload + 8); }
 
 /// From 10.0.0.1 to 239.1.2.3.

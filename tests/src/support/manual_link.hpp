@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A link whose datagrams a test puts there. It forgets none and never ends a wait by itself.
+// A link whose received datagrams a test supplies. It loses none and never ends a wait by itself.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 
 namespace reckon::test {
 
-/// For any threads. wait() heeds no timeout but zero: what is to be noticed has to wake it.
+/// For any threads. wait() ignores any timeout but zero: an event must wake it.
 class ManualLink final : public peer::Link {
  public:
-  /// Something arrives, without a sender's address where none is given.
+  /// A datagram arrives, without a sender address by default.
   void put(const peer::GroupAddress& group, std::vector<std::byte> octets,
            const peer::IpEndpoint& sender = {}) {
     const std::lock_guard lock(mutex_);
@@ -35,19 +35,19 @@ class ManualLink final : public peer::Link {
     const std::lock_guard lock(mutex_);
     return joined_;
   }
-  /// How often a group was joined.
+  /// How many joins were made.
   [[nodiscard]] std::size_t joins() const {
     const std::lock_guard lock(mutex_);
     return joins_;
   }
-  /// Blocks until so many joins were made and so many datagrams sent, and nothing waits; false
-  /// where that took longer than anybody would wait.
+  /// Blocks until there were this many joins and sent datagrams, and no datagram is unread. Returns
+  /// false after a long time-out.
   [[nodiscard]] bool settled(std::size_t joins, std::size_t sent) const {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(30),
                              [&] { return joins_ >= joins && sent_ >= sent && waiting_.empty(); });
   }
-  /// What is sent arrives there from now on, in its turn.
+  /// From now on sent datagrams arrive at `other`, in order.
   void connect(ManualLink& other) {
     const std::lock_guard lock(mutex_);
     other_ = &other;
@@ -57,7 +57,7 @@ class ManualLink final : public peer::Link {
     const std::lock_guard lock(mutex_);
     return reader_;
   }
-  /// How often somebody waited here, polls apart.
+  /// How often a thread waited here; polls do not count.
   [[nodiscard]] std::size_t waits() const {
     const std::lock_guard lock(mutex_);
     return waits_;
@@ -83,7 +83,7 @@ class ManualLink final : public peer::Link {
       taken_.push_back(std::move(waiting_.front()));
       waiting_.pop_front();
       const Waiting& taken = taken_.back();
-      out[i] = {taken.group, taken.sender, {}, std::chrono::nanoseconds::max()};  // just now
+      out[i] = {taken.group, taken.sender, {}, std::chrono::nanoseconds::max()};  // of now
     }
     for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].octets;
     changed_.notify_all();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A network namespace that lives as long as one function: nothing to clean up, nothing leaves it.
+// A network namespace that lasts for one function: it needs no cleanup, and no datagram leaves it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@
 
 namespace reckon::test {
 
-/// Calls body() in a thread with a network namespace of its own (empty, lo down). False, without a
-/// call, where that is not permitted.
+/// Calls body() in a thread with a network namespace of its own (empty, lo down). Returns false
+/// without a call if that is not permitted.
 template <typename Body>
 [[nodiscard]] bool in_own_network(Body&& body) {
   bool permitted = false;
@@ -31,11 +31,11 @@ template <typename Body>
   return permitted;
 }
 
-/// Runs a command in this thread's namespace; true where it succeeded.
+/// Runs a command in this thread's namespace; true if it succeeded.
 inline bool run(const char* command) { return std::system(command) == 0; }
 
-/// Runs a command that brings interfaces up, then waits, at most 30 s, until each of them has its
-/// carrier: a worker of the kernel says so later, on a busy host much later.
+/// Runs a command that brings interfaces up. Then waits, at most 30 s, until each has its carrier:
+/// a kernel worker reports it later, on a busy host much later.
 inline bool bring_up(const char* command) {
   if (!run(command)) return false;
   const auto has_carrier = [](const peer::NetworkInterface& one) { return !one.up || one.running; };
@@ -55,8 +55,8 @@ inline void make_cable() {
                "ip link set a0 up && ip link set b0 up"));
 }
 
-/// Waits, at most 5 s, until the kernel has made the IPv6 routes of `interface`: it does so a
-/// moment after the interface came up.
+/// Waits, at most 5 s, until the kernel has created the IPv6 routes of `interface`, which happens
+/// shortly after it came up.
 inline bool wait_for_ipv6(const std::string& interface) {
   const std::string command = "for i in $(seq 100); do ip -6 route get ff15::1 oif " + interface +
                               " >/dev/null 2>&1 && exit 0; sleep 0.05; done; exit 1";

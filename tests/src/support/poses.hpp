@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where something is that moves along x alone, or stands there.
+// Poses on the x axis, moving or at rest.
 #pragma once
 
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -14,7 +14,7 @@ inline deadreckon::Pose at(double x) {
   return pose;
 }
 
-/// As it is told. @param x [m]  @param speed [m/s]; 0: static
+/// A state as it is sent. @param x [m] @param speed [m/s]; 0: static
 inline deadreckon::KinematicState last_sent_at(double x, double speed = 0.0) {
   deadreckon::KinematicState state;
   state.position = {x, 0, 0};

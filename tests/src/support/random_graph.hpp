@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Random scene graphs, and their evaluation by recursion over a tree of pointers with matrices, as
-// an oracle that shares nothing with SceneGraph.
+// an oracle that shares no code with SceneGraph.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ namespace reckon::test {
 
 struct GraphShape {
   std::size_t nodes = 1000;
-  double up = 1.0;             ///< how many levels the next node is above the last one, about
-  std::size_t deepest = 1000;  ///< levels
+  double up = 1.0;             ///< mean number of levels that the next node goes up
+  std::size_t deepest = 1000;  ///< maximum number of levels
   double moving = 0.0;         ///< share of the nodes that have a time function
   double procedural = 0.0;     ///< share that are switches or levels of detail
   double light = 0.0;          ///< share of the leaves that are lights
 };
 
-/// Random graphs in an order of their own: a list that is not the walk.
+/// Random graphs whose list is in random order, different from the walk.
 class RandomGraph {
  public:
   explicit RandomGraph(unsigned seed) : random_(seed) {}
@@ -110,20 +110,20 @@ struct OracleNode {
   std::vector<std::unique_ptr<OracleNode>> children;
 };
 
-/// What the oracle says of a node that it came to.
+/// The result of the oracle's visit to a node.
 struct OracleVisit {
   std::string name;
   Eigen::Matrix4d world;
-  std::vector<std::string> lights;  ///< that hold where it comes to the node
+  std::vector<std::string> lights;  ///< lights that apply at the node
 };
 
-/// Evaluates by the words of the thesis: down the first child's branch, completely, before the
-/// second child's; switches and levels of detail let one branch through.
+/// Evaluates as the thesis describes: down the first child's branch completely, before the second
+/// child's. Switches and levels of detail pass one branch.
 class GraphOracle {
  public:
   explicit GraphOracle(const std::vector<peer::GraphNode>& nodes) {
     std::map<std::string, OracleNode*> made;
-    // Parents may be written after their children.
+    // Parents may be listed after their children.
     std::vector<std::unique_ptr<OracleNode>> loose;
     for (const peer::GraphNode& node : nodes) {
       loose.push_back(std::make_unique<OracleNode>());
@@ -136,7 +136,7 @@ class GraphOracle {
     }
   }
 
-  /// @param all also what is not shown
+  /// @param all also hidden nodes
   [[nodiscard]] std::vector<OracleVisit> visits(std::chrono::nanoseconds time,
                                                 const Eigen::Vector3d& eye, bool all) const {
     std::vector<OracleVisit> visits;

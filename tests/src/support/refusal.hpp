@@ -9,7 +9,7 @@
 
 namespace reckon::test {
 
-/// What the reader of scene files says to `text`; empty where it is content.
+/// The error text of the scene file reader for `text`; empty if it accepts.
 inline std::string refusal(const std::string& text, const std::filesystem::path& folder = ".") {
   try {
     (void)peer::parse_scene_file(text, "x.toml", folder);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of the real link share: groups, options, and listening until it is quiet.
+// Common parts of the tests of the real link: groups, options, and reading until nothing more
+// arrives.
 #pragma once
 
 #include <unistd.h>
@@ -17,7 +18,7 @@ namespace reckon::test {
 
 using namespace reckon::peer;
 
-/// Each test program of a parallel ctest run takes groups of its own.
+/// Each test program of a parallel ctest run uses groups of its own.
 inline GroupAddress group(std::uint8_t number) {
   return IpEndpoint::v4(0xefc04e00u + number, static_cast<std::uint16_t>(20000 + getpid() % 20000));
 }
@@ -38,7 +39,7 @@ inline std::string text_of(const Datagram& datagram) {
   return {reinterpret_cast<const char*>(datagram.bytes.data()), datagram.bytes.size()};
 }
 
-/// Everything that arrives until it was quiet for `quiet`.
+/// All datagrams that arrive until none has come for `quiet`.
 inline std::vector<std::string> hear(
     Link& link, std::chrono::nanoseconds quiet = std::chrono::milliseconds(50)) {
   std::vector<std::string> out;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A file in the place of the kernel's: what is asked of it, in turn [us].
+// The requests [us] in a file that replaces the kernel's, in order.
 std::vector<std::int32_t> requests_in(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<std::int32_t> all;
@@ -25,7 +25,7 @@ std::vector<std::int32_t> requests_in(const std::string& path) {
   return all;
 }
 
-TEST(AwakeProcessors, AreAskedForWhileNeededAndForASecondMore) {
+TEST(AwakeProcessors, AreRequestedWhileNeededAndOneSecondLonger) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("requests");
   std::ofstream{path};
@@ -49,7 +49,7 @@ TEST(AwakeProcessors, AreLeftAloneWhereNobodyMayAsk) {
   AwakeProcessors nowhere("/nonexistent/cpu_dma_latency");
   nowhere.keep(true, 1ms);
   nowhere.keep(false, 2s);
-  AwakeProcessors full("/dev/full");  // takes no request
+  AwakeProcessors full("/dev/full");  // accepts no request
   full.keep(true, 1ms);
   full.keep(true, 2ms);
 }

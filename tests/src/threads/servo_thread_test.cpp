@@ -21,7 +21,7 @@ using std::chrono::nanoseconds;
 
 const SteadyClock kClock;
 
-// Counts the calls of one servo and wakes the test when there were enough.
+// Counts the calls of one servo and wakes the test after `wanted` calls.
 struct Counted {
   explicit Counted(nanoseconds period, int wanted = 1) : duty(period), enough(wanted) {}
 
@@ -57,7 +57,7 @@ TEST(ServoThread, StepsEachServoAtItsOwnPeriod) {
   slow.wait();
   thread.remove(first);
   thread.remove(second);
-  // Periods with a step and periods without one are all the periods there were.
+  // Periods with a step and missed periods add up to all periods.
   const auto periods = [](const Counted& c) {
     return static_cast<double>(c.duty.steps() + c.duty.missed()) *
            static_cast<double>(c.duty.period().count());
@@ -80,13 +80,13 @@ TEST(ServoThread, CallsNothingOfAServoThatWasRemoved) {
     thread.remove(number);
     const int steps = goes->steps;
     EXPECT_EQ(goes->duty.steps(), static_cast<std::uint64_t>(steps));
-    goes.reset();  // a call now would be seen by a sanitizer
+    goes.reset();  // a sanitizer would detect a call now
   }
   stays.wait();
   thread.remove(other);
 }
 
-TEST(ServoThread, TellsAfterTheStepAndNotInIt) {
+TEST(ServoThread, ReportsAfterTheStep) {
   ServoThread thread(kClock);
   Counted servo(500us, 100);
   const std::size_t number = thread.add(servo.servo());
@@ -124,21 +124,22 @@ Servo computing(std::atomic<int>& steps, nanoseconds period, nanoseconds span) {
   return servo;
 }
 
-TEST(OrdinaryPulse, JudgesByItsSilenceAndWhatTheProcessTook) {
+TEST(OrdinaryPulse, DetectsStarvationByMissedBeatsAndCpuTime) {
   EXPECT_FALSE(starves_ordinary_threads(499ms, 499ms, 500ms));
   EXPECT_TRUE(starves_ordinary_threads(500ms, 50ms, 500ms));
   EXPECT_FALSE(starves_ordinary_threads(500ms, 49ms, 500ms)) << "others take the time";
   EXPECT_FALSE(starves_ordinary_threads(8s, 1ms, 500ms)) << "the process was stopped";
 }
 
-// Its clock is moved on by hand while the process computes: where no beat came, it would starve on.
+// The clock is advanced by hand while the process computes. Without a beat the pulse would report
+// starvation for ever.
 TEST(OrdinaryPulse, GoesOnWhereOrdinaryThreadsRun) {
   ManualClock clock;
   const OrdinaryPulse pulse(clock, 10ms);
   for (int i = 0; i < 5; ++i) {
     clock.advance(10ms);
     const std::clock_t begin = std::clock();
-    while (std::clock() - begin < CLOCKS_PER_SEC / 200) {  // half of the silence: a tenth counts
+    while (std::clock() - begin < CLOCKS_PER_SEC / 200) {  // half of the silence, above a tenth
     }
     for (int turn = 0; pulse.starves(clock.now()) && turn < 500'000; ++turn) {
       std::this_thread::yield();
@@ -147,7 +148,7 @@ TEST(OrdinaryPulse, GoesOnWhereOrdinaryThreadsRun) {
   }
 }
 
-// Steps that leave no pause, one thread for each core, at a priority above all that could end them.
+// Steps without a pause, one thread per core, at a priority above all threads that could stop them.
 TEST(ServoThread, GivesThePriorityUpWhereOrdinaryThreadsStarve) {
   std::atomic<int> steps{0};
   std::vector<std::unique_ptr<ServoThread>> threads;
@@ -175,7 +176,8 @@ TEST(ServoThread, GivesThePriorityUpWhereOrdinaryThreadsStarve) {
   }
 }
 
-// Stopped in the third step, as by a debugger: no beat came for long, yet nobody had the time.
+// Stopped in the third step, as by a debugger: no beat came for long, but no other thread ran
+// either.
 TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
   ManualClock clock;
   ServoThread thread(clock);
@@ -186,7 +188,7 @@ TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
   WakeSignal told;
   Servo servo;
   servo.duty = &duty;
-  servo.is_urgent = [] { return false; };  // to spin would take the time that nobody had
+  servo.is_urgent = [] { return false; };  // spinning would count as CPU time of the process
   servo.step = [&](nanoseconds) {
     if (steps == 2) clock.advance(60s);
   };
@@ -204,7 +206,7 @@ TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
   EXPECT_EQ(thread.describe(), before);
 }
 
-TEST(ServoThread, SaysHowItKeepsTime) {
+TEST(ServoThread, DescribesItsScheduling) {
   const ServoThread plain(kClock, {.real_time = false});
   EXPECT_FALSE(plain.real_time());
   EXPECT_EQ(plain.describe(), "SCHED_OTHER as asked for, wakes when a step is due");

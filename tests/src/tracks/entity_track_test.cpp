@@ -38,7 +38,7 @@ Vector3d on_circle(double t) {
   return {kRadius * std::cos(kRate * t), kRadius * std::sin(kRate * t), 3.0};
 }
 
-/// A lap of so many steps; the last sample is the first again, or is left out.
+/// A lap of `steps` steps; the last sample equals the first if `closed`, else it is omitted.
 TrackSamples circle(int steps, bool closed = true) {
   TrackSamples samples;
   for (int i = 0; i < steps + (closed ? 1 : 0); ++i) {
@@ -49,7 +49,7 @@ TrackSamples circle(int steps, bool closed = true) {
   return samples;
 }
 
-/// Any motion at uneven times, turning any way.
+/// Random motion and rotation at uneven times.
 TrackSamples tumbling(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> step(0.02, 0.3);
@@ -72,7 +72,7 @@ TEST(TrackCurve, FollowsACircleByItsClosedForm) {
   const TrackCurve curve(circle(120));
   EXPECT_TRUE(curve.repeats());
   EXPECT_NEAR(curve.duration(), kLap, 1e-9);
-  const double angle = kRate * kLap / 120;  // a step
+  const double angle = kRate * kLap / 120;  // angle of one step
   double position = 0, velocity = 0, acceleration = 0, turn = 0, rate = 0;
   for (double t = 0; t < 2 * kLap; t += 0.00917) {
     const KinematicState state = curve.at(t);
@@ -85,8 +85,8 @@ TEST(TrackCurve, FollowsACircleByItsClosedForm) {
     rate = std::max(rate, (state.angular_velocity - Vector3d(0, 0, -kRate)).norm());
   }
   RecordProperty("position_m", std::to_string(position));
-  // Slopes over two steps are short by a^2/6; a quintic that has to cover its step with such slopes
-  // is off by 10/sqrt(3) of that a step in its acceleration.
+  // Slopes over two steps are too small by a^2/6. A quintic with such slopes that must cover its
+  // step has an acceleration error of 10/sqrt(3) times that per step.
   EXPECT_LE(velocity, kRadius * kRate * angle * angle / 6 * 1.1);
   EXPECT_LE(position, kRadius * angle * angle * angle / 20);
   EXPECT_LE(acceleration, kRadius * kRate * kRate * angle * 10 / std::sqrt(3.0) / 6 * 1.1);
@@ -124,7 +124,7 @@ TEST(TrackCurve, GoesThroughEverySample) {
   }
 }
 
-TEST(TrackCurve, SaysTheVelocityTheAccelerationAndTheTurnThatItMoves) {
+TEST(TrackCurve, ReturnsTheDerivativesOfItsMotion) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const TrackCurve curve(tumbling(seed, 30), seed % 2 == 0);
     std::mt19937 random(seed);
@@ -161,7 +161,7 @@ TEST(TrackCurve, BeginsAgainWithoutASeam) {
   }
 }
 
-TEST(TrackCurve, RestsAtItsEndWhenItDoesNotRepeat) {
+TEST(TrackCurve, RestsAtItsEndWithoutRepetition) {
   TrackSamples samples = circle(100);
   samples.times.resize(60);
   samples.positions.resize(60);
@@ -180,7 +180,7 @@ TEST(TrackCurve, RestsAtItsEndWhenItDoesNotRepeat) {
   }
 }
 
-TEST(TrackCurve, GoesBackAtItsMeanSpeedWhenToldToRepeatThoughItsEndsLieApart) {
+TEST(TrackCurve, ReturnsAtMeanSpeedWhereItsEndsDiffer) {
   TrackSamples samples;
   for (int i = 0; i <= 10; ++i) {
     samples.times.push_back(i);
@@ -194,7 +194,7 @@ TEST(TrackCurve, GoesBackAtItsMeanSpeedWhenToldToRepeatThoughItsEndsLieApart) {
   EXPECT_EQ(TrackCurve({samples.times, samples.positions, {}}, false).duration(), 10);
 }
 
-TEST(TrackCurve, StandsWhereARecordingStands) {
+TEST(TrackCurve, RestsWhereTheRecordingRests) {
   TrackSamples samples;
   for (int i = 0; i < 20; ++i) {
     samples.times.push_back(i);
@@ -229,7 +229,7 @@ TEST(TrackCurve, TakesAnyTimeAndAnyNumberOfSamples) {
   EXPECT_EQ(TrackCurve({still.times, still.positions, {}}).at(1e3).position, Vector3d::Ones());
 }
 
-TEST(TrackCurve, RefusesWhatIsNoMotion) {
+TEST(TrackCurve, RefusesInvalidSamples) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](const TrackSamples& samples) {
     EXPECT_THROW(TrackCurve{samples}, std::invalid_argument);
@@ -268,7 +268,7 @@ TEST(EntityTrack, IsMovedAsideAndPlayedFaster) {
   EXPECT_THROW(EntityTrack(nullptr, {0, 0, 0}), std::invalid_argument);
 }
 
-TEST(EntityTrack, IsWhereItsCurveIsInWhateverOrderItIsAsked) {
+TEST(EntityTrack, MatchesItsCurveInAnyOrderOfCalls) {
   for (const bool repeat : {false, true}) {
     const auto curve = std::make_shared<const TrackCurve>(tumbling(11, 40), repeat);
     EntityTrack track(curve, {0, 0, 0});
@@ -285,7 +285,7 @@ TEST(EntityTrack, IsWhereItsCurveIsInWhateverOrderItIsAsked) {
   }
 }
 
-TEST(EntityTrack, KeepsItsOrientationWhereTheCurveDoesNotTurn) {
+TEST(EntityTrack, KeepsItsOrientationOnCurvesWithoutTurns) {
   const Quaterniond own(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()));
   EntityTrack held(std::make_shared<const TrackCurve>(circle(50), std::nullopt, TrackTurn::held),
                    {0, 0, 0}, own);
@@ -337,7 +337,7 @@ TEST(TrackSamples, AreReadWithTheirOrientation) {
       read_track_samples(write(folder, "t_s,px_m,py_m,pz_m\n0,1,2,3\n")).orientations.empty());
 }
 
-TEST(TrackSamples, TellFileAndLineOfWhatIsWrong) {
+TEST(TrackSamples, ErrorsNameFileAndLine) {
   const std::string head = "t_s,px_m,py_m,pz_m";
   EXPECT_THAT(error_of("t_s,px_m,py_m\n0,0,0\n"), HasSubstr(".csv:1:1: no column pz_m"));
   EXPECT_THAT(error_of(head + "\n0,0,0,0\n1,0,x,0\n"), HasSubstr(".csv:3:5: py_m 'x' is not"));
@@ -350,7 +350,7 @@ TEST(TrackSamples, TellFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(error_of(head + "\n"), HasSubstr("no samples"));
 }
 
-TEST(TrackShelf, ReadsAFileOnceForAllThatMoveByIt) {
+TEST(TrackShelf, ReadsAFileOnceForAllItsEntities) {
   const test::ScratchFolder folder;
   const std::string file = write(folder, "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,1,0,0\n2,2,0,0\n");
   TrackShelf shelf;
@@ -373,7 +373,7 @@ std::map<std::string, TrackSamples> cars(const std::filesystem::path& file) {
   return tracks;
 }
 
-TEST(TrackCurve, MovesCarsOfATownHardlyFasterThanTheyWent) {
+TEST(TrackCurve, MovesTownCarsHardlyFasterThanRecorded) {
   RECKON_NEED_DATA("trajectories/vehicles_town_sumo.csv");
   const auto tracks = cars(test::reference_data() / "trajectories/vehicles_town_sumo.csv");
   EXPECT_GT(tracks.size(), 2000u);
@@ -391,7 +391,7 @@ TEST(TrackCurve, MovesCarsOfATownHardlyFasterThanTheyWent) {
       ASSERT_TRUE(deadreckon::is_finite(state)) << id;
       fastest = std::max(fastest, state.velocity.norm());
     }
-    // One fast step between two of rest overshoots by 3/8, at an end by a little more.
+    // A single fast step between two at rest overshoots by 3/8, at an end slightly more.
     EXPECT_LE(fastest, fastest_step * 1.5 + 1e-9) << id;
   }
 }

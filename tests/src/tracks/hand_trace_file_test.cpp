@@ -42,7 +42,7 @@ TEST(HandTraceFile, ReadsColumnsInAnyOrderAndIgnoresOthers) {
   EXPECT_LE((trace.at(0.25).velocity - Vector3d(6, 6, 6)).norm(), 1e-12);
 }
 
-TEST(HandTraceFile, TellsFileAndLineOfWhatIsWrong) {
+TEST(HandTraceFile, ErrorsNameFileAndLine) {
   const std::string head = "t_s,px_m,py_m,pz_m\n";
   EXPECT_NE(error_of("t_s,px_m,py_m\n0,0,0\n").find(".csv:1:1: no column pz_m"), std::string::npos);
   EXPECT_NE(error_of(head + "0,0,0,0\n1,0,x,0\n").find(".csv:3:5: py_m 'x' is not"),
@@ -56,7 +56,7 @@ TEST(HandTraceFile, TellsFileAndLineOfWhatIsWrong) {
   EXPECT_THROW((void)read_hand_trace("/nonexistent/trace.csv"), CsvError);
 }
 
-TEST(HandTraceFile, GivesASmoothHandFromRecordingsOfRealHands) {
+TEST(HandTraceFile, MakesASmoothHandFromRecordedHands) {
   for (const char* name : {"wiping-fender-0.csv", "wiping-rim-0.csv", "wiping-rim-3.csv"}) {
     RECKON_NEED_DATA(std::string("haptic-traces/") + name);
     haptics::HandTraceOptions options;

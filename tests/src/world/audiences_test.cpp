@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What each of those knows who are told apart.
+// The sent state of each audience of an entity.
 #include "reckon/peer/world/audiences.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Audiences made(std::size_t urgent, const std::vector<aoim::Channel>& table = row
           deadreckon::kDefaultSendRule, 1.0};
 }
 
-TEST(Audiences, AreOneForEachRowAndTheInmostForWhatIsFelt) {
+TEST(Audiences, AreOnePerRowPlusTheTouchTier) {
   EXPECT_EQ(made(0).last(), 2u);
   EXPECT_EQ(made(1).last(), 3u);
   EXPECT_EQ(made(1, {}).last(), 1u) << "all, and those who touch";
@@ -44,7 +44,7 @@ TEST(Audiences, AreOneForEachRowAndTheInmostForWhatIsFelt) {
   EXPECT_EQ(made(1).receive_parts(), 2u);
 }
 
-TEST(Audiences, AskWhereTheirOwnCopyIsOffByTheirOwnThreshold) {
+TEST(Audiences, SendByTheirOwnCopyAndThreshold) {
   Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.15), 1.1, SendReason::position, true);
@@ -57,7 +57,7 @@ TEST(Audiences, AskWhereTheirOwnCopyIsOffByTheirOwnThreshold) {
   EXPECT_EQ(all.decide(2, at(0.81), 1.2), SendReason::position) << "that was not for them";
 }
 
-TEST(Audiences, AreBehindUntilTheyAreToldTheWholeOfIt) {
+TEST(Audiences, AreBehindUntilAFullUpdate) {
   Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   EXPECT_FALSE(all.is_behind(1) || all.is_behind(2));
@@ -70,7 +70,7 @@ TEST(Audiences, AreBehindUntilTheyAreToldTheWholeOfIt) {
   EXPECT_FALSE(all.is_behind(2));
 }
 
-TEST(Audiences, ArePutInStepOnceWhereNobodyIsServedBeforeThem) {
+TEST(Audiences, AreSynchronisedOnceWithoutInnerListeners) {
   Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.1), 2.0, SendReason::position, true);
@@ -83,7 +83,7 @@ TEST(Audiences, ArePutInStepOnceWhereNobodyIsServedBeforeThem) {
   EXPECT_FALSE(all.is_out_of_step(2, 3.0, 9.0));
 }
 
-TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
+TEST(Audiences, HaveLongerHeartbeatsTheCoarserTheyAre) {
   Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::position, true);
   EXPECT_DOUBLE_EQ(all.next(1), 3.0) << "1 s, twice as long";
@@ -91,8 +91,8 @@ TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
   EXPECT_EQ(all.decide(1, at(0.0), 3.0), SendReason::heartbeat);
 }
 
-// Contact groups as without rows.
-TEST(Audiences, OfWhatIsFeltFollowHalfASecondLaterAtTheLatest) {
+// Contact groups, as without rows.
+TEST(Audiences, FollowTheTouchTierWithinHalfASecond) {
   Audiences all = made(1);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.0), 1.1, SendReason::force, true);

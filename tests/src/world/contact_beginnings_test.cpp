@@ -73,7 +73,7 @@ TEST_F(Beginnings, RememberAMemberAtAnyAddress) {
   EXPECT_TRUE(presses(appear({1, 2, 4}, owner_at(8, 12)), 0.01));
 }
 
-TEST_F(Beginnings, HoldBackWhatWasHeldBackBefore) {
+TEST_F(Beginnings, HoldBackOwnersThatWereHeldBack) {
   EXPECT_FALSE(presses(appear({1, 2, 3}, owner_at(7)), 0.01));
   EXPECT_FALSE(presses(appear({1, 2, 4}, owner_at(7)), 0.01)) << "it was never pressed";
 }

@@ -18,13 +18,13 @@ haptics::ContactSet one_hand(std::uint32_t version) {
   return set;
 }
 
-TEST(ContactRecorder, KeepsEachSetThatSaysSomethingElse) {
+TEST(ContactRecorder, RecordsEachChangedSet) {
   haptics::ContactRing ring(16);
   ContactRecorder recorder;
   recorder.note(one_hand(1), 1s);
   EXPECT_TRUE(ring.empty());
   recorder.record_into(&ring);
-  recorder.note({}, 1s);  // as a servo has it from the start
+  recorder.note({}, 1s);  // the initial set of a servo
   EXPECT_TRUE(ring.empty());
 
   haptics::ContactSet set = one_hand(1);
@@ -52,7 +52,7 @@ TEST(ContactRecorder, KeepsEachSetThatSaysSomethingElse) {
   EXPECT_TRUE(kept(9s));
 }
 
-TEST(ContactRecorder, TriesAgainWhatFoundTheRingFull) {
+TEST(ContactRecorder, RetriesAfterAFullRing) {
   haptics::ContactRing ring(2);
   ContactRecorder recorder;
   recorder.record_into(&ring);

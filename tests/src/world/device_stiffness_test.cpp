@@ -28,8 +28,8 @@ DeviceStiffness of(double damping, double wall, const HandModel& hand, double sp
   return stiffness_of(servo, hand);
 }
 
-// 0.95 of 2 b/T; of which walls have 3/4 and hands half.
-TEST(DeviceStiffness, IsWhatTheDampingAllows) {
+// 0.95 of 2 b/T; walls get 3/4 of it and hands half.
+TEST(DeviceStiffness, FollowsTheDamping) {
   HandModel hand;
   hand.k1 = 1500;
   hand.damping = 0;
@@ -45,7 +45,7 @@ TEST(DeviceStiffness, IsWhatTheDampingAllows) {
   EXPECT_EQ(strong.hand_shown(), 1500);
 }
 
-// A quarter of what walls have, where there is one.
+// Regions get a quarter of the walls' share, if there is a region.
 TEST(DeviceStiffness, LeavesAPartToRegions) {
   const DeviceStiffness weak = of(1.0, 20000, {}, 800), strong = of(20.0, 0, {}, 800);
   EXPECT_NEAR(weak.walls_shown(), 0.75 * 1425, 1e-9);
@@ -55,7 +55,7 @@ TEST(DeviceStiffness, LeavesAPartToRegions) {
   EXPECT_FALSE(strong.softens_regions());
 }
 
-TEST(DeviceStiffness, SaysFromWhichDepthAHandNoLongerHardens) {
+TEST(DeviceStiffness, GivesTheDepthWhereAHandStopsHardening) {
   HandModel hand;
   hand.k1 = 500;
   hand.damping = 0;
@@ -72,7 +72,7 @@ TEST(DeviceStiffness, LeavesLessForASpringBesideADamper) {
   hand.damping = 0.25;
   EXPECT_NEAR(of(1.0, 0, hand).hand_limit(), 0.75 * 950, 1e-9);
   EXPECT_FALSE(of(1.0, 0, hand).softens_hand());
-  hand.damping = 2;  // of which half of the device's own is shown
+  hand.damping = 2;  // half of the device's own damping is shown
   EXPECT_NEAR(of(1.0, 0, hand).hand_shown(), 475, 1e-9);
   EXPECT_TRUE(of(1.0, 0, hand).softens_hand());
   EXPECT_EQ(of(1.0, 0, hand).damper_shown(2), 0.5);

@@ -42,7 +42,7 @@ TEST(Disputes, AreNewsAgainAfterAQuietMinute) {
   EXPECT_TRUE(disputes.take_news(seconds(122)));
 }
 
-TEST(Disputes, OfManyHostsAreToldOneASecond) {
+TEST(Disputes, OfManyHostsAreReportedOnceASecond) {
   Disputes disputes;
   int told = 0;
   for (nanoseconds now = seconds(0); now < seconds(10); now += milliseconds(1)) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is felt of entities whose owner was silent for too long.
+// The forces of entities whose owner was silent too long.
 #include <gtest/gtest.h>
 
 #include "reckon/pdu/seconds.hpp"
@@ -14,7 +14,7 @@ constexpr pdu::EntityId kDoubted{7, 8, 9};
 constexpr pdu::EntityType kHandType{pdu::EntityKind::life_form, pdu::EntityDomain::land};
 constexpr pdu::EntityType kPegType{pdu::EntityKind::cultural_feature, pdu::EntityDomain::land};
 
-// The incoming half of a peer that hears one entity; times in seconds from the start.
+// The incoming half of a peer that receives one entity; times in seconds from the start.
 class DoubtedHalf {
  public:
   void hear(const pdu::EntityType& type, double time) {
@@ -30,7 +30,7 @@ class DoubtedHalf {
     const std::chrono::nanoseconds now = pdu::from_seconds(time);
     half_.remote.believe_peer(0, now, now);
   }
-  // Seconds until which its force is there, then it fades.
+  // Seconds until which its force is full; then it fades.
   [[nodiscard]] double felt_until() const {
     return pdu::to_seconds(half_.remote.find(kDoubted)->felt_until);
   }
@@ -44,8 +44,8 @@ class DoubtedHalf {
 
 const double kForEver = pdu::to_seconds(RemoteEntity::kTrusted);
 
-// That its owner is alive does not tell where it is.
-TEST(DoubtedEntity, IsFeltOnlyOnceItHasSaidWhereItIs) {
+// A life proof of the owner does not contain the entity's position.
+TEST(DoubtedEntity, IsFeltOnlyAfterItsNextState) {
   DoubtedHalf half;
   half.hear(kPegType, 1);
   half.doubt(3.5);
@@ -60,7 +60,7 @@ TEST(DoubtedEntity, IsFeltOnlyOnceItHasSaidWhereItIs) {
   EXPECT_EQ(half.felt_until(), kForEver);
 }
 
-TEST(DoubtedEntity, HasTheOtherHandsOfItsOwnerDoubtedButNotWhatMayRest) {
+TEST(DoubtedEntity, HandsNeedANewStatePegsDoNot) {
   DoubtedHalf half;
   half.hear(kPegType, 1);
   half.believe(2);

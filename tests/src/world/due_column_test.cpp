@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Places that a pass finds, each made due `later`.
+// The places that a pass finds; each becomes due again after `later`.
 std::vector<std::size_t> found_in(DueColumn& dues, nanoseconds now, nanoseconds later) {
   std::vector<std::size_t> found;
   for (std::size_t i = dues.next_due(now, 0); i < dues.size(); i = dues.next_due(now, i)) {
@@ -26,7 +26,7 @@ std::vector<std::size_t> found_in(DueColumn& dues, nanoseconds now, nanoseconds 
   return found;
 }
 
-// The column and a plain vector under the same random operations.
+// Applies the same random operations to the column and a plain vector.
 void expect_vector(std::uint32_t seed, std::size_t rows) {
   std::mt19937 random(seed);
   const auto below = [&](std::size_t n) { return random() % n; };
@@ -60,7 +60,7 @@ void expect_vector(std::uint32_t seed, std::size_t rows) {
   }
 }
 
-TEST(DueColumn, FindsWhatAVectorFinds) {
+TEST(DueColumn, FindsTheSameAsAVector) {
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     for (const std::size_t rows : {1U, 63U, 64U, 65U, 1000U}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", rows " << rows);
@@ -69,7 +69,7 @@ TEST(DueColumn, FindsWhatAVectorFinds) {
   }
 }
 
-TEST(DueColumn, FindsEachOnceWhileWhatIsFoundIsErased) {
+TEST(DueColumn, FindsEachOnceDuringErasure) {
   DueColumn dues(1000);
   std::vector<int> names;  // moves as the rows do
   for (int i = 0; i < 1000; ++i) {

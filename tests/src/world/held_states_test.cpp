@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What rows behind have heard of an entity, for who goes back to them.
+// States of outer tiers that are kept for entities that revert to them.
 #include "reckon/peer/world/held_states.hpp"
 
 #include <gtest/gtest.h>
@@ -11,10 +11,10 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kNearRows = 2;  // near ones; the cell's is behind them
+constexpr std::size_t kNearRows = 2;  // near rows; the cell's row follows them
 constexpr aoim::GroupIndex kNearest{11}, kMiddle{21};
 
-// Told at a whole number of seconds, by a group.
+// A state sent at a whole number of seconds in a group.
 HeldState told(unsigned second, aoim::GroupIndex group = aoim::kBaseGroup) {
   HeldState state;
   state.state.position = {static_cast<double>(second), 0, 0};
@@ -24,7 +24,7 @@ HeldState told(unsigned second, aoim::GroupIndex group = aoim::kBaseGroup) {
   return state;
 }
 
-// Entities that go back where a group is left, and what to.
+// The entities that revert when a group is left, with the time of their older state.
 std::vector<std::pair<std::size_t, double>> leave(HeldStates& states, aoim::GroupIndex group,
                                                   std::size_t row) {
   std::vector<std::pair<std::size_t, double>> back;
@@ -36,7 +36,7 @@ std::vector<std::pair<std::size_t, double>> leave(HeldStates& states, aoim::Grou
 
 using Back = std::vector<std::pair<std::size_t, double>>;
 
-TEST(HeldStates, GiveBackTheNewestThatCameByARowBehind) {
+TEST(HeldStates, RevertToTheNewestOuterState) {
   HeldStates states(kNearRows, 4);
   states.push();
   states.note(0, kNearRows, told(1), true);
@@ -48,7 +48,7 @@ TEST(HeldStates, GiveBackTheNewestThatCameByARowBehind) {
   EXPECT_EQ(leave(states, kMiddle, 1), (Back{{0, 1.0}}));
 }
 
-TEST(HeldStates, KnowWhatWasOvertakenByANearerRow) {
+TEST(HeldStates, KeepOuterStatesOvertakenByANearerRow) {
   HeldStates states(kNearRows, 4);
   states.push();
   states.note(0, kNearRows, told(1), true);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// In whose name each PDU that is no state is said.
+// The issuer of each PDU other than state PDUs.
 #include "reckon/peer/world/interaction_issuers.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ TEST(InteractionIssuers, AreTheFirstIdOfMostTypes) {
   comment.originating_entity_id = kOne;
   comment.receiving_entity_id = kOther;
   EXPECT_THAT(issuers(comment), ElementsAre(kOne));
-  pdu::IntercomControl control;  // whose first ID is not behind the header
+  pdu::IntercomControl control;  // its first ID is not behind the header
   control.source_entity_id = kOne;
   control.master_intercom_reference_id = kOther;
   EXPECT_THAT(issuers(control), ElementsAre(kOne));
@@ -50,7 +50,7 @@ TEST(InteractionIssuers, AreTheFirstIdOfMostTypes) {
   EXPECT_THAT(issuers(shot), ElementsAre(kOne));
 }
 
-TEST(InteractionIssuers, AreThoseWhoAnswerOrAskTheOwnerOfTheFirst) {
+TEST(InteractionIssuers, AreRespondersOrRequesters) {
   pdu::ResupplyOffer offer;
   offer.receiving_entity_id = kOther;
   offer.supplying_entity_id = kOne;
@@ -69,7 +69,7 @@ TEST(InteractionIssuers, AreThoseWhoAnswerOrAskTheOwnerOfTheFirst) {
   EXPECT_THAT(issuers(nack), ElementsAre(kOne));
 }
 
-TEST(InteractionIssuers, AreBothOfWhatEitherMaySay) {
+TEST(InteractionIssuers, AreBothWhereEitherMaySend) {
   pdu::ResupplyCancel cancel;
   cancel.receiving_entity_id = kOne;
   cancel.supplying_entity_id = kOther;
@@ -96,7 +96,7 @@ TEST(InteractionIssuers, AreKnownOfEachTypeOfTheStandard) {
   expect_an_issuer_of_each(pdu::PduTypes{});
 }
 
-TEST(InteractionIssuers, AreNoneOfWhatIsTooShortOrOfAnUnknownType) {
+TEST(InteractionIssuers, AreEmptyForShortOrUnknownPdus) {
   pdu::Fire fire;
   fire.firing_entity_id = kOne;
   const std::vector<std::byte> octets = octets_of(fire);

@@ -13,7 +13,8 @@
 namespace reckon::peer {
 namespace {
 
-/// The index and a std::map under the same random operations; keys of `range` meet again.
+/// Applies the same random operations to the index and a std::map; `range` limits the keys, so that
+/// they repeat.
 void expect_map(KeyIndex& index, std::uint64_t range, std::uint64_t stride, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<std::uint64_t> number(0, range - 1);
@@ -36,7 +37,7 @@ void expect_map(KeyIndex& index, std::uint64_t range, std::uint64_t stride, std:
   }
 }
 
-TEST(KeyIndex, BehavesAsAMapWithinItsRoomAndBeyondIt) {
+TEST(KeyIndex, BehavesAsAMapBeyondItsRoom) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     for (const std::size_t room : {0U, 1U, 7U, 64U}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", room " << room);
@@ -46,15 +47,15 @@ TEST(KeyIndex, BehavesAsAMapWithinItsRoomAndBeyondIt) {
   }
 }
 
-TEST(KeyIndex, BehavesAsAMapWhereAllKeysHaveOneHome) {
-  // Multiples of the inverse of the hash's factor: all of them land in the first slots.
+TEST(KeyIndex, BehavesAsAMapWhenAllKeysCollide) {
+  // Multiples of the inverse of the hash factor: all of them map to the first slots.
   constexpr std::uint64_t kInverse = 0xF1DE83E19937733DULL;
   static_assert(kInverse * 0x9E3779B97F4A7C15ULL == 1);
   KeyIndex index(64);
   expect_map(index, 64, kInverse, 3);
 }
 
-TEST(KeyIndex, FindsAllThatIsLeftWhenNearlyAllHaveGoneAndCameAgain) {
+TEST(KeyIndex, FindsTheRestAfterMassErasureAndReinsertion) {
   KeyIndex index(400'000);
   for (int round = 0; round < 2; ++round) {
     for (std::uint64_t key = 0; key < 400'000; ++key) index.put(key * 7, key);
@@ -67,7 +68,7 @@ TEST(KeyIndex, FindsAllThatIsLeftWhenNearlyAllHaveGoneAndCameAgain) {
   }
 }
 
-TEST(KeyIndex, AllocatesNothingWithinTheKeysThatItWasMadeFor) {
+TEST(KeyIndex, AllocatesNothingWithinItsInitialRoom) {
   KeyIndex index(256);
   const reckon::test::AllocationGuard guard;
   for (std::uint64_t key = 1; key <= 5000; ++key) {
@@ -75,7 +76,7 @@ TEST(KeyIndex, AllocatesNothingWithinTheKeysThatItWasMadeFor) {
     if (key >= 256) index.erase((key - 255) << 16);
   }
   EXPECT_EQ(guard.count(), 0U);
-  EXPECT_EQ(index.room(), 256U);  // what it reserved at first, which the guard does not see
+  EXPECT_EQ(index.room(), 256U);  // its initial reservation, which the guard does not see
   EXPECT_EQ(index.size(), 255U);
   EXPECT_EQ(index.find(5000U << 16), 5000U);
 }
@@ -100,7 +101,7 @@ TEST(KeyIndex, IsAValue) {
   EXPECT_EQ(moved.find(699), 699U);
 }
 
-TEST(KeyIndex, KeepsItsKeysEachTimeThatItTakesMoreSlots) {
+TEST(KeyIndex, KeepsItsKeysAtEachGrowth) {
   KeyIndex index(5000);
   for (std::uint64_t key = 0; key < 20'000; ++key) {
     index.put(key << 20, key);

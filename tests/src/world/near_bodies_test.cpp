@@ -13,7 +13,7 @@
 namespace reckon::peer {
 namespace {
 
-TEST(NearBodies, AreLargerAsProbesWhereTheyMayTouchAlready) {
+TEST(NearBodies, AreLargerAsProbesWhereTheyMayTouch) {
   RemoteEntity row;
   row.model.radius = 0.01;
   row.type.kind = pdu::EntityKind::life_form;
@@ -22,7 +22,7 @@ TEST(NearBodies, AreLargerAsProbesWhereTheyMayTouchAlready) {
   body.centre = {1, 2, 3};
   std::array bodies{body, body, body, body};
   bodies[0].depth = 0.001;    // touches
-  bodies[1].depth = -0.0004;  // nearly
+  bodies[1].depth = -0.0004;  // almost touches
   bodies[2].depth = -0.0006;
   bodies[3].depth = -1;
   std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
@@ -47,10 +47,10 @@ TEST(NearBodies, AreNoProbesWhereNobodyHoldsThem) {
   EXPECT_EQ(probes[0].position, bodies[1].centre);
 }
 
-// Bodies of others, each given once at each look.
+// Bodies of other peers, each given once in each pass.
 class Places {
  public:
-  // A sphere that a hand feels, unless `k1` says else.
+  // A sphere that a hand feels, unless `k1` is too small.
   std::size_t body(const Party& party, double depth, double k1 = 300.0) {
     RemoteEntity& row = rows_.emplace_back();
     row.id = {7, 7, static_cast<std::uint16_t>(rows_.size())};
@@ -91,11 +91,11 @@ class Places {
 
 constexpr Party kBob{1, 1, false};
 
-// 0 is nobody's host here; ours is none of these.
+// Host 0 is never used here, nor is the local host.
 Party guest_of(std::uint16_t host, std::uint16_t sender = 9) { return {host, sender, true}; }
 Party peer_of(std::uint16_t host, std::uint16_t sender = 9) { return {host, sender, false}; }
 
-TEST(NearBodies, TakeAllInTheOrderOfTheirDepthWhereThereIsRoom) {
+TEST(NearBodies, KeepAllInDepthOrderIfRoom) {
   Places places;
   for (std::size_t i = 0; i < NearBodies::kMost; ++i)
     static_cast<void>(places.body(kBob, -0.2 + 0.001 * static_cast<double>(i)));
@@ -107,7 +107,7 @@ TEST(NearBodies, TakeAllInTheOrderOfTheirDepthWhereThereIsRoom) {
       places.near.bodies(), [](const NearBody& a, const NearBody& b) { return a.depth > b.depth; }));
 }
 
-TEST(NearBodies, KeepAPlaceForAHandAmongTenThousandGuestsOfOneHost) {
+TEST(NearBodies, KeepAHandAmongTenThousandGuests) {
   for (const double depth : {0.004, -0.02, -0.2}) {
     Places places;
     const std::size_t bob = places.body(kBob, depth);
@@ -121,7 +121,7 @@ TEST(NearBodies, KeepAPlaceForAHandAmongTenThousandGuestsOfOneHost) {
   }
 }
 
-TEST(NearBodies, GiveAPlaceToAHandThatComesWhereAStrangersBodiesTouchAlready) {
+TEST(NearBodies, KeepANewHandAmongTouchingStrangers) {
   for (const bool guest : {false, true}) {
     Places places;
     for (std::size_t i = 0; i < 100; ++i) static_cast<void>(places.body({2, 9, guest}, 0.9));
@@ -135,7 +135,7 @@ TEST(NearBodies, GiveAPlaceToAHandThatComesWhereAStrangersBodiesTouchAlready) {
   }
 }
 
-TEST(NearBodies, LetWhatTouchesKeepItsPlaceWhoeverComesFromHoweverManyHosts) {
+TEST(NearBodies, KeepTouchingBodiesAgainstAnyNewHosts) {
   for (const bool guest : {false, true}) {
     Places places;
     const std::size_t bob = places.body(kBob, 0.001), his_other = places.body(kBob, 0.001);
@@ -147,7 +147,7 @@ TEST(NearBodies, LetWhatTouchesKeepItsPlaceWhoeverComesFromHoweverManyHosts) {
   }
 }
 
-TEST(NearBodies, PutAPeersBeforeGuestsOfHoweverManyHosts) {
+TEST(NearBodies, PreferPeersToGuestsOfAnyHosts) {
   Places places;
   for (std::uint16_t host = 2; host < 200; ++host)
     static_cast<void>(places.body(guest_of(host), 0.9));
@@ -157,7 +157,7 @@ TEST(NearBodies, PutAPeersBeforeGuestsOfHoweverManyHosts) {
   EXPECT_TRUE(places.has(bob));
 }
 
-TEST(NearBodies, ShareThePlacesOfAHostAmongItsSenders) {
+TEST(NearBodies, ShareAHostsPlacesAmongItsSenders) {
   Places places;
   const std::size_t bob = places.body(kBob, 0.001);
   for (std::size_t i = 0; i < 100; ++i) static_cast<void>(places.body(peer_of(1, 2), 0.9));
@@ -169,7 +169,7 @@ TEST(NearBodies, ShareThePlacesOfAHostAmongItsSenders) {
   EXPECT_TRUE(places.has(bob));
 }
 
-TEST(NearBodies, GiveEachHostItsShareBeforeAnyHasMore) {
+TEST(NearBodies, GiveEachHostItsShareFirst) {
   Places places;
   for (std::uint16_t host = 1; host <= 5; ++host) {
     for (int i = 0; i < 3 * host; ++i) static_cast<void>(places.body(peer_of(host), 0.1 * host));
@@ -181,7 +181,7 @@ TEST(NearBodies, GiveEachHostItsShareBeforeAnyHasMore) {
     EXPECT_GE(places.of_host(host), NearBodies::kSure) << host;
 }
 
-TEST(NearBodies, PutWhatGivesNoForceLast) {
+TEST(NearBodies, PutForcelessBodiesLast) {
   Places places;
   for (std::uint16_t host = 2; host < 100; ++host) {
     for (const double k1 : {0.0, 1e-30, 1e-3}) static_cast<void>(places.body(peer_of(host), 0.9, k1));

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The search for what hands could touch, against a look at every entity at every step.
+// The search for bodies that hands could touch, compared with a check of every entity at every
+// step.
 #include "reckon/peer/world/near_search.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// A table of entities and the search beside it.
+// A table of entities with its search.
 class Crowd {
  public:
   Crowd(std::size_t capacity, std::uint32_t seed, double size)
@@ -53,7 +54,7 @@ class Crowd {
     search_.add_row();
     move(table_.rows().size() - 1);
   }
-  // An update: another motion, and now and then a model or another one.
+  // An update: another motion, and sometimes another or no model.
   void move(std::size_t place) {
     RemoteEntity& row = table_.rows()[place];
     row.state.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(1 + random_.below(9));
@@ -90,7 +91,7 @@ class Crowd {
     if (random_.below(6) == 0 && size() > 0) give_model(random_.below(size()));
   }
 
-  // One step of the search, held against all rows. Returns what was within reach.
+  // Runs one step of the search and compares it with all rows. Returns how many were within reach.
   std::size_t step(std::span<const ProbeState> probes, nanoseconds by) {
     now_ += by;
     found_.resize(probes.size());
@@ -107,7 +108,7 @@ class Crowd {
     return all;
   }
 
-  // The same for bodies of ours alone. Returns how many pairs were within reach.
+  // The same for own bodies. Returns how many pairs were within reach.
   std::size_t meet(std::span<const MovingBody> bodies, nanoseconds by) {
     now_ += by;
     search_.find(table_.rows(), {}, now_, {}, bodies, hands_);
@@ -169,7 +170,7 @@ class Crowd {
   std::vector<NearBodies> found_;
 };
 
-// Hands that rest, stroll, strike and, seldom, leap.
+// Hands that rest, stroll, strike and, rarely, jump.
 void move_hands(std::span<ProbeState> hands, Random& random, double size) {
   for (ProbeState& hand : hands) {
     const std::size_t how = random.below(1000);
@@ -182,7 +183,7 @@ void move_hands(std::span<ProbeState> hands, Random& random, double size) {
   }
 }
 
-TEST(NearSearch, FindsWhatALookAtAllFindsWhateverMoves) {
+TEST(NearSearch, MatchesAFullSearchForHands) {
   std::size_t found = 0, steps = 0, looks = 0, rows = 0;
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -203,7 +204,7 @@ TEST(NearSearch, FindsWhatALookAtAllFindsWhateverMoves) {
   EXPECT_LT(looks, rows / 2);
 }
 
-// Bodies that rest, stroll, turn, strike, leap, come and go.
+// Bodies that rest, stroll, turn, strike, jump, come and go.
 void move_bodies(std::vector<MovingBody>& bodies, const deadreckon::ForceModel& model,
                  Random& random, double size) {
   for (MovingBody& body : bodies) {
@@ -223,7 +224,7 @@ void move_bodies(std::vector<MovingBody>& bodies, const deadreckon::ForceModel& 
   }
 }
 
-TEST(NearSearch, FindsTheHandsNearBodiesThatALookAtAllFindsWhateverMoves) {
+TEST(NearSearch, MatchesAFullSearchForHandsNearBodies) {
   std::size_t found = 0, looks = 0, rows = 0;
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -249,7 +250,7 @@ TEST(NearSearch, FindsTheHandsNearBodiesThatALookAtAllFindsWhateverMoves) {
   EXPECT_LT(looks, rows / 2);
 }
 
-TEST(NearSearch, LooksAtWhatIsFarAwaySeldom) {
+TEST(NearSearch, ChecksDistantEntitiesRarely) {
   constexpr std::size_t kRows = 10'000;
   Crowd crowd(kRows, 1, 100'000);
   for (std::size_t i = 0; i < kRows; ++i) {
@@ -280,7 +281,7 @@ TEST(NearSearch, LooksAtWhatIsFarAwaySeldom) {
   EXPECT_LE(most, 10U);
 }
 
-TEST(NearSearch, FindsPlanesAndPegsByTheirSurfaceAndNotByTheirPoint) {
+TEST(NearSearch, FindsPlanesAndPegsByTheirSurface) {
   Crowd crowd(2, 1, 1);
   for (const Kind kind : {Kind::plane, Kind::spring_damper_region}) {
     crowd.add();
@@ -302,7 +303,7 @@ TEST(NearSearch, FindsPlanesAndPegsByTheirSurfaceAndNotByTheirPoint) {
   EXPECT_EQ(crowd.step(hand, milliseconds(2)), 0U);
 }
 
-TEST(NearSearch, KeepsTheNearestAndSaysHowManyItLeftOut) {
+TEST(NearSearch, KeepsTheNearestAndCountsTheRest) {
   Crowd crowd(100, 1, 1);
   for (int i = 0; i < 100; ++i) {
     crowd.add();

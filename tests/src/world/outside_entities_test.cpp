@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities heard outside the radius of interest are shown once they are within, whoever moved.
+// Entities received from outside the radius of interest are shown once they are within, whether
+// they or the focus moved.
 #include "reckon/peer/world/outside_entities.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ constexpr pdu::EntityId kTank{7, 8, 9};
 constexpr pdu::SimulationAddress kOwner{7, 8};
 constexpr double kRadius = 1000;  // [m]
 
-// The incoming half of a peer that hears all cells, with a focus of 1 km where the test puts it.
+// The incoming half of a peer that receives all cells, with a focus of 1 km that the test moves.
 class Receiver {
  public:
   explicit Receiver(std::size_t capacity = 1000)
@@ -77,7 +78,7 @@ class Receiver {
 
   bool haptic = false;
   std::span<const std::byte> parts;
-  aoim::SourceAddress from;  // of what is heard
+  aoim::SourceAddress from;  // source of received states
 
  private:
   test::IncomingHalf half_;
@@ -95,7 +96,7 @@ TEST(OutsideEntities, AreShownOnceWeHaveComeNear) {
   EXPECT_EQ(receiver.count("entered"), 1u);
 }
 
-TEST(OutsideEntities, AreShownWhereTheirOwnMotionHasBroughtThem) {
+TEST(OutsideEntities, AreShownAfterTheirOwnMotionBringsThem) {
   Receiver receiver;
   receiver.hear(kTank, {1100, 0, 0}, {-50, 0, 0}, 0);
   for (double t = 0.1; t < 1.95; t += 0.1) {
@@ -107,7 +108,7 @@ TEST(OutsideEntities, AreShownWhereTheirOwnMotionHasBroughtThem) {
   EXPECT_NEAR(receiver.find()->shown(pdu::from_seconds(4)).position.x(), 900, 1e-3);
 }
 
-TEST(OutsideEntities, ComeBackWithWhatWasSaidWhenTheyLeft) {
+TEST(OutsideEntities, ReturnWithTheStateOfTheirDeparture) {
   Receiver receiver;
   receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 0);
   ASSERT_NE(receiver.find(), nullptr);
@@ -127,7 +128,7 @@ TEST(OutsideEntities, BringTheirForceModelHoweverItCame) {
     if (alone) {
       receiver.hear_model_alone(kTank, 0.1);
     } else {
-      receiver.hear(kTank, {1500, 0, 1}, {0, 0, 0}, 0.1);  // a state that says nothing of it
+      receiver.hear(kTank, {1500, 0, 1}, {0, 0, 0}, 0.1);  // a state without the force model
     }
     receiver.stand_at({600, 0, 0}, 1);
     receiver.look(1.3);
@@ -149,14 +150,14 @@ TEST(OutsideEntities, BringTheirArticulatedParts) {
   EXPECT_EQ(receiver.remote().with_parts(), 1u);
 }
 
-TEST(OutsideEntities, AreForgottenWithTheirOwnerTheirLifeAndTheirGoodbye) {
+TEST(OutsideEntities, AreForgottenWithOwnerEpochOrDeactivation) {
   for (const int way : {0, 1, 2, 3}) {
     Receiver receiver;
     receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
     if (way == 0) receiver.remote().drop_peer(kOwner, Gone::silent);
     if (way == 1) receiver.remote().claim(kOwner, 77);
     if (way == 2) receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0.5, pdu::kAppearanceDeactivated);
-    const double then = way == 3 ? 200 : 1;  // way 3: silent for longer than it may be
+    const double then = way == 3 ? 200 : 1;  // way 3: silent for longer than allowed
     receiver.stand_at({600, 0, 0}, then);
     receiver.look(then + 0.3);
     receiver.look(then + 2);
@@ -165,7 +166,7 @@ TEST(OutsideEntities, AreForgottenWithTheirOwnerTheirLifeAndTheirGoodbye) {
   }
 }
 
-TEST(OutsideEntities, OfPlainProgramsAreNotTakenOverWhileTheseSpeak) {
+TEST(OutsideEntities, KeepTheirPlainDisOwnerWhileItSends) {
   for (const bool deactivates : {false, true}) {
     Receiver receiver;
     receiver.from.port = 3000;
@@ -177,7 +178,7 @@ TEST(OutsideEntities, OfPlainProgramsAreNotTakenOverWhileTheseSpeak) {
     EXPECT_EQ(receiver.find(), nullptr);
     EXPECT_EQ(receiver.count("disputed_in"), 1u);
 
-    // Nor once it is shown: its owner was heard 5 s ago.
+    // The same holds once it is shown: its owner was received 5 s ago.
     receiver.stand_at({600, 0, 0}, 24.5);
     receiver.look(25);
     receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 25.1, appearance);
@@ -187,7 +188,7 @@ TEST(OutsideEntities, OfPlainProgramsAreNotTakenOverWhileTheseSpeak) {
   }
 }
 
-TEST(OutsideEntities, OfPlainProgramsFollowThemToAnotherAddressAfterTheirSilence) {
+TEST(OutsideEntities, FollowSilentPlainDisOwnersToOtherAddresses) {
   Receiver receiver;
   receiver.from.port = 3000;
   receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
@@ -199,7 +200,7 @@ TEST(OutsideEntities, OfPlainProgramsFollowThemToAnotherAddressAfterTheirSilence
   EXPECT_EQ(receiver.count("disputed_in"), 1u);
 }
 
-TEST(OutsideEntities, BeyondTheCapacityAreSeenWithTheirNextUpdate) {
+TEST(OutsideEntities, AppearWithTheirNextUpdateBeyondTheCapacity) {
   Receiver receiver(2);
   for (std::uint16_t i = 1; i <= 3; ++i) {
     receiver.hear({7, 8, i}, {1500, 10.0 * i, 0}, {0, 0, 0}, 0.1 * i);
@@ -267,7 +268,7 @@ TEST(ShownEntities, ComeBackAsTheyWere) {
   EXPECT_EQ(after.model.k1, before.model.k1);
   EXPECT_EQ(after.valid_until, before.valid_until);
   EXPECT_EQ(after.timeout, before.timeout);
-  // It is owed no more silence than before.
+  // It gets no new time-out.
   receiver.remote().expire(pdu::from_seconds(before.timeout + 0.1));
   EXPECT_EQ(receiver.find(), nullptr);
 }
@@ -296,7 +297,7 @@ TEST(ShownEntities, BringTheirArticulatedPartsBack) {
 
 TEST(ShownEntities, StayWhereWeTremble) {
   Receiver receiver;
-  receiver.hear(kTank, {1095, 0, 0}, {0, 0, 0}, 0);  // outside, until we come near
+  receiver.hear(kTank, {1095, 0, 0}, {0, 0, 0}, 0);  // outside, until the focus comes near
   receiver.stand_at({200, 0, 0}, 1);
   receiver.look(1);
   receiver.look(2.1);
@@ -309,8 +310,8 @@ TEST(ShownEntities, StayWhereWeTremble) {
   }
 }
 
-// Its owner is in a cell that we do not hear any more.
-TEST(ShownEntities, GoOutOfSightWhenTheyMoveAwayUnheard) {
+// Its owner is in a cell that is no longer received.
+TEST(ShownEntities, DisappearWhenTheyMoveAwayUnreceived) {
   Receiver receiver;
   receiver.hear(kTank, {900, 0, 0}, {60, 0, 0}, 0);
   for (int step = 1; step < 50; ++step) {
@@ -322,7 +323,7 @@ TEST(ShownEntities, GoOutOfSightWhenTheyMoveAwayUnheard) {
   }
 }
 
-TEST(ShownEntities, AreAsManyAsAreLookedAtInAPass) {
+TEST(ShownEntities, AreCheckedInBoundedNumbersPerPass) {
   Receiver receiver(40'000);
   constexpr std::uint16_t kMany = 40'000;
   for (std::uint16_t i = 1; i <= kMany; ++i) receiver.hear({7, 8, i}, {500, 0, 0}, {0, 0, 0}, 0);
@@ -340,7 +341,7 @@ TEST(ShownEntities, AreAsManyAsAreLookedAtInAPass) {
   EXPECT_EQ(receiver.remote().rows().size(), kMany);
 }
 
-// Whoever has been within for a second is shown, and nobody who is far away. The oracle computes
+// An entity within the radius for a second is shown; a distant one is not. The oracle computes
 // every distance at every step.
 TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
   struct Truth {
@@ -352,11 +353,11 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
     std::uniform_real_distribution<double> place(-6000, 6000), speed(-60, 60), chance(0, 1);
     Receiver receiver;
     std::map<std::uint16_t, Truth> truths;
-    std::map<std::uint16_t, double> within, beyond;  // since when
+    std::map<std::uint16_t, double> within, beyond;  // start times
     Vector3d focus(0, 0, 0), way(speed(random), speed(random), 0);
     for (int step = 0; step < 600; ++step) {
       const double t = 0.1 * step;
-      if (chance(random) < 0.01) focus = {place(random), place(random), 0};  // a leap
+      if (chance(random) < 0.01) focus = {place(random), place(random), 0};  // a jump
       focus += 0.1 * way;
       for (int k = 0; k < 3; ++k) {
         const auto number = static_cast<std::uint16_t>(1 + random() % 150);
@@ -374,7 +375,7 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
       receiver.look(t);
       for (const auto& [number, truth] : truths) {
         const double away = (truth.position + (t - truth.since) * truth.velocity - focus).norm();
-        const bool silent = t - truth.since > 11;  // at 12 s those that move are forgotten
+        const bool silent = t - truth.since > 11;  // moving entities are forgotten at 12 s
         if (away < 1.12 * kRadius) beyond.erase(number);
         if (receiver.find({7, 8, number}) != nullptr && away > 1.12 * kRadius) {
           const double since = beyond.emplace(number, t).first->second;

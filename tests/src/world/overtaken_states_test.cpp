@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which states among datagrams that wait are not worth taking.
+// States in queued datagrams that are already superseded.
 #include "reckon/peer/world/overtaken_states.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Arrival from_sender(std::uint8_t last_octet, std::uint32_t epoch = 5) {
   return arrival;
 }
 
-// Datagrams that wait.
+// Queued datagrams.
 class Backlog {
  public:
   void add(const std::vector<pdu::EntityState>& states, const Arrival& arrival = from_sender(1)) {
@@ -48,7 +48,7 @@ class Backlog {
     }
     waiting.push_back({octets, arrival});
   }
-  // Behind the last datagram.
+  // Appends a trailer to the last datagram.
   void add_trailer() {
     Octets& octets = octets_.back();
     octets.resize(octets.size() + pdu::kDatagramTrailerSize);
@@ -59,7 +59,7 @@ class Backlog {
   [[nodiscard]] std::vector<std::uint64_t> overtaken_of_bodies_in_part() {
     return masks(OvertakenStates(1, waiting.size(), true));
   }
-  // Whether each is overtaken as a whole.
+  // Whether each datagram is overtaken as a whole.
   [[nodiscard]] std::vector<bool> whole() {
     OvertakenStates overtaken(1, waiting.size());
     overtaken.look(waiting);
@@ -94,40 +94,40 @@ TEST(OvertakenStates, AreAllOfAnEntityButTheNewest) {
   EXPECT_EQ(backlog.overtaken(), wanted);
 }
 
-TEST(OvertakenStates, AreToldByTheirPlaceInTheDatagram) {
+TEST(OvertakenStates, AreMarkedByTheirIndexInTheDatagram) {
   Backlog backlog;
   backlog.add({state_of(1, 0), state_of(2, 0), state_of(3, 0)});
   backlog.add({state_of(4, 10), state_of(3, 10), state_of(1, 10)});
   EXPECT_EQ(backlog.overtaken(), Masks({0b101, 0}));
 }
 
-TEST(OvertakenStates, AreOvertakenByTheirOwnSenderInItsOwnLifeAlone) {
+TEST(OvertakenStates, AreOvertakenBySenderAndEpochOnly) {
   Backlog backlog;
   backlog.add({state_of(1, 0)}, from_sender(1, 5));
-  backlog.add({state_of(1, 10)}, from_sender(2, 5));  // a liar, or a new owner
+  backlog.add({state_of(1, 10)}, from_sender(2, 5));  // an impostor or a new owner
   backlog.add({state_of(1, 20)}, from_sender(1, 6));
   EXPECT_EQ(backlog.overtaken(), Masks({0, 0, 0}));
 }
 
-TEST(OvertakenStates, AreNoneWhoseStampsAreEqualOutOfOrderOrFarApart) {
+TEST(OvertakenStates, NeedIncreasingAndCloseTimestamps) {
   Backlog backlog;
   backlog.add({state_of(1, 100)});
   backlog.add({state_of(1, 100)});
   backlog.add({state_of(2, 100)});
   backlog.add({state_of(2, 50)});
   backlog.add({state_of(3, 100)});
-  backlog.add({state_of(3, 1101)});  // a clock that leaps is told by several states
+  backlog.add({state_of(3, 1101)});  // several states are needed to detect a leap of the clock
   EXPECT_EQ(backlog.overtaken(), Masks(6, 0));
 }
 
-TEST(OvertakenStates, AreToldOverTheEndOfTheHour) {
+TEST(OvertakenStates, CrossTheEndOfTheHour) {
   Backlog backlog;
   backlog.add({state_of(1, 3'600'000 - 10)});
   backlog.add({state_of(1, 3'600'000 + 10)});
   EXPECT_EQ(backlog.overtaken(), Masks({1, 0}));
 }
 
-TEST(OvertakenStates, AreNoneThatTellMoreThanAPose) {
+TEST(OvertakenStates, ExcludeUpdatesWithMoreThanAPose) {
   Backlog backlog;
   pdu::EntityState coupled = state_of(1, 0), leaves = state_of(2, 0), foreign = state_of(3, 10);
   coupled.header.pdu_status = pdu::kStatusCoupledExtension;
@@ -138,8 +138,8 @@ TEST(OvertakenStates, AreNoneThatTellMoreThanAPose) {
   EXPECT_EQ(backlog.overtaken(), Masks({0, 0}));
 }
 
-// Where owners leave parts out of some updates, the last that told of them counts.
-TEST(OvertakenStates, AreNoneThatTellOfPartsWhichLaterOnesMayLeaveOut) {
+// Where owners omit parts from some updates, the last update with parts counts.
+TEST(OvertakenStates, ExcludePartsThatLaterUpdatesMayOmit) {
   const std::vector<std::byte> part(pdu::kFixedSize<pdu::VariableParameter>);
   pdu::EntityState full = state_of(1, 0);
   full.variable_parameters = part;
@@ -151,7 +151,7 @@ TEST(OvertakenStates, AreNoneThatTellOfPartsWhichLaterOnesMayLeaveOut) {
   EXPECT_EQ(backlog.overtaken(), Masks({1, 1, 0}));
 }
 
-TEST(OvertakenStates, AreNotOvertakenByWhatIsDamaged) {
+TEST(OvertakenStates, AreNotOvertakenByDamagedUpdates) {
   Backlog backlog;
   backlog.add({state_of(1, 0)});
   backlog.add({state_of(1, 10)});
@@ -159,7 +159,7 @@ TEST(OvertakenStates, AreNotOvertakenByWhatIsDamaged) {
   EXPECT_EQ(backlog.overtaken(), Masks({0, 0}));
 }
 
-TEST(OvertakenStates, AreAWholeDatagramWhereNothingElseIsInIt) {
+TEST(OvertakenStates, DropADatagramOnlyAsAWhole) {
   Backlog backlog;
   backlog.add({state_of(1, 0), state_of(2, 0)});
   backlog.add({state_of(1, 10)});
@@ -177,7 +177,7 @@ TEST(OvertakenStates, AreNoneOfSendersThatAreTooMany) {
     backlog.add({state_of(1, 10)}, from_sender(sender));
   }
   const Masks masks = backlog.overtaken();
-  EXPECT_EQ(masks[0], 0u);  // the one that is left over
+  EXPECT_EQ(masks[0], 0u);  // the one that exceeds the limit
   for (std::size_t i = 2; i < masks.size(); ++i) EXPECT_EQ(masks[i], i % 2 == 0 ? 1u : 0u) << i;
 }
 
@@ -205,8 +205,8 @@ TEST(OvertakenStates, AreSoughtInAnyOctets) {
   }
 }
 
-// Against the plain rule, of few entities and senders in disorder.
-TEST(OvertakenStates, AreThoseOfThePlainRule) {
+// Compared with the plain rule, for few entities and senders in random order.
+TEST(OvertakenStates, MatchThePlainRule) {
   std::mt19937 random(1);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int run = 0; run < 50; ++run) {
@@ -232,7 +232,7 @@ TEST(OvertakenStates, AreThoseOfThePlainRule) {
     const Masks masks = backlog.overtaken();
     std::vector<std::size_t> place(40, 0);
     for (const Told& one : told) {
-      // The one that came last; of a datagram the first one.
+      // The last state; within a datagram the first.
       const Told* last = nullptr;
       for (const Told& other : told) {
         if (other.entity != one.entity || other.sender != one.sender) continue;
@@ -247,7 +247,7 @@ TEST(OvertakenStates, AreThoseOfThePlainRule) {
   }
 }
 
-TEST(OvertakenStates, AreFoundAnewAtEachLookWithoutAllocation) {
+TEST(OvertakenStates, AreFoundAgainEachTimeWithoutAllocation) {
   Backlog first, second;
   first.add({state_of(1, 0)});
   first.add({state_of(1, 10)});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What of an entity an update leaves out.
+// Data of an entity that an update omits.
 #include "reckon/peer/world/owned_entity.hpp"
 
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ EntityUpdate built(OwnedEntity& entity, aoim::Body body) {
   return update;
 }
 
-// The rule beside what build() really writes.
-TEST(OwnedEntity, IsThinnedWhereAnUpdateLacksWhatTheWholeOneHas) {
+// Compares the rule with the updates of build().
+TEST(OwnedEntity, IsThinnedByBodiesThatOmitItsData) {
   for (const bool is_felt : {false, true}) {
     for (const bool has_parts : {false, true}) {
       const auto made = entity(is_felt, has_parts);
@@ -70,7 +70,7 @@ TEST(OwnedEntity, IsThinnedWhereAnUpdateLacksWhatTheWholeOneHas) {
   }
 }
 
-TEST(OwnedEntity, IsThinnedByNoBodyWhereItHasNoMoreThanThat) {
+TEST(OwnedEntity, IsNotThinnedWithoutOmittedData) {
   for (const aoim::Body body : kBodies) EXPECT_FALSE(entity(false, false)->is_thinned(body));
   const auto crane = entity(false, true), hand = entity(true, false);
   EXPECT_TRUE(crane->is_thinned(aoim::Body::rigid));
@@ -79,8 +79,8 @@ TEST(OwnedEntity, IsThinnedByNoBodyWhereItHasNoMoreThanThat) {
   EXPECT_FALSE(hand->is_thinned(aoim::Body::full));
 }
 
-// Rows of channels: those behind the nearest are told of its parts, and that is all of it.
-TEST(OwnedEntity, HasToldAllOfACraneWhoseUpdateLeavesOutOnlyWhatHandsFeel) {
+// Channels: an approximate update contains the parts of a crane, which is all its data.
+TEST(OwnedEntity, CraneIsCompleteWithoutForceModel) {
   for (const aoim::Body body : kBodies) {
     const auto crane = entity(false, true);
     constexpr aoim::Channel kRow{100.0, aoim::Body::approximate, 10.0, 1.0, 4.0, false, 1.0};
@@ -96,9 +96,8 @@ TEST(OwnedEntity, HasToldAllOfACraneWhoseUpdateLeavesOutOnlyWhatHandsFeel) {
   }
 }
 
-// From the instant on at which it has parts; with none left those who were told of some are to
-// hear that.
-TEST(OwnedEntity, IsThinnedFromItsFirstPartOnForGood) {
+// It holds from the first part on. Peers that received parts must also receive their removal.
+TEST(OwnedEntity, StaysThinnedAfterItsFirstPart) {
   const auto made = entity(false, false);
   EXPECT_FALSE(made->is_thinned(aoim::Body::rigid));
   made->set_parts(turned(0.5));

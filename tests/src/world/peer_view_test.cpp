@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Entities at these places on a line, their IDs in another order than their places.
+// Entities at `places` on a line; their IDs are in another order.
 std::vector<RemoteEntity> on_a_line(const std::vector<double>& places) {
   std::vector<RemoteEntity> rows(places.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -56,7 +56,7 @@ TEST(EntityView, HasNoRateOnceUpdatesFailToCome) {
   EXPECT_EQ(rate(2, 10'100), 0.0);
 }
 
-TEST(ViewChoice, HasAllWhereThereIsRoomInTheOrderOfTheirIds) {
+TEST(ViewChoice, HasAllInIdOrderIfRoom) {
   ViewChoice choice;
   EXPECT_TRUE(choice.choose({}, Vector3d::Zero()).empty());
   for (const std::size_t count : {1U, 63U, 64U}) {
@@ -69,7 +69,7 @@ TEST(ViewChoice, HasAllWhereThereIsRoomInTheOrderOfTheirIds) {
   }
 }
 
-TEST(ViewChoice, HasTheNearestWhateverTheirOrder) {
+TEST(ViewChoice, HasTheNearestInAnyOrder) {
   std::mt19937 random(1);
   for (const std::size_t count : {65U, 200U, 5000U}) {
     std::vector<double> places = line(count);
@@ -81,7 +81,7 @@ TEST(ViewChoice, HasTheNearestWhateverTheirOrder) {
   }
 }
 
-// Sixty-five on a ring whose radii tremble by 5 %: the one left out stays the same.
+// Sixty-five entities on a ring whose radii vary by 5 %: the one left out stays the same.
 TEST(ViewChoice, StaysWhereDistancesTremble) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> trembling(0.96, 1.04);
@@ -100,9 +100,9 @@ TEST(ViewChoice, StaysWhereDistancesTremble) {
   EXPECT_NE(std::find(chosen.begin(), chosen.end(), absent), chosen.end());
 }
 
-// A picture of a large table looks at a part of it; the nearest are found all the same, and what
-// comes near is.
-TEST(ViewChoice, FindsTheNearestOfALargeTableWithinAFewPictures) {
+// Each picture checks only a part of a large table. The nearest are still found, and so are
+// approaching entities.
+TEST(ViewChoice, FindsTheNearestWithinAFewPictures) {
   constexpr std::size_t kCount = 100'000;
   std::mt19937 random(1);
   std::vector<double> places = line(kCount);
@@ -122,7 +122,7 @@ TEST(ViewChoice, FindsTheNearestOfALargeTableWithinAFewPictures) {
     found = places_of(chosen, rows);
     EXPECT_EQ(found.size(), PeerView::kRows);  // none twice
   }
-  // Within a tenth, for those of an earlier picture stay.
+  // Within a tenth, because entities of an earlier picture stay.
   EXPECT_LE(*found.rbegin(), 64.0 / 0.9);
   EXPECT_EQ(*found.begin(), 1.0);
 
@@ -132,12 +132,12 @@ TEST(ViewChoice, FindsTheNearestOfALargeTableWithinAFewPictures) {
     found = places_of(choice.choose(rows, Vector3d::Zero()), rows);
   EXPECT_EQ(*found.begin(), 0.5);
 
-  // Rows that go take their places with them.
+  // Removed rows lose their places.
   rows.resize(40);
   EXPECT_EQ(choice.choose(rows, Vector3d::Zero()).size(), 40U);
 }
 
-TEST(ViewChoice, IsFullWhereNobodyKnowsWhereTheHandIs) {
+TEST(ViewChoice, IsFullForAnUnknownHandPosition) {
   const auto rows = on_a_line(line(100));
   const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(places_of(ViewChoice().choose(rows, nowhere), rows).size(), PeerView::kRows);

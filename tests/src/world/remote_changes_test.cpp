@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Many remote entities that come, change and go: what is told of it, what copies show, and room.
+// Many remote entities that appear, change and disappear: reported changes, copies, and capacity.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// The incoming half of a peer in a world of 100 km; time is the test's.
+// The incoming half of a peer in a world of 100 km; the test sets the time.
 class World {
  public:
   explicit World(std::size_t capacity, bool record = true, const std::string& sections = "")
@@ -51,7 +51,7 @@ class World {
     half_.take(update, now_, epoch);
   }
 
-  nanoseconds ahead{0};  // of the clock of the next sender
+  nanoseconds ahead{0};  // offset of the next sender's clock
 
   void wait(nanoseconds by) { now_ += by; }
   [[nodiscard]] nanoseconds now() const { return now_; }
@@ -63,9 +63,9 @@ class World {
   nanoseconds now_ = std::chrono::seconds(1);
 };
 
-// --- what is told
+// --- changes
 
-// Knows of the entities only what the changes tell.
+// Follows the entities by their changes only.
 class Follower {
  public:
   struct Seen {
@@ -125,7 +125,7 @@ TEST(Changes, FollowedGiveTheTable) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
-    World world(seed % 2 == 0 ? 30 : 100);  // full, or not
+    World world(seed % 2 == 0 ? 30 : 100);  // full or not
     Follower follower;
     for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
       do_something(world, random);
@@ -138,7 +138,7 @@ TEST(Changes, FollowedGiveTheTable) {
   for (const std::size_t count : told) EXPECT_GT(count, 1000U);
 }
 
-TEST(Changes, OfAnEntityAreToldAtMostOnceInAnInterval) {
+TEST(Changes, AreReportedOncePerEntityAndInterval) {
   World world(10);
   const pdu::EntityId id{7, 8, 9};
   const auto changes = [&] {
@@ -166,10 +166,10 @@ TEST(Changes, OfAnEntityAreToldAtMostOnceInAnInterval) {
   EXPECT_EQ(changes(), "rd");
 }
 
-TEST(Changes, SayWhyAnEntityIsGone) {
+TEST(Changes, StateWhyAnEntityIsGone) {
   World world(10);
   const pdu::EntityId id{7, 8, 9};
-  // What is told of its end, after it was told of.
+  // The cause of its removal, after it was reported as added.
   const auto cause_of = [&](auto&& end) {
     world.wait(milliseconds(10));
     world.hear(id, {0, 0, 0}, 1);
@@ -197,7 +197,7 @@ TEST(Changes, SayWhyAnEntityIsGone) {
   EXPECT_EQ(cause_of([&] { world.hear(id, {250'000, 0, 0}, 1); }), "out of sight");
 }
 
-TEST(Changes, CostNoAllocationAndAreNotKeptUnlessAskedFor) {
+TEST(Changes, AllocateNothingAndAreOptional) {
   for (const bool record : {true, false}) {
     World world(40, record);
     std::mt19937 random(1);
@@ -212,9 +212,9 @@ TEST(Changes, CostNoAllocationAndAreNotKeptUnlessAskedFor) {
   }
 }
 
-// --- what copies show
+// --- copies
 
-TEST(Copies, ShowWhatTheirRowShowedAfterItHasChangedAndGone) {
+TEST(Copies, OutliveChangesAndRemovalOfTheirRow) {
   for (const char* prediction : {"as_sent", "adaptive"}) {
     SCOPED_TRACE(prediction);
     World world(10, false, std::string("[convergence]\nprediction = \"") + prediction + "\"\n");
@@ -244,8 +244,8 @@ TEST(Copies, ShowWhatTheirRowShowedAfterItHasChangedAndGone) {
   }
 }
 
-// What is beside the rows moves with them: each goes on from its own history.
-TEST(Copies, AreOfTheirOwnEntityWhenOthersHaveGone) {
+// The data beside the rows moves with them: each entity continues from its own history.
+TEST(Copies, KeepTheirEntityWhenOthersAreRemoved) {
   World world(10, false, "[convergence]\nprediction = \"adaptive\"\n");
   World alone(10, false, "[convergence]\nprediction = \"adaptive\"\n");
   for (int i = 0; i < 8; ++i) {
@@ -262,7 +262,7 @@ TEST(Copies, AreOfTheirOwnEntityWhenOthersHaveGone) {
             world.remote().rows()[0].predicted(at).position);
 }
 
-TEST(RemoteEntities, AreReadByTheClockOfTheirOwnSenderWhenOthersHaveGone) {
+TEST(RemoteEntities, KeepTheirSendersClockWhenOthersAreRemoved) {
   World world(10);
   for (int i = 0; i < 6; ++i) {
     world.wait(milliseconds(100));
@@ -277,9 +277,9 @@ TEST(RemoteEntities, AreReadByTheClockOfTheirOwnSenderWhenOthersHaveGone) {
   EXPECT_EQ(world.count("stale_in"), 0U);
 }
 
-// --- room
+// --- capacity
 
-TEST(RemoteEntities, ManyAreKeptAndEachIsForgottenOnItsOwn) {
+TEST(RemoteEntities, ManyEntitiesExpireIndividually) {
   constexpr std::uint32_t kMany = 20'000;
   World world(kMany);
   const auto id = [](std::uint32_t i) {
@@ -298,7 +298,7 @@ TEST(RemoteEntities, ManyAreKeptAndEachIsForgottenOnItsOwn) {
     EXPECT_EQ(world.remote().find(id(i))->id, id(i));
   }
 
-  // Planes are forgotten after 12 s: half of them half a second later, to the entity.
+  // Aircraft expire after 12 s: exactly half of them are left half a second later.
   world.remote().expire(std::chrono::seconds(13) + std::chrono::microseconds(50) * (kMany / 2));
   EXPECT_EQ(world.remote().rows().size(), kMany / 2);
   EXPECT_EQ(world.remote().find(id(kMany / 2 - 1)), nullptr);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer makes of the updates of others: how they are read, shown and forgotten.
+// Updates of other peers: how they are read, shown and forgotten.
 #include "reckon/peer/world/remote_entities.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ constexpr pdu::EntityId kOther{7, 8, 9};
 constexpr pdu::EntityType kTank{pdu::EntityKind::platform, pdu::EntityDomain::land};
 constexpr pdu::EntityType kPlane{pdu::EntityKind::platform, pdu::EntityDomain::air};
 
-// The incoming half of a peer in a world of 100 km; time is the test's.
+// The incoming half of a peer in a world of 100 km; the test sets the time.
 class Receiver {
  public:
   explicit Receiver(const std::string& sections = "")
@@ -38,7 +38,7 @@ class Receiver {
                 return {scene.hand.radius, scene.convergence, scene.dead_reckoning.acceleration};
               }) {}
 
-  // An update that was true `seconds` after the start and arrives there and then.
+  // An update that is true `seconds` after the start and arrives at that time.
   void hear(const KinematicState& state, double seconds, std::uint32_t appearance = 0,
             const pdu::EntityType& type = kTank, AccelerationReading wire = {}) {
     Inbound update;
@@ -60,7 +60,7 @@ class Receiver {
   [[nodiscard]] Pose predicted(double seconds) {
     return row().predicted(pdu::from_seconds(seconds));
   }
-  // Whether it is still there after so long a silence.
+  // Whether the entity is still present after `silence` seconds.
   [[nodiscard]] bool survives(double silence) {
     half_.remote.expire(row().last_heard + pdu::from_seconds(silence));
     return half_.remote.find(kOther) != nullptr;
@@ -95,14 +95,14 @@ double gap(const Pose& a, const Pose& b) { return (a.position - b.position).norm
 
 constexpr double kRadius = 100, kSpeed = 20, kTurn = kSpeed / kRadius;
 
-// A steady turn about S's z axis at t = 0: nose along x, centre at (0, 100, 0).
+// A steady turn about the z axis of S at t = 0: nose along x, centre at (0, 100, 0).
 KinematicState steady_turn() {
   KinematicState state = state_of(Algorithm::rvb, {0, 0, 0}, {kSpeed, 0, 0});
   state.angular_velocity = {0, 0, kTurn};
   return state;
 }
 
-// Farthest from the closed form of the circle over 20 s, two thirds of a turn [m].
+// Greatest distance from the exact circle over 20 s, two thirds of a turn [m].
 double worst_from_circle(Receiver& receiver) {
   double worst = 0;
   for (double t = 0; t <= 20; t += 0.5) {
@@ -113,13 +113,13 @@ double worst_from_circle(Receiver& receiver) {
   return worst;
 }
 
-TEST(AccelerationReadings, ShowASteadyTurnSentAsInertialAsACircle) {
+TEST(AccelerationReadings, InertialReadingShowsSteadyTurnsAsCircles) {
   Receiver receiver("[dead_reckoning]\nacceleration = \"inertial\"\n");
   receiver.hear(steady_turn(), 1, 0, kTank, AccelerationReading::inertial);
   EXPECT_LE(worst_from_circle(receiver), 1e-4);  // float32 rates over 20 s
 }
 
-TEST(AccelerationReadings, LeaveASteadyTurnSentAsComponentsACircle) {
+TEST(AccelerationReadings, ComponentReadingShowsSteadyTurnsAsCircles) {
   Receiver receiver;
   receiver.hear(steady_turn(), 1);
   EXPECT_LE(worst_from_circle(receiver), 1e-4);
@@ -131,9 +131,9 @@ TEST(AccelerationReadings, MatterWherePeersDoNotAgree) {
   EXPECT_GT(worst_from_circle(receiver), 100);
 }
 
-// --- what is shown
+// --- shown poses
 
-TEST(RemoteEntities, ShowATeleportAtOnceAndForgetWhatWasBefore) {
+TEST(RemoteEntities, ShowATeleportAtOnceWithoutOldHistory) {
   Receiver receiver("[convergence]\nprediction = \"adaptive\"\nteleport_distance = \"5 m\"\n");
   for (int i = 0; i < 4; ++i) {
     receiver.hear(state_of(Algorithm::fpw, {0.1 * i, 0, 0}, {1, 0, 0}), 1 + 0.1 * i);
@@ -149,7 +149,7 @@ TEST(RemoteEntities, ShowATeleportAtOnceAndForgetWhatWasBefore) {
   }
 }
 
-TEST(RemoteEntities, ConvergeToWhatIsNearerThanATeleport) {
+TEST(RemoteEntities, ConvergeToStatesNearerThanATeleport) {
   Receiver receiver(
       "[convergence]\nteleport_distance = \"5 m\"\nduration = \"200 ms\"\n"
       "longest = \"200 ms\"\n");
@@ -169,7 +169,7 @@ TEST(RemoteEntities, HaveTheCurveOfTheScene) {
   EXPECT_LE(gap(receiver.shown(2), receiver.predicted(2)), 1e-12);
 }
 
-// An error that decays with the speed of before would carry it past the place of the freeze.
+// An error that decays with the earlier speed would carry the entity past the place of the freeze.
 TEST(RemoteEntities, ShowAFreezeAndAResumeAtOnce) {
   for (const char* prediction : {"as_sent", "adaptive"}) {
     SCOPED_TRACE(prediction);
@@ -185,7 +185,7 @@ TEST(RemoteEntities, ShowAFreezeAndAResumeAtOnce) {
     stays_at({2.05, 0, 0}, 2);
     EXPECT_TRUE(receiver.row().frozen);
 
-    // What is said of it while it is frozen is converged to, as ever.
+    // Updates during the freeze converge as usual.
     receiver.hear(state_of(Algorithm::fpw, {2.06, 0, 0}, {2, 0, 0}), 6, pdu::kAppearanceFrozen);
     EXPECT_LE((receiver.shown(6).position - Vector3d(2.05, 0, 0)).norm(), 1e-5);
     EXPECT_EQ(receiver.count("snaps"), 1U);
@@ -198,7 +198,7 @@ TEST(RemoteEntities, ShowAFreezeAndAResumeAtOnce) {
   }
 }
 
-// Hands change their model with each touch: no reason to jump.
+// Hands change their model with each touch, which is no reason to jump.
 TEST(RemoteEntities, ConvergeToAnotherModelAndForgetTheHistory) {
   Receiver receiver("[convergence]\nprediction = \"adaptive\"\n");
   for (int i = 0; i < 4; ++i) {
@@ -214,7 +214,8 @@ TEST(RemoteEntities, ConvergeToAnotherModelAndForgetTheHistory) {
 
 // --- prediction from the history
 
-// RMS of the shown position on a circle of 1 m in 4 s, FPW updates at 5 Hz, seen at 100 Hz [m].
+// RMS error of the shown position on a circle of 1 m in 4 s, FPW updates at 5 Hz, sampled at 100 Hz
+// [m].
 double circle_error(Receiver& receiver) {
   const double rate = 0.5 * std::numbers::pi;
   const auto place = [&](double t) { return Vector3d(std::cos(rate * t), std::sin(rate * t), 0); };
@@ -234,14 +235,14 @@ double circle_error(Receiver& receiver) {
   return std::sqrt(sum / count);
 }
 
-TEST(AdaptivePrediction, ShowsACircleBetterThanTheModelOfItsUpdates) {
+TEST(AdaptivePrediction, ShowsACircleBetterThanTheSentModel) {
   Receiver as_sent, adaptive("[convergence]\nprediction = \"adaptive\"\n");
   const double plain = circle_error(as_sent);
   const double chosen = circle_error(adaptive);
   std::printf("circle of 1 m in 4 s, FPW at 5 Hz: RMS %.2f mm as sent, %.2f mm adaptive\n",
               1e3 * plain, 1e3 * chosen);
   EXPECT_LT(chosen, 0.4 * plain);
-  // What forces are computed from is the model as sent.
+  // Forces use the model as sent.
   EXPECT_LE(gap(adaptive.predicted(20), as_sent.predicted(20)), 1e-12);
 }
 
@@ -258,7 +259,7 @@ TEST(AdaptivePrediction, AllocatesNothing) {
 
 // --- entities of other tools, without a force model
 
-TEST(RemoteEntities, AreForgottenAfterTheSilenceThatTheirKindAllows) {
+TEST(RemoteEntities, ExpireAfterTheTimeoutOfTheirKind) {
   struct Case {
     const char* what;
     pdu::EntityType type;
@@ -283,7 +284,7 @@ TEST(RemoteEntities, AreForgottenAfterTheSilenceThatTheirKindAllows) {
   }
 }
 
-TEST(RemoteEntities, WithAForceModelAreForgottenAfterTwelveSeconds) {
+TEST(RemoteEntities, WithForceModelExpireAfterTwelveSeconds) {
   Receiver receiver;
   receiver.haptic = true;
   receiver.hear(state_of(Algorithm::fpw, {0, 0, 0}, {0, 0, 0}), 1, 0,
@@ -292,7 +293,7 @@ TEST(RemoteEntities, WithAForceModelAreForgottenAfterTwelveSeconds) {
   EXPECT_FALSE(receiver.survives(12.1));
 }
 
-TEST(RemoteEntities, HoldStillAfterTheSilenceThatTheirKindAllows) {
+TEST(RemoteEntities, StopAfterTheTimeoutOfTheirKind) {
   Receiver receiver;
   receiver.hear(state_of(Algorithm::fpw, {0, 0, 0}, {100, 0, 0}), 1, 0, kPlane);
   EXPECT_NEAR(receiver.shown(1 + 12).position.x(), 1200, 1e-3);
@@ -301,7 +302,7 @@ TEST(RemoteEntities, HoldStillAfterTheSilenceThatTheirKindAllows) {
 
 // --- force models
 
-TEST(ForceModels, WithImpossibleValuesAreRefusedCountedAndNamedAndTheLastGoodOneStays) {
+TEST(ForceModels, ImpossibleOnesAreRefusedAndTheLastKept) {
   Receiver receiver;
   receiver.haptic = true;
   receiver.model.kind = pdu::ForceModelKind::sphere;
@@ -325,7 +326,7 @@ TEST(ForceModels, WithImpossibleValuesAreRefusedCountedAndNamedAndTheLastGoodOne
   };
   refused([](pdu::HapticRecord& m) { m.k1 = std::numeric_limits<float>::quiet_NaN(); });
   refused([](pdu::HapticRecord& m) { m.k1 = -1; });
-  refused([](pdu::HapticRecord& m) { m.k1 = 1e20F; });  // finite, but more than squares bear
+  refused([](pdu::HapticRecord& m) { m.k1 = 1e20F; });  // finite, but its square overflows
   EXPECT_EQ(receiver.count("models_refused"), 3u);
   EXPECT_EQ(receiver.last_refused(), kOther);
   receiver.model = good;
@@ -335,7 +336,7 @@ TEST(ForceModels, WithImpossibleValuesAreRefusedCountedAndNamedAndTheLastGoodOne
   EXPECT_EQ(receiver.row().model.k1, 400);
 }
 
-TEST(RemoteEntities, WhatIsDoubtedComesToRestWithinHalfASecond) {
+TEST(RemoteEntities, DoubtedOnesStopWithinHalfASecond) {
   Receiver receiver;
   receiver.hear(state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0}), 1);
   const Pose trusted = receiver.shown(3.5);
@@ -356,7 +357,7 @@ TEST(RemoteEntities, WhatIsDoubtedComesToRestWithinHalfASecond) {
   EXPECT_EQ(receiver.shown(10).velocity, Vector3d::Zero());
 }
 
-TEST(RemoteEntities, WhatIsBelievedAgainGoesOnFromWhereItIsShown) {
+TEST(RemoteEntities, ContinueFromTheShownPoseAfterADoubt) {
   Receiver receiver;
   const KinematicState state = state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0});
   receiver.hear(state, 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whose rows are whose, and who makes room in a full table.
+// The owners of rows, and whose row is replaced in a full table.
 #include "reckon/peer/world/row_owners.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ SourceAddress v4(std::uint8_t host, std::uint16_t port) {
   return {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, host}, port};
 }
 
-// A row of `to` as the table takes it: another's goes where it is full. False where there is none.
+// Adds a row of `to` as the table does: if full, another owner's row is replaced. Returns false if
+// none can be.
 bool add(RowOwners& owners, std::vector<SourceAddress>& rows, std::size_t capacity,
          const SourceAddress& to, bool guest) {
   if (rows.size() == capacity) {
@@ -42,7 +43,7 @@ std::size_t count(const std::vector<SourceAddress>& rows, const SourceAddress& o
   return static_cast<std::size_t>(std::count(rows.begin(), rows.end(), of));
 }
 
-// Against a map, while rows come, go and change hands.
+// Compared with a map, while rows are added, removed and change owners.
 TEST(RowOwners, KnowsTheOwnerOfEachRow) {
   RowOwners owners(300);
   std::vector<SourceAddress> rows;
@@ -51,7 +52,7 @@ TEST(RowOwners, KnowsTheOwnerOfEachRow) {
   for (int i = 0; i < 20000; ++i) {
     SourceAddress from =
         v4(static_cast<std::uint8_t>(random() % 4), static_cast<std::uint16_t>(1 + random() % 40));
-    if (random() % 2 == 0) from.octets[0] = 0xFE;  // an IPv6 one
+    if (random() % 2 == 0) from.octets[0] = 0xFE;  // an IPv6 address
     const nanoseconds now = seconds(i);
     const bool known = count(rows, from) > 0;
     if (rows.size() < 300 && random() % 2 == 0) {
@@ -79,7 +80,7 @@ TEST(RowOwners, KnowsTheOwnerOfEachRow) {
   }
 }
 
-TEST(RowOwners, KnowASealedSenderByItsBootWhereverItSpeaks) {
+TEST(RowOwners, KnowSealedSendersByTheirBoot) {
   RowOwners owners(10);
   SourceAddress before = v4(1, 3000), after = v4(2, 3001);
   before.boot = after.boot = 77;
@@ -97,21 +98,21 @@ TEST(RowOwners, OneHostThatInventsEntitiesShutsNobodyOut) {
   constexpr std::size_t kRows = 1000;
   RowOwners owners(kRows);
   std::vector<SourceAddress> rows;
-  // By as many ports as it likes.
+  // From any number of ports.
   std::size_t taken = 0;
   for (std::uint16_t i = 0; i < 2 * kRows; ++i) {
     if (add(owners, rows, kRows, v4(9, static_cast<std::uint16_t>(1 + i % 50)), true)) ++taken;
   }
-  EXPECT_EQ(taken, kRows);  // nor does it push out its own
+  EXPECT_EQ(taken, kRows);  // it does not replace its own rows
   for (std::size_t i = 0; i < kRows / 2; ++i)
     ASSERT_TRUE(add(owners, rows, kRows, v4(1, 3000), true)) << i;
   EXPECT_EQ(count(rows, v4(1, 3000)), kRows / 2);
-  // Neither has too many now.
+  // Now neither host has too many rows.
   EXPECT_FALSE(add(owners, rows, kRows, v4(2, 3000), true));
   EXPECT_FALSE(add(owners, rows, kRows, v4(9, 1), true));
 }
 
-TEST(RowOwners, GuestsMakeRoomForPeersAndNotTheOtherWayRound) {
+TEST(RowOwners, GuestsMakeRoomForPeersOnly) {
   constexpr std::size_t kRows = 100;
   RowOwners owners(kRows);
   std::vector<SourceAddress> rows;
@@ -122,12 +123,12 @@ TEST(RowOwners, GuestsMakeRoomForPeersAndNotTheOtherWayRound) {
   for (std::size_t i = 0; i < 40; ++i) ASSERT_TRUE(add(owners, rows, kRows, v4(2, 3000), false));
   EXPECT_EQ(count(rows, v4(1, 3000)), 60U);
   EXPECT_EQ(count(rows, v4(2, 3000)), 40U);
-  // A third peer's: of the host with more than half.
+  // A third peer's row replaces one of the host with more than half.
   EXPECT_TRUE(add(owners, rows, kRows, v4(3, 3000), false));
   EXPECT_EQ(count(rows, v4(1, 3000)), 59U);
 }
 
-TEST(RowOwners, AHostTakesHalfOfTheSendersAtMost) {
+TEST(RowOwners, OneHostTakesAtMostHalfTheSenders) {
   RowOwners owners(10000);
   std::size_t taken = 0;
   for (std::uint16_t port = 1; port <= 5000; ++port) {

@@ -15,7 +15,7 @@ using test::last_sent_at;
 
 constexpr double kThreshold = 0.01;  // [m]
 
-// All were told at 1 s that it moves at 1 m/s.
+// At 1 s all received a state that moves at 1 m/s.
 SeenSide told() {
   deadreckon::Thresholds thresholds;
   thresholds.position = kThreshold;
@@ -24,7 +24,7 @@ SeenSide told() {
   return seen;
 }
 
-TEST(SeenSide, AsksWhereItsOwnPredictionIsOffWhateverThoseNearWereTold) {
+TEST(SeenSide, UsesItsOwnPredictionDespiteInnerUpdates) {
   SeenSide seen = told();
   EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::none);
   seen.note_sent_to_inner();
@@ -34,7 +34,7 @@ TEST(SeenSide, AsksWhereItsOwnPredictionIsOffWhateverThoseNearWereTold) {
   EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::event);
 }
 
-TEST(SeenSide, IsToldWhatThoseNearWereToldHalfASecondLaterAtTheLatest) {
+TEST(SeenSide, FollowsInnerUpdatesWithinHalfASecond) {
   SeenSide seen = told();
   EXPECT_EQ(seen.next(), 2.0) << "its first repetition";
   seen.note_sent_to_inner();

@@ -17,12 +17,12 @@
 namespace reckon::peer {
 namespace {
 
-// The table and a std::map under the same random operations.
+// Applies the same random operations to the table and a std::map.
 class Twins {
  public:
   Twins(std::size_t capacity, std::uint32_t seed) : table_(capacity), random_(seed) {}
 
-  // IDs from a small range meet again; the range decides how full the table gets.
+  // IDs from a small range repeat; the range decides how full the table gets.
   pdu::EntityId draw(std::uint16_t range) {
     std::uniform_int_distribution<int> number(1, range);
     return {static_cast<std::uint16_t>(number(random_)),
@@ -41,7 +41,7 @@ class Twins {
     ASSERT_NE(row, nullptr);
     EXPECT_EQ(added, !known);
     if (added) {
-      EXPECT_EQ(row->updates, 0u);  // a row is handed over empty
+      EXPECT_EQ(row->updates, 0u);  // a new row is empty
     }
     row->updates = map_[id] = ++stamp_;
   }
@@ -78,7 +78,7 @@ class Twins {
   std::uint64_t stamp_ = 0;
 };
 
-// A bounce of 600 m/s^2 whose next update is lost.
+// A bounce with 600 m/s^2 whose next update is lost.
 RemoteEntity bounced(std::uint32_t epoch) {
   RemoteEntity row;
   row.epoch = epoch;
@@ -100,7 +100,7 @@ TEST(RemoteEntity, OfAnotherProgramIsExtrapolatedByTheStandard) {
   EXPECT_EQ(row.predicted(std::chrono::seconds(1)).position.z(), 305);
 }
 
-TEST(StateTable, BehavesAsAMapUnderRandomInsertsAndErases) {
+TEST(StateTable, BehavesAsAMapUnderRandomOperations) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     Twins twins(64, seed);
@@ -121,7 +121,7 @@ TEST(StateTable, BehavesAsAMapWhileItIsFull) {
   }
 }
 
-TEST(StateTable, RefusesWhatDoesNotFitAndKeepsWhatItHas) {
+TEST(StateTable, RefusesRowsBeyondItsCapacity) {
   StateTable table(3);
   bool added = false;
   for (std::uint16_t i = 1; i <= 3; ++i) ASSERT_NE(table.find_or_add({1, 1, i}, added), nullptr);
@@ -147,7 +147,7 @@ TEST(StateTable, TouchesNoMemoryThatItDoesNotUse) {
   bool added = false;
   for (std::uint16_t i = 1; i <= 100; ++i) ASSERT_NE(table.find_or_add({1, 1, i}, added), nullptr);
   const std::size_t after = std::max(before, resident());
-  // A sanitizer keeps an eighth of what is reserved for itself.
+  // A sanitizer uses an eighth of the reserved memory for itself.
   EXPECT_LT(4096 * (after - before), kRows * sizeof(RemoteEntity) / 4);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What entities that somebody invents may take: no more memory than the scene says, nothing of what
-// members have, and none of it when they are gone.
+// Limits for forged entities: they use no more memory than configured, replace no member's
+// entities, and leave nothing allocated when they are gone.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -20,7 +20,7 @@ using std::chrono::seconds;
 
 constexpr std::size_t kMiB = std::size_t{1} << 20;
 
-// Allocated in this process [octets]; what of it is resident is the allocator's and the machine's.
+// Octets allocated in this process. How much is resident depends on the allocator and the machine.
 std::size_t allocated_octets() {
   const struct mallinfo2 heap = mallinfo2();
   return heap.uordblks + heap.hblkhd;
@@ -33,7 +33,7 @@ aoim::SourceAddress at_host(std::size_t number) {
 
 struct Invented {
   std::size_t memory, count, hosts;
-  double far_share;  ///< of those outside the radius
+  double far_share;  ///< share of entities outside the radius
   bool haptic;
   const char* prediction;
   friend std::ostream& operator<<(std::ostream& out, const Invented& flood) {
@@ -98,7 +98,7 @@ class StrangersThatInvent : public StrangersMemory {
   StrangersThatInvent() : StrangersMemory(GetParam().memory, GetParam().prediction) {}
 };
 
-TEST_P(StrangersThatInvent, TakeNoMoreThanTheyMayPushNoMemberOutAndGiveAllBack) {
+TEST_P(StrangersThatInvent, AreBoundedEvictNoMemberAndFreeAll) {
   constexpr std::size_t kMembers = 200, kMemberHost = 99;
   for (std::size_t i = 0; i < kMembers; ++i)
     hear(i, kMemberHost, 7000 + static_cast<std::uint32_t>(i % 3), i % 2 == 0);
@@ -132,7 +132,7 @@ TEST_F(BesideInventors, AnotherHostsEntitiesAreShown) {
   EXPECT_EQ(half_.remote.last_stranger(), at_host(1)) << "who has no room is told by his address";
 }
 
-TEST_F(BesideInventors, OfFarOnesAnothersAreStillShownWhenTheyComeWithin) {
+TEST_F(BesideInventors, DistantEntitiesOfOthersAppearWhenNear) {
   ASSERT_NO_FATAL_FAILURE(invent({4 * kMiB, 20'000, 1, 1.0, false, ""}));
   for (std::size_t i = 0; i < 300; ++i) hear(i, 50, 0, true);
   ASSERT_NO_FATAL_FAILURE(invent({4 * kMiB, 20'000, 1, 1.0, false, ""}));
@@ -141,7 +141,7 @@ TEST_F(BesideInventors, OfFarOnesAnothersAreStillShownWhenTheyComeWithin) {
   EXPECT_EQ(rows_of(50), 300u);
 }
 
-TEST_F(BesideInventors, WhatIsShownMakesRoomOfWhatIsNot) {
+TEST_F(BesideInventors, ShownEntitiesReplaceHiddenOnes) {
   ASSERT_NO_FATAL_FAILURE(invent({4 * kMiB, 20'000, 1, 1.0, false, ""}));
   for (std::size_t i = 0; i < 1000; ++i) hear(i, 50, 0);
   EXPECT_EQ(rows_of(50), 1000u);

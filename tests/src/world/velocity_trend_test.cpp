@@ -16,11 +16,11 @@ constexpr double kRate = 80.0;  // [rad/s], of a hand that is thrown off an edge
 constexpr double kMost = 10.0;  // [m/s^2]
 
 struct Told {
-  double off = 0.0;    // [m/s^2], the most, of the acceleration
-  double doubt = 0.0;  // [m/s^2], the most
+  double off = 0.0;    // maximum error of the acceleration [m/s^2]
+  double doubt = 0.0;  // maximum [m/s^2]
 };
 
-// A swing whose velocities are off by `noise` [m/s], told every `period`.
+// A swing whose velocities have an error of `noise` [m/s], sampled every `period`.
 Told swing(milliseconds period, double noise) {
   VelocityTrend trend;
   std::mt19937_64 random(1);
@@ -45,7 +45,7 @@ TEST(VelocityTrend, FollowsASwingWithinAMillisecond) {
   }
 }
 
-TEST(VelocityTrend, TellsWhatComesBetterThanThatItStaysAsItIs) {
+TEST(VelocityTrend, PredictsBetterThanAConstantAcceleration) {
   constexpr double kAhead = 0.004;  // [s]
   for (const int period : {1, 2}) {
     VelocityTrend trend;
@@ -62,7 +62,7 @@ TEST(VelocityTrend, TellsWhatComesBetterThanThatItStaysAsItIs) {
   }
 }
 
-TEST(VelocityTrend, DoubtsWhatMayBeNoise) {
+TEST(VelocityTrend, DoubtIncludesNoise) {
   for (const int period : {1, 2}) {
     const Told told = swing(milliseconds(period), 0.007);
     EXPECT_GT(told.doubt, 10.0) << period << " ms";
@@ -78,7 +78,7 @@ TEST(VelocityTrend, DoubtsABlow) {
   EXPECT_GE(trend.doubt(), trend.acceleration().norm());
 }
 
-TEST(VelocityTrend, TellsNothingWhereVelocitiesComeSeldom) {
+TEST(VelocityTrend, IsZeroForRareVelocities) {
   VelocityTrend trend;
   for (int ms = 1000; ms < 1100; ms += 5)
     trend.note(milliseconds(ms), 0.01 * ms * Eigen::Vector3d::UnitX());

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the golden samples beside this file: NAME.hex (octets, one field a line) and NAME.json (values).
 
-Layouts are written out here and in layouts.txt by hand, in wire order, from the tables of the standard and of
-docs/wire_format.md; nothing is taken from the C++ field tables, which the samples are to check.
-32-bit floats stand in the JSON in their shortest form.
+Layouts are written by hand here and in layouts.txt, in wire order, from the tables of the standard and of
+docs/wire_format.md. Nothing comes from the C++ field tables, because the samples check these. 32-bit floats have
+their shortest form in the JSON.
 """
 import json
 import pathlib
@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).parent
 
 
 class Sample:
-    """Collects fields; a dotted name makes nested objects, `None` as name leaves the JSON alone."""
+    """Collects fields; a dotted name creates nested objects, `None` as name omits the field from the JSON."""
 
     def __init__(self, name, pdu_type, family, length, timestamp=0x12345679, status=0):
         self.name, self.lines, self.values, self.size = name, [], {}, 0
@@ -313,7 +313,7 @@ STRUCTURES = dict(line[2:].split(" ", 1) for line in LAYOUTS if line.startswith(
 
 
 class LaidOut(Sample):
-    """A sample whose values follow from the offset of each field, so that no two neighbours are equal."""
+    """A sample with values derived from the offset of each field, so that neighbours differ."""
 
     def __init__(self, name, pdu_type, family):
         super().__init__(name, pdu_type, family, 0)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Recorded exercises moved to other numbers, IDs and places, with every golden sample.
+// Recorded exercises mapped to other numbers, IDs and places, with every golden sample.
 #include "reckon/tools/captures/exercise_map.hpp"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ ExerciseMap map_of(std::vector<std::string> exercises, std::vector<std::string> 
   return ExerciseMap({std::move(exercises), std::move(ids), std::move(place)}, lenient);
 }
 
-/// The PDU that a map makes of another.
+/// The PDU as mapped.
 template <typename Pdu>
 Pdu mapped(ExerciseMap& map, const Pdu& pdu) {
   Octets octets;
@@ -56,7 +56,7 @@ std::vector<std::string> samples() {
   return names;
 }
 
-/// Collects what a PDU has of IDs and places, and the names of its vectors.
+/// Collects the IDs and places of a PDU, and the names of its vectors.
 struct Collector {
   template <typename T>
   void operator()(std::string_view, const T&, std::size_t) {}
@@ -96,7 +96,7 @@ Collector collected(const Octets& octets) {
   return all;
 }
 
-/// Reads each number again where it is said to stand.
+/// Reads each number again at its stated offset.
 struct SecondReader {
   template <typename T>
   void operator()(std::string_view name, const T& value, std::size_t at) {
@@ -111,7 +111,7 @@ struct SecondReader {
   std::span<const std::byte> whole;
 };
 
-TEST(ExerciseMap, ReadsThePlaceOfEachFieldInEverySample) {
+TEST(ExerciseMap, ReadsEachFieldAtItsOffset) {
   for (const std::string& name : samples()) {
     SCOPED_TRACE(name);
     const Octets octets = test::sample_octets(name);
@@ -126,7 +126,7 @@ TEST(ExerciseMap, ReadsThePlaceOfEachFieldInEverySample) {
   }
 }
 
-TEST(ExerciseMap, MapsTheIdsOfEverySampleAndNothingElse) {
+TEST(ExerciseMap, ChangesOnlyTheIdsOfEverySample) {
   for (const std::string& name : samples()) {
     SCOPED_TRACE(name);
     const Octets before = test::sample_octets(name);
@@ -147,7 +147,7 @@ TEST(ExerciseMap, MapsTheIdsOfEverySampleAndNothingElse) {
     }
     EXPECT_EQ(now.places, old.places);
 
-    // Back again: no other octet was touched.
+    // Mapped back: no other octet was changed.
     std::size_t differ = 0;
     for (std::size_t i = 0; i < octets.size(); ++i) differ += octets[i] != before[i] ? 1 : 0;
     EXPECT_LE(differ, 1 + 2 * now.ids.size());
@@ -185,7 +185,7 @@ TEST(ExerciseMap, MovesThePlacesOfEverySampleAndBack) {
   }
 }
 
-TEST(ExerciseMap, KnowsTheAxesOfTheVectorsOfEveryType) {
+TEST(ExerciseMap, KnowsTheAxesOfEveryTypesVectors) {
   std::set<std::string> names;
   const auto add = [&]<typename Pdu>(std::type_identity<Pdu>) {
     Collector all;
@@ -201,7 +201,7 @@ TEST(ExerciseMap, KnowsTheAxesOfTheVectorsOfEveryType) {
   for (const std::string& name : names) EXPECT_TRUE(axes_of(name).has_value()) << name;
 }
 
-/// An aircraft at 48 N 11 E that flies north east and climbs.
+/// An aircraft at 48 N 11 E that flies north-east and climbs.
 pdu::EntityState aircraft(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::LocalFrame here(48 * kDegree, 11 * kDegree, 3000);
   pdu::EntityState pdu;
@@ -231,7 +231,7 @@ TEST(ExerciseMap, TurnsVelocityAndHeadingAlongWithThePlace) {
     const pdu::EntityState now = mapped(map, old);
     const deadreckon::LocalFrame there(-33.9 * kDegree, 151.2 * kDegree, 3000);
     const Vector place(now.location.x, now.location.y, now.location.z);
-    EXPECT_LT((place - there.origin()).norm(), 1e-6);  // with its own height
+    EXPECT_LT((place - there.origin()).norm(), 1e-6);  // at its own height
     const auto body = deadreckon::quaternion_from_euler(
         {now.orientation.psi, now.orientation.theta, now.orientation.phi});
     const Vector nose = there.scene_from_world_vector(body * Vector::UnitX());
@@ -243,7 +243,7 @@ TEST(ExerciseMap, TurnsVelocityAndHeadingAlongWithThePlace) {
   }
 }
 
-TEST(ExerciseMap, TurnsAnUpdateByTheAxesOfItsEntityState) {
+TEST(ExerciseMap, TurnsUpdatesByTheirEntityStatesAxes) {
   for (const auto algorithm :
        {pdu::DeadReckoningAlgorithm::fpw, pdu::DeadReckoningAlgorithm::fpb}) {
     ExerciseMap map = map_of({}, {}, "48,11,3000=-33.9,151.2,3000");
@@ -294,7 +294,7 @@ TEST(ExerciseMap, TakesTheFirstRuleThatFits) {
   EXPECT_EQ(mapped(map, all).receiving_entity_id, pdu::kAllEntities);
 }
 
-TEST(ExerciseMap, SaysWhatItCannotMap) {
+TEST(ExerciseMap, ReportsUnmappablePdus) {
   ExerciseMap map = map_of({}, {"*:*:*=300:*:*"}, "10,20");
   for (const char* name : {"fire", "le_fire", "tspi", "gridded_data", "signal"}) {
     Octets octets = test::sample_octets(name);
@@ -316,7 +316,7 @@ TEST(ExerciseMap, SaysWhatItCannotMap) {
   EXPECT_EQ(map_of({}, {}, "").summary(), "");
 }
 
-TEST(ExerciseMap, CountsEachPduWithAPlaceThatCannotBeMoved) {
+TEST(ExerciseMap, CountsEachPduWithAnUnmovablePlace) {
   for (const auto& [name, places] : std::map<std::string, std::size_t>{
            {"fire", 0}, {"gridded_data", 1}, {"compressed_states", 1}, {"cell_snapshot", 1}}) {
     ExerciseMap map = map_of({}, {}, "10,20=30,40");
@@ -340,7 +340,7 @@ TEST(ExerciseMap, MapsAPduWithoutALengthIfLenient) {
   EXPECT_EQ(octets[9], std::byte{0});
 }
 
-TEST(ExerciseMap, RefusesWordsThatAreNoMapWithTheRemedy) {
+TEST(ExerciseMap, RefusesInvalidMapsWithTheRemedy) {
   const auto error_of = [](auto make) {
     try {
       make();

@@ -52,7 +52,7 @@ Octets signal(const Octets& data, const SampleSignal& sample = {}) {
   return octets;
 }
 
-/// So many octets of 8-bit PCM.
+/// `octets` octets of 8-bit PCM with the same value.
 Octets level(std::size_t octets, std::uint8_t value) {
   return Octets(octets, static_cast<std::byte>(value));
 }
@@ -90,7 +90,7 @@ class CutAudio : public ::testing::Test {
   test::CaptureBuilder capture;
 };
 
-// G.711 in the words of the standard: 8 chords that double their step, 33 below the first.
+// G.711 as the standard describes it: 8 chords that double their step, 33 below the first.
 TEST(AudioEncodings, MuLawIsTheClosedForm) {
   EXPECT_EQ(mu_law_sample(0x00), -32124);
   EXPECT_EQ(mu_law_sample(0x80), 32124);
@@ -168,7 +168,7 @@ TEST_F(CutAudio, FillsGapsWithSilence) {
 TEST_F(CutAudio, DoesNotDoubleRepeatsAndOverlaps) {
   capture.add(signal(level(4000, 200)), kStart);
   capture.add(signal(level(4000, 200)), kStart + 1us);    // captured twice
-  capture.add(signal(level(4000, 201)), kStart + 200ms);  // over 300 ms of the first
+  capture.add(signal(level(4000, 201)), kStart + 200ms);  // overlaps 300 ms of the first
   capture.add(signal(level(160, 202)), kStart + 699ms);   // early by 1 ms
   const auto result = cut();
   EXPECT_THAT(result.err, AllOf(HasSubstr("1 Signal PDU left out: the same PDU as before"),
@@ -201,7 +201,7 @@ TEST_F(CutAudio, RefusesAChangeOfRateOrEncoding) {
   EXPECT_EQ(samples().size(), 160U);
 }
 
-TEST_F(CutAudio, NamesWhatItDoesNotDecode) {
+TEST_F(CutAudio, NamesEncodingsThatItDoesNotDecode) {
   capture.add(signal(level(160, 200), {.encoding = 2}), kStart);
   capture.add(signal(level(160, 200), {.encoding = 1 << 14}), kStart);
   const auto result = cut();
@@ -225,7 +225,7 @@ TEST_F(CutAudio, NamesTheMistake) {
   EXPECT_THAT(run_reckon(again).err, HasSubstr("--force to overwrite"));
 }
 
-// A time of capture far off would fill the disk.
+// A capture time far off would fill the disk.
 TEST_F(CutAudio, RefusesMoreThanAWavFileHolds) {
   capture.add(signal(level(160, 200)), kStart);
   capture.add(signal(level(160, 200)), kStart + 100h);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What keys do to a replay, by characters and a clock that is set by hand.
+// The effect of keys on a replay, by characters and a clock set by hand.
 #include "reckon/tools/captures/replay_keys.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ using Demand = ReplayKeys::Demand;
 constexpr std::string_view kRight = "\x1b[C";
 constexpr std::string_view kLeft = "\x1b[D";
 
-/// A replay that has begun at 100 s with a datagram recorded at 1000 s; the next one, of 1060 s,
-/// waits.
+/// A replay that began at 100 s with a datagram recorded at 1000 s; the next one, of 1060 s, is
+/// pending.
 class Player : public ::testing::Test {
  protected:
   Player() {
@@ -41,7 +41,7 @@ class Player : public ::testing::Test {
   ReplayKeys decoder;
 };
 
-TEST_F(Player, StandsStillAsLongAsItIsPaused) {
+TEST_F(Player, RestsWhileItIsPaused) {
   clock.advance(20s);
   EXPECT_EQ(press(" "), Demand::nothing);
   EXPECT_TRUE(schedule.is_paused());
@@ -102,7 +102,7 @@ TEST_F(Player, LeapsForwardWithoutReadingAgain) {
   EXPECT_EQ(schedule.due(), 150s);
   EXPECT_EQ(press(kRight), Demand::nothing);
   EXPECT_EQ(press(kRight), Demand::nothing);
-  EXPECT_EQ(press("\x1bOC"), Demand::nothing);  // the arrow of another mode of terminals
+  EXPECT_EQ(press("\x1bOC"), Demand::nothing);  // the arrow in another terminal mode
   EXPECT_EQ(position(), 60s);
   EXPECT_FALSE(schedule.is_skipped());
   clock.advance(1s);
@@ -110,11 +110,11 @@ TEST_F(Player, LeapsForwardWithoutReadingAgain) {
   EXPECT_TRUE(schedule.is_skipped());
 }
 
-TEST_F(Player, ReadsAgainWhereItLeapsBackOverWhatWasSent) {
+TEST_F(Player, ReadsAgainAfterJumpingBackOverSentDatagrams) {
   schedule.sent(160s);
   schedule.next(1090s);
   clock.advance(75s);
-  EXPECT_EQ(press(kLeft), Demand::nothing);  // to 65 s: nothing was sent since
+  EXPECT_EQ(press(kLeft), Demand::nothing);  // to 65 s: nothing was sent since then
   EXPECT_EQ(position(), 65s);
   EXPECT_EQ(press(kLeft), Demand::read_again);
   EXPECT_EQ(position(), 55s);
@@ -122,15 +122,15 @@ TEST_F(Player, ReadsAgainWhereItLeapsBackOverWhatWasSent) {
   EXPECT_TRUE(schedule.is_skipped());
   schedule.next(1060s);
   EXPECT_FALSE(schedule.is_skipped());
-  EXPECT_EQ(schedule.due(), 180s);  // 5 s on
+  EXPECT_EQ(schedule.due(), 180s);  // 5 s later
   schedule.sent(180s);
-  EXPECT_EQ(schedule.played(), 75s + 5s);  // what was leapt over does not count
+  EXPECT_EQ(schedule.played(), 75s + 5s);  // skipped time does not count
   EXPECT_EQ(schedule.active(), 80s);
 }
 
 TEST_F(Player, LeapsBackToTheBeginningAtMost) {
   clock.advance(5s);
-  EXPECT_EQ(press(kLeft), Demand::nothing);  // what was sent lies at the very beginning
+  EXPECT_EQ(press(kLeft), Demand::nothing);  // the sent datagram is at the beginning
   EXPECT_EQ(position(), 0s);
   EXPECT_EQ(schedule.due(), 165s);
 }
@@ -140,7 +140,7 @@ TEST_F(Player, LeapsWhilePaused) {
   press(" ");
   EXPECT_EQ(press(kRight), Demand::nothing);
   EXPECT_EQ(press(kRight), Demand::nothing);
-  EXPECT_EQ(press(kLeft), Demand::read_again);  // the datagrams leapt over were read
+  EXPECT_EQ(press(kLeft), Demand::read_again);  // the skipped datagrams were read
   EXPECT_EQ(position(), 30s);
   clock.advance(7s);
   press(" ");
@@ -150,7 +150,7 @@ TEST_F(Player, LeapsWhilePaused) {
 TEST_F(Player, LeapsBehindTheEndIntoTheNextLap) {
   clock.advance(58s);
   press(kRight);
-  EXPECT_TRUE(schedule.is_skipped());  // 60 s lies before 68 s
+  EXPECT_TRUE(schedule.is_skipped());  // 60 s is before 68 s
   schedule.next_lap(clock.now());
   schedule.next(1000s);
   EXPECT_FALSE(schedule.is_skipped());
@@ -170,7 +170,7 @@ TEST_F(Player, EndsByKeyAndHeedsNoOther) {
   EXPECT_EQ(schedule.due(), 160s);
 }
 
-TEST(ReplayKeys, LeaveAsFastAsItGoesAsItIs) {
+TEST(ReplayKeys, DoNotChangeMaximumSpeed) {
   ReplaySchedule schedule(0, 5s);
   schedule.next(1000s);
   schedule.sent(5s);
@@ -181,12 +181,12 @@ TEST(ReplayKeys, LeaveAsFastAsItGoesAsItIs) {
   EXPECT_FALSE(schedule.is_changed());
 }
 
-TEST(ReplayKeys, LeapFromWhatWasSentWhereTheMachineIsLate) {
+TEST(ReplayKeys, JumpFromTheSentPositionWhenLate) {
   ReplaySchedule schedule(64, 0s);
   schedule.next(0s);
   schedule.sent(0s);
   schedule.next(30s);
-  // By the clock it would be at 640 s; it waits to send what is due at 30 s.
+  // By the clock it would be at 640 s; it waits to send the datagram due at 30 s.
   EXPECT_EQ(schedule.position(10s), 30s);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The clock of a replay, and what it changes in the octets.
+// The clock of a replay, and its changes to the octets.
 #include "reckon/tools/captures/replay_schedule.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-/// When a datagram recorded at `time` is due; it is sent then.
+/// Returns when a datagram recorded at `time` is due; it is then sent.
 nanoseconds play(ReplaySchedule& schedule, nanoseconds time) {
   schedule.next(time);
   const nanoseconds due = schedule.due();
@@ -27,7 +27,7 @@ nanoseconds play(ReplaySchedule& schedule, nanoseconds time) {
   return due;
 }
 
-TEST(ReplaySchedule, SendsTheFirstDatagramAtOnceWhateverItsTime) {
+TEST(ReplaySchedule, SendsTheFirstDatagramAtOnce) {
   ReplaySchedule slow(1, 77ns);
   EXPECT_EQ(play(slow, 1'700'000'000s), 77ns);
   ReplaySchedule fast(8, 77ns);
@@ -47,7 +47,7 @@ TEST(ReplaySchedule, StretchesTimeByTheRate) {
 }
 
 TEST(ReplaySchedule, AddsNoErrorUpOverAMillionDatagrams) {
-  // A third of a nanosecond is lost at each step where steps are added up.
+  // If steps were added up, a third of a nanosecond would be lost in each.
   ReplaySchedule schedule(3.0, 0s);
   nanoseconds due{};
   for (std::int64_t i = 0; i <= 1'000'000; ++i) due = play(schedule, nanoseconds(i * 1000));
@@ -62,7 +62,7 @@ TEST(ReplaySchedule, SendsLateComersAtTheirOwnTime) {
   EXPECT_EQ(schedule.played(), 3s);
 }
 
-TEST(ReplaySchedule, SendsWhatIsStampedBeforeTheFirstAtOnce) {
+TEST(ReplaySchedule, SendsDatagramsStampedBeforeTheFirstAtOnce) {
   ReplaySchedule schedule(1.0, 50s);
   (void)play(schedule, 100s);
   schedule.next(40s);
@@ -92,7 +92,7 @@ TEST(ReplaySchedule, RepeatsALoneDatagramOnceASecond) {
   EXPECT_EQ(play(schedule, 9s), 500ms);
 }
 
-TEST(ReplaySchedule, TellsTheRateThatWasKeptWhereTheMachineIsLate) {
+TEST(ReplaySchedule, ReportsTheAchievedRateWhenLate) {
   ReplaySchedule schedule(4.0, 10s);
   (void)play(schedule, 100s);
   schedule.next(108s);
@@ -147,7 +147,7 @@ TEST(TimestampRewrite, LeavesBrokenOctetsAlone) {
   }
 }
 
-TEST(SizeText, ReadsWhatPeopleWrite) {
+TEST(SizeText, ReadsSizesWithUnits) {
   EXPECT_EQ(parse_size("500"), 500U);
   EXPECT_EQ(parse_size("1.5k"), 1500U);
   EXPECT_EQ(parse_size("100 MB"), 100'000'000U);

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Times [ms] and first octets of what was written.
+// Times [ms] and first octets of the written datagrams.
 struct Written {
   std::vector<std::int64_t> times;
   std::vector<int> octets;
@@ -29,7 +29,7 @@ struct Written {
   }
 };
 
-TEST(StampOrder, SortsWhatComesWithin200ms) {
+TEST(StampOrder, SortsDatagramsWithin200ms) {
   Written written;
   std::minstd_rand random(7);
   for (int i = 0; i < 5000; ++i) written.add(i - static_cast<int>(random() % 199), i % 256);

@@ -47,7 +47,7 @@ Parsed parse(const std::vector<std::string_view>& arguments) {
   return parsed;
 }
 
-TEST(CommandLine, FillsWhatIsGivenAndKeepsTheRest) {
+TEST(CommandLine, SetsGivenValuesAndKeepsTheDefaults) {
   const Parsed parsed = parse({"--json", "--for", "250 ms", "--count=7", "here"});
   EXPECT_FALSE(parsed.status.has_value());
   EXPECT_TRUE(parsed.json);
@@ -67,7 +67,7 @@ TEST(CommandLine, ShowsExamplesInItsHelp) {
   EXPECT_TRUE(parsed.err.empty());
 }
 
-// Flags for all, for one word below the verb, and for two.
+// Flags of the whole verb, of one word after it, and of two.
 std::string help_of(const std::vector<std::string_view>& arguments) {
   const test::CapturedStream out;
   Console console;
@@ -85,7 +85,7 @@ std::string help_of(const std::vector<std::string_view>& arguments) {
   return out.text();
 }
 
-TEST(CommandLine, ShowsFlagsByWhomTheyBelongTo) {
+TEST(CommandLine, ShowsFlagsByTheirWords) {
   const std::string help = help_of({"--help"});
   EXPECT_THAT(help, HasSubstr("Options:"));
   EXPECT_THAT(help,
@@ -94,7 +94,7 @@ TEST(CommandLine, ShowsFlagsByWhomTheyBelongTo) {
   EXPECT_THAT(help, HasSubstr("reckon go afoot --shoes\n  reckon go by_train --ticket"));
 }
 
-TEST(CommandLine, ShowsOfAWordBelowTheVerbItsOwnFlagsAndExamplesAlone) {
+TEST(CommandLine, ShowsOnlyAWordsOwnFlagsAndExamples) {
   const std::string help = help_of({"by_train", "--help"});
   EXPECT_THAT(help, HasSubstr("--json"));
   EXPECT_THAT(help, HasSubstr("Of go by_train:\n  --ticket"));
@@ -109,7 +109,7 @@ TEST(CommandLine, NamesTheNearestFlag) {
   EXPECT_TRUE(parsed.out.empty());
 }
 
-TEST(CommandLine, RefusesADurationWithAWrongUnitAndSaysWhatWouldDo) {
+TEST(CommandLine, RefusesWrongUnitsOfDurationsWithAnExample) {
   for (const std::string_view wrong : {"10 m", "-3s", "fast", "nan s", "10sec", "1e300 h"}) {
     const Parsed parsed = parse({"--for", wrong});
     EXPECT_EQ(parsed.status, 2) << wrong;
@@ -135,7 +135,7 @@ TEST(CommandLine, NamesTheNearestChoice) {
   EXPECT_THAT(parsed.err, HasSubstr("--pace: 'fats' is none of slow, fast; did you mean 'fast'?"));
 }
 
-TEST(CommandLine, BlamesTheUnknownFlagAndNotTheWordBehindIt) {
+TEST(CommandLine, BlamesTheUnknownFlagInsteadOfItsValue) {
   for (const auto& words : std::vector<std::vector<std::string_view>>{
            {"--cuont", "3", "here"}, {"here", "--cuont=3"}, {"--for", "1s", "--cuont", "3"}}) {
     const Parsed parsed = parse(words);
@@ -145,23 +145,23 @@ TEST(CommandLine, BlamesTheUnknownFlagAndNotTheWordBehindIt) {
   EXPECT_THAT(parse({"-x"}).err, HasSubstr("there is no flag '-x'"));
 }
 
-TEST(CommandLine, SaysWhichFlagLacksItsValueAndOfWhatKindThatIs) {
+TEST(CommandLine, NamesTheMissingValueAndItsKind) {
   EXPECT_THAT(parse({"here", "--for"}).err,
               HasSubstr("--for is the last word and needs a value: DURATION"));
   EXPECT_THAT(parse({"--pace"}).err, HasSubstr("needs a value: slow|fast"));
 }
 
-TEST(CommandLine, NamesTheWordTooManyAndWhatMayBeWritten) {
+TEST(CommandLine, NamesTheSuperfluousWordAndTheUsage) {
   EXPECT_THAT(parse({"here", "there"}).err,
               HasSubstr("'there' is a word too many; write reckon walk [SOURCE] [FLAGS]"));
 }
 
-TEST(CommandLine, TakesAValueThatLooksLikeAFlagAsTheValue) {
+TEST(CommandLine, TakesAValueThatLooksLikeAFlag) {
   EXPECT_THAT(parse({"--count", "-3"}).err, HasSubstr("--count: '-3' is not a whole number"));
   EXPECT_THAT(parse({"--pace", "--json"}).err, ::testing::Not(HasSubstr("there is no flag")));
 }
 
-TEST(NearestWord, SuggestsOnlyWhatMayBeMeant) {
+TEST(NearestWord, SuggestsOnlySimilarWords) {
   constexpr std::array<std::string_view, 3> kWords{"inspect", "doctor", "demo"};
   EXPECT_EQ(peer::nearest_word("inspct", kWords), "inspect");
   EXPECT_EQ(peer::nearest_word("dotcor", kWords), "doctor");

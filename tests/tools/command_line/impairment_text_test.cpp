@@ -24,14 +24,14 @@ std::string error_of(std::string_view text) {
   return {};
 }
 
-TEST(ImpairmentText, TakesJitterAsATimeOrAsAShareOfTheDelayInAnyOrder) {
+TEST(ImpairmentText, TakesJitterAsATimeOrDelayShare) {
   EXPECT_EQ(parse_impairment("delay=200ms jitter=100ms").jitter, 100ms);
   EXPECT_EQ(parse_impairment("jitter=5ms").jitter, 5ms);
   EXPECT_EQ(parse_impairment("delay=80ms jitter=40%").jitter, 32ms);
   EXPECT_EQ(parse_impairment("jitter=40%,delay=80ms").jitter, 32ms);
 }
 
-TEST(ImpairmentText, SaysHowJitterIsWritten) {
+TEST(ImpairmentText, ErrorsNameTheSpellingsOfJitter) {
   EXPECT_THAT(error_of("delay=80ms jitter=0.4"),
               AllOf(HasSubstr("--impair jitter: '0.4'"), HasSubstr("5ms"), HasSubstr("40%")));
   EXPECT_THAT(error_of("jitter=40%"), HasSubstr("which is 0; write delay=80ms too"));

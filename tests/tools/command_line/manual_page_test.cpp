@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The manual page and the shell completion: both hold every verb and flag, as other programs read
-// them.
+// The manual page and the shell completion: both contain every verb and flag, as other programs
+// read them.
 #include "reckon/tools/command_line/manual_page.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
-/// What a shell command wrote to its output, the errors too.
+/// The output and errors of a shell command.
 std::string output_of(const std::string& command) {
   std::string text;
   std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -46,7 +46,7 @@ std::set<std::string> words_in(const std::string& text) {
   return words;
 }
 
-/// First words of the lines that a verb writes about itself: "--json", "SOURCE".
+/// First words of the lines of a verb's help: "--json", "SOURCE".
 std::set<std::string> taken_by(const Verb& verb) {
   std::set<std::string> names;
   for (const std::string& line :
@@ -55,7 +55,7 @@ std::set<std::string> taken_by(const Verb& verb) {
   return names;
 }
 
-/// Files in a folder that goes away with the test.
+/// Files in a folder that is removed after the test.
 class ManualPage : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) {
@@ -71,7 +71,7 @@ class ManualPage : public testing::Test {
 
 using Completion = ManualPage;
 
-TEST_F(ManualPage, HasASubsectionForEveryVerbWithEveryFlagAndWord) {
+TEST_F(ManualPage, CoversEveryVerbWithItsFlagsAndWords) {
   const std::string page = run_reckon({"help", "--man"}).out;
   for (const Verb& verb : verbs()) {
     const std::size_t begin = page.find(".SS reckon " + std::string(verb.name) + " ");
@@ -117,7 +117,7 @@ TEST_F(ManualPage, KeepsCharactersThatRoffTakesForCommands) {
   EXPECT_EQ(roff_text("a\\b --c ~^`"), "a\\eb \\-\\-c \\(ti\\(ha\\(ga");
 }
 
-/// What bash offers for the words typed so far, the last of them not yet whole.
+/// The completions of bash for the typed words, the last of them incomplete.
 std::set<std::string> offered(const std::string& script, const std::vector<std::string>& typed) {
   std::string command = "bash -c 'source " + script +
                         "; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _reckon;"
@@ -138,7 +138,7 @@ TEST_F(Completion, OffersEveryFlagOfEveryVerbInBash) {
   }
 }
 
-TEST_F(Completion, OffersTheChoicesOfAWordAndOfAFlag) {
+TEST_F(Completion, OffersTheChoicesOfWordsAndFlags) {
   if (!is_installed("bash")) GTEST_SKIP() << "needs bash";
   const std::string script = file("reckon.bash", run_reckon({"completion", "bash"}).out);
   EXPECT_THAT(offered(script, {"reckon", "inspect", "a.pcap", ""}), Contains("check"));

@@ -10,8 +10,8 @@
 namespace reckon::tools {
 namespace {
 
-// The docs say scenes/two_hands.toml, and who has the packages has no such folder.
-TEST(SceneFolder, NamesOfTheDocsAreThoseOfTheFilesThatComeWithReckon) {
+// The docs name scenes/two_hands.toml, but a user of the packages has no such folder.
+TEST(SceneFolder, ScenesOfTheDocsResolveToShippedFiles) {
   ASSERT_FALSE(std::filesystem::exists("scenes")) << "the test is run in the build folder";
   const std::array<std::string_view, 5> typed{"check", "scenes/two_hands.toml", "scenes/none.toml",
                                               "two_hands.toml", "--mesh"};

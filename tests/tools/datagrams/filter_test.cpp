@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The filter language: what it means, by example and against a second evaluation of random
-// expressions, and what it says of text that is no filter.
+// The filter language: its meaning, by example and against a second evaluation of random
+// expressions, and its errors for other text.
 #include "reckon/tools/datagrams/filter.hpp"
 
 #include <gmock/gmock.h>
@@ -102,7 +102,7 @@ TEST(Filter, MatchesByTheWordsThatDisPeopleKnow) {
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
-TEST(Filter, KnowsCountriesByNameAndCodeAndTypesInWords) {
+TEST(Filter, KnowsCountriesByNameAndTypesInWords) {
   pdu::EntityState tank = truck().state;
   tank.entity_type.country = 225;
   tank.entity_type.category = 1;
@@ -130,7 +130,7 @@ TEST(Filter, MatchesDottedTypesWithWildcards) {
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
-TEST(Filter, FindsNothingInFieldsThatAPduDoesNotHave) {
+TEST(Filter, FindsNothingInAbsentFields) {
   Octets octets;
   append_pdu(octets, pdu::Comment{});
   peer::SourceDatagram datagram;
@@ -205,7 +205,7 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
   }
 }
 
-TEST(Filter, ShowsLettersThatATerminalWouldObeyAsDots) {
+TEST(Filter, ShowsTerminalControlCharactersAsDots) {
   try {
     const Filter filter("kind == \x1b[2J\x7f\xc3");
     FAIL();
@@ -223,7 +223,7 @@ TEST(Filter, BoundsLengthAndNesting) {
   EXPECT_GT(column_of(many + std::string(30, ' ')), 0U);
 }
 
-/// A random expression as text, and what it means for a sample, computed as it is built.
+/// A random expression as text, and its value for a sample, computed while it is built.
 struct Expression {
   std::string text;
   std::function<bool(const pdu::EntityState&)> means;
@@ -290,7 +290,7 @@ class RandomExpressions {
   std::mt19937 random_;
 };
 
-// Found by the fuzz target: the search for a word to suggest held 25 KiB.
+// Found by the fuzz target: the search for a suggestion held 25 KiB.
 TEST(Filter, RefusesALongUnknownWordInLittleMemory) {
   const std::string_view text =
       "type == entity.marksenderingtitq.dlengthrmentity_entitq.dlengthrmstA!=";
@@ -313,7 +313,7 @@ TEST(Filter, SuggestsACountryWithoutHoldingAllOfThem) {
   }
 }
 
-TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
+TEST(Filter, AgreesWithASecondEvaluationOfRandomExpressions) {
   RandomExpressions expressions(7);
   std::array<int, 2> answers{};
   for (int i = 0; i < 2000; ++i) {
@@ -327,7 +327,7 @@ TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
   EXPECT_GT(answers[1], 300);
 }
 
-TEST(Filter, AnswersAnyTextWithAFilterOrAColumn) {
+TEST(Filter, AnyTextGivesAFilterOrAColumn) {
   RandomExpressions expressions(11);
   constexpr std::string_view kLetters = "kind side==!<>()'\"&|*:-. 0123456789and or not\t\x80\xff";
   for (int i = 0; i < test::tries(1000, 3000); ++i) {
@@ -341,7 +341,7 @@ TEST(Filter, AnswersAnyTextWithAFilterOrAColumn) {
   }
 }
 
-TEST(InspectWhere, ShowsAndCountsOnlyWhatMatches) {
+TEST(InspectWhere, ShowsAndCountsOnlyMatches) {
   CaptureBuilder capture;
   for (std::uint16_t i = 1; i <= 10; ++i) {
     pdu::EntityState pdu;
@@ -371,7 +371,7 @@ TEST(InspectWhere, ShowsAndCountsOnlyWhatMatches) {
   EXPECT_THAT(stats.back(), HasSubstr(R"("pdus":5,"datagrams":5)"));
 }
 
-TEST(InspectWhere, TellsWrongUsageWithAMarkUnderTheColumn) {
+TEST(InspectWhere, MarksTheWrongColumn) {
   const auto result = run_reckon({"inspect", "x.pcap", "--where", "side == 1 and knd == 2"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the user is told of a live source.
+// The reports to the user about a live source.
 #include "reckon/tools/datagrams/listening.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::AllOf;
-using ::testing::AnyOf;  // other tests of this host may speak in the default groups
+using ::testing::AnyOf;  // other tests of this host may send in the default groups
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -25,7 +25,7 @@ using ::testing::IsEmpty;
 
 peer::IpEndpoint endpoint(const char* text) { return *peer::IpEndpoint::parse(text); }
 
-TEST(Listening, SaysWhereAndWhatCameOverEachInterface) {
+TEST(Listening, ReportsAddressesAndCountsOfEachInterface) {
   SourceChoice choice;
   choice.source = "udp://239.1.2.3";
   peer::SourceReport report;
@@ -40,7 +40,7 @@ TEST(Listening, SaysWhereAndWhatCameOverEachInterface) {
   EXPECT_EQ(heard_text({}), "");
 }
 
-TEST(OtherPlaces, AreBroadcastsDefaultGroupsAndThoseOfOtherPrograms) {
+TEST(OtherPlaces, AreBroadcastDefaultAndBoundAddresses) {
   const std::vector own{endpoint("239.7.7.7:7000"), endpoint("239.7.7.8:7000")};
   const std::vector bound{endpoint("239.7.7.8:7000"),   endpoint("239.9.9.9:6400"),
                           endpoint("0.0.0.0:68"),       endpoint("239.9.9.9:6400"),
@@ -53,7 +53,7 @@ TEST(OtherPlaces, AreBroadcastsDefaultGroupsAndThoseOfOtherPrograms) {
   EXPECT_EQ(other_places(own, false, bound, 2).size(), 2U);
 }
 
-TEST(SilenceWatch, SaysAfterThreeSecondsWhereItListensAndWhatIsHeardElsewhere) {
+TEST(SilenceWatch, ReportsAfterThreeSecondsWithTrafficElsewhere) {
   const std::string port = std::to_string(20000 + getpid() % 20000);
   SourceChoice choice;
   choice.source = "udp://239.192.77.2:" + port;
@@ -83,7 +83,7 @@ TEST(SilenceWatch, SaysAfterThreeSecondsWhereItListensAndWhatIsHeardElsewhere) {
   EXPECT_THAT(silence.look(report, 120s), IsEmpty());
 }
 
-TEST(SilenceWatch, SaysThatNothingIsHeardElsewhereAndThenNoMore) {
+TEST(SilenceWatch, ReportsOnceThatNothingIsReceivedElsewhere) {
   SourceChoice choice;
   choice.source = "udp://239.192.77.4:" + std::to_string(20001 + getpid() % 20000);
   SilenceWatch silence(choice, 0s);
@@ -93,7 +93,7 @@ TEST(SilenceWatch, SaysThatNothingIsHeardElsewhereAndThenNoMore) {
   EXPECT_THAT(silence.look({}, 21s), IsEmpty());
 }
 
-TEST(SilenceWatch, SaysNothingOfASourceThatIsHeard) {
+TEST(SilenceWatch, IsSilentForAReceivedSource) {
   SourceChoice choice;
   choice.source = "udp://239.192.77.5";
   SilenceWatch silence(choice, 0s);

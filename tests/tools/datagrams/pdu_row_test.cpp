@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the inspector's rows hold, beside the decoder by itself.
+// The content of the inspector's rows, compared with the decoder alone.
 #include "reckon/tools/datagrams/pdu_row.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ pdu::EntityState entity(std::uint16_t number) {
   return pdu;
 }
 
-/// A good Entity State, a Fire, one with a NaN, one whose count lies, and a good one again.
+/// A good Entity State, a Fire, one with a NaN, one with a false count, and a good one again.
 Octets mixed_bundle() {
   Octets octets;
   append_pdu(octets, entity(1));
@@ -43,12 +43,12 @@ Octets mixed_bundle() {
   append_pdu(octets, not_finite);
   const std::size_t broken = octets.size();
   append_pdu(octets, entity(4));
-  octets[broken + 19] = std::byte{200};  // records that are not there
+  octets[broken + 19] = std::byte{200};  // count of absent records
   append_pdu(octets, entity(5));
   return octets;
 }
 
-/// What a reader makes of a datagram: type, rule and reason of each row.
+/// The rows of a datagram: type, rule and reason.
 using Row = std::tuple<std::string, std::string, std::string>;
 std::vector<Row> rows_of(const Octets& octets, bool lenient) {
   peer::SourceDatagram datagram;
@@ -62,7 +62,7 @@ std::vector<Row> rows_of(const Octets& octets, bool lenient) {
   return rows;
 }
 
-TEST(DatagramInspector, TakesALengthOf0AsTheRestIfLenient) {
+TEST(DatagramInspector, TakesLengthZeroAsTheRestIfLenient) {
   Octets octets;
   append_pdu(octets, entity(1));
   append_pdu(octets, entity(2));
@@ -80,7 +80,7 @@ TEST(DatagramInspector, TakesALengthOf0AsTheRestIfLenient) {
   EXPECT_EQ(std::get<2>(rows_of(octets, true).at(1)),
             "the length field is 0, the 149 octets up to the end of the datagram are taken; 5 "
             "octets behind the last field are kept: ababababab");
-  octets.resize(144 + 20);  // too few for its fields, whatever its length says
+  octets.resize(144 + 20);  // too short for its fields, whatever the length field
   EXPECT_EQ(
       rows_of(octets, true).at(1),
       Row("entity_state", "E-LENGTH", "20 octets are there, entity_state needs at least 144"));
@@ -88,7 +88,7 @@ TEST(DatagramInspector, TakesALengthOf0AsTheRestIfLenient) {
             "header says 0 octets, 20 are there, entity_state needs at least 144");
 }
 
-TEST(DatagramInspector, NamesALengthOfASenderThatIsLittleEndian) {
+TEST(DatagramInspector, NamesALittleEndianLength) {
   const auto exchange = [](Octets& octets, std::size_t pdu) {
     std::swap(octets[pdu + 8], octets[pdu + 9]);
   };
@@ -98,7 +98,7 @@ TEST(DatagramInspector, NamesALengthOfASenderThatIsLittleEndian) {
   EXPECT_EQ(rows_of(octets, false).at(0),
             Row("entity_state", "E-BYTE-ORDER",
                 "header says 36864 octets, 144 remain; 36864 is 144 with its octets exchanged"));
-  append_pdu(octets, entity(2));  // the next one begins where it leads
+  append_pdu(octets, entity(2));  // the next one begins at the false length
   EXPECT_EQ(std::get<1>(rows_of(octets, false).at(0)), "E-BYTE-ORDER");
   octets.resize(octets.size() - 1);
   octets[144] = std::byte{9};
@@ -116,7 +116,7 @@ TEST(DatagramInspector, NamesALengthOfASenderThatIsLittleEndian) {
                 "exchanged"));
 }
 
-TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
+TEST(DatagramInspector, KeepsAndNotesTrailingOctetsIfLenient) {
   const auto expect_trailing = [](const Octets& trailing, std::string_view in_hex) {
     Octets octets;
     append_pdu(octets, pdu::Fire{});
@@ -135,7 +135,7 @@ TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
   expect_trailing(Octets(12, std::byte{0}), "000000000000000000000000");
 }
 
-TEST(DatagramInspector, WarnsOfOctetsBehindTheLastFieldUnlessLenient) {
+TEST(DatagramInspector, WarnsOfOctetsBehindTheLastField) {
   Octets octets;
   append_pdu(octets, entity(1));
   octets.resize(152, std::byte{0x11});
@@ -168,7 +168,7 @@ TEST(DatagramInspector, NamesLiveEntitiesByTheirShorterIds) {
   EXPECT_FALSE(ids[1].has_value()) << "six octets were read where there are four";
 }
 
-TEST(DatagramInspector, GivesTheBodyOfEachEntityStateThatDecodesAndOfNothingElse) {
+TEST(DatagramInspector, ReturnsTheBodyOfDecodedEntityStatesOnly) {
   const Octets octets = mixed_bundle();
   peer::SourceDatagram datagram;
   datagram.bytes = octets;
@@ -197,7 +197,7 @@ Octets octets_of(std::string_view text) {
   return {octets.begin(), octets.end()};
 }
 
-/// A DNS message with that identifier: a question for one name.
+/// A DNS message with this identifier: a question for one name.
 Octets dns(unsigned identifier, bool is_answer) {
   Octets out{static_cast<std::byte>(identifier >> 8),
              static_cast<std::byte>(identifier),
@@ -212,7 +212,7 @@ Octets dns(unsigned identifier, bool is_answer) {
   return out;
 }
 
-/// The row of a datagram that has one.
+/// The only row of a datagram.
 PduRow only_row(const Octets& octets, std::uint16_t port = 3000,
                 peer::Portion portion = peer::Portion::whole) {
   peer::SourceDatagram datagram;
@@ -269,7 +269,7 @@ TEST(DatagramInspector, KeepsDamagedPdusApartFromOtherProtocols) {
   Octets newer = octets;
   newer[0] = std::byte{8};
   EXPECT_EQ(only_row(newer).rule, "E-VERSION");
-  // Of a part of a datagram nothing is known.
+  // Nothing is known about a part of a datagram.
   const Octets rest(40, std::byte{0x55});
   EXPECT_EQ(only_row(rest).rule, "I-FOREIGN");
   EXPECT_EQ(only_row(rest, 3000, peer::Portion::cut).status, PduStatus::error);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which groups a source means.
+// The groups of a source.
 #include "reckon/tools/datagrams/source.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ class SourceOfAScene : public testing::Test {
   reckon::test::ScratchFolder folder_;
 };
 
-TEST_F(SourceOfAScene, MeansTheGroupsOfItsCellsAndOfWhatIsFelt) {
+TEST_F(SourceOfAScene, HasTheGroupsOfCellsAndContacts) {
   const SourceChoice plain = scene("[network]\ngroup = \"239.192.9.0\"\n[aoim]\npool = 40\n");
   EXPECT_TRUE(means_groups(plain));
   EXPECT_EQ(groups_of(plain).size(), 1U + 40U);
@@ -50,7 +50,7 @@ TEST_F(SourceOfAScene, IsOneGroupInPlainDis) {
   EXPECT_EQ(groups_of(scene("[network]\ninterop = true\n")).size(), 1U);
 }
 
-TEST_F(SourceOfAScene, WhosePeersSpeakByUnicastIsRefusedWithTheRemedy) {
+TEST_F(SourceOfAScene, WithUnicastPeersIsRefusedWithTheRemedy) {
   const SourceChoice choice = scene("[network]\npeers = [\"10.0.0.2\"]\n");
   try {
     static_cast<void>(groups_of(choice));

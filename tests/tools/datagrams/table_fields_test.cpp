@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Fields of every PDU type in a filter, by the names that JSON has for them: each field of each
-// golden sample selects that sample by its value.
+// Fields of every PDU type in a filter, by their names in JSON: each field of each golden sample
+// selects that sample by its value.
 #include <gmock/gmock.h>
 
 #include <deque>
@@ -57,8 +57,8 @@ Shown shown(const Pdu& pdu) {
   return Shown(octets);
 }
 
-/// Every golden sample, and its values by their paths: "systems.beams.frequency" -> those of all
-/// beams of all systems, as JSON writes them.
+/// Every golden sample, and its values by their paths: "systems.beams.frequency" -> the values of
+/// all beams of all systems, as in JSON.
 struct Sample {
   std::string name;
   Shown shown;
@@ -98,7 +98,7 @@ std::string quoted(const std::string& value) {
   return (value.find('\'') == std::string::npos ? "'" + value + "'" : "\"" + value + "\"");
 }
 
-TEST(TableFields, SelectEverySampleByEachOfItsValuesAndNoOther) {
+TEST(TableFields, EachValueSelectsItsSamplesOnly) {
   std::set<std::string> asked;
   std::size_t filters = 0;
   for (const Sample& sample : samples()) {
@@ -127,8 +127,8 @@ TEST(TableFields, NeedOnlyTheEndOfTheirPath) {
     for (const auto& [path, values] : sample.values) {
       const std::size_t dot = path.find('.');
       if (dot == std::string::npos) continue;
-      // The inspector's own list has names of one word, and location.x; a field with this whole
-      // name is meant before it.
+      // The inspector's own list has names of one word, and location.x; a field with the whole name
+      // takes precedence.
       const std::string end = path.substr(dot + 1);
       if (end.find('.') == std::string::npos || end.starts_with("location.") ||
           sample.values.contains(end))
@@ -139,7 +139,7 @@ TEST(TableFields, NeedOnlyTheEndOfTheirPath) {
   }
 }
 
-TEST(TableFields, AreListedForEveryTypeAsTheSamplesHaveThem) {
+TEST(TableFields, AreListedForEveryType) {
   for (const Sample& sample : samples()) {
     const std::string text = "\n" + run_reckon({"inspect", "--fields", sample.name}).out;
     for (const auto& [path, values] : sample.values)
@@ -190,7 +190,7 @@ TEST(TableFields, TakeNamesOfValuesBitsIdsAndWildcards) {
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
-TEST(TableFields, MeanTheFieldWithTheWholePathWhereThereIsOne) {
+TEST(TableFields, PreferTheFieldWithTheWholePath) {
   pdu::EntityState pdu = tank();
   std::array<std::byte, pdu::kVariableParameterSize> octets{};
   pdu::EntityAssociation association;
@@ -213,7 +213,7 @@ TEST(TableFields, CompareWholeNumbersExactly) {
   EXPECT_TRUE(sample.matches("scene_hash > 10428333160412253830"));
 }
 
-TEST(TableFields, OfADatagramWithoutAFieldTableAreThoseOfItsHeader) {
+TEST(TableFields, WithoutAFieldTableIncludeTheHeader) {
   Octets octets;
   append_pdu(octets, tank());
   octets[2] = std::byte{220};
@@ -231,7 +231,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-TEST(TableFields, AreToldWhereTheNameOrTheValueIsWrong) {
+TEST(TableFields, ErrorsNameWrongNamesAndValues) {
   EXPECT_THAT(refusal("frequancy > 3"), HasSubstr("did you mean 'frequency'?"));
   EXPECT_THAT(refusal("descriptor.munition_typ.kind == 2"),
               HasSubstr("did you mean 'descriptor.munition_type.kind'?"));
@@ -252,7 +252,7 @@ TEST(TableFields, TakeLittleMemoryWhereTheyAreMany) {
   EXPECT_LE(guard.peak_octets(), 128 * text.size() + 16384);
 }
 
-TEST(PlaceFields, AreDegreesAndMetresOfAnyPduWithAPosition) {
+TEST(PlaceFields, AreDegreesAndMetresOfAnyPosition) {
   pdu::EntityState pdu;
   pdu.location = {6378137.0 + 100.0, 0, 0};
   const Shown entity = shown(pdu);
@@ -266,7 +266,7 @@ TEST(PlaceFields, AreDegreesAndMetresOfAnyPduWithAPosition) {
   fire.location_in_world_coordinates = {0, 0, 6356752.314245179};
   EXPECT_TRUE(shown(fire).matches("latitude == 90 and height > -0.001 and height < 0.001"));
   EXPECT_FALSE(shown(pdu::Comment{}).matches("latitude > -91"));
-  // Nobody is at the centre of the earth.
+  // A position at the centre of the earth is none.
   EXPECT_FALSE(shown(pdu::Fire{}).matches("latitude > -91"));
 }
 

@@ -27,7 +27,7 @@ nanoseconds from_start(const std::string& text) {
   return RecordingInstant("--from", text).in_recording(kStart) - kStart;
 }
 
-TEST(RecordingInstant, IsSinceTheFirstDatagramATimeOfDayOrADate) {
+TEST(RecordingInstant, IsAnOffsetTimeOfDayOrDate) {
   EXPECT_EQ(from_start("0"), 0s);
   EXPECT_EQ(from_start("2.5"), 2500ms);
   EXPECT_EQ(from_start("90s"), 90s);
@@ -40,7 +40,7 @@ TEST(RecordingInstant, IsSinceTheFirstDatagramATimeOfDayOrADate) {
   EXPECT_EQ(from_start("2023-11-15"), 1h + 46min + 40s);
 }
 
-TEST(RecordingInstant, TakesATimeOfDayFromAnHourBeforeTheStartOn) {
+TEST(RecordingInstant, TimesOfDayStartOneHourBeforeBeginning) {
   EXPECT_EQ(from_start("22:00"), -(13min + 20s));
   EXPECT_EQ(from_start("00:10"), 1h + 56min + 40s) << "of the next day";
   EXPECT_EQ(from_start("21:00"), 22h + 46min + 40s) << "of the next day";
@@ -75,7 +75,7 @@ TEST(TimeRange, HasItsBeginAndNotItsEnd) {
   EXPECT_TRUE(whole.has(kStart - 1h));
 }
 
-TEST(InspectRange, ShowsThatPartOfARecordingInEveryView) {
+TEST(InspectRange, ShowsTheRangeInEveryView) {
   test::CaptureBuilder capture;
   for (std::uint16_t i = 0; i < 10; ++i) {
     pdu::EntityState pdu;

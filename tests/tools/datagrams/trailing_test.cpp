@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets behind the last field, as senders leave them there: each planted error is named.
+// Octets behind the last field, as some senders leave them: each injected error is named.
 #include "reckon/tools/datagrams/trailing.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ void put16(Octets& octets, std::size_t at, std::size_t value) {
   pdu::store_big_endian(octets.data() + at, static_cast<std::uint16_t>(value));
 }
 
-/// Octets that say which they are.
+/// Octets that contain their own index.
 Octets numbered(std::size_t count) {
   Octets octets(count);
   for (std::size_t i = 0; i < count; ++i) octets[i] = static_cast<std::byte>(i + 1);
@@ -133,7 +133,7 @@ TEST(Trailing, NamesALengthInOctetsOfADatum) {
   Octets octets = encoded(data);
   ASSERT_EQ(octets.size(), 64U);
   octets[46] = octets[47] = std::byte{0};
-  octets[47] = std::byte{16};  // bits, where 128 are there
+  octets[47] = std::byte{16};  // bits, but there are 128
   expect_trailing(
       octets, 8,
       "variable_datum_length is 16 bits, 14 octets fewer than are there: given in octets?");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is said of devices on USB, of ours and of others.
+// The report about devices on USB, own and others.
 #include "reckon/tools/exercise/attached_devices.hpp"
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ UsbDeviceSeen falcon(bool open) {
   return seen;
 }
 
-TEST(AttachedDevices, SayHowAFalconWouldBeUsed) {
+TEST(AttachedDevices, ShowHowToUseAFalcon) {
   const UsbLook look = judge_usb({hub(), falcon(true)}, {"Falcon: ready: forces are shown"}, false);
   EXPECT_THAT(look.problem, IsEmpty());
   EXPECT_EQ(look.others, 1U);
@@ -66,14 +66,14 @@ UsbDeviceSeen polhem(bool open) {
   return seen;
 }
 
-TEST(AttachedDevices, SayHowAPolhemWouldBeUsedAndWhatIsInTheWay) {
+TEST(AttachedDevices, ShowHowToUseAPolhem) {
   const UsbLook ready = judge_usb({polhem(true)}, {"Polhem: ready: forces are shown"}, false);
   ASSERT_EQ(ready.devices.size(), 1U);
   EXPECT_EQ(ready.devices[0].driver, "polhem");
   EXPECT_EQ(ready.devices[0].name, "Polhem, /dev/bus/usb/002/017");
   EXPECT_THAT(ready.devices[0].use, HasSubstr("--device polhem"));
   EXPECT_THAT(ready.devices[0].problem, IsEmpty());
-  // Beside a Falcon, each has its own.
+  // Beside a Falcon, each has its own report.
   const UsbLook both = judge_usb(
       {falcon(true), polhem(true)},
       {"Falcon: ready: forces are shown", "Polhem: not homed: hold it straight ahead"}, false);
@@ -97,7 +97,7 @@ haptics::EventDeviceSeen wheel() {
   return seen;
 }
 
-TEST(AttachedDevices, SayHowAnEventDeviceWouldBeUsedAndWhatIsInTheWay) {
+TEST(AttachedDevices, ShowHowToUseAnEventDevice) {
   const auto said = [](const haptics::EventDeviceSeen& seen) {
     return judge_events({seen}, {}).at(0);
   };
@@ -118,7 +118,7 @@ TEST(AttachedDevices, SayHowAnEventDeviceWouldBeUsedAndWhatIsInTheWay) {
   EXPECT_THAT(said(seen).problem, HasSubstr("Input/output error"));
 }
 
-TEST(AttachedDevices, ABoardThatIsNoGameControllerIsTold) {
+TEST(AttachedDevices, ReportABoardThatIsNoGameController) {
   UsbDeviceSeen board;
   board.vendor = 0x1209;
   board.product = 0xffb0;
@@ -128,7 +128,7 @@ TEST(AttachedDevices, ABoardThatIsNoGameControllerIsTold) {
   EXPECT_THAT(judge_events({}, {hub()}), IsEmpty());
 }
 
-TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
+TEST(AttachedDevices, ReportMissingPermissionWithTheRemedy) {
   UsbDeviceSeen seen = falcon(false);
   seen.is_denied = true;
   const UsbLook look = judge_usb({seen}, {}, false);
@@ -137,7 +137,7 @@ TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
   EXPECT_THAT(look.devices[0].remedy, HasSubstr("--install-rule"));
 }
 
-TEST(AttachedDevices, SayWhatElseIsInTheWay) {
+TEST(AttachedDevices, ReportOtherProblems) {
   UsbDeviceSeen seen = falcon(false);
   seen.problem = "Input/Output Error";
   EXPECT_THAT(judge_usb({seen}, {}, false).devices.at(0).problem, HasSubstr("Input/Output Error"));
@@ -149,13 +149,13 @@ TEST(AttachedDevices, SayWhatElseIsInTheWay) {
   EXPECT_THAT(said("Falcon: not homed: pull the handle out"), HasSubstr("pull the handle out"));
 }
 
-TEST(AttachedDevices, AHostWithoutUsbIsNoHostWithoutDevices) {
+TEST(AttachedDevices, MissingUsbDiffersFromMissingDevices) {
   EXPECT_THAT(judge_usb({}, {}, false).problem, HasSubstr("/dev/bus/usb"));
   EXPECT_THAT(judge_usb({hub()}, {}, false).problem, IsEmpty());
 }
 
-// The numbers of the rule are those of the driver, and udev writes them in lower case.
-TEST(AttachedDevices, TheRuleIsWrittenWhereItIsAskedFor) {
+// The rule contains the numbers of the drivers; udev writes them in lower case.
+TEST(AttachedDevices, RuleIsWrittenToTheGivenFolder) {
   const test::ScratchFolder folder;
   const auto written = run_reckon({"devices", "--install-rule", "--folder", folder.file(".")});
   EXPECT_EQ(written.status, 0) << written.err;
@@ -168,14 +168,14 @@ TEST(AttachedDevices, TheRuleIsWrittenWhereItIsAskedFor) {
   EXPECT_THAT(text, HasSubstr("ATTRS{capabilities/ff}==\"*[1-9a-f]*\""));
 }
 
-TEST(AttachedDevices, ADeviceThatTheKernelDoesNotDriveIsNamedInTheRule) {
+TEST(AttachedDevices, RuleNamesDevicesWithoutAKernelDriver) {
   EXPECT_THAT(udev_rule({}), Not(HasSubstr("hidraw")));
   EXPECT_THAT(udev_rule({{0x346E, 0x0006}}),
               HasSubstr("SUBSYSTEM==\"hidraw\", ATTRS{idVendor}==\"346e\", "
                         "ATTRS{idProduct}==\"0006\", MODE="));
 }
 
-TEST(AttachedDevices, ARuleThatCannotBeWrittenSaysWhy) {
+TEST(AttachedDevices, UnwritableRuleReportsTheCause) {
   const auto refused = run_reckon({"devices", "--install-rule", "--folder", "/no/such/folder"});
   EXPECT_NE(refused.status, 0);
   EXPECT_THAT(refused.err, HasSubstr("sudo"));
@@ -183,8 +183,8 @@ TEST(AttachedDevices, ARuleThatCannotBeWrittenSaysWhy) {
   EXPECT_EQ(run_reckon({"devices", "--install-rule", "--json"}).status, 2);
 }
 
-// A line that is open in this program, one that is free, and what was pulled out.
-TEST(AttachedDevices, SerialLinesAreListedWithWhatIsInTheWay) {
+// A line that is open in this program, a free one, and a removed one.
+TEST(AttachedDevices, SerialLinesAreListedWithTheirProblems) {
   const test::ScratchFolder folder;
   const int used = posix_openpt(O_RDWR | O_NOCTTY), free = posix_openpt(O_RDWR | O_NOCTTY);
   ASSERT_TRUE(used >= 0 && grantpt(used) == 0 && unlockpt(used) == 0);
@@ -211,7 +211,7 @@ TEST(AttachedDevices, SerialLinesAreListedWithWhatIsInTheWay) {
   for (const int descriptor : {near, used, free}) close(descriptor);
 }
 
-TEST(AttachedDevices, ASerialLineThatThisUserMayNotOpenSaysOfWhichGroupItIs) {
+TEST(AttachedDevices, ForbiddenSerialLineNamesItsGroup) {
   if (geteuid() == 0) GTEST_SKIP() << "root may open everything";
   const test::ScratchFolder folder;
   std::ofstream(folder.file("tty")) << "x";
@@ -222,7 +222,7 @@ TEST(AttachedDevices, ASerialLineThatThisUserMayNotOpenSaysOfWhichGroupItIs) {
   EXPECT_THAT(lines[0].remedy, HasSubstr("usermod -aG dialout"));
 }
 
-TEST(AttachedDevices, TheVerbTellsOfThisHost) {
+TEST(AttachedDevices, VerbReportsThisHost) {
   const UsbLook look = look_at_usb(false);
   const auto result = run_reckon({"devices"});
   if (!look.problem.empty() && look_at_serial_lines().empty()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices of descriptors, and hands that a handle moves otherwise than one to one.
+// Devices with descriptors, and hands that do not follow their handles one to one.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -35,7 +35,7 @@ std::vector<std::string> shipped() {
   return names;
 }
 
-// Where the free hand is at each 10 ms, in S.
+// Positions of the free hand at each 10 ms, in S.
 std::vector<Vector3d> way_of(const std::string& device) {
   const peer::SceneFile file = peer::parse_scene_file(
       "[[operator]]\nsweep = { from = \"-60 0 10 mm\", to = \"60 20 0 mm\", period = \"2 s\" }\n"
@@ -50,7 +50,7 @@ std::vector<Vector3d> way_of(const std::string& device) {
   return points;
 }
 
-TEST(MappedHand, GoesTheSameWayInTheSceneWhateverItsHandleDoes) {
+TEST(MappedHand, MovesAlikeInTheSceneForAnyMapping) {
   const std::vector<Vector3d> plain = way_of("");
   EXPECT_GT((plain[100] - plain[0]).norm(), 0.1);
   for (const char* mapping : {"scale = 3\n", "left_handed = true\n",
@@ -70,8 +70,8 @@ peer::SceneFile wall_scene(const std::string& device) {
       "x.toml");
 }
 
-// Each of them is pressed into a wall that it softens to what it can show.
-TEST(DescribedHand, OfEachDescriptorThatComesWithReckonIsStableAtAWall) {
+// Each presses into a wall that it softens to its own limit.
+TEST(DescribedHand, ShippedDescriptorsAreStableAtAWall) {
   ASSERT_GE(shipped().size(), 5U);
   for (const std::string& name : shipped()) {
     for (const char* more : {"", "scale = 3\nleft_handed = true\n"}) {
@@ -86,14 +86,14 @@ TEST(DescribedHand, OfEachDescriptorThatComesWithReckonIsStableAtAWall) {
       EXPECT_GT(measured.peak_force(), 0.01);
       EXPECT_LE(measured.peak_force() * scene.devices[0].scale, scene.devices[0].max_force + 1e-9);
       EXPECT_EQ(measured.trips(), 0U);
-      // What encoder steps hide is no energy; see encoder_allowance.
+      // Energy hidden by encoder steps is not made; see encoder_allowance.
       const haptics::ServoSnapshot& servo = exercise.view(0).servo();
       EXPECT_GE(servo.port_energy_min, -1e-9 - servo.late_cost);
     }
   }
 }
 
-TEST(DescribedHand, ASimulatedOneHasTheMassAndTheFrictionOfItsDescriptor) {
+TEST(DescribedHand, SimulatedOneHasItsDescriptorsMassAndFriction) {
   const reckon::test::ScratchFolder folder;
   std::ofstream(folder.file("heavy.toml"))
       << "name = \"heavy\"\nmax_force = 5\ndamping = 0\nresolution = 0\ndelay = 0\nmass = 0.5\n"
@@ -123,7 +123,7 @@ TEST(DescribedHand, IsExplainedWithItsDescriptorAndItsMapping) {
                          HasSubstr("stands still while button 1 is down")));
 }
 
-TEST(DevicesVerb, DescribesWhatADescriptorGives) {
+TEST(DevicesVerb, PrintsTheLimitsOfADescriptor) {
   const auto one = run_reckon({"devices", "describe", "touch"});
   EXPECT_EQ(one.status, 0) << one.err;
   // 0.95 x 2 b / (T (1 + 2 d)) of 0.2 N s/m and two samples: 76 N/m, 3/4 of it for walls, half of
@@ -141,7 +141,7 @@ TEST(DevicesVerb, DescribesWhatADescriptorGives) {
   EXPECT_EQ(count, shipped().size());
 }
 
-TEST(DevicesVerb, RefusesWhatItCannotDescribe) {
+TEST(DevicesVerb, RefusesUnknownDevicesAndActions) {
   const auto none = run_reckon({"devices", "describe", "no_such_thing"});
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.err, HasSubstr("looked for"));
@@ -151,7 +151,7 @@ TEST(DevicesVerb, RefusesWhatItCannotDescribe) {
   EXPECT_EQ(run_reckon({"devices", "describe", "--install-rule"}).status, 2);
 }
 
-// What is measured on a simulated device is a descriptor of it.
+// The measurement of a simulated device gives its descriptor.
 TEST(DevicesVerb, MeasuresASimulatedDeviceAndPrintsItsDescriptor) {
   const auto result = run_reckon({"devices", "measure", "mine", "--simulate", "polhem"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -169,7 +169,7 @@ TEST(DevicesVerb, MeasuresASimulatedDeviceAndPrintsItsDescriptor) {
   EXPECT_TRUE(found.work_space.to.isApprox(truth.work_space.to, 1e-9));
 }
 
-TEST(DevicesVerb, SaysWhyADeviceCannotBeMeasured) {
+TEST(DevicesVerb, NamesTheReasonOfAFailedMeasurement) {
   const reckon::test::ScratchFolder folder;
   std::ofstream(folder.file("late.toml"))
       << "name = \"late\"\nmax_force = 8\ndamping = 1\nresolution = 0.00002\ndelay = 0.08\n";

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Ten thousand entities of a plain DIS simulation, heard by one peer: all are told, and counted.
+// Ten thousand entities of a plain DIS simulation, received by one peer: all are reported, and
+// counted.
 #include "reckon/tools/exercise/entity_events.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ using namespace test;
 constexpr std::size_t kMany = 10'000;
 constexpr std::uint32_t kDeactivated = 1U << 23;
 
-/// One peer, without hands, that hears a crowd on a line through its origin.
+/// One peer, without hands, that receives a crowd on a line through its origin.
 class Crowd {
  public:
   Crowd() : scene_(scene_of(kScene)), world_(1) {
@@ -31,7 +32,7 @@ class Crowd {
     peer.model().receive(&events_);
     world_.run(10);
   }
-  /// Entity States of entities first .. last, as fast as one sender may.
+  /// Sends Entity States of entities first .. last, as fast as one sender may.
   void say(std::size_t first, std::size_t last, std::uint32_t appearance = 0) {
     for (std::size_t i = first; i <= last; ++i) {
       pdu::EntityState state;
@@ -48,7 +49,7 @@ class Crowd {
     }
     world_.run(100);
   }
-  /// Lines of the events since the last call.
+  /// Events since the last call.
   std::vector<nlohmann::json> events() {
     const CapturedStream out;
     events_.report_rest(world_.peer(0).model(), 1.0, out.file());
@@ -86,7 +87,7 @@ std::map<std::string, std::size_t> by_kind(const std::vector<nlohmann::json>& li
   return counts;
 }
 
-TEST(EntityEvents, TellAllOfTenThousandAndTheListStaysRight) {
+TEST(EntityEvents, ReportAllOfTenThousandWithCorrectLists) {
   Crowd crowd;
   crowd.say(1, kMany);
   const auto come = crowd.events();
@@ -96,13 +97,13 @@ TEST(EntityEvents, TellAllOfTenThousandAndTheListStaysRight) {
   EXPECT_EQ(ids.size(), kMany);
   EXPECT_EQ(crowd.table().present(), kMany);
 
-  // The picture counts all of them and shows the nearest, in the order of their IDs.
+  // The snapshot counts all of them and shows the nearest, in the order of their IDs.
   const peer::PeerView& view = crowd.view();
   EXPECT_EQ(view.entities, kMany);
   ASSERT_EQ(view.count, peer::PeerView::kRows);
   for (std::size_t i = 0; i < view.count; ++i) EXPECT_EQ(view.rows[i].id.entity, i + 1);
 
-  // Every tenth goes; it is told with the name and the updates that it had.
+  // Every tenth is removed; the report has its name and its number of updates.
   std::size_t gone = 0;
   for (std::size_t i = 10; i <= kMany; i += 10, ++gone) crowd.say(i, i, kDeactivated);
   const auto went = crowd.events();
@@ -114,7 +115,7 @@ TEST(EntityEvents, TellAllOfTenThousandAndTheListStaysRight) {
   EXPECT_EQ(crowd.table().present(), kMany - gone);
 }
 
-TEST(EntityEvents, TellOneThatGoesAndComesBack) {
+TEST(EntityEvents, ReportAnEntityThatIsRemovedAndReturns) {
   Crowd crowd;
   crowd.say(1, 1);
   EXPECT_EQ(by_kind(crowd.events())["appeared"], 1U);

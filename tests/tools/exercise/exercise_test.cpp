@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A few peers in simulated time: when their servos step, and what of them is measured.
+// A few peers in simulated time: the steps of their servos, and their measurement.
 #include "reckon/tools/exercise/exercise.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
-using Device = std::pair<std::size_t, std::size_t>;  // of which peer, which
+using Device = std::pair<std::size_t, std::size_t>;  // peer index, device index
 
 ExerciseOptions simulated(std::size_t peers) {
   ExerciseOptions options;
@@ -39,7 +39,7 @@ std::map<Device, std::vector<nanoseconds>> steps_of(Exercise& exercise, nanoseco
   return steps;
 }
 
-TEST(Exercise, StepsEachServoAtThePeriodOfItsOwnDevice) {
+TEST(Exercise, StepsEachServoAtItsDevicesPeriod) {
   Exercise exercise(peer::parse_scene_file("[[operator]]\npassive = true\n"
                                            "[[device]]\npeer = 1\nrate = \"250 Hz\"\n"
                                            "[[device]]\npeer = 1\nrate = \"700 Hz\"\n"
@@ -70,7 +70,7 @@ TEST(Exercise, StepsEachServoAtThePeriodOfItsOwnDevice) {
 }
 
 // 3/4 of 0.95 x 2 b/T, for 1 N s/m at 10 kHz, and the grip of 300 N/m in series.
-TEST(Exercise, LetsADeviceThatIsSteppedFasterShowStifferWalls) {
+TEST(Exercise, FasterDevicesShowStifferWalls) {
   const std::string scene =
       "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nsurface = { stiffness = 20000 }\n"
       "[[operator]]\nsweep = { from = \"0 0 5 mm\", to = \"0 0 -5 mm\", period = \"2 s\" }\n"
@@ -83,8 +83,7 @@ TEST(Exercise, LetsADeviceThatIsSteppedFasterShowStifferWalls) {
   EXPECT_GE(exercise.measurement().energy_min(), -1e-9);
 }
 
-// Two hands that lean on a floor and on each other from the start, at rates that are no
-// milliseconds.
+// Two hands that press a floor and each other from the start, at rates without whole milliseconds.
 TEST(Exercise, CountsNoMoreTimeInContactThanPassed) {
   for (const char* rate : {"250 Hz", "1 kHz", "4 kHz"}) {
     SCOPED_TRACE(rate);
@@ -116,7 +115,7 @@ std::string ball_of_another(const std::string& more) {
          "[[device]]\npeer = 2\n";
 }
 
-TEST(Exercise, CountsTouchOfWhatNoHandMovesApart) {
+TEST(Exercise, CountsContactWithEntitiesApartFromHands) {
   Exercise exercise(peer::parse_scene_file(ball_of_another(""), "x.toml"), simulated(2));
   exercise.run(2s);
   const DemoMeasurement& measured = exercise.measurement();
@@ -127,9 +126,9 @@ TEST(Exercise, CountsTouchOfWhatNoHandMovesApart) {
   EXPECT_GT(measured.peak_force(), 1.0);
 }
 
-// It goes 5 cm to and fro each second: what is shown is off by up to the threshold, never by
-// nothing.
-TEST(Exercise, MeasuresThePoseOfWhatFollowsATrack) {
+// It moves 5 cm back and forth each second: the shown error is at most the threshold, and never
+// zero.
+TEST(Exercise, MeasuresThePoseOfTracks) {
   const reckon::test::ScratchFolder folder;
   std::ofstream track(folder.file("ball.csv"));
   track << "t_s,px_m,py_m,pz_m\n";
@@ -149,7 +148,7 @@ TEST(Exercise, MeasuresThePoseOfWhatFollowsATrack) {
   EXPECT_LT(pose.p99, 4e-3);
 }
 
-TEST(Exercise, HasNoPoseErrorWhereNothingOfOthersWasShown) {
+TEST(Exercise, HasNoPoseErrorWithoutRemoteEntities) {
   Exercise exercise(peer::parse_scene_file("[[operator]]\npassive = true\n", "x.toml"),
                     simulated(1));
   exercise.run(1s);

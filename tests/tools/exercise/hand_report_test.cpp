@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The end of a run: what hands were shown less than they asked for, and whom they touched.
+// The end of a run: the reduction of the hands' forces, and the hands that they touched.
 #include "reckon/tools/exercise/hand_report.hpp"
 
 #include <gmock/gmock.h>
@@ -39,9 +39,9 @@ class HandReport : public testing::Test {
   Hands hands_;
 };
 
-TEST_F(HandReport, SaysNothingWhereNothingLacks) { EXPECT_EQ(text(), ""); }
+TEST_F(HandReport, IsEmptyWithoutReductions) { EXPECT_EQ(text(), ""); }
 
-TEST_F(HandReport, SaysForHowLongAndByHowMuchContactsWereHeldBack) {
+TEST_F(HandReport, ReportsTimeAndAmountOfHeldBackContacts) {
   views_[1].servo.tally.held_back = {2.0, 0.4, 2.3};
   views_[2].servo.tally.held_back = {0.4, 0.1, 0.5};
   EXPECT_THAT(text(), HasSubstr("held back                  3 % of the time in contact with hands, "
@@ -57,7 +57,7 @@ TEST_F(HandReport, SaysForHowLongAndByHowMuchContactsWereHeldBack) {
                             HasSubstr("held forces cut            1.5 s, at worst 0 % of 0.2 N")));
 }
 
-TEST_F(HandReport, SaysForHowLongTheForceWasCutAtTheDevicesLimit) {
+TEST_F(HandReport, ReportsHowLongTheDeviceLimitCutForces) {
   views_[2].servo.tally.limit = {0.25, 0.8, 12.5};
   EXPECT_THAT(text(), HasSubstr("force cut                  0.25 s, at worst 80 % of 12.5 N shown: "
                                 "it was more than the device may show (1:3:1)"));
@@ -66,7 +66,7 @@ TEST_F(HandReport, SaysForHowLongTheForceWasCutAtTheDevicesLimit) {
   EXPECT_EQ(json[2]["force_cut"]["worst_asked_n"], 12.5);
 }
 
-TEST_F(HandReport, SaysWhichHandsTouchedNobody) {
+TEST_F(HandReport, NamesHandsWithoutContact) {
   for (const std::size_t i : {0U, 2U}) views_[i].servo.tally.hands = 0;
   EXPECT_THAT(text(), HasSubstr("touched nobody             1:1:1, 1:3:1\n"));
   for (peer::HandView& hand : views_) hand.servo.tally.hands = 0;
@@ -86,7 +86,7 @@ TEST_F(HandReport, CountsBodiesOfOthersAsTouched) {
   EXPECT_EQ(text(), "");
 }
 
-TEST_F(HandReport, SaysWhatIsSofterThanAskedOnceForAllThatShareIt) {
+TEST_F(HandReport, ReportsSoftenedStiffnessOnceForAllHands) {
   for (peer::HandView& hand : views_) {
     hand.stiffness.walls_asked = 20000;
     hand.stiffness.walls = 1425;
@@ -115,7 +115,7 @@ TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {
                             HasSubstr("for 0.5 s, a record near a hand")));
 }
 
-TEST_F(HandReport, SaysHowOftenAndForHowLongForcesWereStopped) {
+TEST_F(HandReport, ReportsHowOftenAndLongForcesWereStopped) {
   for (peer::HandView& hand : views_) {
     hand.servo.tally.stops = 2;
     hand.servo.tally.stopped = 3.25;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The demo's course in simulated time, and what its hands would feel without the gate.
+// The demo's course in simulated time, and the forces of its hands without the gate.
 #include "reckon/tools/exercise/hand_twins.hpp"
 
 #include <gtest/gtest.h>
@@ -45,12 +45,12 @@ ExerciseOptions options(std::size_t peers) {
   return options;
 }
 
-/// What a stretch of time has had.
+/// Extremes over a time span.
 struct Seen {
   double most_felt = 0, most_twin = 0;  // [N]
   double most_apart = 0;                // [N], between felt and twin
   double felt_step = 0, twin_step = 0;  // [N], greatest change within 10 ms
-  double least_twins = 0;               // [J], of all together
+  double least_twins = 0;               // [J], of all twins together
   std::size_t feeling = 0, steps = 0;
 };
 
@@ -63,7 +63,7 @@ class TwinnedExercise {
         [this](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
           twins_.take(peer, device, step);
           least_energy_ = std::min(least_energy_, step.port_energy + step.loan);
-          // Twins of hands that are collected before wait for the last one.
+          // Twins of earlier hands wait for the last one.
           if (peer + 1 == exercise_.size()) note(peer, device, step);
         });
   }
@@ -109,19 +109,19 @@ TEST(HandTwins, LieOnTheFeltForceWithoutDelay) {
   TwinnedExercise pair(scene_of("meeting.toml", 2));
   pair.run(2s);  // the hands meet
   const Seen pressed = pair.run(4s);
-  const Seen all = pair.run(19s);  // let go, stroke the stone, meet again
+  const Seen all = pair.run(19s);  // part, stroke the stone, meet again
   std::printf("pressed %.2f N, twin %.3f N apart; all the course %.3f N; together %.1f mJ\n",
               pressed.most_felt, pressed.most_apart, all.most_apart, 1e3 * all.least_twins);
   EXPECT_GT(pressed.most_felt, 1.9);
   EXPECT_LT(pressed.most_apart, 0.15);
   EXPECT_LT(pressed.twin_step, 0.1);
-  EXPECT_LT(all.most_apart, 0.6);  // a meeting is felt some ms sooner or later
+  EXPECT_LT(all.most_apart, 0.6);  // a meeting may be felt some ms sooner or later
   EXPECT_GE(std::min(pressed.least_twins, all.least_twins), -1e-4);
   EXPECT_EQ(pair.twins().resets(), 0U);
   EXPECT_EQ(all.feeling, all.steps);
 }
 
-TEST(HandTwins, ShakeAndMakeEnergyOverADelayWhereTheirHandsStayCalm) {
+TEST(HandTwins, OscillateOverADelayWhileHandsStayCalm) {
   for (const nanoseconds delay : {150ms, 300ms}) {
     peer::SceneFile scene = scene_of("meeting.toml", 2);
     scene.impairment.law = network(delay, 0.2);
@@ -134,7 +134,7 @@ TEST(HandTwins, ShakeAndMakeEnergyOverADelayWhereTheirHandsStayCalm) {
         static_cast<long long>(delay / 1ms), pressed.most_felt, pressed.felt_step,
         pressed.most_twin, pressed.twin_step, 1e3 * pressed.least_twins,
         static_cast<int>(pair.twins().resets()));
-    if (delay == 150ms) {  // twice as late, single updates are felt
+    if (delay == 150ms) {  // at twice the delay single updates are felt
       EXPECT_LT(pressed.most_felt, 3.5);
       EXPECT_LT(pressed.felt_step, 0.2);
     }
@@ -148,7 +148,7 @@ TEST(HandTwins, ShakeAndMakeEnergyOverADelayWhereTheirHandsStayCalm) {
   }
 }
 
-TEST(HandTwins, FollowWhatTheNetworkIsMadeToDo) {
+TEST(HandTwins, FollowChangesOfTheNetwork) {
   TwinnedExercise pair(scene_of("meeting.toml", 2));
   pair.run(3s);
   EXPECT_EQ(pair.twins().resets(), 0U);
@@ -181,7 +181,7 @@ TEST(HandTwins, GoTheWayOfTheirHandsPointer) {
   EXPECT_LT(most, 1e-9);
 }
 
-TEST(HandTwins, OutliveWhateverAPointerDoes) {
+TEST(HandTwins, SurviveAnyPointerInput) {
   TwinnedExercise pair(scene_of("meeting.toml", 2));
   const PointerHand pointer = pair.twins().followed(0, pair.exercise().pointers(0)[0]);
   using Limits = std::numeric_limits<double>;
@@ -197,7 +197,7 @@ TEST(HandTwins, OutliveWhateverAPointerDoes) {
   }
 }
 
-TEST(HandTwins, AreOfTheFirstHandsThatFollowPointersAlone) {
+TEST(HandTwins, BelongToTheFirstPointerHandsOnly) {
   peer::SceneFile scene = scene_of("meeting.toml", 10);
   scene.devices[1].source = peer::DeviceSource::simulated;
   Exercise exercise(scene, options(10));
@@ -208,7 +208,7 @@ TEST(HandTwins, AreOfTheFirstHandsThatFollowPointersAlone) {
   twins.take(1, 0, {});
 }
 
-TEST(HandTwins, DoNotWaitForAHandThatIsSilent) {
+TEST(HandTwins, DoNotWaitForASilentHand) {
   peer::SceneFile scene = scene_of("meeting.toml", 2);
   Exercise exercise(scene, options(2));
   HandTwins twins(scene, exercise);

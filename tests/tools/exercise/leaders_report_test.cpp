@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who leads, as the live table and the summary tell it.
+// The leaders, in the live table and the summary.
 #include "reckon/tools/exercise/leaders_report.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace reckon::tools {
 namespace {
 
-// A peer in the cells 0,0 and 0,1, whose leaders it knows as told.
+// A peer in the cells 0,0 and 0,1, with the given leaders.
 std::unique_ptr<peer::PeerView> view_of(std::uint16_t first, std::uint16_t second) {
   auto view = std::make_unique<peer::PeerView>();
   view->leaders.on = true;
@@ -27,14 +27,14 @@ std::unique_ptr<peer::PeerView> view_of(std::uint16_t first, std::uint16_t secon
 
 TEST(LeadersReport, CountsTheCellsThatEachLeads) {
   const auto one = view_of(1, 2), other = view_of(1, 2);
-  other->leaders.rows[0] = {0, 7, {}};  // where nobody leads as far as it knows
+  other->leaders.rows[0] = {0, 7, {}};  // it knows no leader there
   EXPECT_EQ(leaders_text(std::array<const peer::PeerView*, 1>{one.get()}),
             "scene by 1:1, map 3 has 4 cells; cells by 1:1: 1, by 1:2: 1");
   EXPECT_EQ(leaders_text(std::array<const peer::PeerView*, 2>{one.get(), other.get()}),
             "scene by 1:1, map 3 has 4 cells; cells by 1:1: 1, by 1:2: 1, by nobody: 1");
 }
 
-TEST(LeadersReport, SaysWhereTwoLeadTheScene) {
+TEST(LeadersReport, ReportsTwoLeadersOfTheScene) {
   const auto one = view_of(1, 1), other = view_of(1, 1);
   other->leaders.scene = {1, 9};
   EXPECT_EQ(leaders_text(std::array<const peer::PeerView*, 2>{one.get(), other.get()}),
@@ -47,7 +47,7 @@ TEST(LeadersReport, IsNothingWhereTheSceneHasNoLeaders) {
   EXPECT_EQ(leaders_json(view->leaders), "");
 }
 
-TEST(LeadersReport, TellsProgramsEachCell) {
+TEST(LeadersReport, JsonListsEachCell) {
   const auto view = view_of(2, 2);
   view->leaders.rows[1].leader = {};
   view->leaders.led = view->leaders.leaderless = 1;
@@ -56,7 +56,7 @@ TEST(LeadersReport, TellsProgramsEachCell) {
             R"("leaderless":1,"of":[{"cell":"0,0","leader":"1:2"},{"cell":"0,1","leader":null}]})");
 }
 
-TEST(LeadersReport, SaysWhereTheBeaconsAreThatPeersFollow) {
+TEST(LeadersReport, ReportsTheCellsOfFollowedBeacons) {
   const auto one = view_of(1, 1), other = view_of(1, 1);
   one->leaders.followed_count = 2;
   one->leaders.followed[0] = {{'g', 'a', 't', 'e'}, true, 7, -1, 12};

@@ -19,7 +19,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// So many peers, each of which sees `entities`, on a line away from it.
+/// This number of peers; each sees `entities` on a line away from it.
 class Peers {
  public:
   Peers(std::size_t peers, std::size_t entities, std::size_t hands = 1) {
@@ -52,7 +52,7 @@ class Peers {
   [[nodiscard]] LivePicture picture() const {
     return {rows_, scene_, 12.0, notices_, strongest_, head_};
   }
-  /// What a terminal of this size shows; each line fits into it.
+  /// The lines on a terminal of this size; each fits.
   [[nodiscard]] std::vector<std::string> shown(std::size_t rows, std::size_t columns) const {
     std::vector<std::string> texts;
     for (const ScreenLine& line : live_lines(picture(), {rows, columns})) {
@@ -79,7 +79,7 @@ std::size_t lines_with(const std::vector<std::string>& lines, std::string_view t
                     [&](const std::string& line) { return line.find(text) != line.npos; }));
 }
 
-TEST(LiveTable, FillsATerminalOfAnySizeAndNoMore) {
+TEST(LiveTable, FitsATerminalOfAnySize) {
   for (const std::size_t peers : {1U, 2U, 8U, 64U}) {
     const Peers all(peers, peers - 1);
     for (const std::size_t rows : {0U, 1U, 2U, 3U, 5U, 10U, 24U, 60U, 200U})
@@ -88,7 +88,7 @@ TEST(LiveTable, FillsATerminalOfAnySizeAndNoMore) {
   }
 }
 
-TEST(LiveTable, SaysThatForcesAreStoppedAndHowTheyComeBack) {
+TEST(LiveTable, ReportsStoppedForcesAndTheirKey) {
   Peers all(2, 1);
   EXPECT_THAT(all.shown(24, 80).back(), AllOf(HasSubstr("[s] stop all forces"), HasSubstr("[q]")));
   all.view(1).hands[0].servo.stopped = true;
@@ -129,7 +129,7 @@ TEST(LiveTable, GivesEmittersALineWhereThereIsRoom) {
   EXPECT_EQ(lines_with(few, "7:7:"), 3U) << "entities first";
 }
 
-TEST(LiveTable, LeavesOutColumnsAndNotEntitiesInANarrowTerminal) {
+TEST(LiveTable, DropsColumnsInsteadOfEntitiesInNarrowTerminals) {
   const auto wide = Peers(1, 3).shown(24, 200);
   EXPECT_THAT(wide, Contains(AllOf(HasSubstr("LEDGER"), HasSubstr("K1"), HasSubstr("AGE"))));
   const auto narrow = Peers(1, 3).shown(24, 40);
@@ -140,7 +140,7 @@ TEST(LiveTable, LeavesOutColumnsAndNotEntitiesInANarrowTerminal) {
   EXPECT_THAT(narrow, Contains(AllOf(HasSubstr("PEER"), HasSubstr("SEES"))));
 }
 
-TEST(LiveTable, ShowsTheNearestByTheirIdsAndSaysHowManyThereAreMore) {
+TEST(LiveTable, ShowsTheNearestAndCountsTheRest) {
   const auto lines = Peers(1, 10'000).shown(10, 80);
   EXPECT_EQ(lines_with(lines, "7:7:"), 4U);
   // 7:7:64 is the nearest of the 64.
@@ -155,12 +155,12 @@ TEST(LiveTable, ShowsTheNearestByTheirIdsAndSaysHowManyThereAreMore) {
 
 TEST(LiveTable, SharesTheLinesAmongPeers) {
   const auto lines = Peers(8, 7).shown(24, 80);
-  EXPECT_EQ(lines_with(lines, "of 7"), 8U);  // each peer has its line and says what is not shown
+  EXPECT_EQ(lines_with(lines, "of 7"), 8U);  // each peer has its line with the number not shown
   EXPECT_GE(lines_with(lines, "7:7:"), 8U);
   EXPECT_THAT(Peers(64, 63).shown(10, 80), Contains(HasSubstr("and 59 peers more")));
 }
 
-TEST(LiveTable, SaysWhatIsWrongWithAHand) {
+TEST(LiveTable, ReportsProblemsOfAHand) {
   Peers peers(2, 0, 2);
   peers.view(0).hands[1].servo.left_out = 4;
   peers.view(1).frozen = true;
@@ -170,7 +170,7 @@ TEST(LiveTable, SaysWhatIsWrongWithAHand) {
   EXPECT_THAT(lines, Contains(HasSubstr("nobody heard yet")));
 }
 
-TEST(LiveTable, DoesNotCallAHandFreeThatFeelsWhatAnotherOwns) {
+TEST(LiveTable, HandThatFeelsAnEntityIsNotFree) {
   Peers peers(1, 1, 2);
   peers.view(0).hands[0].servo.force.y() = 0.4;
   const auto lines = peers.shown(24, 80);
@@ -186,7 +186,7 @@ std::size_t bar_of(const std::vector<std::string>& lines, std::string_view hand)
   return 0;
 }
 
-TEST(LiveTable, DrawsForcesAsBarsAsLongAsTheTerminalLets) {
+TEST(LiveTable, DrawsForcesAsBarsWithinTheTerminal) {
   Peers peers(1, 1, 3);
   peers.strongest_ = 4;
   peers.view(0).hands[0].servo.force.y() = 4;
@@ -203,7 +203,7 @@ TEST(LiveTable, DrawsForcesAsBarsAsLongAsTheTerminalLets) {
   EXPECT_EQ(bar_of(peers.shown(24, 30), "1:1:1"), 0U) << "no room";
 }
 
-TEST(LiveTable, ShowsNoRateOfAnEntityFromWhichNothingComes) {
+TEST(LiveTable, ShowsNoRateOfSilentEntities) {
   Peers peers(1, 2);
   peers.view(0).rows[0].rate_hz = 52.4;
   peers.view(0).rows[1].rate_hz = 0;
@@ -212,7 +212,7 @@ TEST(LiveTable, ShowsNoRateOfAnEntityFromWhichNothingComes) {
   EXPECT_EQ(lines_with(lines, " Hz"), 1U);
 }
 
-TEST(LiveTable, KeepsAHeadBelowItsTitleWhateverNoticesCome) {
+TEST(LiveTable, KeepsAHeadBelowItsTitle) {
   Peers peers(1, 50);
   peers.notices_ = {"one", "two", "three", "four"};
   peers.head_ = "page: http://127.0.0.1:8642/#word=1f2e";
@@ -222,7 +222,7 @@ TEST(LiveTable, KeepsAHeadBelowItsTitleWhateverNoticesCome) {
   EXPECT_EQ(narrow[1] + narrow[2], peers.head_) << "whole, where it is wider than the terminal";
 }
 
-TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
+TEST(LiveTable, MarksHeldBackContactsAndLoans) {
   Peers peers(1, 1, 3);
   for (peer::HandView& hand : peers.view(0).hands) {
     hand.servo.count = 1;
@@ -243,7 +243,7 @@ TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
   EXPECT_THAT(peers.shown(24, 80), Contains(AllOf(HasSubstr("1:1:3"), HasSubstr("CUT 75%"))));
 }
 
-TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {
+TEST(LiveTable, ReportsSoftenedStiffnessAndRefusedModels) {
   Peers peers(2, 2);
   EXPECT_EQ(lines_with(peers.shown(24, 80), "softer"), 0U);
   for (const std::size_t i : {0U, 1U}) {
@@ -259,7 +259,7 @@ TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {
   EXPECT_THAT(peers.shown(24, 120), Contains(AllOf(HasSubstr("7:7:2 "), HasSubstr("950/1500"))));
 }
 
-TEST(LiveTable, SaysWhoLeadsWhereTheSceneHasLeaders) {
+TEST(LiveTable, NamesTheLeadersOfAScene) {
   Peers peers(2, 2);
   EXPECT_EQ(lines_with(peers.shown(24, 80), "leaders"), 0U);
   for (const std::size_t i : {0U, 1U}) {
@@ -272,7 +272,7 @@ TEST(LiveTable, SaysWhoLeadsWhereTheSceneHasLeaders) {
   EXPECT_EQ(lines_with(peers.shown(24, 80), "leaders: scene by 1:2; cells by 1:2: 1"), 1U);
 }
 
-TEST(LiveTable, SaysHowManyBodiesMoveAndWhichCouldNot) {
+TEST(LiveTable, CountsMovingBodiesAndThoseNotWoken) {
   Peers peers(2, 2);
   EXPECT_EQ(lines_with(peers.shown(24, 80), "bodies"), 0U);
   peers.view(1).bodies = 150;
@@ -305,8 +305,8 @@ TEST(LiveTable, KeepsTheNewestNoticesAboveTheKeys) {
   EXPECT_THAT(peers.shown(5, 80), Not(Contains("four")));
 }
 
-// What a person is to do stands at the end of a sentence.
-TEST(LiveTable, WrapsANoticeAndShowsMoreOfThemWhereThereIsRoom) {
+// The instruction to the user is at the end of a sentence.
+TEST(LiveTable, WrapsNoticesAndShowsMoreIfRoom) {
   Peers peers(1, 1);
   peers.notices_ = {
       "an old one that is far too long to be shown beside all the others: " + std::string(500, 'x'),
@@ -318,13 +318,13 @@ TEST(LiveTable, WrapsANoticeAndShowsMoreOfThemWhereThereIsRoom) {
   EXPECT_THAT(foot, ::testing::ElementsAre(
                         "", "Falcon: it has no firmware, which it forgets without power:",
                         "  name the file of it (firmware = FILE)", "one", "two", "three"));
-  peers.notices_.push_back(std::string(2000, 'y'));  // too long for all that is free
+  peers.notices_.push_back(std::string(2000, 'y'));  // too long for the free lines
   lines = peers.shown(24, 60);
   EXPECT_EQ(lines_with(lines, "yyy"), 8U);
   EXPECT_EQ(lines_with(lines, "1:1:1"), 1U);
 }
 
-TEST(LiveTable, SaysWhereAHandsForceIsOff) {
+TEST(LiveTable, MarksAHandWithoutForce) {
   Peers peers(1, 1, 2);
   peers.view(0).hands[1].servo.enabled = false;
   const auto lines = peers.shown(24, 100);

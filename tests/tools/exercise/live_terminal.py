@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""`reckon demo` and `reckon peer` on terminals: drawn within their size at every size, resized in the middle,
-given back whatever ends the program, and plain lines where nothing can be drawn.
+"""`reckon demo` and `reckon peer` on terminals: output fits every size, follows a resize while running, the terminal
+is restored for every way to end, and plain lines appear if the terminal cannot be drawn on.
 
     live_terminal.py RECKON SCENES        exit status 77 = skipped, with a message
 """
@@ -25,14 +25,14 @@ def demo(program, *words):
 
 
 def check_within(octets, rows, columns):
-    """No cursor is sent beyond the screen, and none is moved by newlines beyond it."""
+    """Checks that no cursor position is outside the screen, and that newlines do not move it outside."""
     between = octets.split(ENTER_SCREEN)[-1].split(LEAVE_SCREEN)[0]
     for move in MOVES.finditer(between):
         assert int(move[1]) <= rows and int(move[2] or 1) <= columns, (move[0], rows, columns)
 
 
 def sizes(program):
-    """Each size from the start, eight peers; the summary stands below the given back screen."""
+    """Each size from the start, with eight peers; the summary is below the restored screen."""
     for rows, columns in ((24, 80), (10, 40), (60, 200), (2, 5)):
         terminal = Terminal(demo(program), rows=rows, columns=columns)
         terminal.expect("meet")
@@ -53,7 +53,7 @@ def sizes(program):
 
 
 def resized(program):
-    """Smaller and larger in the middle."""
+    """Smaller and larger sizes while running."""
     terminal = Terminal(demo(program))
     terminal.expect("PEER")
     for rows, columns in ((10, 40), (60, 200), (24, 80)):
@@ -65,7 +65,7 @@ def resized(program):
 
 
 def endings(program):
-    """Ctrl-C, SIGTERM, SIGHUP, and what ends it at once: the terminal is given back each time."""
+    """Ctrl-C, SIGTERM, SIGHUP, and immediate ends: the terminal is restored each time."""
     for how, status in ((lambda t: t.press("\x03"), 0), (lambda t: t.process.send_signal(signal.SIGTERM), 0),
                         (lambda t: t.process.send_signal(signal.SIGHUP), 0),
                         (lambda t: t.process.send_signal(signal.SIGQUIT), -signal.SIGQUIT),
@@ -75,7 +75,7 @@ def endings(program):
         how(terminal)
         terminal.expect_end()
         assert terminal.process.returncode == status, terminal.process.returncode
-    # Ctrl-C twice: in good order or at once, as the second one finds it.
+    # Two Ctrl-C: an orderly or an immediate end, depending on the time of the second one.
     terminal = Terminal(demo(program))
     terminal.expect("PEER")
     terminal.process.send_signal(signal.SIGINT)
@@ -85,7 +85,7 @@ def endings(program):
 
 
 def plain(program):
-    """No screen where TERM is dumb or unset, or stdin is closed: a few lines and the summary."""
+    """No screen if TERM is dumb or unset, or stdin is closed: only a few lines and the summary."""
     for environment, stdin in (({"TERM": "dumb"}, True), ({"TERM": None}, True), ({"TERM": "no-such"}, True),
                                ({}, False)):
         terminal = Terminal(demo(program, "--for", "3s"), environment, stdin=stdin)
@@ -97,7 +97,7 @@ def plain(program):
 
 
 def one_peer(program, scene):
-    """`reckon peer` draws in the same way, and says below what it was told above."""
+    """`reckon peer` draws in the same way; its earlier messages appear below."""
     other = subprocess.Popen([program, "peer", scene, "--iface", "lo", "--operator", "2", "--name", "BOB"],
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     terminal = Terminal([program, "peer", scene, "--iface", "lo", "--name", "ALICE"])
@@ -115,7 +115,7 @@ def one_peer(program, scene):
 
 
 def stopped(program):
-    """The key s and SIGUSR1 stop all forces and let them come back; the summary counts it."""
+    """The key s and SIGUSR1 stop all forces and enable them again; the summary counts it."""
     terminal = Terminal(demo(program), rows=40, columns=120)
     terminal.expect("stop all forces")
     terminal.press("s")

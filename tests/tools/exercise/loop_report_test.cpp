@@ -20,7 +20,7 @@ LoopReports one(std::chrono::nanoseconds longest, std::uint64_t passes) {
   return reports;
 }
 
-TEST(LoopReports, OfSeveralPeersAreTheWorstTimesAndTheSums) {
+TEST(LoopReports, OfSeveralPeersHaveWorstTimesAndSums) {
   LoopReports both = one(90us, 100);
   both.add(one(3ms, 50));
   const auto json = nlohmann::json::parse(loops_json(both));

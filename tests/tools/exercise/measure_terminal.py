@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""`reckon devices measure` as a person meets it, on a terminal: what is asked, what each way out says, and a board behind a
-tty. RECKON_SOAK=1 measures that on the clock of this host.
+"""`reckon devices measure` on a terminal: its questions, the messages of each end, and a board behind a tty.
+RECKON_SOAK=1 measures the board on the clock of this host.
 
     measure_terminal.py RECKON DRIVER.so BOARD_BEHIND_TTY
 """
@@ -19,9 +19,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import pseudo_terminal  # noqa: E402
 from pseudo_terminal import Terminal  # noqa: E402
 
-# What a busy host is excused by: each says what was in the way.
+# Accepted failures of a busy host; each message states the disturbance.
 BUSY = ("this host was too busy", "its readings fail", "it is not ready any more")
-# Of a handle that a hand holds.
+# For a handle that a hand holds.
 HELD = ("let go of the handle", "a hand moves it")
 ASKED = "Press Enter to begin"
 
@@ -31,7 +31,7 @@ def measure(program, device, out, *flags):
 
 
 def end(terminal, out, says):
-    """Ended with a reason, not with success, and without a descriptor."""
+    """The program ended with a reason, without success and without an open descriptor."""
     terminal.expect_end(drawn=False)
     told = terminal.everything.decode()
     assert terminal.process.returncode == 3, (terminal.process.returncode, told)
@@ -40,7 +40,7 @@ def end(terminal, out, says):
 
 
 def endings(program, driver, out):
-    """Before anything moves, and after."""
+    """Ends before and after the first motion."""
     for how, says in ((lambda t: t.press("x"), "a key that is not Enter: nothing was moved"),
                       (lambda t: t.press("\x03"), "ended by Ctrl-C: nothing was moved"),
                       (lambda t: t.process.send_signal(signal.SIGUSR1), "SIGUSR1: nothing was moved")):
@@ -49,7 +49,7 @@ def endings(program, driver, out):
         assert "Let go of the handle" in asked and "by up to 40 mm, with up to 3 N" in asked, asked
         how(terminal)
         end(terminal, out, [says])
-    # The driver's handle is drawn to a place by a spring, as if a hand held it.
+    # A spring pulls the driver's handle to a place, as if a hand held it.
     terminal = measure(program, driver, out)
     terminal.expect(ASKED)
     terminal.press("\n")
@@ -57,7 +57,7 @@ def endings(program, driver, out):
 
 
 def refusals(program, driver):
-    """Without a terminal nobody can be asked; and what cannot be pushed is told by its name."""
+    """Without a terminal there are no questions, and a device that cannot be pushed is named."""
     for words, says in (([driver], "add --yes"), (["evdev"], "renders springs by itself"),
                         (["/dev/input/event3"], "renders springs by itself"), (["falkon"], "did you mean 'falcon'?"),
                         (["falcon", "--max-force", "2 N"], "--max-force: what a serial board can hold"),
@@ -73,8 +73,8 @@ def refusals(program, driver):
 
 
 def board(program, model, out):
-    """A board of one axis: begun by Enter and stopped by a key, by Ctrl-C, by a signal, by its plug; and measured."""
-    # A board has a processor of its own.
+    """A board with one axis: started with Enter and stopped by a key, Ctrl-C, a signal or its plug; and measured."""
+    # The board has a processor of its own.
     urgent = ["chrt", "-f", "30"]
     if shutil.which("chrt") is None or subprocess.run([*urgent, "true"], capture_output=True, check=False).returncode != 0:
         urgent = []

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Native code that a scene asks for: said first, and loaded only where the user names it.
+// Native code that a scene requests: reported first, and loaded only if the user names it.
 #include "reckon/tools/exercise/native_code.hpp"
 
 #include <dlfcn.h>
@@ -33,7 +33,7 @@ class NativeCode : public ::testing::Test {
     for (const std::string& place : {driver_, folder_.file("mine.so")})
       fs::copy_file(fs::path(RECKON_TEST_DRIVERS) / "dummy_device.so", place);
   }
-  /// A scene whose device asks for this file.
+  /// A scene whose device requests this file.
   [[nodiscard]] std::string scene_of(const std::string& plugin) const {
     const std::string scene = folder_.file("scene.toml");
     std::ofstream(scene) << "[[operator]]\npassive = true\n[[device]]\ndriver = \"plugin\"\n"
@@ -55,7 +55,7 @@ class NativeCode : public ::testing::Test {
   const std::string driver_ = folder_.file("elsewhere/honey.so");
 };
 
-TEST_F(NativeCode, IsSaidFirstAndNotLoadedByReaders) {
+TEST_F(NativeCode, IsReportedFirstAndNotLoadedByReaders) {
   const std::string scene = scene_of("elsewhere/honey.so");
   const std::string says = "runs native code: elsewhere/honey.so (driver plugin of device 1)\n";
   const auto check = run_reckon({"scene", "check", scene});
@@ -73,7 +73,7 @@ TEST_F(NativeCode, IsSaidFirstAndNotLoadedByReaders) {
   EXPECT_FALSE(is_loaded(driver_));
 }
 
-TEST_F(NativeCode, AnyPathOfASceneIsRefusedWithTheRemedy) {
+TEST_F(NativeCode, ScenePathsAreRefusedWithTheRemedy) {
   for (const std::string& plugin : {std::string("elsewhere/honey.so"), driver_,
                                     std::string("honey.so"), std::string("../../x/honey.so")}) {
     for (const auto& result :
@@ -89,7 +89,7 @@ TEST_F(NativeCode, AnyPathOfASceneIsRefusedWithTheRemedy) {
   EXPECT_FALSE(is_loaded(driver_));
 }
 
-TEST_F(NativeCode, IsLoadedFromTheFileThatTheUserNames) {
+TEST_F(NativeCode, IsLoadedFromTheFileTheUserNames) {
   for (const char* plugin : {"honey.so", "/nowhere/honey.so"}) {
     const auto result = demo(scene_of(plugin), {"--plugin", driver_});
     EXPECT_EQ(result.status, 0) << result.err;
@@ -102,7 +102,7 @@ TEST_F(NativeCode, IsLoadedFromTheFileThatTheUserNames) {
   EXPECT_THAT(none.err, HasSubstr("--plugin: there is no file"));
 }
 
-TEST_F(NativeCode, IsLoadedFromTheInstalledFolderByPlainName) {
+TEST_F(NativeCode, IsLoadedFromTheInstalledFolderByName) {
   fs::create_directories(plugin_folder());
   const fs::path installed = plugin_folder() / "native_code_test.so";
   fs::copy_file(driver_, installed, fs::copy_options::overwrite_existing);

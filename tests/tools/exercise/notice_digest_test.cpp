@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Notices of several peers become few sentences.
+// Notices of several peers are combined into few sentences.
 #include "reckon/tools/exercise/notice_digest.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ TEST(NoticeDigest, NamesAFewOfMany) {
   EXPECT_THAT(digest.take_all(), ElementsAre("7 peers joined: 1:2, 1:3, 1:4, 1:5 and 3 more"));
 }
 
-TEST(NoticeDigest, TellsOfOneThatAllHaveSeenGo) {
+TEST(NoticeDigest, ReportsADepartureSeenByAllOnce) {
   NoticeDigest digest(true);
   for (std::uint16_t by = 1; by <= 7; ++by)
     digest.add(of(by, aoim::PresenceEventKind::departed, 8), milliseconds(0));

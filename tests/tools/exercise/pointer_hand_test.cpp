@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // scenes/pointer_hand.toml, run as `demo --simulated-time` runs it: the visitor presses the
-// pointer's hand, and the pointer's hand the visitor.
+// pointer's hand, and the pointer's hand presses the visitor.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using ::testing::Not;
 
 std::string file() { return reckon::test::source_dir() + "/scenes/pointer_hand.toml"; }
 
-/// The scene in simulated time, and what its two hands felt last.
+/// The scene in simulated time, and the latest forces of its two hands.
 class PointerExercise {
  public:
   explicit PointerExercise(const peer::SceneFile& scene) : exercise_(scene, options()) {
@@ -38,7 +38,7 @@ class PointerExercise {
     });
   }
 
-  /// A page's pointer lies there, 60 times a second.
+  /// Holds a page's pointer at `p_S`, 60 times a second.
   void hold(const Vector3d& p_S, std::chrono::milliseconds duration) {
     for (auto t = 0ms; t < duration; t += 17ms) {
       exercise_.pointers(0)[0].lead(p_S);
@@ -70,7 +70,7 @@ peer::SceneFile scene_with(std::chrono::nanoseconds delay, double loss) {
   return scene;
 }
 
-TEST(PointerHand, SceneIsGoodAndSaysWhoMovesIt) {
+TEST(PointerHand, SceneIsGoodAndNamesItsPointer) {
   const auto check = test::run_reckon({"scene", "check", file()});
   EXPECT_EQ(check.status, 0) << check.out;
   EXPECT_THAT(check.out, HasSubstr("good"));
@@ -80,7 +80,7 @@ TEST(PointerHand, SceneIsGoodAndSaysWhoMovesIt) {
               HasSubstr("a pointer, within 500 mm of where operator 1 is; 40 ms behind it"));
 }
 
-TEST(PointerHand, IsPressedWithTwoNewtonsWithinThreeSecondsWhileItsPointerIsStill) {
+TEST(PointerHand, VisitorPressesItWhileItsPointerRests) {
   PointerExercise pair(scene_with(0ns, 0));
   ASSERT_EQ(pair.exercise().pointers(0).size(), 1U);
   EXPECT_TRUE(pair.exercise().pointers(1).empty());
@@ -93,10 +93,10 @@ TEST(PointerHand, IsPressedWithTwoNewtonsWithinThreeSecondsWhileItsPointerIsStil
 }
 
 // 12 mm beyond the first touch: 1.38 N by springs in series.
-TEST(PointerHand, PressesTheOtherOneOverAnyNetworkAndBothFeelTheSame) {
+TEST(PointerHand, BothHandsFeelTheSameOverAnyNetwork) {
   for (const bool bad : {false, true}) {
     peer::SceneFile scene = scene_with(bad ? 100ms : 0ms, bad ? 0.2 : 0.0);
-    scene.operators[1].to = scene.operators[1].from;  // it stands there
+    scene.operators[1].to = scene.operators[1].from;  // it rests there
     PointerExercise pair(scene);
     pair.exercise().run(500ms);
     pair.hold({0.092, 0, 0.09}, 7500ms);
@@ -116,7 +116,7 @@ TEST(PointerHand, PressesTheOtherOneOverAnyNetworkAndBothFeelTheSame) {
 }
 
 // The servos' own test has more seeds: tests/haptics/devices/pointer_pair_test.cpp.
-TEST(PointerHand, MakesNoEnergyBetweenWholePeersAndLosesNobodyWhateverThePointerDoes) {
+TEST(PointerHand, WholePeersMakeNoEnergyForAnyPointer) {
   const unsigned seeds = test::tries(24U, 90U);
   double least = 0;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
@@ -142,7 +142,7 @@ TEST(PointerHand, MakesNoEnergyBetweenWholePeersAndLosesNobodyWhateverThePointer
   std::printf("%u seeds: least energy at a port or in sum %.2g J\n", seeds, least);
 }
 
-TEST(PointerHand, IsLedInTheAxesOfTheSceneHoweverItsDeviceStands) {
+TEST(PointerHand, FollowsThePointerForAnyDevicePose) {
   peer::SceneFile scene = scene_with(0ns, 0);
   scene.devices[0].position = {0.1, -0.2, 0.3};
   scene.devices[0].orientation = peer::device_orientation_of({0.5, 0.3, -0.7});
@@ -158,7 +158,7 @@ TEST(PointerHand, IsLedInTheAxesOfTheSceneHoweverItsDeviceStands) {
   EXPECT_LE((p_S - wanted).norm(), 1e-5);
 }
 
-TEST(PointerHand, IsMovedByAScriptWhereThereIsOne) {
+TEST(PointerHand, ScriptReplacesThePointer) {
   const peer::SceneFile scene = scene_with(0ns, 0);
   const SimulatedHands hands =
       make_simulated_hands(scene, 1, [](double) { return haptics::HandTarget{}; });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// --device and --firmware, and what stands in the place of a simulated device.
+// --device and --firmware, and the real device that replaces a simulated one.
 #include "reckon/tools/exercise/real_devices.hpp"
 
 #include <gmock/gmock.h>
@@ -39,19 +39,19 @@ std::string usage_error(Call&& call) {
   return {};
 }
 
-TEST(RealDevices, TheFirstDeviceOfThePeerGetsTheDriverThatIsChosen) {
+TEST(RealDevices, ThePeersFirstDeviceGetsTheChosenDriver) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   choose_device({"falcon", ""}, scene, 2, 2);
   ASSERT_EQ(scene.devices.size(), 2U);
   EXPECT_EQ(scene.devices[0].driver, DeviceDriver::simulated);
   EXPECT_EQ(scene.devices[1].driver, DeviceDriver::falcon);
   EXPECT_EQ(scene.devices[1].peer, 2U);
-  // What was said of a simulated device's friction says nothing of this one.
+  // The simulated device's damping does not apply to this one.
   EXPECT_LT(scene.devices[1].damping, 0.5);
   EXPECT_EQ(scene.devices[1].delay_samples, 6);
 }
 
-TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
+TEST(RealDevices, KeepsTheFilesValuesOfAFalcon) {
   peer::SceneFile scene = peer::parse_scene_file(
       std::string("[[device]]\ndriver = \"falcon\"\ndamping = \"2 N s/m\"\n") + kTwoHands,
       "x.toml");
@@ -60,7 +60,7 @@ TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
   EXPECT_EQ(scene.devices[0].joint_damping, 0.0) << "it is that of every pose";
 }
 
-// What nobody has stated is believed of the joints, which give less far out.
+// An assumed damping is of the joints, which give less far out.
 TEST(RealDevices, AnAssumedDampingIsThatOfTheMiddle) {
   for (const auto& [name, damping, square] :
        {std::tuple("falcon", 0.3, 0.0049), std::tuple("polhem", 0.2, 0.0365)}) {
@@ -72,7 +72,7 @@ TEST(RealDevices, AnAssumedDampingIsThatOfTheMiddle) {
   }
 }
 
-TEST(RealDevices, ADescriptorChoosesTheDriverByItsUsbNumbersAndSaysWhatTheDeviceCan) {
+TEST(RealDevices, DescriptorChoosesTheDriverByItsUsbNumbers) {
   const test::ScratchFolder folder;
   const std::string mine = folder.file("mine.toml");
   const auto write = [&](const std::string& ids) {
@@ -101,8 +101,8 @@ TEST(RealDevices, ADescriptorChoosesTheDriverByItsUsbNumbersAndSaysWhatTheDevice
               AllOf(HasSubstr("--device"), HasSubstr("none.toml")));
 }
 
-// Of a handle in the middle of a stone its user would feel no surface.
-TEST(RealDevices, ADeviceThatTheFilePutsNowhereStandsWhereItsOperatorBegins) {
+// With the handle in the centre of a stone its user would feel no surface.
+TEST(RealDevices, DevicePositionDefaultsToItsOperatorsStart) {
   const auto place = [](const std::string& device, const std::string& hands) {
     const test::ScratchFolder folder;
     std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,0.1,0.2,0.3\n"
@@ -151,7 +151,7 @@ TEST(RealDevices, EachNameIsAccepted) {
     EXPECT_EQ(usage_error([&] { check_device_choice({name, ""}); }), "") << name;
 }
 
-TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
+TEST(RealDevices, DriverFileIsLoadedAndReported) {
   const std::string file = std::string(RECKON_TEST_DRIVERS) + "/dummy_device.so";
   EXPECT_EQ(usage_error([&] { check_device_choice({file, ""}); }), "");
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
@@ -188,7 +188,7 @@ TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
   EXPECT_EQ(scene.devices.at(0).firmware, file);
 }
 
-TEST(RealDevices, AnEventDeviceIsChosenWhereTheSceneSaysWhatItsNumbersMean) {
+TEST(RealDevices, EventDeviceNeedsTheScenesScale) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   EXPECT_THAT(usage_error([&] {
                 choose_device({"evdev", ""}, scene, 1, 2);
@@ -218,7 +218,7 @@ TEST(RealDevices, AnEventDeviceIsChosenWhereTheSceneSaysWhatItsNumbersMean) {
   }
 }
 
-TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {
+TEST(RealDevices, ExplainedEventDeviceMatchesItsServo) {
   const std::string wheel =
       "[[device]]\ndriver = \"evdev\"\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = "
       "2000\nmax_stiffness = 1500\n";
@@ -247,8 +247,8 @@ TEST(RealDevices, APeerWithoutADeviceCannotHaveOne) {
               HasSubstr("peer 1 has no device"));
 }
 
-// Simulated, it has the very limits that the servo of the real one relies on.
-TEST(RealDevices, WhatIsExplainedOfAFalconIsWhatItsServoReliesOn) {
+// A simulated one has exactly the limits of the real one's servo.
+TEST(RealDevices, ExplainedFalconMatchesItsServo) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   choose_device({"falcon", ""}, scene, 1, 2);
   const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
@@ -261,7 +261,7 @@ TEST(RealDevices, WhatIsExplainedOfAFalconIsWhatItsServoReliesOn) {
   EXPECT_EQ(simulated.max_speed, real.max_speed);
 }
 
-TEST(RealDevices, APolhemIsTakenInTheSameWayWithItsOwnLimits) {
+TEST(RealDevices, PolhemIsChosenWithItsOwnLimits) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   EXPECT_THAT(usage_error([] {
                 check_device_choice({"polhme", ""});
@@ -307,7 +307,7 @@ TEST(RealDevices, ASerialBoardGoesByItsLine) {
     EXPECT_THAT(refused(std::string("/dev/ttyACM0@") + baud), HasSubstr("is no baud")) << baud;
 }
 
-TEST(RealDevices, WhatTheFileSaysOfItsBoardStays) {
+TEST(RealDevices, KeepsTheFilesValuesOfABoard) {
   peer::SceneFile scene = peer::parse_scene_file(
       std::string("[[device]]\ndriver = \"serial\"\nport = \"/dev/ttyACM0\"\n"
                   "damping = \"2 N s/m\"\nmax_force = \"3 N\"\n") +
@@ -335,7 +335,7 @@ TEST(RealDevices, ALineHasOneBoard) {
   }
 }
 
-TEST(RealDevices, ADemoGoesOnWithoutTheBoardAndSaysSoOnce) {
+TEST(RealDevices, DemoContinuesWithoutTheBoardAndReportsOnce) {
   const test::ProgramResult result =
       test::run_reckon({"demo", "--device", "/dev/none", "--for", "700ms", "--json"});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -343,7 +343,7 @@ TEST(RealDevices, ADemoGoesOnWithoutTheBoardAndSaysSoOnce) {
   EXPECT_THAT(result.err, HasSubstr("/dev/none: 0.09 N s/m of damping are relied on"));
 }
 
-TEST(RealDevices, ADemoGoesOnWithoutTheDeviceAndSaysSoOnce) {
+TEST(RealDevices, DemoContinuesWithoutTheDeviceAndReportsOnce) {
   try {
     const haptics::UsbContext usb;
   } catch (const std::runtime_error& error) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a person is told before and after a real device is measured; the measuring itself is tested
-// in measure_terminal.py, and by the models of devices in tests/haptics/measurement.
+// The instructions to the user before and after the measurement of a real device.
+// measure_terminal.py tests the measurement itself, and so do the device models in
+// tests/haptics/measurement.
 #include "reckon/tools/exercise/real_measuring.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-TEST(RealMeasuring, APersonIsToldHowFarAndHowStronglyItMoves) {
+TEST(RealMeasuring, WarnsOfTheHandlesTravelAndForce) {
   haptics::DeviceLimits limits;
   limits.max_force = 2.0;
   EXPECT_THAT(warning_of(limits, true), AllOf(HasSubstr("Let go of the handle"),
@@ -43,13 +44,13 @@ MeasuredChain chain(double delay, int needed) {
   return chain;
 }
 
-TEST(RealMeasuring, TheDelayIsWhatReportsNeedAndWhatMotorsLagBehindThem) {
+TEST(RealMeasuring, DelayIsReportLatencyPlusMotorLag) {
   EXPECT_NEAR(delay_to_state(chain(6.3e-3, 4)), 4e-3, 1e-12) << "0.3 ms are the fit's error";
   EXPECT_NEAR(delay_to_state(chain(8.1e-3, 4)), 6.1e-3, 1e-12) << "a lag of 2.1 ms";
   EXPECT_NEAR(delay_to_state(chain(8.1e-3, 0)), 8.1e-3, 1e-12) << "no reports tell of themselves";
 }
 
-TEST(RealMeasuring, WhatWasAssumedStandsBesideWhatWasMeasured) {
+TEST(RealMeasuring, RemarksCompareAssumedAndMeasuredValues) {
   EXPECT_THAT(
       remarks_of(chain(8.1e-3, 4)),
       ElementsAre(AllOf(HasSubstr("relied on 0.9 N s/m so far; measured 0.5"), HasSubstr("LESS")),
@@ -70,8 +71,8 @@ TEST(RealMeasuring, RemarksAreNoPartOfTheDescriptor) {
   EXPECT_NEAR(peer::parse_device_descriptor(text, "mine.toml").damping, 0.5, 1e-12);
 }
 
-// Of a Falcon, whose place comes of three encoders.
-TEST(RealMeasuring, WhereNoStepIsFoundAlongAnAxisTheKnownOneStands) {
+// For a Falcon, whose position comes from three encoders.
+TEST(RealMeasuring, KeepsTheKnownResolutionIfNoneIsFound) {
   peer::DeviceDescriptor known;
   known.resolution = 90e-6;
   haptics::MeasuredDevice found;
@@ -86,7 +87,7 @@ TEST(RealMeasuring, WhereNoStepIsFoundAlongAnAxisTheKnownOneStands) {
   EXPECT_NEAR(written(), 20e-6, 1e-9);
 }
 
-TEST(RealMeasuring, WhatTakesNoForceIsRefusedByName) {
+TEST(RealMeasuring, RefusesDevicesThatTakeNoForce) {
   for (const char* name : {"evdev", "/dev/input/event4", "/dev/hidraw0"}) {
     const test::ProgramResult result = test::run_reckon({"devices", "measure", name, "--yes"});
     EXPECT_EQ(result.status, 2) << name;

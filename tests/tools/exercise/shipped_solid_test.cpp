@@ -18,8 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The hand's target goes down and up along z in a sine; the surface is at `top` and as stiff as
-// `stiffness`. Slow: inertia, damping and the servo's sample are within the tolerance.
+// The hand's target moves up and down along z in a sine; the surface is at `top` with `stiffness`.
+// It is slow: inertia, damping and the servo's sample are within the tolerance.
 void expect_springs(std::uint32_t number, double high, double low, double top, double stiffness) {
   const peer::SceneFile file =
       peer::load_scene_file(reckon::test::source_dir() + "/scenes/bracket.toml");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Devices made from scenes: who holds them, where they stand, what they can do.
+// Devices made from scenes: their operators, poses and limits.
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ constexpr const char* kSweep =
 
 peer::SceneFile scene(const std::string& text) { return peer::parse_scene_file(text, "x.toml"); }
 
-/// Where the free handle is at each 10 ms, in S.
+/// Positions of the free handle at each 10 ms, in S.
 std::vector<Vector3d> way(const peer::SceneFile& file, const peer::DeviceConfig& config) {
   const auto device = make_simulated_device(file, config);
   std::vector<Vector3d> points;
@@ -41,7 +41,7 @@ std::vector<Vector3d> way(const peer::SceneFile& file, const peer::DeviceConfig&
   return points;
 }
 
-TEST(SimulatedDevice, MovesItsHandTheSameWayInTheSceneHoweverItStands) {
+TEST(SimulatedDevice, MovesAlikeInTheSceneInAnyPose) {
   const peer::SceneFile file =
       scene(std::string(kSweep) +
             "[[device]]\n[[device]]\nposition = \"20 -10 5 cm\"\n"
@@ -54,7 +54,7 @@ TEST(SimulatedDevice, MovesItsHandTheSameWayInTheSceneHoweverItStands) {
   EXPECT_LE((plain[0] - Vector3d(-0.06, 0, 0)).norm(), 1e-12) << "and starts where its target is";
 }
 
-TEST(SimulatedDevice, TellsTheServoTheLimitsOfItsTable) {
+TEST(SimulatedDevice, HasTheLimitsOfItsTable) {
   const peer::SceneFile file =
       scene(std::string(kSweep) +
             "[[device]]\nmax_force = 12\ndamping = 2\nmax_stiffness = 3000\n"
@@ -67,7 +67,7 @@ TEST(SimulatedDevice, TellsTheServoTheLimitsOfItsTable) {
   EXPECT_EQ(limits.delay_samples, 4);
 }
 
-TEST(SimulatedDevice, IsTurnedAsItsOperatorSaysHoweverItStands) {
+TEST(SimulatedDevice, TurnsAsItsOperatorForAnyDevicePose) {
   const peer::SceneFile file = scene(
       "[[operator]]\nsweep = { from = \"0 0 0 m\", to = \"0.1 0 0 m\", turn = \"0 40 0 deg\", "
       "period = "
@@ -96,7 +96,7 @@ TEST(SimulatedDevice, IsTurnedAsItsOperatorSaysHoweverItStands) {
   EXPECT_EQ(probes_of(file.devices[1]), std::vector<Vector3d>{Vector3d(0.03, 0, 0)});
 }
 
-TEST(SimulatedDevice, OfASceneWithoutAnyIsTheHandOfThatNumber) {
+TEST(SimulatedDevice, DefaultsToTheHandOfItsNumber) {
   const peer::SceneFile file = scene(kSweep);
   for (std::uint32_t number = 1; number <= 3; ++number) {
     const auto devices = peer::devices_of(file, number);
@@ -110,7 +110,7 @@ TEST(SimulatedDevice, OfASceneWithoutAnyIsTheHandOfThatNumber) {
   EXPECT_NE(make_simulated_hand(file, 0)->position(), make_simulated_hand(file, 1)->position());
 }
 
-TEST(SimulatedDevice, BeginsItsTraceWhereTheSceneSays) {
+TEST(SimulatedDevice, BeginsItsTraceAtTheConfiguredTime) {
   const reckon::test::ScratchFolder folder;
   std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,0,0,0.01\n"
                                              "2,0,0,0.02\n3,0,0,0.03\n4,0,0,0.04\n";
@@ -126,7 +126,7 @@ TEST(SimulatedDevice, BeginsItsTraceWhereTheSceneSays) {
   EXPECT_NEAR(device->position().z(), 0.02, 0.001);
 }
 
-TEST(SimulatedDevice, ComesToItsTraceFromAsideAndIsThereWhenItStarts) {
+TEST(SimulatedDevice, ReachesItsTraceFromAsideInTime) {
   const reckon::test::ScratchFolder folder;
   std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0.1,0,0\n9,0.1,0,0\n";
   std::ofstream(folder.file("scene.toml"))
@@ -141,7 +141,7 @@ TEST(SimulatedDevice, ComesToItsTraceFromAsideAndIsThereWhenItStarts) {
   EXPECT_LE((device->position() - Vector3d(0.1, 0, 0)).norm(), 1e-5);
 }
 
-// The time for which a force that is written once stays at the handle.
+// How long a force that is written once stays at the handle.
 std::chrono::nanoseconds held(haptics::SimulatedDevice& device) {
   static_cast<void>(device.read(0ms));
   device.write(Vector3d(1, 0, 0), 0ms);
@@ -150,7 +150,7 @@ std::chrono::nanoseconds held(haptics::SimulatedDevice& device) {
   return now;
 }
 
-TEST(SimulatedDevice, LetsAForceGoWhenTheNextStepIsHalfAPeriodLate) {
+TEST(SimulatedDevice, ReleasesAForceHalfAPeriodLate) {
   const peer::SceneFile file = scene(kSweep);
   peer::DeviceConfig config;
   EXPECT_EQ(held(*make_simulated_device(file, config)), 1510us);
@@ -161,7 +161,7 @@ TEST(SimulatedDevice, LetsAForceGoWhenTheNextStepIsHalfAPeriodLate) {
 }
 
 // In and out of a wall and of another's hand, one step in twenty 1 to 9.8 ms late.
-TEST(SimulatedDevice, MakesNextToNoEnergyWhereTheServoIsLate) {
+TEST(SimulatedDevice, MakesAlmostNoEnergyWithLateSteps) {
   const peer::SceneFile file = scene(
       "[[operator]]\nsweep = { from = \"0 0 20 mm\", to = \"0 0 -25 mm\", period = \"0.5 s\" }\n"
       "stiffness = 1000\n[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\n"

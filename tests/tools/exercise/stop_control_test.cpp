@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
 
-TEST(StopControl, IsPressedAndReleasedBySigusr1AndSaysSo) {
+TEST(StopControl, Sigusr1PressesAndReleasesItWithAReport) {
   StopControl control;
   EXPECT_THAT(control.take_notices(), IsEmpty());
   ASSERT_EQ(std::raise(SIGUSR1), 0);
@@ -46,8 +46,8 @@ TEST(StopControl, ASignalAfterItsEndEndsNoProgram) {
   EXPECT_TRUE(next.stop().is_pressed()) << "and the next one has it again";
 }
 
-// Two peers whose three hands lean on a floor.
-TEST(StopControl, TakesTheForceOffAllHandsOfAProgram) {
+// Two peers whose three hands press a floor.
+TEST(StopControl, RemovesTheForceOfAllHands) {
   StopControl control;
   const auto scene = peer::parse_scene_file(
       "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nsurface = { stiffness = 500 }\n"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' worlds in scenes/, run as `demo --simulated-time` runs them: what is felt is what
-// springs in series and a cone of friction give.
+// The thesis' worlds in scenes/, run as `demo --simulated-time` runs them: the forces equal springs
+// in series and a friction cone.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -26,12 +26,12 @@ std::string path_of(const std::string& name) {
   return reckon::test::source_dir() + "/scenes/" + name + ".toml";
 }
 
-/// What a hand felt in one step.
+/// The force of a hand in one step.
 struct Felt {
   Vector3d device, scp, force;
 };
 
-/// Each step of each peer over one sweep and a half.
+/// Each step of each peer over one and a half sweeps.
 std::vector<std::vector<Felt>> run_scene(const std::string& name, std::size_t peers) {
   ExerciseOptions options;
   options.peers = peers;
@@ -54,16 +54,16 @@ double largest(const std::vector<Felt>& steps) {
   return most;
 }
 
-// Grip and wall are springs in a row, of the second device the sensor and the motors too.
-TEST(ThesisScenes, FeelOneWallAlikeWithDevicesOfBothKinds) {
+// Grip and wall are springs in series; for the second device also its sensor and motors.
+TEST(ThesisScenes, DevicesOfBothKindsFeelOneWallAlike) {
   const auto felt = run_scene("admittance", 2);
   const double takes_force = largest(felt[0]), moves = largest(felt[1]);
   EXPECT_NEAR(takes_force, 0.01 / (1 / 300.0 + 1 / 1200.0), 0.02);
-  // Beside the swing of its mass, which has come to the wall at 20 mm/s.
+  // Apart from the swing of its mass, which came to the wall at 20 mm/s.
   EXPECT_NEAR(moves, 0.01 / (1 / 300.0 + 1 / 1200.0 + 1 / 20e3 + 1 / 177.7e3), 0.03);
 }
 
-TEST(ThesisScenes, AreGoodAndAskForNoMoreThanTheirDevicesShow) {
+TEST(ThesisScenes, AreGoodWithinTheirDevicesLimits) {
   for (const char* name : {"stiff_wall", "slip", "one_user_push", "two_user_push", "admittance"}) {
     const auto result = test::run_reckon({"scene", "check", path_of(name)});
     EXPECT_EQ(result.status, 0) << result.out;
@@ -72,8 +72,8 @@ TEST(ThesisScenes, AreGoodAndAskForNoMoreThanTheirDevicesShow) {
   }
 }
 
-// At the turn of the sweep all is at rest: grip and wall in series.
-TEST(ThesisScenes, StiffWallPushesAsItsSpringInSeriesWithTheGrip) {
+// At the turn of the sweep everything rests: grip and wall in series.
+TEST(ThesisScenes, StiffWallIsASpringInSeries) {
   const auto steps = run_scene("stiff_wall", 1).at(0);
   constexpr double kSeries = 1 / (1 / 300.0 + 1 / 1200.0);
   EXPECT_NEAR(largest(steps), 0.02 * kSeries, 0.01);
@@ -84,7 +84,7 @@ TEST(ThesisScenes, StiffWallPushesAsItsSpringInSeriesWithTheGrip) {
   }
 }
 
-TEST(ThesisScenes, SlipSlidesByTheKineticCoefficientAndBreaksLooseAtTheStaticOne) {
+TEST(ThesisScenes, SlipUsesTheKineticAndStaticCoefficients) {
   const auto steps = run_scene("slip", 1).at(0);
   double last_stuck = 0, most_stuck = 0;
   std::size_t sliding = 0, stuck = 0, broke_loose = 0;
@@ -112,7 +112,7 @@ TEST(ThesisScenes, SlipSlidesByTheKineticCoefficientAndBreaksLooseAtTheStaticOne
   EXPECT_NEAR(last_stuck, 0.6, 0.01) << "what it pulled in the last step before it slid";
 }
 
-TEST(ThesisScenes, OneUserFeelsTheBallOfAPeerAsASpringInSeriesWithTheGrip) {
+TEST(ThesisScenes, OneUserFeelsTwoSpringsInSeries) {
   const auto felt = run_scene("one_user_push", 2);
   EXPECT_TRUE(felt.at(0).empty()) << "nobody is at peer 1";
   constexpr double kSeries = 1 / (1 / 300.0 + 1 / 400.0);
@@ -123,11 +123,11 @@ TEST(ThesisScenes, OneUserFeelsTheBallOfAPeerAsASpringInSeriesWithTheGrip) {
   }
 }
 
-TEST(ThesisScenes, TwoUsersFeelEachOtherAsThreeSpringsInSeries) {
+TEST(ThesisScenes, TwoUsersFeelThreeSpringsInSeries) {
   const auto felt = run_scene("two_user_push", 2);
   constexpr double kSeries = 1 / (2 / 300.0 + 1 / 400.0);
   for (const auto& steps : felt) EXPECT_NEAR(largest(steps), 0.02 * kSeries, 0.03);
-  // Action and reaction, as far as the threshold of 20 mN and the network let them.
+  // Action and reaction, within the threshold of 20 mN and the network delay.
   ASSERT_EQ(felt[0].size(), felt[1].size());
   double apart = 0, off = 0;
   for (std::size_t i = 0; i < felt[0].size(); ++i) {

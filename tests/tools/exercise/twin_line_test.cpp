@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using haptics::HandMotion;
 
-TEST(TwinTeller, TellsWhereDeadReckoningIsOffAndAfterSilence) {
+TEST(TwinTeller, SendsOnPredictionErrorAndAfterSilence) {
   TwinTeller teller(0.001);
   ASSERT_TRUE(teller.tell({1s, {0, 0, 0}, {0.1, 0, 0}}));
   EXPECT_FALSE(teller.tell({1010ms, {0.0019, 0, 0}, {0.1, 0, 0}}));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect` of Compressed States: the fields of the states that they restore.
+// `reckon inspect` of Compressed States: the fields of the restored states.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -104,7 +104,7 @@ TEST(InspectCompressedStates, TakesPlainStatesAsKeys) {
     const auto datagram = test::compressed_ship(compressor, update, time, state);
     test::Octets plain;
     test::append_pdu(plain, state);
-    // Two without a key, then one in plain.
+    // Two without a key, then a plain one.
     if (update >= 6) capture.add(update == 8 ? plain : datagram, time);
   }
   std::vector<bool> known;

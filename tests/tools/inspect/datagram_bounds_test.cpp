@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Work and memory for each datagram are bounded by its size, whatever its octets claim. The same
-// bounds are searched for exceptions by the fuzz targets; docs/robustness.md states them.
+// The size of a datagram bounds the work and memory for it, whatever its octets claim. The fuzz
+// targets search for exceptions; docs/robustness.md states the bounds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Named {
   Octets octets;
 };
 
-/// A PDU of `size` octets: header and fixed part as they are made, then zeros.
+/// A PDU of `size` octets: header and fixed part as constructed, then zeros.
 template <typename Pdu>
 Octets pdu_of(std::size_t size) {
   const Pdu pdu;
@@ -42,7 +42,7 @@ Octets pdu_of(std::size_t size) {
   return octets;
 }
 
-/// A Data PDU with so many empty datums; datum number `broken` (from 1) claims 2^32 - 1 bits.
+/// A Data PDU with `count` empty datums; datum number `broken` (from 1) claims 2^32 - 1 bits.
 Octets datums(std::size_t count, std::size_t broken) {
   Octets octets = pdu_of<pdu::Data>(40 + 8 * count);
   pdu::store_big_endian(octets.data() + 36, static_cast<std::uint32_t>(count));
@@ -58,7 +58,7 @@ Octets full_of(const Octets& pdu) {
   return datagram;
 }
 
-/// An Attribute PDU of empty record sets, one more than there are.
+/// An Attribute PDU of empty record sets whose count is one too many.
 Octets too_many_sets() {
   constexpr std::size_t kSets = 8000;
   Octets octets = pdu_of<pdu::Attribute>(32 + 8 * kSets);
@@ -81,14 +81,14 @@ void add_samples(std::vector<Named>& all, pdu::TypeList<T...>) {
    ...);
 }
 
-/// Compressed States of as many states as fit, without octets.
+/// Compressed States with as many states as fit, without octets.
 Octets empty_states() {
   Octets octets = pdu_of<pdu::CompressedStates>(kLargest);
   pdu::store_big_endian(octets.data() + 18, std::uint16_t{0xFFFF});
   return octets;
 }
 
-/// Datagrams made to cost much, and every golden sample: whole, cut, and damaged.
+/// Expensive datagrams, and every golden sample: whole, cut, and damaged.
 std::vector<Named> datagrams() {
   std::vector<Named> all;
   add_samples(all, pdu::PduTypes{});
@@ -121,7 +121,7 @@ peer::SourceDatagram datagram_of(const Octets& octets) {
   return datagram;
 }
 
-/// Compressed states that are restored from a datagram.
+/// Number of compressed states that are restored from a datagram.
 std::size_t compressed_states(const Octets& datagram) {
   std::size_t count = 0;
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
@@ -133,19 +133,19 @@ std::size_t compressed_states(const Octets& datagram) {
   return count;
 }
 
-/// 4 times the datagram; of a small one, what a sentence about it needs. 2 KiB for each state that
-/// is restored.
+/// 4 times the datagram; for a small one, the size of an error sentence. 2 KiB for each restored
+/// state.
 std::size_t heap_bound(const Octets& octets) {
   return std::max<std::size_t>(4 * octets.size(), 1024) + 2048 * compressed_states(octets);
 }
 
-/// 64 times the datagram with plain states, and 1 KiB.
+/// 64 times the datagram with plain states, plus 1 KiB.
 std::size_t text_bound(const Octets& octets) {
   return 64 * (octets.size() + pdu::kFixedSize<pdu::EntityState> * compressed_states(octets)) +
          1024;
 }
 
-TEST(DatagramBounds, RowsOfTheInspectorHoldAtMostFourTimesTheDatagramOrTheOneSentence) {
+TEST(DatagramBounds, InspectorHoldsAtMostFourTimesItsSize) {
   for (const auto& [name, octets] : datagrams()) {
     const peer::SourceDatagram datagram = datagram_of(octets);
     std::size_t peak = 0;
@@ -170,7 +170,7 @@ TEST(DatagramBounds, ThousandsOfCompressedStatesAreLeftOut) {
   EXPECT_EQ(restored, RestoredStates::kMost);
 }
 
-TEST(DatagramBounds, TheCodecTakesNoHeapWhateverTheOctets) {
+TEST(DatagramBounds, CodecAllocatesNoHeapForAnyOctets) {
   for (const auto& [name, octets] : datagrams()) {
     const test::AllocationGuard guard;
     std::size_t decoded = 0;
@@ -182,7 +182,7 @@ TEST(DatagramBounds, TheCodecTakesNoHeapWhateverTheOctets) {
   }
 }
 
-TEST(DatagramBounds, ADatagramHasAtMostOneRowForEachHeaderThatFits) {
+TEST(DatagramBounds, RowsAreBoundedByTheHeadersThatFit) {
   for (const auto& [name, octets] : datagrams()) {
     const peer::SourceDatagram datagram = datagram_of(octets);
     std::size_t rows = 0;
@@ -192,7 +192,7 @@ TEST(DatagramBounds, ADatagramHasAtMostOneRowForEachHeaderThatFits) {
   }
 }
 
-TEST(DatagramBounds, AnyDatagramBecomesAtMost64TimesItsSizeOfText) {
+TEST(DatagramBounds, TextIsAtMost64TimesTheDatagram) {
   for (const auto& [name, octets] : datagrams()) {
     const peer::SourceDatagram datagram = datagram_of(octets);
     std::string line;
@@ -208,8 +208,8 @@ TEST(DatagramBounds, AnyDatagramBecomesAtMost64TimesItsSizeOfText) {
   }
 }
 
-/// The number of the record at fault is found by halving, not by walking from each of them.
-TEST(DatagramBounds, TheDatumThatDoesNotFitIsNamedAmongThousands) {
+/// The record at fault is found by bisection, not by walking from each record.
+TEST(DatagramBounds, NamesABrokenDatumAmongThousands) {
   for (const std::size_t broken : {1, 2, 3, 4000, 7999, 8000}) {
     const Octets octets = datums(8000, broken);
     std::string reason;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect` on captures of real products and on generated ones whose fields are known.
+// `reckon inspect` on captures of real products and on generated ones with known fields.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -113,7 +113,7 @@ void expect_numbers(const json& object, std::initializer_list<const char*> keys,
   for (const char* key : keys) {
     const double wanted = expected[i++].get<double>();
     const double found = object.at(key).get<double>();
-    // Floats are printed as the shortest decimal of 32 bits, the sidecar as that of 64.
+    // Floats are printed as the shortest decimal of 32 bits; the sidecar has 64 bits.
     EXPECT_EQ(static_cast<float>(found), static_cast<float>(wanted)) << key;
   }
 }
@@ -145,7 +145,7 @@ void expect_entity_state(const json& row, const json& wanted) {
   EXPECT_EQ(fields["variable_parameters"].size(), wanted["variableParameters"].size());
 }
 
-TEST(InspectFiles, ShowsHeadersAndEntityStatesAsTheyWereGenerated) {
+TEST(InspectFiles, ShowsGeneratedHeadersAndEntityStates) {
   RECKON_NEED_DATA("dis-captures/generated-a");
   std::size_t entity_states = 0;
   for (const char* name : {"a-entity-state", "a-interaction", "a-simulation-management", "a-radio",
@@ -178,7 +178,7 @@ TEST(InspectFiles, ShowsHeadersAndEntityStatesAsTheyWereGenerated) {
   EXPECT_GE(entity_states, 24U);
 }
 
-/// What the first bad PDU of each malformed datagram must be told as, and at which octet.
+/// The expected rule and octet of the first bad PDU of each malformed datagram.
 struct Malformed {
   int frame;
   const char* rule;
@@ -201,7 +201,7 @@ constexpr std::array kMalformed = std::to_array<Malformed>(
      {34, "E-TRUNCATED", 2, 244}, {35, "E-TRUNCATED", 2, 144}, {36, "W-NOT-FINITE", 1, 48},
      {37, "W-NOT-FINITE", 1, 48}, {38, "E-VERSION", 1, 0}});
 
-TEST(InspectFiles, NamesRulePlaceAndOctetOfEveryPlantedFault) {
+TEST(InspectFiles, NamesRuleAndOctetOfEveryFault) {
   RECKON_NEED_DATA("dis-captures/generated-a");
   const Inspected inspected = inspect_json(captures() / "generated-a/a-malformed.pcap");
   EXPECT_EQ(inspected.status, 1);

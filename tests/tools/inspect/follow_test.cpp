@@ -27,7 +27,7 @@ std::string pcap_of(std::initializer_list<std::size_t> sizes) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The same as pcapng: one section, one interface of Ethernet, enhanced packet blocks.
+/// The same as pcapng: one section, one Ethernet interface, enhanced packet blocks.
 std::string pcapng_of(std::initializer_list<std::size_t> sizes) {
   std::string out;
   const auto put32 = [](std::string& to, std::uint32_t value) {
@@ -64,7 +64,7 @@ std::string pcapng_of(std::initializer_list<std::size_t> sizes) {
   return out;
 }
 
-/// Reads what is there, cut at `cut` octets, then the rest; returns the sizes of the datagrams.
+/// Reads the file cut at `cut` octets, then the rest; returns the sizes of the datagrams.
 std::vector<std::size_t> sizes_when_cut(const std::string& whole, std::size_t cut,
                                         const std::string& path) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
@@ -85,7 +85,7 @@ std::vector<std::size_t> sizes_when_cut(const std::string& whole, std::size_t cu
   return sizes;
 }
 
-TEST(FollowedCapture, GivesEveryDatagramOnceWhereverTheFileWasCut) {
+TEST(FollowedCapture, ReturnsEveryDatagramOnceForAnyCut) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("growing");
   const std::vector<std::size_t> expected{40, 41, 60};
@@ -93,12 +93,12 @@ TEST(FollowedCapture, GivesEveryDatagramOnceWhereverTheFileWasCut) {
   for (std::size_t cut = 24; cut <= pcap.size(); ++cut)
     ASSERT_EQ(sizes_when_cut(pcap, cut, path), expected) << "pcap cut at " << cut;
   const std::string pcapng = pcapng_of({40, 41, 60});
-  constexpr std::size_t kBehindInterface = 28 + 20;  // the file must be known as a capture
+  constexpr std::size_t kBehindInterface = 28 + 20;  // enough to detect a capture
   for (std::size_t cut = kBehindInterface; cut <= pcapng.size(); ++cut)
     ASSERT_EQ(sizes_when_cut(pcapng, cut, path), expected) << "pcapng cut at " << cut;
 }
 
-TEST(FollowedCapture, EndsWhereTheFileIsBrokenAndNotOnlyShort) {
+TEST(FollowedCapture, EndsAtABrokenRecord) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("broken");
   std::string pcap = pcap_of({40, 41});

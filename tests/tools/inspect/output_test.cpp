@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect` on datagrams made here: the lines that other tools rely on, octet for octet.
+// `reckon inspect` on datagrams of the test: the lines that other tools rely on, octet for octet.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ using ::testing::StartsWith;
 
 using Octets = std::vector<std::byte>;
 
-/// A file that goes away with its scope.
+/// A file that is removed at the end of its scope.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const Octets& octets)
@@ -161,9 +161,9 @@ TEST(InspectJson, FlagsNanAndStaysValidJson) {
   EXPECT_EQ(row["id"], "1:2:3");
 }
 
-TEST(InspectJson, FlagsNanInAForceModelWithItsRecord) {
+TEST(InspectJson, FlagsNanInForceModelsWithTheRecord) {
   Octets datagram = haptic_datagram();
-  const std::size_t k1 = 144 + 32 + 8 + 16;  // behind Entity State, Attribute, set, record head
+  const std::size_t k1 = 144 + 32 + 8 + 16;  // behind Entity State, Attribute, set, record header
   datagram[k1] = std::byte{0x7F};
   datagram[k1 + 1] = std::byte{0xC0};
   const TemporaryFile file(datagram);
@@ -193,7 +193,7 @@ TEST(InspectJson, NamesUnknownTypesAndStepsOverThem) {
   EXPECT_EQ(json::parse(lines[1])["offset"], 144);
 }
 
-/// A good PDU, then a NaN, an unknown type, a count that lies, and a length that lies at a cut end.
+/// A good PDU, then a NaN, an unknown type, a false count, and a false length at a cut end.
 Octets datagram_with_planted_faults() {
   constexpr std::size_t kSize = 144;
   Octets datagram;
@@ -210,7 +210,7 @@ Octets datagram_with_planted_faults() {
   return datagram;
 }
 
-TEST(InspectJson, NamesEachOfThePlantedFaultsOfABundle) {
+TEST(InspectJson, NamesEachInjectedFaultOfABundle) {
   const TemporaryFile file(datagram_with_planted_faults());
   const auto result = run_reckon({"inspect", file.raw(), "--json"});
   EXPECT_EQ(result.status, 1);
@@ -253,7 +253,7 @@ TEST(InspectJson, ShowsTheOctetsOfADatagramWithoutHeader) {
   EXPECT_EQ(row["fields"]["body"], "0701ab");
 }
 
-TEST(InspectTail, ShowsForceModelAndEnergyInOneLineAPdu) {
+TEST(InspectTail, ShowsForceModelAndEnergyInOneLine) {
   const TemporaryFile file(haptic_datagram());
   const auto lines = run_reckon({"inspect", file.raw(), "tail"}).lines();
   ASSERT_EQ(lines.size(), 3U);
@@ -281,7 +281,7 @@ TEST(InspectTail, ShowsMarkingsWithoutControlCharacters) {
   EXPECT_THAT(run_reckon({"inspect", file.raw()}).out, HasSubstr("A.[31mB"));
 }
 
-TEST(InspectTail, SaysInWordsWhatAnEntityIs) {
+TEST(InspectTail, NamesTheTypeOfAnEntityInWords) {
   pdu::EntityState pdu = sample_entity();
   pdu.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 0, 0, 0};
   pdu.force_id = pdu::ForceId{77};
@@ -313,7 +313,7 @@ TEST(InspectRun, EndsAfterTheCountAskedFor) {
   EXPECT_THAT(result.err, HasSubstr("1 PDU in 1 datagram"));
 }
 
-TEST(InspectRun, RefusesWhatItCannotRead) {
+TEST(InspectRun, RefusesUnreadableFiles) {
   EXPECT_EQ(run_reckon({"inspect", "/no/such/file.pcap"}).status, 2);
   EXPECT_EQ(run_reckon({"inspect", "raw:/no/such/file"}).status, 2);
   const TemporaryFile file(Octets(100));
@@ -323,7 +323,7 @@ TEST(InspectRun, RefusesWhatItCannotRead) {
   EXPECT_TRUE(result.out.empty());
 }
 
-TEST(InspectRun, RefusesWhatIsNoGroup) {
+TEST(InspectRun, RefusesInvalidGroups) {
   for (const char* wrong : {"udp://", "udp://239.192.1.0:99999", "udp://nowhere"})
     EXPECT_EQ(run_reckon({"inspect", wrong}).status, 2) << wrong;
   EXPECT_EQ(run_reckon({"inspect", "udp://239.255.255.255", "--pool", "2"}).status, 2);
@@ -333,7 +333,7 @@ TEST(InspectRun, RefusesWhatIsNoGroup) {
   EXPECT_EQ(run_reckon({"inspect", file.raw(), "--iface", "lo"}).status, 2);
 }
 
-TEST(InspectRun, TellsOfAnInterfaceThatIsNotThere) {
+TEST(InspectRun, ReportsAMissingInterface) {
   const auto result = run_reckon({"inspect", "--iface", "no-such-interface", "--for", "1s"});
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.err, HasSubstr("no-such-interface"));
@@ -345,7 +345,7 @@ TEST(InspectRun, ComesToAGoodEndAfterCtrlC) {
   EXPECT_EQ(run_reckon({"inspect", file.raw()}, &stop).status, 0);
 }
 
-TEST(InspectLive, HearsAGroupOnLoopback) {
+TEST(InspectLive, ReceivesAGroupOnLoopback) {
   const std::string group = "239.192.77.9:" + std::to_string(20000 + getpid() % 20000);
   Octets datagram;
   append(datagram, sample_entity());

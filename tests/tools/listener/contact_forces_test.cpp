@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Forces from PDUs against closed forms: k1 d + k3 d^3 along the line between two balls.
+// Forces from PDUs, compared with closed forms: k1 d + k3 d^3 along the line between two balls.
 #include "reckon/tools/listener/contact_forces.hpp"
 
 #include <gtest/gtest.h>
@@ -22,10 +22,11 @@ using test::Ball;
 using test::Octets;
 
 constexpr nanoseconds kStart = seconds(1'700'000'000);
-/// Locations of 6.4e6 m are doubles of 1 nm, times 500 N/m; radius and stiffness are float32.
+/// Locations of 6.4e6 m are doubles with 1 nm resolution, times 500 N/m; radius and stiffness are
+/// float32.
 constexpr double kTolerance = 3e-6;  // [N]
 
-/// A listener as a peer, and the forces in its picture.
+/// A listener as in a peer, and its current forces.
 struct ForceListener {
   Listener listener{kPeerRules};
   ContactForces forces;
@@ -47,7 +48,7 @@ std::vector<ForceJump> end_datagram(ForceListener& received, nanoseconds time) {
   return {jumps.begin(), jumps.end()};
 }
 
-/// Feeds a datagram of its own and gives the jumps.
+/// Feeds a datagram of its own and returns the jumps.
 std::vector<ForceJump> update(ForceListener& received, const Ball& ball) {
   feed(received, test::datagram_of(ball), ball.time);
   return end_datagram(received, ball.time);
@@ -60,7 +61,7 @@ std::optional<ContactForce> force(ForceListener& received, std::uint16_t on, std
   return std::nullopt;
 }
 
-TEST(ContactForces, OfTwoBallsAreThoseOfTheSpringAtTheirDepth) {
+TEST(ContactForces, OfTwoBallsEqualTheirSprings) {
   ForceListener received;
   (void)update(received, {.entity = 1, .time = kStart});
   (void)update(received, {.entity = 2, .up = 0.015, .k1 = 800, .k3 = 0, .time = kStart});
@@ -95,13 +96,13 @@ TEST(ContactForces, FollowThePredictionBetweenUpdates) {
   for (const int ms : {110, 150, 200}) {
     const auto found = force(received, 2, 1, kStart + milliseconds(ms));
     ASSERT_TRUE(found.has_value()) << ms;
-    // The timestamp is rounded to its unit of 1.7 us, in which the ball goes 0.17 um.
+    // The timestamp is rounded to its unit of 1.7 us, in which the ball moves 0.17 um.
     EXPECT_NEAR(found->force.norm(), 500 * (0.1 * 1e-3 * ms - 0.01), 5e-5) << ms;
   }
 }
 
 TEST(ContactForces, AreAtTheModelsPointInBodyAxes) {
-  // Yaw of 90 degrees about geocentric z turns body x to east, so the centre lies 6 mm east.
+  // A yaw of 90 degrees about geocentric z turns body x to east, so the centre is 6 mm east.
   ForceListener received;
   Octets datagram;
   pdu::EntityState state = test::state_of({.entity = 1, .time = kStart});
@@ -118,7 +119,7 @@ TEST(ContactForces, AreAtTheModelsPointInBodyAxes) {
   EXPECT_LT((found->force - 2.5 * Eigen::Vector3d::UnitX()).norm(), kTolerance);
 }
 
-TEST(ContactForces, TellHowMuchAnUpdateChangedThem) {
+TEST(ContactForces, ReportTheirChangeByAnUpdate) {
   ForceListener received;
   (void)update(received, {.entity = 1, .k3 = 0, .time = kStart});
   (void)update(received, {.entity = 2, .up = 0.015, .k3 = 0, .time = kStart});
@@ -126,14 +127,14 @@ TEST(ContactForces, TellHowMuchAnUpdateChangedThem) {
       update(received, {.entity = 2, .up = 0.013, .k3 = 0, .time = kStart + milliseconds(10)});
   ASSERT_EQ(jumps.size(), 2U);  // on 2 by 1, and on 1 by 2
   for (const ForceJump& jump : jumps) EXPECT_NEAR(jump.size, 500 * 0.002, kTolerance);
-  // A model that changes without a motion counts as well.
+  // A change of the model without motion counts as well.
   const auto stiffer =
       update(received, {.entity = 1, .k1 = 600, .k3 = 0, .time = kStart + milliseconds(20)});
   ASSERT_EQ(stiffer.size(), 2U);
   EXPECT_NEAR(std::max(stiffer[0].size, stiffer[1].size), 100 * 0.007, kTolerance);
 }
 
-TEST(ContactForces, EndWithTheModelsValidityAndWithTheEntity) {
+TEST(ContactForces, EndWithTheModelsValidityAndTheEntity) {
   ForceListener received;
   (void)update(received, {.entity = 1, .time = kStart});
   (void)update(received, {.entity = 2, .up = 0.015, .time = kStart + milliseconds(500)});
@@ -154,12 +155,12 @@ TEST(ContactForces, EndWithTheModelsValidityAndWithTheEntity) {
   EXPECT_TRUE(received.listener.entities().empty());
 }
 
-TEST(ContactForces, RefuseWhatAPeerRefuses) {
+TEST(ContactForces, RefuseTheSameAsAPeer) {
   ForceListener received;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   (void)update(received, {.entity = 1, .up = kNan, .time = kStart});
   EXPECT_TRUE(received.listener.entities().empty());
-  EXPECT_EQ(received.listener.refusals().values, 1U);  // its model is not looked at
+  EXPECT_EQ(received.listener.refusals().values, 1U);  // its model is not read
   (void)update(received, {.entity = 1, .k1 = -5, .time = kStart});
   EXPECT_EQ(received.listener.refusals().values, 2U);
   EXPECT_FALSE(received.listener.find_entity({1, 2, 1})->is_haptic());
@@ -185,7 +186,7 @@ TEST(ContactForces, OfAnUncoupledEntityAreNotLookedAt) {
   EXPECT_TRUE(received.listener.entities().empty());
 }
 
-TEST(ContactForces, RememberWhatEachToldOfEnergy) {
+TEST(ContactForces, StoreTheStatedEnergyOfEachEntity) {
   ForceListener received;
   pdu::EnergyAccountRecord account;
   account.counterpart = {1, 2, 2};
@@ -200,7 +201,7 @@ TEST(ContactForces, RememberWhatEachToldOfEnergy) {
   EXPECT_EQ(received.listener.stated_energy({1, 2, 1}).given, 0.25);
 }
 
-TEST(ContactForces, OfMoreEntitiesThanThereIsRoomForAreCountedNotKept) {
+TEST(ContactForces, BeyondTheCapacityAreCounted) {
   ForceListener received;
   for (std::uint16_t i = 1; i <= 600; ++i)
     (void)update(received, {.entity = i, .up = 1.0 * i, .time = kStart});
@@ -209,7 +210,7 @@ TEST(ContactForces, OfMoreEntitiesThanThereIsRoomForAreCountedNotKept) {
   EXPECT_TRUE(received.at(kStart).empty());
 }
 
-TEST(ContactForces, OfAPlaneActOnBallsAndNotTheOtherWayRound) {
+TEST(ContactForces, PlanesActOnBallsOnly) {
   ForceListener received;
   Octets datagram;
   const pdu::EntityState state = test::state_of({.entity = 1, .time = kStart});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a listener makes of updates: jumps by closed forms, causes, rates, silence, bounds.
+// The table of a listener: jumps by closed forms, causes, rates, silence, bounds.
 #include "reckon/tools/listener/entity_table.hpp"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ constexpr double kRadius = 6'378'137.0;
 
 nanoseconds after(double time) { return kStart + nanoseconds(std::llround(1e9 * time)); }
 
-/// Hands datagrams to a table as the verb does.
+/// Passes datagrams to a table as the verb does.
 class Ear {
  public:
   explicit Ear(std::size_t most_rows = EntityTable::kMostRows) : table(most_rows) {}
@@ -77,18 +77,18 @@ pdu::EntityState aircraft(double time, double z, double velocity = 0, std::uint1
   return pdu;
 }
 
-TEST(EntityTable, MeasuresTheJumpAgainstTheExtrapolationOfTheUpdateBefore) {
+TEST(EntityTable, MeasuresJumpsFromTheExtrapolation) {
   Ear ear;
   ear.hear(0, aircraft(0, 0, 100));
-  ear.hear(2, aircraft(2, 200.75, 100));  // 200 m were foretold
+  ear.hear(2, aircraft(2, 200.75, 100));  // 200 m were predicted
   EXPECT_NEAR(ear.row().jump, 0.75, 1e-3);
   EXPECT_EQ(ear.row().cause, UpdateCause::threshold);
   EXPECT_EQ(ear.row().jumps.count(), 1U);
 }
 
-TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
-  // A circle of radius v/w, dead-reckoned as flying straight on (FPB): the chord is missed by the
-  // closed form below.
+TEST(EntityTable, MeasuresJumpsOfTurnsInBodyAxes) {
+  // A circle of radius v/w, dead-reckoned as straight flight (FPB): the closed form below gives its
+  // error.
   const double v = 50;
   const double w = 0.1;
   const double t = 3;
@@ -111,7 +111,7 @@ TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
   EXPECT_NEAR(ear.row().turn, 17.1887, 1e-3) << "0.3 rad, which FPB does not foretell";
   EXPECT_EQ(ear.row().turns.count(), 1U);
 
-  // The model that turns foretells it exactly.
+  // The model with rotation predicts it exactly.
   Ear turning;
   for (pdu::EntityState* pdu : {&first, &second}) {
     pdu->dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rpb;
@@ -149,7 +149,7 @@ TEST(EntityTable, TakesTimestampsOfAReplayThatRunsFaster) {
   EXPECT_LT(ear.row().jumps.max(), 1e-3);
 }
 
-TEST(EntityTable, CountsNoJumpForWhatCameTwiceOrLate) {
+TEST(EntityTable, CountsNoJumpForDuplicateOrLateUpdates) {
   Ear ear;
   ear.hear(0.0, aircraft(0, 0, 10));
   ear.hear(1.0, aircraft(1, 10, 10));
@@ -165,7 +165,7 @@ TEST(EntityTable, CountsNoJumpForWhatCameTwiceOrLate) {
   EXPECT_LT(row.jumps.max(), 1e-3);
 }
 
-TEST(EntityTable, BeginsAnewWhereTheClockOfASenderWasSetBack) {
+TEST(EntityTable, RestartsWhenASendersClockWasSetBack) {
   Ear ear;
   ear.hear(0, aircraft(100, 0, 10));
   for (int i = 1; i < 8; ++i) ear.hear(i, aircraft(95 + i, 10.0 * i, 10));
@@ -176,7 +176,7 @@ TEST(EntityTable, BeginsAnewWhereTheClockOfASenderWasSetBack) {
   EXPECT_EQ(row.causes[static_cast<std::size_t>(UpdateCause::first)], 2U);
 }
 
-TEST(EntityTable, TellsWhyAnUpdateCame) {
+TEST(EntityTable, DeterminesTheCauseOfAnUpdate) {
   Ear ear;
   std::vector<UpdateCause> causes;
   const auto hear = [&](const pdu::EntityState& pdu, double time) {
@@ -184,10 +184,10 @@ TEST(EntityTable, TellsWhyAnUpdateCame) {
     causes.push_back(ear.row().cause);
   };
   hear(aircraft(0, 0), 0);      // first
-  hear(aircraft(5, 0), 5);      // nothing new after 5 s
-  hear(aircraft(6, 0), 6);      // nothing new, soon
+  hear(aircraft(5, 0), 5);      // no change after 5 s
+  hear(aircraft(6, 0), 6);      // no change, early
   hear(aircraft(7, 2), 7);      // moved
-  hear(aircraft(12, 2.5), 12);  // moved by less than what was worth an update
+  hear(aircraft(12, 2.5), 12);  // moved by less than the threshold
   hear(aircraft(17, 5), 17);    // moved by more
   pdu::EntityState burning = aircraft(18, 5);
   burning.appearance = 1U << 15;
@@ -212,7 +212,7 @@ TEST(EntityTable, TakesTheRateOverAWindowThatSlides) {
   EXPECT_EQ(ear.row().rate(ear.entity(), after(200)), 0) << "stale";
 }
 
-TEST(EntityTable, KeepsTheRateOfAnEntityThatWentForASecond) {
+TEST(EntityTable, KeepsADepartedEntitysRateForASecond) {
   Ear ear;
   for (double time = 0; time < 5; time += 0.1) ear.hear(time, aircraft(time, 0));
   pdu::EntityState last = aircraft(5, 0);
@@ -222,7 +222,7 @@ TEST(EntityTable, KeepsTheRateOfAnEntityThatWentForASecond) {
   EXPECT_EQ(ear.row().rate(ear.entity(), after(6.1)), 0);
 }
 
-TEST(EntityTable, IsStaleAfterTwoPointFourHeartbeatsOfItsKind) {
+TEST(EntityTable, IsStaleAfterItsTimeOut) {
   Ear ear;
   ear.hear(0, aircraft(0, 0, 10));
   pdu::EntityState tank = aircraft(0, 0, 10, 2);
@@ -234,7 +234,7 @@ TEST(EntityTable, IsStaleAfterTwoPointFourHeartbeatsOfItsKind) {
   EXPECT_TRUE(ear.entity(1).is_silent(after(132.001)));
 }
 
-TEST(EntityTable, CountsNoJumpAfterSilencePastTheTimeOut) {
+TEST(EntityTable, CountsNoJumpAfterTheTimeOut) {
   Ear ear;
   ear.hear(0, aircraft(0, 0, 10));
   ear.hear(30, aircraft(30, 5000, 10));
@@ -242,7 +242,7 @@ TEST(EntityTable, CountsNoJumpAfterSilencePastTheTimeOut) {
   EXPECT_EQ(ear.row().cause, UpdateCause::first);
 }
 
-TEST(EntityTable, ShowsWhoLeftForAWhileAndThenDropsThem) {
+TEST(EntityTable, ShowsDepartedEntitiesForAWhile) {
   Ear ear;
   for (std::uint16_t i = 1; i <= 3; ++i) ear.hear(0, aircraft(0, 0, 0, i));
   pdu::EntityState leaving = aircraft(1, 0, 0, 1);
@@ -264,7 +264,7 @@ TEST(EntityTable, ShowsWhoLeftForAWhileAndThenDropsThem) {
   EXPECT_EQ(ear.row(1).cause, UpdateCause::first);
 }
 
-TEST(EntityTable, HoldsNoMoreEntitiesThanItMayAndCountsTheOthers) {
+TEST(EntityTable, CountsEntitiesBeyondItsCapacity) {
   Ear ear(2);
   for (std::uint16_t i = 1; i <= 5; ++i) ear.hear(0, aircraft(0, 0, 0, i));
   ear.hear(1, aircraft(1, 0, 0, 2));
@@ -281,7 +281,7 @@ TEST(EntityTable, FindsEveryOneOfManyEntities) {
   for (const ReceivedEntity& entity : ear.table.entities()) EXPECT_EQ(entity.updates, 2U);
 }
 
-/// By the rules of a peer, as the view `haptics` asks for the forces of each pair.
+/// By the rules of a peer, as the view `haptics` requests the forces of each pair.
 TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-0.006, 0.006);
@@ -347,7 +347,7 @@ TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
   EXPECT_EQ(table.entities()[0].updates, 1000U);
 }
 
-TEST(EntityTable, TellsTheRuleThatTheLastPduOfAnEntityBroke) {
+TEST(EntityTable, NamesTheRuleOfTheLastBadPdu) {
   Ear ear;
   ear.hear(0, aircraft(0, 0));
   Octets cut;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The histogram of jumps against sorted lists.
+// The histogram of jumps, compared with sorted lists.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace reckon::tools::jump_histogram_test {
 namespace {
 
-TEST(JumpHistogram, GivesPercentilesOfASortedListWithinItsBuckets) {
+TEST(JumpHistogram, GivesPercentilesWithinItsBuckets) {
   std::mt19937 random(7);
   std::lognormal_distribution<double> sizes(-2, 2.5);
   JumpHistogram histogram;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What listeners of each kind take and refuse, and that their picture stays whole.
+// Accepted and refused input of listeners of each kind, and the consistency of their data.
 #include "reckon/tools/listener/listener.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ using test::Ball;
 using test::Octets;
 
 constexpr nanoseconds kStart = seconds(1'700'000'000);
-/// Of the PDUs of these tests.
+/// Exercise of the PDUs in these tests.
 const std::uint8_t kExercise = pdu::EntityState{}.header.exercise_id;
 
 void take(Listener& listener, const Octets& datagram, nanoseconds arrival) {
@@ -62,7 +62,7 @@ TEST(Listener, RestoresCompressedStatesByAnyRules) {
     }
     for (const Listener* listener : {&monitor, &capture}) {
       ASSERT_EQ(listener->entities().size(), 1U);
-      // The key that came before the first compressed one was not kept: 1 or 2 are not restored.
+      // The key before the first compressed state was not kept: 1 or 2 are not restored.
       EXPECT_GE(listener->entities()[0].updates, 38U);
       EXPECT_EQ(pdu::numbers_of(listener->entities()[0].entity_state(), {}),
                 pdu::numbers_of(state, {}));
@@ -75,7 +75,7 @@ TEST(Listener, RefusesImpossibleNumbersByAnyRules) {
     Listener listener(rules);
     take(listener, Ball{.up = std::numeric_limits<double>::quiet_NaN(), .time = kStart}, kStart);
     EXPECT_EQ(listener.refusals().values, 1U);
-    // Only who shows what was bad keeps the entity, without a state or a model.
+    // Only a listener that shows bad PDUs keeps the entity, without a state or a model.
     ASSERT_EQ(listener.entities().size(), rules.keeps ? 1U : 0U);
     for (const ReceivedEntity& entity : listener.entities())
       EXPECT_FALSE(entity.has_state || entity.is_haptic());
@@ -85,7 +85,7 @@ TEST(Listener, RefusesImpossibleNumbersByAnyRules) {
   }
 }
 
-TEST(Listener, RefusesAModelWithImpossibleNumbersByAnyRules) {
+TEST(Listener, RefusesModelsWithImpossibleNumbersByAnyRules) {
   for (const ListenerRules& rules : {kPeerRules, kMonitorRules}) {
     Listener listener(rules);
     take(listener, Ball{.k1 = -5, .time = kStart}, kStart);
@@ -94,7 +94,7 @@ TEST(Listener, RefusesAModelWithImpossibleNumbersByAnyRules) {
   }
 }
 
-TEST(Listener, TakesWhatIsOlderByItsRules) {
+TEST(Listener, TakesOlderStatesByItsRules) {
   const std::map<ListenerRules::Timing, std::uint64_t> updates{
       {ListenerRules::Timing::sender_clock, 1},
       {ListenerRules::Timing::sender_clock_or_arrival, 2},
@@ -109,7 +109,7 @@ TEST(Listener, TakesWhatIsOlderByItsRules) {
   }
 }
 
-TEST(Listener, LaysAStateOfACaptureOnItsArrivalWhereTimestampsStandStill) {
+TEST(Listener, UsesArrivalTimesForConstantTimestamps) {
   Listener listener(kCaptureRules);
   for (int i = 0; i < 5; ++i) {
     take(listener, Ball{.up = 1.0 * i, .rising = 1, .time = kStart}, kStart + seconds(i));
@@ -118,7 +118,7 @@ TEST(Listener, LaysAStateOfACaptureOnItsArrivalWhereTimestampsStandStill) {
   }
 }
 
-TEST(Listener, KnowsUncoupledEntitiesWhereItsRulesSaySo) {
+TEST(Listener, KnowsUncoupledEntitiesByItsRules) {
   for (const ListenerRules& rules : {kPeerRules, kCaptureRules, kMonitorRules}) {
     Listener listener(rules);
     pdu::EntityState state = test::state_of({.time = kStart});
@@ -128,7 +128,7 @@ TEST(Listener, KnowsUncoupledEntitiesWhereItsRulesSaySo) {
   }
 }
 
-TEST(Listener, TellsExercisesApartWhereItsRulesSaySo) {
+TEST(Listener, DistinguishesExercisesByItsRules) {
   for (const ListenerRules& rules : {kPeerRules, kMonitorRules}) {
     Listener listener(rules);
     pdu::EntityState state = test::state_of({.time = kStart});
@@ -142,7 +142,7 @@ TEST(Listener, TellsExercisesApartWhereItsRulesSaySo) {
   }
 }
 
-TEST(Listener, RefusesTheModelBehindARefusedStateOfTheDatagram) {
+TEST(Listener, RefusesTheModelOfARefusedState) {
   Listener listener(kPeerRules);
   take(listener, Ball{.time = kStart + seconds(1)}, kStart + seconds(1));
   take(listener, Ball{.k1 = 900, .time = kStart}, kStart + milliseconds(1010));  // overtaken
@@ -151,7 +151,7 @@ TEST(Listener, RefusesTheModelBehindARefusedStateOfTheDatagram) {
   EXPECT_EQ(listener.model_of(listener.entities()[0])->model.k1, 900);
 }
 
-TEST(Listener, RemembersWhatWasBeforeTheDatagram) {
+TEST(Listener, KeepsTheDataBeforeTheDatagram) {
   Listener listener(kPeerRules);
   take(listener, Ball{.time = kStart}, kStart);
   take(listener, test::datagram_of({.k1 = 900, .time = kStart + seconds(1)}), kStart + seconds(1));
@@ -163,7 +163,7 @@ TEST(Listener, RemembersWhatWasBeforeTheDatagram) {
   EXPECT_TRUE(listener.touched().empty());
 }
 
-TEST(Listener, DoesNotMoveAnEntityByAModelThatComesAlone) {
+TEST(Listener, SeparateModelsDoNotMoveAnEntity) {
   for (const ListenerRules& rules : {kPeerRules, kMonitorRules}) {
     Listener listener(rules);
     const Ball ball{.rising = 0.5, .time = kStart};
@@ -177,7 +177,7 @@ TEST(Listener, DoesNotMoveAnEntityByAModelThatComesAlone) {
   }
 }
 
-TEST(Listener, LetsSilentEntitiesStandStillWherePeersDoAndFrozenOnesAlways) {
+TEST(Listener, StopsFrozenAndByItsRulesSilentEntities) {
   for (const ListenerRules& rules : {kPeerRules, kMonitorRules}) {
     Listener listener(rules);
     take(listener, Ball{.entity = 1, .rising = 1, .time = kStart}, kStart);
@@ -195,7 +195,7 @@ TEST(Listener, LetsSilentEntitiesStandStillWherePeersDoAndFrozenOnesAlways) {
   }
 }
 
-TEST(Listener, ForgetsOrMarksWhoLeaves) {
+TEST(Listener, ForgetsOrMarksDepartedEntities) {
   for (const ListenerRules& rules : {kPeerRules, kCaptureRules, kMonitorRules}) {
     Listener listener(rules);
     take(listener, Ball{.time = kStart}, kStart);
@@ -209,7 +209,7 @@ TEST(Listener, ForgetsOrMarksWhoLeaves) {
   }
 }
 
-TEST(Listener, TellsOfAStateAndAModelBeforeItTakesThem) {
+TEST(Listener, ReportsStatesAndModelsBeforeTakingThem) {
   struct Order : ListenerObserver {
     const Listener& listener;
     std::vector<std::uint64_t> states;
@@ -234,7 +234,7 @@ TEST(Listener, TellsOfAStateAndAModelBeforeItTakesThem) {
   EXPECT_EQ(order.models, (std::vector<bool>{false, true}));
 }
 
-TEST(Listener, KeepsPlacesAndModelsTogetherUnderRandomComingAndGoing) {
+TEST(Listener, KeepsModelsWithTheirEntities) {
   ListenerRules rules = kMonitorRules;
   rules.most_entities = 24;
   std::mt19937 random(5);
@@ -274,7 +274,7 @@ TEST(Listener, KeepsPlacesAndModelsTogetherUnderRandomComingAndGoing) {
   }
 }
 
-TEST(Listener, CountsAndDoesNotKeepWhatIsBeyondItsRoom) {
+TEST(Listener, CountsEntitiesBeyondItsCapacity) {
   ListenerRules rules = kMonitorRules;
   rules.most_entities = 2;
   Listener listener(rules);
@@ -285,7 +285,7 @@ TEST(Listener, CountsAndDoesNotKeepWhatIsBeyondItsRoom) {
   EXPECT_EQ(listener.refusals().crowded, 4U);
 }
 
-TEST(Listener, AllocatesNothingForWhatItKnows) {
+TEST(Listener, AllocatesNothingForKnownEntities) {
   for (const ListenerRules& rules : {kPeerRules, kCaptureRules, kMonitorRules}) {
     Listener listener(rules);
     std::vector<Octets> datagrams;

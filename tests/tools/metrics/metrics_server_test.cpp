@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who asks a running program for its metrics, and how: all on loopback.
+// Clients that request a program's metrics: all on loopback.
 #include "reckon/tools/metrics/metrics_server.hpp"
 
 #include <arpa/inet.h>
@@ -33,7 +33,7 @@ std::string host_of(const MetricsServer& server) {
   return sentence.substr(begin, sentence.find('/', begin) - begin);
 }
 
-/// A connection of whoever, which waits for its answer.
+/// A client connection that waits for its answer.
 class Client {
  public:
   explicit Client(const MetricsServer& server) {
@@ -54,7 +54,7 @@ class Client {
     EXPECT_EQ(::send(socket_, text.data(), text.size(), MSG_NOSIGNAL),
               static_cast<ssize_t>(text.size()));
   }
-  /// All till the server hangs up.
+  /// All data until the server closes the connection.
   [[nodiscard]] std::string answer() {
     std::string all;
     std::array<char, 4096> room;
@@ -74,7 +74,7 @@ std::string answer_to(const MetricsServer& server, const std::string& line,
   return client.answer();
 }
 
-TEST(MetricsAddress, IsAnAddressWithAPortOrAPortOfThisHostAlone) {
+TEST(MetricsAddress, HasAnAddressWithPortOrLocalPort) {
   EXPECT_FALSE(metrics_address("").has_value());
   EXPECT_EQ(metrics_address("9464")->address, "127.0.0.1");
   EXPECT_EQ(metrics_address("9464")->port, 9464);
@@ -86,7 +86,7 @@ TEST(MetricsAddress, IsAnAddressWithAPortOrAPortOfThisHostAlone) {
     EXPECT_THROW((void)metrics_address(wrong), UsageError) << wrong;
 }
 
-TEST(MetricsServer, AnswersWithTheLastTextThatItWasGiven) {
+TEST(MetricsServer, AnswersWithTheLatestText) {
   MetricsServer server({});
   const std::string host = host_of(server);
   EXPECT_THAT(host, StartsWith("127.0.0.1:"));
@@ -114,7 +114,7 @@ TEST(MetricsServer, HasNothingElseAndNothingForOtherNames) {
   EXPECT_THAT(answer_to(server, "no request", host), StartsWith("HTTP/1.1 400"));
 }
 
-TEST(MetricsServer, IsNotHeldUpByWhoeverAsksSlowlyOrForTooMuch) {
+TEST(MetricsServer, IsNotDelayedBySlowClients) {
   MetricsServer server({});
   const std::string host = host_of(server);
   std::vector<std::unique_ptr<Client>> slow;
@@ -122,7 +122,7 @@ TEST(MetricsServer, IsNotHeldUpByWhoeverAsksSlowlyOrForTooMuch) {
     slow.push_back(std::make_unique<Client>(server));
     slow.back()->send("GET /met");
   }
-  // One that never takes its answer, which is more than its socket holds.
+  // A client that never reads its answer, which is larger than its socket buffer.
   server.show(std::string(8'000'000, '#'), kNow);
   Client deaf(server);
   deaf.send("GET /metrics HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
@@ -135,7 +135,7 @@ TEST(MetricsServer, IsNotHeldUpByWhoeverAsksSlowlyOrForTooMuch) {
   EXPECT_THAT(slow.back()->answer(), HasSubstr("\r\n\r\n# EOF\n"));
 }
 
-TEST(MetricsServer, IsAnErrorWithARemedyWhereItsPortIsTaken) {
+TEST(MetricsServer, ReportsATakenPortWithARemedy) {
   const MetricsServer first({});
   const std::string host = host_of(first);
   for (const std::vector<std::string>& words :

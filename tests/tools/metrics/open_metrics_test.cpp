@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The text that monitoring systems read, octet by octet; metrics.py holds it against parsers that
-// are not ours.
+// The text for monitoring systems, octet by octet; metrics.py compares it with external parsers.
 #include "reckon/tools/metrics/open_metrics.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@ namespace {
 
 using peer::Counters;
 
-TEST(MetricName, SaysWhatCameAndWentAndEndsWithABaseUnit) {
+TEST(MetricName, NamesTheDirectionAndEndsWithBaseUnits) {
   EXPECT_EQ(metric_name("datagrams_in").text, "datagrams_received");
   EXPECT_EQ(metric_name("updates_out").text, "updates_sent");
   EXPECT_EQ(metric_name("octets_in").text, "received_bytes");
@@ -29,7 +28,7 @@ TEST(MetricName, SaysWhatCameAndWentAndEndsWithABaseUnit) {
 
 TEST(OpenMetrics, EndsEvenWhereNothingIsCounted) { EXPECT_EQ(OpenMetrics().end(), "# EOF\n"); }
 
-TEST(OpenMetrics, HasEachCounterOnceWithItsMeaningAndUnit) {
+TEST(OpenMetrics, HasEachCounterOnceWithMeaningAndUnit) {
   static constexpr peer::CounterGroup kGroup{"datagrams_refused", "cause", "not taken"};
   Counters counters;
   counters.make("datagrams_in", "datagrams received").add(7);
@@ -57,7 +56,7 @@ TEST(OpenMetrics, HasEachCounterOnceWithItsMeaningAndUnit) {
             "# EOF\n");
 }
 
-TEST(OpenMetrics, KeepsQuotesAndLineEndsOfANameWithinItsLine) {
+TEST(OpenMetrics, EscapesQuotesAndLineEnds) {
   OpenMetrics text;
   text.gauge("entities", "a \"word\"", -0.5, {{"interface", "a\"b\\c\nd"}});
   EXPECT_EQ(text.end(),
@@ -67,7 +66,7 @@ TEST(OpenMetrics, KeepsQuotesAndLineEndsOfANameWithinItsLine) {
             "# EOF\n");
 }
 
-TEST(OpenMetrics, SaysWhereThereIsNoNumberAsTheFormatDoes) {
+TEST(OpenMetrics, WritesNonFiniteNumbersAsInTheFormat) {
   OpenMetrics text;
   text.gauge("a", "b", std::nan(""));
   text.gauge("a", "b", std::numeric_limits<double>::infinity(), {{"c", "d"}});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A capture made for the tests of record, replay, info and cut, and what they say of it. All
+// Captures for the tests of record, replay, info and cut, and the output of these verbs. All
 // traffic stays on the loopback interface.
 #pragma once
 
@@ -35,7 +35,7 @@ using test::ScratchFolder;
 
 using Octets = std::vector<std::byte>;
 
-/// A group of this program's own.
+/// A group of this test program's own.
 inline peer::GroupAddress group(std::uint8_t number) {
   return peer::IpEndpoint::v4(0xefc04f00U + number,
                               static_cast<std::uint16_t>(20000 + getpid() % 20000));
@@ -58,7 +58,7 @@ inline Octets entity_state(std::uint16_t entity) {
 }
 
 /// A capture of `count` datagrams, one every `spacing`: entity 1 to group 0 and entity 2 to group 1
-/// in turn, every fourth with an Attribute PDU behind it.
+/// alternate; every fourth has an Attribute PDU, too.
 inline std::string make_capture(const ScratchFolder& folder, std::size_t count, nanoseconds spacing,
                                 const std::string& name = "made.pcapng") {
   const std::string path = folder.file(name);
@@ -96,7 +96,7 @@ inline void send_some(const peer::GroupAddress& to, std::size_t count, std::uint
   for (std::size_t i = 0; i < count; ++i) EXPECT_TRUE(link.send(to, entity_state(entity)));
 }
 
-/// Datagrams in a capture, also in one that is still being written.
+/// Datagrams in a capture, even one that is still being written.
 inline std::size_t datagrams_in(const std::string& path) {
   std::size_t count = 0;
   try {
@@ -104,12 +104,12 @@ inline std::size_t datagrams_in(const std::string& path) {
     peer::SourceDatagram datagram;
     while (source->next(datagram, {}) == peer::SourceEvent::datagram) ++count;
   } catch (const std::runtime_error&) {
-    // Not there yet, or without a header yet.
+    // The file or its header does not exist yet.
   }
   return count;
 }
 
-/// Waits for something that another thread or process does, at most 10 s.
+/// Waits for an action of another thread or process, at most 10 s.
 template <typename Condition>
 bool soon(Condition&& condition) {
   for (int i = 0; i < 1000; ++i) {

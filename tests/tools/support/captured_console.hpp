@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program in process and keeps what it wrote.
+// Runs the program in process and stores its output.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace reckon::test {
 
-/// A stream that ends up in a string.
+/// A stream into a string.
 class CapturedStream {
  public:
   CapturedStream() : file_(open_memstream(&text_, &size_)) {}
@@ -44,7 +44,7 @@ class CapturedStream {
   std::FILE* file_;
 };
 
-/// What one call of the program gave.
+/// The result of one call of the program.
 struct ProgramResult {
   int status;
   std::string out;
@@ -61,7 +61,7 @@ struct ProgramResult {
 
 using Program = int (*)(tools::Arguments arguments, const tools::Console& console) noexcept;
 
-/// Runs a program; `stop` as Ctrl-C would set it.
+/// Runs a program; `stop` is the flag that Ctrl-C sets.
 inline ProgramResult run_captured(Program program, const std::vector<std::string>& arguments,
                                   const std::atomic<bool>* stop = nullptr) {
   const CapturedStream out;
@@ -75,7 +75,7 @@ inline ProgramResult run_captured(Program program, const std::vector<std::string
   return {status, out.text(), err.text()};
 }
 
-/// Runs the verb in this process, unless it is of reckon-bench.
+/// Runs the verb in this process, unless it belongs to reckon-bench.
 inline int start_in_process(const tools::VerbRow& row, tools::Arguments arguments,
                             const tools::Console& console) {
   if (row.program == tools::kBenchProgram) return tools::start_program(row, arguments, console);
@@ -96,7 +96,7 @@ inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
   return run_captured(run_program, arguments, stop);
 }
 
-/// Flags of a verb, as completion has them.
+/// Flags of a verb, from completion.
 inline std::vector<std::string> flags_of(std::vector<std::string> verb,
                                          Program program = run_program) {
   verb.emplace_back(tools::kListFlags);

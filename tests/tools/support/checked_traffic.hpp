@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A truck's traffic for `reckon inspect check`, faults in it, and what the check finds.
+// A truck's traffic for `reckon inspect check`, faults in it, and the findings of the check.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ inline void join(Octets& datagram, const Octets& more) {
   datagram.insert(datagram.end(), more.begin(), more.end());
 }
 
-/// Four good seconds of driving, a coupled datagram among them.
+/// Four good seconds of driving, including a coupled datagram.
 inline void drive(CaptureBuilder& capture, nanoseconds from = {}) {
   for (int i = 0; i < 4; ++i) {
     const nanoseconds t = from + seconds(i);
@@ -83,7 +83,7 @@ inline void drive(CaptureBuilder& capture, nanoseconds from = {}) {
 /// Adds datagrams with a fault to a capture.
 using Plant = std::function<void(CaptureBuilder&)>;
 
-/// A fault made in an Entity State that is good else, four seconds after the start.
+/// A fault in an otherwise good Entity State, four seconds after the start.
 inline Plant in_fields(const std::function<void(pdu::EntityState&)>& change) {
   return [change](CaptureBuilder& capture) {
     pdu::EntityState pdu = truck(seconds(4));
@@ -92,7 +92,7 @@ inline Plant in_fields(const std::function<void(pdu::EntityState&)>& change) {
   };
 }
 
-/// What `reckon inspect check --json` says of a capture.
+/// The output of `reckon inspect check --json` for a capture.
 struct Checked {
   int status;
   std::vector<nlohmann::json> findings;

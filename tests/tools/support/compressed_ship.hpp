@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The updates of a ship that turns, as a peer sends them compressed.
+// The updates of a turning ship, compressed as by a peer.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace reckon::test {
 
-/// A datagram with one update of 7:1:3, plain where its form cannot carry it. Update 0 is plain.
+/// A datagram with one update of 7:1:3, plain if its form cannot represent it. Update 0 is plain.
 /// `time` is since 1970-01-01 UTC; `state` gets the update.
 inline Octets compressed_ship(peer::StateCompressor& compressor, int update,
                               std::chrono::nanoseconds time, pdu::EntityState& state) {

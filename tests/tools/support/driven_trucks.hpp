@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams of trucks that drive round in circles, some of which stop or leave, for the viewer.
+// Datagrams of trucks that drive in circles, some of which stop or leave, for the viewer.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ using std::chrono::seconds;
 inline constexpr nanoseconds kStart = seconds(1'700'000'000);
 inline constexpr double kRadius = 6'378'137.0;  ///< [m], of the earth
 
-/// A datagram and when it came.
+/// A datagram and its arrival time.
 struct Sent {
   test::Octets octets;
   nanoseconds time{};
@@ -47,7 +47,7 @@ inline pdu::EntityState truck(std::uint16_t number, double t, std::string_view m
   return pdu;
 }
 
-/// `count` trucks, each heard about every 0.5 s for `length` [s], one datagram each.
+/// `count` trucks, each with an update about every 0.5 s for `length` [s], one datagram each.
 inline std::vector<Sent> drive(std::uint16_t count, double length) {
   std::vector<Sent> all;
   for (int k = 0; 0.5 * k < length; ++k) {

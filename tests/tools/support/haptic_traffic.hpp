@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Datagrams of haptic entities on the equator at longitude 0, where geocentric x is up, y east and
-// z north, so that every force can be worked out by hand.
+// z north, so that every force can be computed by hand.
 #pragma once
 
 #include <chrono>
@@ -52,7 +52,7 @@ inline pdu::HapticRecord record_of(const Ball& ball) {
   return record;
 }
 
-/// Appends the Attribute PDU that tells a force model, and an account behind it.
+/// Appends the Attribute PDU with a force model, followed by an energy account.
 inline void append_attribute(Octets& datagram, const pdu::EntityState& state,
                              const pdu::HapticRecord& record,
                              const std::optional<pdu::EnergyAccountRecord>& account = {}) {

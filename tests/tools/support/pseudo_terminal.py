@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""A program on a pseudo terminal: what a person sees, types and resizes; in a network namespace of its own."""
+"""A program on a pseudo-terminal, with its output, typed keys and resizes; in a network namespace of its own."""
 import fcntl
 import os
 import pty
@@ -12,7 +12,7 @@ import sys
 import termios
 import time
 
-PATIENCE = 30  # seconds until an expected text must have come
+PATIENCE = 30  # seconds within which an expected text must arrive
 ENTER_SCREEN, LEAVE_SCREEN = b"\x1b[?1049h", b"\x1b[?1049l"
 SKIPPED = 77
 
@@ -33,7 +33,7 @@ def into_namespace() -> None:
 
 
 class Terminal:
-    """`command` on a pseudo terminal. A variable of the environment that is None is unset."""
+    """`command` on a pseudo-terminal. An environment variable with the value None is unset."""
 
     def __init__(self, command, environment=None, rows=24, columns=80, stdin=True):
         self.master, self.slave = pty.openpty()
@@ -59,7 +59,7 @@ class Terminal:
         os.write(self.master, keys.encode())
 
     def feed(self):
-        """Does what keeps the program busy; for those who need it."""
+        """Keeps the program busy; for subclasses that need it."""
 
     def pump(self):
         self.feed()
@@ -72,7 +72,7 @@ class Terminal:
             self.everything += octets
 
     def expect(self, pattern):
-        """Pumps until the terminal was sent this since the last call; what it was sent."""
+        """Reads until the terminal has received this text since the last call; returns the text read."""
         end = time.monotonic() + PATIENCE
         while not re.search(pattern.encode(), self.seen):
             if time.monotonic() > end or self.process.poll() is not None:
@@ -82,7 +82,7 @@ class Terminal:
         return seen
 
     def expect_end(self, drawn=True):
-        """Waits for the program's end and checks that it left the terminal as it was."""
+        """Waits for the program's end and checks that it restored the terminal."""
         end = time.monotonic() + PATIENCE
         while self.process.poll() is None:
             if time.monotonic() > end:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A page of trucks that is served on loopback, its time stepped by hand, and those who look at it.
+// A page of trucks that is served on loopback, with its time stepped by hand, and its clients.
 #pragma once
 
 #include <arpa/inet.h>
@@ -32,7 +32,7 @@ using trucks::nanoseconds;
 using trucks::seconds;
 
 inline constexpr std::string_view kKey = "dGhlIHNhbXBsZSBub25jZQ==";
-/// What is not here after so many rounds does not come.
+/// Data that has not arrived after this many rounds does not come.
 inline constexpr int kMostRounds = 2000;
 
 /// A server of trucks whose time is stepped by hand.
@@ -48,7 +48,7 @@ class Served {
     }
     tick();
   }
-  /// A thirtieth of a second passes.
+  /// Advances by a thirtieth of a second.
   void tick() {
     now += ViewServer::kTick;
     stage.pass(kStart + now);
@@ -71,10 +71,10 @@ class Served {
   ViewServer server;
 };
 
-/// A connection of whoever.
+/// A client connection.
 class Client {
  public:
-  /// @param host that it speaks from: 127.0.0.N
+  /// @param host it connects from 127.0.0.N
   explicit Client(Served& served, int receive_buffer = 0, std::uint32_t host = 1)
       : served_(served) {
     socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
@@ -96,12 +96,12 @@ class Client {
   void send(std::string_view text) {
     while (!text.empty()) {
       const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
-      if (sent < 0 && errno != EAGAIN) return;  // it has hung up already
+      if (sent < 0 && errno != EAGAIN) return;  // the server has already closed it
       if (sent > 0) text.remove_prefix(static_cast<std::size_t>(sent));
       served_.poll();
     }
   }
-  /// Takes what has come. @return false where the server has hung up
+  /// Reads arrived data. @return false if the server has closed the connection
   bool receive() {
     served_.poll();
     std::array<char, 65536> room;
@@ -112,7 +112,7 @@ class Client {
       if (size < 0) return true;
     }
   }
-  /// All till it hangs up.
+  /// Reads all data until the server closes the connection.
   const std::string& receive_all() {
     for (int i = 0; i < kMostRounds && receive(); ++i) continue;
     return in;
@@ -130,7 +130,7 @@ class Client {
   int socket_;
 };
 
-/// The head of a request, with what is named changed, or left out where it is empty.
+/// The head of a request with the given fields changed, or omitted if empty.
 inline std::string request(const Served& served, const std::string& line,
                            std::map<std::string, std::string> fields = {}) {
   fields.try_emplace("Host", served.host());
@@ -179,7 +179,8 @@ class Tab : public Client {
       text += static_cast<char>(payload[i] ^ static_cast<char>(1 + i % 4));
     send(text);
   }
-  /// Sorts what has come into texts and pictures; @return false where the server has hung up
+  /// Sorts arrived data into texts and pictures; @return false if the server has closed the
+  /// connection
   bool take() {
     const bool goes_on = receive();
     while (in.size() >= 2) {

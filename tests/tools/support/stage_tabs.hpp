@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tabs of a viewer that look at a live exercise of trucks.
+// Viewer tabs on a live exercise of trucks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using trucks::Sent;
 
 inline constexpr nanoseconds kTick = milliseconds(33);
 
-/// The head of a picture.
+/// The header of a picture.
 struct Head {
   std::uint32_t number;
   double time;
@@ -39,12 +39,12 @@ inline Head head_of(const std::string& octets) {
           at(18, std::uint16_t{}), at(22, std::uint16_t{}), at(24, std::uint32_t{})};
 }
 
-/// A tab that draws what it receives, unless a test switches that off.
+/// A tab that draws what it receives, unless a test disables that.
 class Tab {
  public:
   Tab(ViewStage& stage, bool knows_word) : stage_(stage), watcher_(stage.admit(knows_word)) {}
 
-  /// Takes all that there is for it now.
+  /// Takes everything that is pending for it.
   void take() {
     while (auto message = stage_.next_message(*watcher_)) {
       if (message->opcode == WebSocketOpcode::text) {
@@ -84,7 +84,7 @@ class Tab {
   std::unique_ptr<Watcher> watcher_;
 };
 
-/// A live exercise of trucks that goes on as long as it is let run.
+/// A live exercise of trucks that continues while it is run.
 class LiveTrucks {
  public:
   explicit LiveTrucks(StageOptions options = {}) : stage(options), all_(trucks::drive(3, 200)) {

@@ -11,13 +11,13 @@
 
 namespace reckon::test {
 
-/// A scene of a floor, and one of a floor that rubs and a ball.
+/// A scene of a floor, and one of a floor with friction and a ball.
 inline constexpr const char* kPlain = "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\n";
 inline constexpr const char* kFriction =
     "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nfriction = { static = 0.6, kinetic = 0.4 }\n"
     "[[object]]\nname = \"ball\"\nsphere = \"40 mm\"\n";
 
-/// A scene file that is gone at the end of its scope.
+/// A scene file that is removed at the end of its scope.
 class TemporaryScene {
  public:
   explicit TemporaryScene(const std::string& text)

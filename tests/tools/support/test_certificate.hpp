@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A certificate that vouches for itself, and its key, as files.
+// A self-signed certificate and its key, as files.
 #pragma once
 
 #include <openssl/evp.h>
@@ -15,8 +15,8 @@
 
 namespace reckon::test {
 
-/// Writes NAME.crt and NAME.key (mode 0600), of a key of its own, valid from `begin` to `end`
-/// [s from now], for `host`. @return the path without the ending
+/// Writes NAME.crt and NAME.key (mode 0600) with a new key, valid from `begin` to `end` [s from
+/// now), for `host`. @return the path without the ending
 inline std::string write_certificate(const std::string& path, const std::string& host = "localhost",
                                      long begin = -60, long end = 3600) {
   const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(EVP_EC_gen("P-256"), EVP_PKEY_free);

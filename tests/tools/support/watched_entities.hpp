@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities for the view `top`: where they are told to be at which second.
+// Entities for the view `top`, at given positions and times.
 #pragma once
 
 #include <chrono>

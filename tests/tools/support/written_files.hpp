@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Looks at what the program wrote: tables and pages.
+// Reads output files of the program: tables and pages.
 #pragma once
 
 #include <fstream>
@@ -18,7 +18,7 @@ inline std::string content(const std::string& path) {
   return text.str();
 }
 
-/// Without their ends.
+/// Lines without their ends.
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
@@ -26,7 +26,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Cells of a CSV line; commas within quotes do not part.
+/// Cells of a CSV line; commas within quotes do not separate.
 inline std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -41,8 +41,8 @@ inline std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Names of elements that are opened and never closed, or closed and never opened; style and
-/// script are passed over.
+/// Names of elements that are opened and never closed, or closed and never opened; style and script
+/// are skipped.
 inline std::string unbalanced(const std::string& page) {
   std::vector<std::string> open;
   for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos;) {

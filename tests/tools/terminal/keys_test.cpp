@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keys on a terminal of its own (a pseudo terminal), and that it is given back whatever ends the
-// program.
+// Keys on a pseudo terminal, and its restoration whatever ends the program.
 #include "reckon/tools/terminal/keys.hpp"
 
 #include <fcntl.h>
@@ -24,7 +23,7 @@ namespace {
 
 using namespace captures;
 
-/// A pseudo terminal: what a person sees and types.
+/// A pseudo terminal: the screen and keyboard of a user.
 class Terminal {
  public:
   Terminal() : person_(posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -43,13 +42,13 @@ class Terminal {
   void type(const std::string& keys) const {
     EXPECT_EQ(write(person_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
-  /// Whether lines and echo are as a shell wants them.
+  /// Whether line mode and echo are as in a shell.
   [[nodiscard]] bool is_as_before() const {
     termios mode{};
     tcgetattr(program_, &mode);
     return (mode.c_lflag & ICANON) != 0 && (mode.c_lflag & ECHO) != 0;
   }
-  /// Waits until the program has shown this, at most 10 s.
+  /// Waits at most 10 s until the program has printed this text.
   [[nodiscard]] bool shows(const std::string& text) {
     pollfd entry{person_, POLLIN, 0};
     while (seen_.find(text) == std::string::npos) {
@@ -62,8 +61,8 @@ class Terminal {
     seen_.clear();
     return true;
   }
-  /// In a child: makes it stdin and stderr. Not the controlling terminal: what such a one shows
-  /// last is lost when its process ends.
+  /// Called in a child: makes it stdin and stderr, but not the controlling terminal, which would
+  /// lose its last output when its process ends.
   void adopt() const {
     dup2(program_, STDIN_FILENO);
     dup2(program_, STDERR_FILENO);
@@ -75,7 +74,7 @@ class Terminal {
   std::string seen_;
 };
 
-TEST(TerminalKeys, GiveWhatIsTypedWithoutEnter) {
+TEST(TerminalKeys, ReadTypedKeysWithoutEnter) {
   const Terminal terminal;
   {
     TerminalKeys keys(terminal.program());
@@ -91,7 +90,7 @@ TEST(TerminalKeys, GiveWhatIsTypedWithoutEnter) {
   EXPECT_TRUE(terminal.is_as_before());
 }
 
-TEST(TerminalKeys, LeaveAloneWhatIsNoTerminal) {
+TEST(TerminalKeys, LeaveOtherFilesAlone) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   ASSERT_EQ(write(ends[1], "q", 1), 1);
@@ -106,7 +105,7 @@ TEST(TerminalKeys, LeaveAloneWhatIsNoTerminal) {
 std::atomic<bool> replay_stop{false};
 extern "C" void stop_replay(int) { replay_stop = true; }
 
-/// A replay on a terminal, in a process of its own, which takes signals as the program does.
+/// A replay on a terminal, in a process of its own with the program's signal handlers.
 class ReplayOnTerminal : public ::testing::Test {
  protected:
   void begin() {
@@ -139,7 +138,7 @@ class ReplayOnTerminal : public ::testing::Test {
   pid_t child = -1;
 };
 
-TEST_F(ReplayOnTerminal, EndsInGoodOrderAtCtrlCWhilePaused) {
+TEST_F(ReplayOnTerminal, EndsInOrderAtCtrlCWhilePaused) {
   begin();
   terminal.type(" ");
   EXPECT_TRUE(terminal.shows("; paused"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Plots in a terminal and as a picture, which any values leave whole.
+// Plots in a terminal and as a picture, which stay valid for any values.
 #include "reckon/tools/terminal/plot.hpp"
 
 #include <gmock/gmock.h>
@@ -42,7 +42,7 @@ TEST(TerminalPlot, HasFourDotsInEachBrailleCharacter) {
   EXPECT_THAT(line, HasSubstr("\u28E4"));            // two of four in both columns
 }
 
-TEST(TerminalPlot, StaysWholeForAnyValuesAndWidths) {
+TEST(TerminalPlot, StaysValidForAnyValuesAndWidths) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<std::vector<float>> cases{
@@ -60,7 +60,7 @@ TEST(TerminalPlot, StaysWholeForAnyValuesAndWidths) {
   }
 }
 
-TEST(SvgPlotText, EscapesNamesAndDrawsNoMoreCurvesThanColours) {
+TEST(SvgPlotText, EscapesNamesAndLimitsItsCurves) {
   SvgPlot plot;
   plot.title = "a < b & \"c\" \xFF";
   plot.end = 2;
@@ -82,7 +82,7 @@ std::string first_curve(const std::string& svg) {
   return svg.substr(begin, svg.find('"', begin) - begin);
 }
 
-TEST(SvgPlotText, DrawsWhatIsBelowZeroWhereThePlotIsSigned) {
+TEST(SvgPlotText, DrawsBelowZeroWhereSigned) {
   SvgPlot plot;
   plot.end = 2;
   const std::vector<float> values{-1, 1, -1};

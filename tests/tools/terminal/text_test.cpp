@@ -30,7 +30,7 @@ TEST(DurationText, ReadsEveryUnit) {
   EXPECT_EQ(parse_duration("0s"), 0s);
 }
 
-TEST(DurationText, RefusesWhatIsNoDuration) {
+TEST(DurationText, RefusesOtherText) {
   for (const char* wrong : {"", "s", "ten s", "-1s", "inf s", "3 kg", "1s 2", "300 years"})
     EXPECT_FALSE(parse_duration(wrong).has_value()) << wrong;
 }
@@ -52,7 +52,7 @@ TEST(DurationText, WritesAUnitThatSuits) {
   EXPECT_EQ(duration_text(125min), "2 h 5 min");
 }
 
-TEST(Wrap, CutsBetweenWordsOrWithinOneThatIsTooLong) {
+TEST(Wrap, CutsBetweenWordsOrWithinLongOnes) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(wrap("", 10), Lines{""});
   EXPECT_EQ(wrap("ten or ten", 10), Lines{"ten or ten"});
@@ -89,7 +89,7 @@ TEST(Counted, MatchesTheNounToTheCount) {
   EXPECT_EQ(counted(2, "error"), "2 errors");
 }
 
-TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
+TEST(JsonString, KeepsUtf8AndReplacesOtherOctets) {
   const auto quoted = [](std::string_view text) {
     std::string out;
     append_json_string(out, text);
@@ -98,7 +98,7 @@ TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
   EXPECT_EQ(quoted("\u00e4\u20ac\U0001f600"), "\"\u00e4\u20ac\U0001f600\"");
   EXPECT_EQ(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
   EXPECT_EQ(quoted("\x1b[2J\x7f"), "\"\\u001b[2J\\u007f\"");
-  EXPECT_EQ(quoted("\u009b31m"), "\"\\u009b31m\"");  // a control sequence in one letter
+  EXPECT_EQ(quoted("\u009b31m"), "\"\\u009b31m\"");  // a control sequence in one character
   EXPECT_EQ(quoted("\xff"), "\"\\ufffd\"");
   EXPECT_EQ(quoted("\xc3"), "\"\\ufffd\"");                        // cut
   EXPECT_EQ(quoted("\xc0\xaf"), "\"\\ufffd\\ufffd\"");             // overlong

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which hands of a demo pages may take.
+// The hands of a demo that pages may move.
 #include "reckon/tools/verbs/demo_page.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ peer::SceneFile two_operators(double damping) {
   return scene;
 }
 
-TEST(LetPagesMoveHands, MakesEachHandAPointersWhereTheSceneHasNone) {
+TEST(LetPagesMoveHands, GivesEachHandAPointerByDefault) {
   peer::SceneFile scene = two_operators(3.0);
   let_pages_move_hands(scene, 2);
   ASSERT_EQ(scene.devices.size(), 2u);
@@ -36,7 +36,7 @@ TEST(LetPagesMoveHands, LeavesAGripWithoutDampingToItsOperator) {
   EXPECT_EQ(scene.devices[1].source, DeviceSource::simulated);
 }
 
-TEST(LetPagesMoveHands, LeavesASceneWithAPointerOfItsOwn) {
+TEST(LetPagesMoveHands, LeavesASceneWithItsOwnPointer) {
   peer::SceneFile scene = two_operators(3.0);
   scene.devices.resize(2);
   scene.devices[1].source = DeviceSource::pointer;

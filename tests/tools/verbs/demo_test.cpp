@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon demo`: in which DIS exercise it runs, and that it tells what it leaves out.
+// `reckon demo`: its DIS exercise, and its reports about parts that it leaves out.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -23,7 +23,7 @@ using ::testing::Not;
 
 class DemoExercise : public testing::Test {
  protected:
-  /// What a demo of this scene says beside its report.
+  /// The messages of a demo besides its report.
   std::string said(const std::string& scene, std::vector<std::string> more) {
     const std::string path = folder_.file("scene.toml");
     std::ofstream(path) << scene << "[[operator]]\npassive = true\n";
@@ -39,7 +39,7 @@ class DemoExercise : public testing::Test {
   bool no_loopback_ = false;
 };
 
-TEST_F(DemoExercise, IsTheScenesWhereItNamesOneAndElseDrawnEachTime) {
+TEST_F(DemoExercise, IsTheScenesOrDrawnEachTime) {
   const std::string named = said("[network]\nexercise = 77\n", {});
   if (no_loopback_) GTEST_SKIP() << "no multicast on loopback: " << named;
   EXPECT_THAT(named, HasSubstr("DIS exercise 77\n"));
@@ -52,13 +52,13 @@ TEST_F(DemoExercise, IsTheScenesWhereItNamesOneAndElseDrawnEachTime) {
   EXPECT_GT(drawn.size(), 1u);
 }
 
-TEST_F(DemoExercise, StaysWhereTimeIsSimulatedSoThatResultsDo) {
+TEST_F(DemoExercise, IsConstantInSimulatedTime) {
   EXPECT_THAT(said("", {"--simulated-time"}), Not(HasSubstr("DIS exercise")));
 }
 
-// Forty posts that the second peer owns within reach of the first one's hand: eight more than a
-// servo takes.
-TEST(DemoWalls, AreToldInNoticesSummaryAndJson) {
+// Forty posts of the second peer within reach of the first one's hand: eight more than a servo
+// takes.
+TEST(DemoWalls, AreReportedInNoticesSummaryAndJson) {
   const reckon::test::ScratchFolder folder;
   const std::string path = folder.file("posts.toml");
   std::ofstream scene(path);
@@ -74,7 +74,8 @@ TEST(DemoWalls, AreToldInNoticesSummaryAndJson) {
   EXPECT_THAT(text.err, HasSubstr("more is near a hand than the 32 bodies that a servo takes"));
   EXPECT_THAT(text.out, HasSubstr("bodies near a hand were not felt"));
   const auto json = test::run_reckon({"demo", path, "--simulated-time", "--for", "2s", "--json"});
-  // More for a moment, while nearer ones come and farther ones still have their place in the servo.
+  // The number is greater for a moment, while nearer posts appear and farther ones are still in the
+  // servo.
   EXPECT_GE(nlohmann::json::parse(json.out)["hands_unfelt"].get<int>(), 8);
 }
 
@@ -96,7 +97,7 @@ TEST(Demo, HasTwoHandsThatTouchWithinThreeSeconds) {
   for (const auto& hand : json["hands"]) EXPECT_GT(hand["touching_hands_s"].get<double>(), 0.2);
 }
 
-// The first hand presses 5 mm into the second; both ask for 1500 N/m, their devices hold 950.
+// The first hand presses 5 mm into the second; both request 1500 N/m, their devices can hold 950.
 std::string two_that_press(const reckon::test::ScratchFolder& folder) {
   const std::string path = folder.file("press.toml");
   std::ofstream(path) << "[hand]\nradius = \"10 mm\"\nk1 = 1500\ndamping = 0\n"
@@ -108,7 +109,7 @@ std::string two_that_press(const reckon::test::ScratchFolder& folder) {
   return path;
 }
 
-TEST(Demo, NamesTheForceErrorAgainstWhatWasAskedApartFromWhatTheDevicesCanShow) {
+TEST(Demo, SeparatesForceErrorsFromDeviceLimits) {
   const reckon::test::ScratchFolder folder;
   const std::string path = two_that_press(folder);
   const auto json = simulated(path, "8s");
@@ -124,7 +125,7 @@ TEST(Demo, NamesTheForceErrorAgainstWhatWasAskedApartFromWhatTheDevicesCanShow) 
   EXPECT_THAT(text.out, HasSubstr("softer than asked          hands 950 of 1500 N/m\n"));
 }
 
-TEST(Demo, SaysWhoTouchedNobody) {
+TEST(Demo, NamesHandsWithoutContact) {
   const reckon::test::ScratchFolder folder;
   const std::string path = folder.file("apart.toml");
   std::ofstream(path) << "[[operator]]\npassive = true\n[[operator]]\npassive = true\n"
@@ -134,7 +135,7 @@ TEST(Demo, SaysWhoTouchedNobody) {
   EXPECT_THAT(text.out, HasSubstr("touched nobody"));
 }
 
-TEST(Demo, TellsTouchOfWhatAnotherOwnsAndThatNothingIsComparedWithIt) {
+TEST(Demo, ReportsContactWithEntitiesWithoutComparison) {
   const std::string scene = reckon::test::source_dir() + "/scenes/one_user_push.toml";
   const auto json = simulated(scene, "8s");
   EXPECT_GT(json["entity_contact_s"].get<double>(), 1.0);
@@ -145,7 +146,7 @@ TEST(Demo, TellsTouchOfWhatAnotherOwnsAndThatNothingIsComparedWithIt) {
   EXPECT_THAT(text.out, HasSubstr("none: no hand touched another; what entities press is not"));
 }
 
-TEST(Demo, OfOnePeerHasNobodyToSendToAndNothingToShow) {
+TEST(Demo, OfOnePeerReportsNoTraffic) {
   const std::string scene = reckon::test::source_dir() + "/scenes/one_user_push.toml";
   const auto text =
       test::run_reckon({"demo", scene, "--peers", "1", "--simulated-time", "--for", "1s"});

@@ -32,21 +32,21 @@ TEST(Doctor, GivesEachFindingWithItsLevelAsJson) {
   EXPECT_EQ(result.status, failed ? 1 : 0);
 }
 
-TEST(Doctor, PrintsOneFindingALineWithItsRemedyBelow) {
+TEST(Doctor, PrintsOneFindingPerLineWithItsRemedy) {
   const auto result = run_reckon({"doctor", "--iface", "lo"});
   EXPECT_THAT(result.out, HasSubstr("note  lo is loopback"));
   EXPECT_THAT(result.out, HasSubstr("\n      fix: "));
   EXPECT_THAT(result.err, HasSubstr(" failed\n"));
 }
 
-TEST(Doctor, SaysWhetherProcessorsCanBeKeptAwake) {
+TEST(Doctor, ReportsWhetherProcessorsCanStayAwake) {
   const auto result = run_reckon({"doctor", "--iface", "lo"});
   const bool may = access("/dev/cpu_dma_latency", W_OK) == 0;
   EXPECT_THAT(result.out, HasSubstr(may ? "/dev/cpu_dma_latency may be written: "
                                         : "/dev/cpu_dma_latency may not be written: "));
 }
 
-TEST(Doctor, LooksAtTheGroupAndThePortOfTheScene) {
+TEST(Doctor, ChecksTheScenesGroupAndPort) {
   const reckon::test::ScratchFolder folder;
   const std::string scene = folder.file("scene.toml");
   std::ofstream(scene) << R"([scene]
@@ -65,7 +65,7 @@ pool = 16
   EXPECT_EQ(run_reckon({"doctor", folder.file("none.toml")}).status, 2);
 }
 
-TEST(Doctor, TellsOfAnInterfaceThatIsNotThere) {
+TEST(Doctor, ReportsAMissingInterface) {
   const auto result = run_reckon({"doctor", "--iface", "no-such-interface"});
   EXPECT_EQ(result.status, 3);
   EXPECT_TRUE(result.out.empty());

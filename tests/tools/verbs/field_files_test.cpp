@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Inputs like those of public bug reports, with the answers of their own packer. The sentences of a
-// check are tested beside its rule, with inputs of the test.
+// Inputs like those of public bug reports, with the answers from an independent packer. The
+// sentences of a check are tested beside its rule, with generated inputs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using testing::Not;
 
 struct Question {
   std::string file;
-  std::vector<std::string> words;  ///< of `reckon inspect FILE`; a verb of its own begins with "!"
+  std::vector<std::string> words;  ///< of `reckon inspect FILE`; another verb begins with "!"
   std::vector<std::string> wanted, unwanted;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon FILE`: captures, scenes and meshes are opened, and of others the verb is told.
+// `reckon FILE`: captures, scenes and meshes are opened; for other files the verb is named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,12 +38,12 @@ TEST_F(GivenFile, IsInspectedIfItIsACapture) {
   EXPECT_THAT(by_name.err, HasSubstr("exercise.pcapng is a capture: reckon inspect "));
   EXPECT_EQ(by_name.out,
             run_reckon({"inspect", shipped("exercise.pcapng"), "stats", "--json"}).out);
-  // By its octets, whatever it is called.
+  // Detected by its octets, whatever its name.
   std::filesystem::copy_file(shipped("exercise.pcapng"), folder_.file("recorded"));
   EXPECT_EQ(run_reckon({folder_.file("recorded"), "stats", "--json"}).status, 0);
 }
 
-TEST_F(GivenFile, IsTouchedIfItIsASceneOrAMesh) {
+TEST_F(GivenFile, StartsADemoIfASceneOrMesh) {
   const std::vector<std::string> quick{"--simulated-time", "--for", "100ms", "--json"};
   for (const char* name : {"two_hands.toml", "touchstone.obj"}) {
     std::vector<std::string> words{shipped(name)};
@@ -55,7 +55,7 @@ TEST_F(GivenFile, IsTouchedIfItIsASceneOrAMesh) {
   }
 }
 
-TEST_F(GivenFile, IsToldTheVerbIfNoneOpensItByItself) {
+TEST_F(GivenFile, NamesTheVerbForOtherFiles) {
   const auto key = run_reckon({write("crane.key", "epoch 1\n")});
   EXPECT_EQ(key.status, 2);
   EXPECT_THAT(key.err, HasSubstr("a key: `reckon peer SCENE --key " + folder_.file("crane.key")));
@@ -68,7 +68,7 @@ TEST_F(GivenFile, IsToldTheVerbIfNoneOpensItByItself) {
   EXPECT_TRUE((key.out + table.out + other.out).empty());
 }
 
-TEST_F(GivenFile, IsMissedByItsNameAndVerbsGoBeforeFiles) {
+TEST_F(GivenFile, IsReportedIfMissingAndVerbsTakePrecedence) {
   const auto missing = run_reckon({folder_.file("none.pcap")});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("there is no file '" + folder_.file("none.pcap") + "'"));
@@ -76,7 +76,7 @@ TEST_F(GivenFile, IsMissedByItsNameAndVerbsGoBeforeFiles) {
   EXPECT_EQ(run_reckon({test::source_dir() + "/scenes"}).status, 2);
 }
 
-TEST_F(GivenFile, IsACaptureForEveryVerbEvenIfItIsCalledAScene) {
+TEST_F(GivenFile, IsACaptureForEveryVerbByContent) {
   const std::string path = folder_.file("recorded.toml");
   std::filesystem::copy_file(shipped("exercise.pcapng"), path);
   const auto inspected = run_reckon({"inspect", path, "stats", "--json"});
@@ -89,7 +89,7 @@ TEST_F(GivenFile, IsACaptureForEveryVerbEvenIfItIsCalledAScene) {
   EXPECT_EQ(viewed.status, 0) << viewed.err;
 }
 
-TEST_F(GivenFile, IsKnownByItsFirstOctetsOrTheEndOfItsName) {
+TEST_F(GivenFile, IsDetectedByItsContentOrName) {
   EXPECT_EQ(kind_of_file(write("A.OBJ", "v 0 0 0\n")), FileKind::mesh);
   EXPECT_EQ(kind_of_file(write("a.stl", "solid a\n")), FileKind::mesh);
   EXPECT_EQ(kind_of_file(write("empty.pcap", "")), FileKind::capture);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon info` and `reckon cut`: what users and scripts rely on.
+// `reckon info` and `reckon cut`: the behaviour that users and scripts rely on.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -50,10 +50,10 @@ TEST(Info, ShowsTheSameToPeople) {
   EXPECT_THAT(result.out, HasSubstr("1:2:2"));
 }
 
-TEST(Info, ReadsALengthOf0AsTheRestIfLenient) {
+TEST(Info, ReadsLengthZeroAsTheRestIfLenient) {
   test::CaptureBuilder capture;
   Octets octets = entity_state(7);
-  octets[9] = std::byte{0};  // of the length field, of 144
+  octets[9] = std::byte{0};  // in the length field, instead of 144
   capture.add(octets, 1s);
   const ProgramResult strict = run_reckon({"info", capture.path()});
   EXPECT_EQ(strict.status, 1);
@@ -63,7 +63,7 @@ TEST(Info, ReadsALengthOf0AsTheRestIfLenient) {
   EXPECT_THAT(lenient.out, AllOf(HasSubstr("1:2:7"), HasSubstr("I-NO-LENGTH")));
 }
 
-TEST(Info, TellsWhereARecordingEndsTooEarly) {
+TEST(Info, ReportsATruncatedRecording) {
   const ScratchFolder folder;
   const std::string path = make_capture(folder, 10, 100ms);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 100);
@@ -73,7 +73,7 @@ TEST(Info, TellsWhereARecordingEndsTooEarly) {
   EXPECT_THAT(run_reckon({"info", path}).out, HasSubstr("damage: "));
 }
 
-TEST(Info, ReadsCompressedCapturesAndSaysHowMuchTheyShrank) {
+TEST(Info, ReadsCompressedCapturesAndReportsTheirRatio) {
   const ScratchFolder folder;
   const std::string path = make_capture(folder, 1000, 100ms, "made.pcapng.zst");
   const json info = info_of(path);
@@ -85,7 +85,7 @@ TEST(Info, ReadsCompressedCapturesAndSaysHowMuchTheyShrank) {
   EXPECT_THAT(run_reckon({"info", path}).out, HasSubstr("times less, 1 zstd frame\n"));
 }
 
-TEST(Info, TellsWhereACompressedRecordingEndsTooEarly) {
+TEST(Info, ReportsATruncatedCompressedRecording) {
   const ScratchFolder folder;
   const std::string path = make_capture(folder, 10, 100ms, "made.pcapng.zst");
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
@@ -94,7 +94,7 @@ TEST(Info, TellsWhereACompressedRecordingEndsTooEarly) {
   EXPECT_THAT(info["problem"].get<std::string>(), HasSubstr("0 of 1 are whole"));
 }
 
-TEST(Info, RefusesWhatIsNoFile) {
+TEST(Info, RefusesOtherSources) {
   const ProgramResult missing = run_reckon({"info", "/nowhere/a.pcapng"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("/nowhere/a.pcapng"));
@@ -109,7 +109,7 @@ TEST(Info, RefusesWhatIsNoFile) {
   EXPECT_THAT(run_reckon({"info", folder.file("empty")}).err, HasSubstr("is empty"));
 }
 
-/// Datagrams that are left after `reckon cut` with these words.
+/// Datagrams that are left after `reckon cut` with these flags.
 std::size_t left_after_cut(const ScratchFolder& folder, const std::string& in,
                            std::vector<std::string> words) {
   words.insert(words.begin(), {"cut", in, folder.file("part.pcapng"), "--force"});
@@ -128,7 +128,7 @@ TEST(Cut, TakesARangeOfTime) {
   EXPECT_EQ(left_after_cut(folder, in, {"--from", "9.95s"}), 0U);
 }
 
-TEST(Cut, TakesWhatIsStampedBeforeTheFirst) {
+TEST(Cut, TakesDatagramsStampedBeforeTheFirst) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 10, -100ms);
   EXPECT_EQ(left_after_cut(folder, in, {}), 10U);
@@ -147,7 +147,7 @@ TEST(Cut, TakesGroupsTypesAndEntities) {
   EXPECT_EQ(left_after_cut(folder, in, {"--entity", "1:*:2", "--type", "attribute"}), 0U);
 }
 
-TEST(Cut, TakesWhatTheFilterMatches) {
+TEST(Cut, TakesFilterMatches) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 100, 100ms);
   EXPECT_EQ(left_after_cut(folder, in, {"--where", "entity.id == 1:*:2"}), 50U);
@@ -155,7 +155,7 @@ TEST(Cut, TakesWhatTheFilterMatches) {
   EXPECT_EQ(left_after_cut(folder, in, {"--where", "type == attribute", "--from", "5s"}), 12U);
 }
 
-TEST(Cut, CompressesByNameAndReadsWhatItWrote) {
+TEST(Cut, CompressesByNameAndReadsItsOutput) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 1000, 100ms);
   const std::string out = folder.file("part.pcapng.zst");
@@ -168,7 +168,7 @@ TEST(Cut, CompressesByNameAndReadsWhatItWrote) {
             run_reckon({"inspect", folder.file("back.pcapng"), "--full"}).out);
 }
 
-TEST(Cut, KeepsTheOctetsOfWhatItTakes) {
+TEST(Cut, KeepsTheOctetsOfTakenDatagrams) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 20, 100ms);
   EXPECT_EQ(left_after_cut(folder, in, {}), 20U);

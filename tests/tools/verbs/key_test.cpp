@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Key files by command, and what the inspector says of sealed datagrams with one and without.
+// Key files by command, and the inspector's output for sealed datagrams with a key and without.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -27,7 +27,7 @@ class KeyVerb : public testing::Test {
   /// 3 datagrams of two Entity States each, sealed, and a greeting.
   [[nodiscard]] std::string sealed_capture() const {
     const peer::GroupKey loaded = peer::load_group_key(key());
-    peer::EnvelopeSealer sealer(loaded, 7, 8, {5, {}});  // an exercise that no capture names
+    peer::EnvelopeSealer sealer(loaded, 7, 8, {5, {}});  // an exercise missing in the capture
     Octets plain = entity_state(1);
     append(plain, pdu::EntityState{});
     peer::CaptureWriter writer({.path = folder_.file("sealed.pcapng")});
@@ -47,7 +47,7 @@ class KeyVerb : public testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(KeyVerb, MakesAFileForItsOwnerAloneAndShowsNoSecret) {
+TEST_F(KeyVerb, MakesOwnerOnlyFilesAndShowsNoSecret) {
   struct stat state {};
   ASSERT_EQ(::stat(key().c_str(), &state), 0);
   EXPECT_EQ(state.st_mode & 07777, 0600U);
@@ -77,7 +77,7 @@ TEST_F(KeyVerb, RefusesANextEpochInThePast) {
   EXPECT_THAT(run_reckon({"key", "show", key()}).out, Not(HasSubstr("epoch  2")));
 }
 
-TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
+TEST_F(KeyVerb, EndsWithStatus2ForAnUnusableKey) {
   EXPECT_EQ(run_reckon({"key", "new", key()}).status, 2);
   const std::string capture = sealed_capture();
   ASSERT_EQ(::chmod(key().c_str(), 0644), 0);
@@ -93,7 +93,7 @@ TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
   }
 }
 
-TEST_F(KeyVerb, LetsAReplaySayWhatIsSealedAndSendItPlainWithTheKey) {
+TEST_F(KeyVerb, ReplaySendsSealedDatagramsAsPlainWithKey) {
   const std::string capture = sealed_capture();
   const std::vector<std::string> line = {"replay", capture, "--rate",
                                          "0",      "--to",  "udp://127.0.0.1:39999"};
@@ -108,7 +108,7 @@ TEST_F(KeyVerb, LetsAReplaySayWhatIsSealedAndSendItPlainWithTheKey) {
   EXPECT_THAT(plain.out, HasSubstr("\"octets\":864")) << "six Entity States";
 }
 
-TEST_F(KeyVerb, LetsTheInspectorReadWhatIsSealed) {
+TEST_F(KeyVerb, InspectorReadsSealedDatagrams) {
   const ProgramResult read = run_reckon({"inspect", sealed_capture(), "--key", key(), "--json"});
   EXPECT_EQ(read.status, 0) << read.err;
   EXPECT_EQ(read.lines().size(), 6U);
@@ -117,7 +117,7 @@ TEST_F(KeyVerb, LetsTheInspectorReadWhatIsSealed) {
   EXPECT_THAT(read.err, HasSubstr("epoch 1, 1 greeting"));
 }
 
-TEST_F(KeyVerb, LetsTheInspectorSayThatItIsSealedWithoutTheKey) {
+TEST_F(KeyVerb, InspectorReportsSealedDatagramsWithoutTheKey) {
   const std::string capture = sealed_capture();
   const ProgramResult read = run_reckon({"inspect", capture, "--json"});
   EXPECT_EQ(read.status, 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Every flag of `reckon peer`: what it changes of a peer on loopback that another one watches, or
-// that it is refused by name.
+// Every flag of `reckon peer`: its effect on a peer on loopback that another one observes, or its
+// refusal by name.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -26,10 +26,10 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Words = std::vector<std::string>;
-/// What a run showed, in words that hold however busy the machine is.
+/// Facts about a run that hold however busy the machine is.
 using Facts = std::set<std::string>;
 
-// Two hands that hold still over a wall.
+// Two hands at rest above a wall.
 constexpr const char* kScene = R"(
 [scene]
 name = "flags"
@@ -48,14 +48,14 @@ position = [0.1, 0.0, 0.05]
 pool = 16
 )";
 
-/// As a marking has it: the first part, and room for a number.
+/// The host name as in a marking: its first part, with room for a number.
 std::string name_of_host() {
   char name[256] = {};
   gethostname(name, sizeof name - 1);
   return std::string(name).substr(0, std::string(name).find('.')).substr(0, 10);
 }
 
-/// A flag, and the fact that comes or goes with it.
+/// A flag, and the fact that appears or disappears with it.
 struct Change {
   std::string flag, value, fact;
   bool is_gained = true;
@@ -73,7 +73,7 @@ void add_summary(const nlohmann::json& row, Facts& facts) {
 class PeerFlags : public testing::Test {
  protected:
   void SetUp() override {
-    // Each test program of a parallel ctest run takes a port of its own.
+    // Each test program of a parallel ctest run uses a port of its own.
     const std::string network =
         "[network]\ngroup = \"239.192.78.60\"\nport = " + std::to_string(20000 + getpid() % 20000) +
         "\n";
@@ -84,7 +84,7 @@ class PeerFlags : public testing::Test {
     ASSERT_EQ(run_reckon({"key", "new", key_}).status, 0);
   }
 
-  /// Of a peer with these flags that peer 2 of the same scene watches for as long as it runs.
+  /// Facts about a peer with these flags, observed by peer 2 of the same scene while it runs.
   [[nodiscard]] static Facts facts_of(const std::string& scene, const Words& flags) {
     std::atomic<bool> stop = false;
     ProgramResult seen;
@@ -126,7 +126,7 @@ class PeerFlags : public testing::Test {
     return facts;
   }
 
-  /// In the place of `mode`'s own value, where it has the flag.
+  /// Replaces the mode's own value of the flag.
   [[nodiscard]] static Words with(Words mode, const std::string& flag, const std::string& value) {
     const auto own = std::ranges::find(mode, flag);
     if (own != mode.end()) {
@@ -146,7 +146,7 @@ class PeerFlags : public testing::Test {
   const Words mode_{"--operator", "1", "--for", "1500ms", "--json"};
 };
 
-TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
+TEST_F(PeerFlags, EachChangeAnObservableFact) {
   const std::string host = "is seen as " + name_of_host();
   const Facts plain = facts_of(scene_, mode_);
   EXPECT_EQ(plain, (Facts{"hears somebody", host, "prints one object", "runs for 1.5 s"}));
@@ -176,7 +176,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   (void)facts_of(scene_, with(mode_, "--log", log_));
   EXPECT_NE(std::ifstream(log_).peek(), std::ifstream::traits_type::eof()) << "no notice in it";
 
-  // Those that the mode has.
+  // Flags of the mode.
   EXPECT_THAT(facts_of(scene_, {"--operator", "1", "--for", "500ms"}), Contains("prints text"));
   EXPECT_THAT(facts_of(scene_, {"--for", "500ms", "--json"}), Contains("finds its number"));
   EXPECT_THAT(plain, Not(Contains("finds its number")));
@@ -186,9 +186,9 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   EXPECT_THAT(led, Not(Contains("follows")));
   EXPECT_THAT(follower, Contains("follows"));
 
-  // Of a flag that is not in this list nobody knows what it does.
-  // The test two_applications shows what --application does, those of the viewer the page's flags,
-  // NativeCode --plugin, and StepTooDear --even-if-slow.
+  // A flag missing in this list has no known effect. The test two_applications covers
+  // --application, the viewer tests the page's flags, NativeCode --plugin, and StepTooDear
+  // --even-if-slow.
   Facts known{"SCENE",  "--help",          "--operator", "--json", "--follow",   "--iface",
               "--seed", "--application",   "--listen",   "--open", "--firmware", "--even-if-slow",
               "--tls",  "--behind-tunnel", "--plugin",   "--log"};
@@ -196,23 +196,23 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
 
-// What cannot change anything is refused before anything is begun.
-TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
+// A useless flag is refused before anything starts.
+TEST_F(PeerFlags, AreRefusedByNameWhereUseless) {
   const std::vector<Words> refused{
       {"--follow", "gate"},  // no groups are handed out
-      {"--seed", "7"},       // nothing is drawn; that it draws otherwise a simulated demo shows
+      {"--seed", "7"},       // nothing is drawn; a simulated demo shows its effect
       {"--iface", "no-such-interface"},
       {"--operator", "0"},
       {"--application", "2"},   // peers agree on their IDs
       {"--listen", "0.0.0.0"},  // there is no page
       {"--tls", "a.crt", "a.key"},
       {"--behind-tunnel"},
-      {"--listen", "0.0.0.0", "--view=0", "--key", key_},  // in clear
+      {"--listen", "0.0.0.0", "--view=0", "--key", key_},  // unencrypted
       {"--tls", "a.crt", "a.key", "--view=0"},             // there is no such file
       {"--plugin", folder_.file("none.so")},
       {"--metrics", "crane"},   // no port
       {"--device", "crane"},    // no such driver
-      {"--firmware", corner_},  // no program of a device
+      {"--firmware", corner_},  // no firmware of a device
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Verbs of another program, which is looked for beside this one and in PATH.
+// Verbs of another program, which is searched beside this one and in PATH.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -22,7 +22,7 @@ class StudyVerbs : public testing::Test {
   StudyVerbs() { setenv("PATH", folder_.file("").c_str(), 1); }
   ~StudyVerbs() override { setenv("PATH", path_.c_str(), 1); }
 
-  /// A script that says which words it got.
+  /// A script that prints its arguments.
   void install() const {
     const std::string program = folder_.file("reckon-bench");
     std::ofstream(program) << "#!/bin/sh\necho \"got: $*\"\nexit 5\n";
@@ -34,7 +34,7 @@ class StudyVerbs : public testing::Test {
   std::string path_ = std::getenv("PATH");
 };
 
-TEST_F(StudyVerbs, SayWhatToDoWhereTheProgramIsNot) {
+TEST_F(StudyVerbs, NameTheRemedyForAMissingProgram) {
   for (const char* verb : {"bench", "figures", "tune", "zwidth"}) {
     const auto result = run_reckon({verb, "--json"});
     EXPECT_EQ(result.status, 3) << verb;
@@ -45,7 +45,7 @@ TEST_F(StudyVerbs, SayWhatToDoWhereTheProgramIsNot) {
   EXPECT_EQ(run_reckon({"completion", "bash"}).status, 0);
 }
 
-TEST_F(StudyVerbs, StartItWithTheirWordsAndEndWithItsStatus) {
+TEST_F(StudyVerbs, PassTheirWordsAndReturnItsStatus) {
   install();
   const auto result = run_reckon({"bench", "scale", "--peers", "4 5"});
   EXPECT_EQ(result.status, 5);

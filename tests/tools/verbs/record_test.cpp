@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon record`: what users and scripts rely on. All traffic stays on the loopback interface.
+// `reckon record`: the behaviour that users and scripts rely on. All traffic stays on the loopback
+// interface.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,7 +27,7 @@ using ::testing::HasSubstr;
 
 const std::vector<std::string> kNames{"a.pcapng", "a.pcapng.zst"};
 
-/// Records what `send` sends until all `count` datagrams are in the file.
+/// Records the traffic of `send` until all `count` datagrams are in the file.
 template <typename Send>
 ProgramResult record(std::vector<std::string> words, const std::string& path, std::size_t count,
                      Send&& send) {
@@ -34,7 +35,7 @@ ProgramResult record(std::vector<std::string> words, const std::string& path, st
   std::atomic<bool> stop{false};
   ProgramResult result{};
   std::thread recorder([&] { result = run_reckon(words, &stop); });
-  // The groups are joined before the file is made.
+  // The groups are joined before the file is created.
   EXPECT_TRUE(soon([&] { return std::filesystem::exists(path); }));
   send();
   EXPECT_TRUE(soon([&] { return datagrams_in(path) == count; })) << datagrams_in(path);
@@ -44,7 +45,7 @@ ProgramResult record(std::vector<std::string> words, const std::string& path, st
   return result;
 }
 
-TEST(Record, WritesWhatWasSentUntilItIsStopped) {
+TEST(Record, WritesSentDatagramsUntilStopped) {
   for (const std::string& name : kNames) {
     const ScratchFolder folder;
     const std::string path = folder.file(name);
@@ -70,7 +71,7 @@ TEST(Record, CompressesWhereItIsAskedTo) {
   EXPECT_EQ(info_of(path)["zstd_frames"], 1);
 }
 
-TEST(Record, TakesOnlyWhatMatches) {
+TEST(Record, TakesOnlyMatches) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.pcapng");
   const ProgramResult result =
@@ -84,7 +85,7 @@ TEST(Record, TakesOnlyWhatMatches) {
   EXPECT_EQ(info_of(path)["entities"][0]["id"], "1:2:2");
 }
 
-TEST(Record, TellsProgramsWhatItHas) {
+TEST(Record, PrintsASummaryAsJson) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.pcapng");
   const ProgramResult result = record({path, "udp://" + group(27).text(), "--iface", "lo", "--json",
@@ -145,8 +146,7 @@ TEST(StatusLine, IsDueEveryFiveSeconds) {
 std::atomic<bool> child_stop{false};
 extern "C" void stop_child(int) { child_stop = true; }
 
-/// Records in a process of its own into a file that may become `limit` octets long; what it says
-/// goes to `path`.out.
+/// Records in a child process into a file limited to `limit` octets; its messages go to `path`.out.
 pid_t begin_recording(const std::string& path, const peer::GroupAddress& from,
                       rlim_t limit = RLIM_INFINITY) {
   const pid_t child = fork();
@@ -161,7 +161,7 @@ pid_t begin_recording(const std::string& path, const peer::GroupAddress& from,
   _exit(result.status);
 }
 
-/// The same, ended by `signal` once 30 datagrams are in it; its wait status.
+/// The same, ended by `signal` once 30 datagrams are in it; returns its wait status.
 int end_recording(const std::string& path, const peer::GroupAddress& from, int signal) {
   const pid_t child = begin_recording(path, from);
   EXPECT_TRUE(soon([&] { return std::filesystem::exists(path); }));
@@ -181,7 +181,7 @@ TEST(Record, LeavesAReadableFileWhenKilled) {
   EXPECT_EQ(info["problem"], "");
 }
 
-TEST(Record, LeavesAReadableCompressedFileWhenKilledAndTheFileSaysSo) {
+TEST(Record, LeavesAReadableCompressedFileWhenKilled) {
   const ScratchFolder folder;
   EXPECT_TRUE(WIFSIGNALED(end_recording(folder.file("a.pcapng.zst"), group(28), SIGKILL)));
   const json info = info_of(folder.file("a.pcapng.zst"), 1);
@@ -219,11 +219,11 @@ TEST(Record, CountsEveryDatagramThatTheKernelDropped) {
     const std::string path = folder.file(name);
     const pid_t child = begin_recording(path, group(30));
     EXPECT_TRUE(soon([&] { return std::filesystem::exists(path); }));
-    kill(child, SIGSTOP);  // as a machine that is too busy
+    kill(child, SIGSTOP);  // simulates a busy machine
     std::size_t sent = 20'000;
     send_some(group(30), sent);
     kill(child, SIGCONT);
-    // The kernel tells its count with a datagram that it did deliver.
+    // The kernel reports its count with the next delivered datagram.
     EXPECT_TRUE(soon([&] {
       ++sent;
       send_some(group(30), 1, 2);
@@ -243,14 +243,14 @@ TEST(Record, CountsEveryDatagramThatTheKernelDropped) {
   }
 }
 
-TEST(Record, LeavesAWholeFileOnAFullDiskAndSaysWhatIsSafe) {
+TEST(Record, LeavesAWholeFileOnAFullDisk) {
   for (const std::string& name : kNames) {
     const ScratchFolder folder;
     const std::string path = folder.file(name);
     const pid_t child = begin_recording(path, group(29), 4000);
     EXPECT_TRUE(soon([&] { return std::filesystem::exists(path); }));
     int status = 0;
-    // Entity States that compress, so many that no file of 4,000 octets holds them.
+    // Compressible Entity States, too many for a file of 4,000 octets.
     EXPECT_TRUE(soon([&] {
       send_some(group(29), 20);
       return waitpid(child, &status, WNOHANG) == child;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon replay`: what users and scripts rely on. All traffic stays on the loopback interface.
+// `reckon replay`, as users and scripts call it. All traffic stays on the loopback interface.
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A receiver on the loopback interface, as any other program would be.
+/// A receiver on the loopback interface, like any other program.
 class Receiver {
  public:
   explicit Receiver(std::initializer_list<peer::GroupAddress> groups)
@@ -50,7 +50,7 @@ class Receiver {
     }
     return out;
   }
-  /// The endpoints from which all of that came.
+  /// The source endpoints of everything that arrived.
   [[nodiscard]] const std::set<std::string>& senders() const { return senders_; }
 
  private:
@@ -75,7 +75,7 @@ TEST(Replay, ReachesTheSocketsOfThisHost) {
   EXPECT_EQ(receiver.senders().size(), 1U) << "one sender, from one port";
 }
 
-TEST(Replay, SendsWhatIsStampedBeforeTheFirst) {
+TEST(Replay, SendsDatagramsStampedBeforeTheFirst) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 6, -10ms);
   Receiver receiver({group(0), group(1)});
@@ -96,7 +96,7 @@ TEST(Replay, KeepsTheTimesOfTheCapture) {
     EXPECT_EQ(run_reckon({"replay", in, "--rate", rate}).status, 0);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  // Never early; how late depends on the machine's load, and is told rather than tested.
+  // Never early; the lateness depends on the machine's load, and is reported rather than tested.
   EXPECT_GE(seconds("1"), 0.3);
   EXPECT_GE(seconds("0.5"), 0.6);
   EXPECT_GE(seconds("3"), 0.1);
@@ -149,7 +149,7 @@ TEST(Replay, ReadsCompressedCapturesAndFilters) {
   EXPECT_EQ(receiver.take(), std::vector<Octets>(20, entity_state(2)));
 }
 
-TEST(Replay, TellsProgramsWhatItDid) {
+TEST(Replay, PrintsASummaryAsJson) {
   const ScratchFolder folder;
   const ProgramResult result = run_reckon(
       {"replay", make_capture(folder, 11, 10ms), "--rate", "2", "--loop", "3", "--json"});
@@ -171,7 +171,7 @@ TEST(Replay, TellsProgramsWhatItDid) {
   EXPECT_EQ(line["problem"], "");
 }
 
-/// What a packet socket on `interface` sees of datagrams to `to`, put together.
+/// Reassembled datagrams to `to` that a packet socket on `interface` receives.
 std::vector<Octets> captured_on(peer::DatagramSource& source, const peer::GroupAddress& to) {
   std::vector<Octets> out;
   peer::SourceDatagram datagram;
@@ -181,7 +181,7 @@ std::vector<Octets> captured_on(peer::DatagramSource& source, const peer::GroupA
   return out;
 }
 
-TEST(Replay, SendsWhatIsAboveTheMtuInFragmentsAndTellsIt) {
+TEST(Replay, SendsDatagramsAboveTheMtuInFragments) {
   RECKON_IN_OWN_NETWORK([] {
     test::make_cable();
     const ScratchFolder folder;
@@ -206,7 +206,7 @@ TEST(Replay, SendsWhatIsAboveTheMtuInFragmentsAndTellsIt) {
   });
 }
 
-TEST(Replay, SendsARealSessionToALanWithoutLoss) {
+TEST(Replay, SendsRealSessionsToALanWithoutLoss) {
   RECKON_NEED_DATA("dis-captures");
   const auto file = test::reference_data() / "dis-captures/real-sessions/gaz69-patrol.pcap";
   RECKON_IN_OWN_NETWORK([&] {
@@ -316,7 +316,7 @@ TEST(Replay, EndsInGoodOrderWhenStopped) {
   EXPECT_THAT(result.err, HasSubstr("replayed 1 datagram "));
 }
 
-TEST(Replay, AsksWhereToSendWhatWentToNoGroup) {
+TEST(Replay, RequestsADestinationForUnicastCaptures) {
   const ScratchFolder folder;
   const std::string path = folder.file("unicast.pcapng");
   {
@@ -333,7 +333,7 @@ TEST(Replay, AsksWhereToSendWhatWentToNoGroup) {
   EXPECT_THAT(result.err, HasSubstr("--to udp://"));
 }
 
-TEST(Replay, SaysWhereNothingCouldBeSent) {
+TEST(Replay, ReportsThatNothingCouldBeSent) {
   const ScratchFolder folder;
   const ProgramResult result =
       run_reckon({"replay", make_capture(folder, 5, 1ms), "--to", "udp://192.0.2.1:3000"});
@@ -384,7 +384,7 @@ TEST(Replay, NamesTheMistake) {
   EXPECT_THAT(result.err, HasSubstr("none0"));
 }
 
-TEST(ReplayReach, SaysAtLeastBeyondWhatItCounts) {
+TEST(ReplayReach, CountsAtLeastBeyondItsLimit) {
   ReplayReach reach;
   const auto note = [&](std::size_t port) {
     reach.note(peer::IpEndpoint::v4(0xEFC00100, static_cast<std::uint16_t>(port)));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon scene explain`: what a scene declares, what it leaves out, and what is between peers.
+// `reckon scene explain`: what a scene declares and omits, and the settings between peers.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ using ::testing::StartsWith;
 
 constexpr const char* kOperator = "[[operator]]\npassive = true\n";
 
-TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
+TEST(SceneExplain, CountsTheGroupsOfTheRadius) {
   const TemporaryScene scene("[aoim]\nscheme = \"square\"\nradius = \"3 m\"\ngroups = 20\n");
   const auto result = run_reckon({"scene", "explain", scene.path()});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -38,7 +38,7 @@ TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
   EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
 }
 
-TEST(SceneExplain, SaysWhoReceivesAnUpdate) {
+TEST(SceneExplain, NamesTheRecipientsOfAnUpdate) {
   const auto explain = [](const std::string& tiers) {
     const TemporaryScene scene("[aoim]\npool = 100\nradius = \"90 m\"\n" + tiers);
     return run_reckon({"scene", "explain", scene.path()}).out;
@@ -56,7 +56,7 @@ TEST(SceneExplain, SaysWhoReceivesAnUpdate) {
   EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches as far as the radius of 90 m"));
 }
 
-TEST(SceneExplain, SaysWhatHangsOnWhat) {
+TEST(SceneExplain, PrintsTheTreeOfNodes) {
   const TemporaryScene scene(
       "[[node]]\nname = \"table\"\n"
       "[[node]]\nname = \"cup\"\nparent = \"table\"\nkind = \"switch\"\nshows = \"full\"\n"
@@ -89,7 +89,7 @@ TEST(SceneExplain, SaysWhatHangsOnWhat) {
   EXPECT_THAT(run_reckon({"scene", "explain", plain.path()}).out, Not(HasSubstr("SCENE GRAPH")));
 }
 
-TEST(SceneExplain, SaysWhatAQuadTreeCosts) {
+TEST(SceneExplain, PrintsTheCostOfAQuadTree) {
   const test::ScratchFolder folder;
   std::ofstream sample(folder.file("town.csv"));
   sample << "x_m,y_m\n";
@@ -106,7 +106,7 @@ TEST(SceneExplain, SaysWhatAQuadTreeCosts) {
   EXPECT_THAT(result.out, HasSubstr("with equal squares of 1 km"));
 }
 
-TEST(SceneExplain, SaysHowManyLocalesThereAre) {
+TEST(SceneExplain, CountsLocales) {
   const TemporaryScene scene(
       "[aoim]\nscheme = \"locales\"\nradius = \"3 m\"\n"
       "[[aoim.locale]]\nname = \"a\"\nsize = [4, 6, 0]\nneighbours = \"b\"\n"
@@ -137,7 +137,7 @@ TEST(SceneExplain, ListsExactlyTheEffectsThatTheSceneDeclares) {
   EXPECT_THAT(absent, testing::ElementsAre("ball"));
 }
 
-TEST(SceneExplain, SaysHowToHaveWhatIsLeftOut) {
+TEST(SceneExplain, ShowsHowToAddOmittedEffects) {
   const TemporaryScene scene(kPlain);
   const auto result = run_reckon({"scene", "explain", scene.path()});
   EXPECT_EQ(result.status, 0);
@@ -160,7 +160,7 @@ TEST(SceneExplain, ListsTheEffectsOfRegions) {
   EXPECT_THAT(out.substr(absent), HasSubstr("a [[region]]"));
 }
 
-TEST(SceneExplain, OfAnEmptyWorldSaysThatNothingRuns) {
+TEST(SceneExplain, ReportsThatNothingRunsInAnEmptyWorld) {
   const TemporaryScene scene("");
   const auto result = run_reckon({"scene", "explain", scene.path()});
   EXPECT_EQ(result.status, 0);
@@ -168,7 +168,7 @@ TEST(SceneExplain, OfAnEmptyWorldSaysThatNothingRuns) {
   EXPECT_THAT(result.out, Not(HasSubstr("stick_slip")));
 }
 
-TEST(SceneExplain, SaysHowLargeThingsAreMade) {
+TEST(SceneExplain, PrintsTheLimits) {
   const TemporaryScene scene("");
   const auto text = run_reckon({"scene", "explain", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("LIMITS"));
@@ -186,7 +186,7 @@ TEST(SceneExplain, SaysHowLargeThingsAreMade) {
   EXPECT_THAT(limits["peers known"], HasSubstr("1024"));
 }
 
-/// What `explain` says of each thing that peers have: value of `what`, by "PEER HAS".
+/// The fact `what` of each thing that peers own, by "PEER HAS".
 std::map<std::string, std::string> facts(const std::string& text, const std::string& what) {
   const TemporaryScene scene(text);
   const auto result = run_reckon({"scene", "explain", "--json", scene.path()});
@@ -201,8 +201,8 @@ std::map<std::string, std::string> facts(const std::string& text, const std::str
   return found;
 }
 
-// By hand: a hand has at most K = 0.95 b / (T (1 + 2 d)), a wall 3/4 of twice that.
-TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
+// Computed by hand: a hand has at most K = 0.95 b / (T (1 + 2 d)), a wall 3/4 of twice that.
+TEST(SceneExplain, PrintsTheStiffnessOfEachDevice) {
   const std::string text = std::string(kOperator) +
                            "[hand]\nk1 = 500\ndamping = 0\n"
                            "[[device]]\nmarking = \"A\"\n"
@@ -219,8 +219,8 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
   EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("hands up to 450 N/m"));
 }
 
-// Half of what a device of 1 N s/m holds goes into the damper, 950 N/m becomes 475 N/m.
-TEST(SceneExplain, TellsOneStiffnessOfAHandAndThatItsDamperTakesTheRest) {
+// Half of what a device of 1 N s/m holds is used by the damper: 950 N/m becomes 475 N/m.
+TEST(SceneExplain, PrintsAHandsStiffnessBesideItsDamper) {
   const std::string text = std::string(kOperator) +
                            "[hand]\nk1 = 700\ndamping = 2\n[[device]]\n"
                            "[[entity]]\nmarking = \"POST\"\ntype = \"5.1\"\npeer = 2\n"
@@ -235,7 +235,7 @@ TEST(SceneExplain, TellsOneStiffnessOfAHandAndThatItsDamperTakesTheRest) {
 }
 
 // 0.95 of 2 b / T is 1900 N/m: 1900 N/s at 1 m/s.
-TEST(SceneExplain, TellsHowFastTheForceOfEachDeviceMayGrow) {
+TEST(SceneExplain, PrintsTheForceRateLimitOfEachDevice) {
   const std::string text = std::string(kOperator) +
                            "[[device]]\nmarking = \"A\"\n"
                            "[[device]]\nmarking = \"B\"\nmax_force_rate = 300\n"
@@ -246,7 +246,7 @@ TEST(SceneExplain, TellsHowFastTheForceOfEachDeviceMayGrow) {
   EXPECT_THAT(grows["1 device 3 C"], StartsWith("up to 1.9 kN/s of 5 kN/s asked"));
 }
 
-TEST(SceneExplain, TellsWhatAHandFeelsObjectsWith) {
+TEST(SceneExplain, PrintsTheContactShapeOfAHand) {
   const TemporaryScene ball("[hand]\ncontact_radius = \"2 mm\"\n"), point("");
   EXPECT_THAT(run_reckon({"scene", "explain", ball.path()}).out,
               HasSubstr("feels objects with a ball of 2 mm"));
@@ -254,8 +254,8 @@ TEST(SceneExplain, TellsWhatAHandFeelsObjectsWith) {
               HasSubstr("feels objects with a point"));
 }
 
-// A surface may lean on 3/4 of the damping: 1425 N/m of 1900 N/m.
-TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
+// A surface may use 3/4 of the damping: 1425 N/m of 1900 N/m.
+TEST(SceneExplain, ReportsSoftenedSurfaces) {
   const auto with = [](const std::string& stiffness) {
     return facts(std::string(kPlain) + "surface = { stiffness = " + stiffness + " }\n",
                  "stiffness")["1 device 1 "];
@@ -265,7 +265,7 @@ TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
   EXPECT_THAT(with("1800"), testing::ContainsRegex("^walls up to 1.43 kN/m, .*; hands as asked"));
 }
 
-TEST(SceneExplain, TellsWhatEachPeerHas) {
+TEST(SceneExplain, PrintsThePossessionsOfEachPeer) {
   const std::string text = std::string(kOperator) +
                            "[[device]]\npeer = 3\n[[entity]]\npeer = 1\nmarking = \"POST\"\n"
                            "type = \"Platform Land Switzerland Tank\"\nposition = [1, 2, 3]\n"

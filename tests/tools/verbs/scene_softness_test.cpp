@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon scene check` and `explain` of a scene that asks more than its devices can show.
+// `reckon scene check` and `explain` of a scene that requests more than its devices can show.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -26,7 +26,7 @@ constexpr const char* kStiff =
     "[hand]\nk1 = 1500\ndamping = 0\n";
 
 // 1 N s/m at 1 kHz: 0.95 x 2 b/T is 1900 N/m, 3/4 of it for walls and half for hands.
-TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
+TEST(SceneCheck, ReportsWhatTheDefaultDeviceSoftens) {
   const TemporaryScene scene(kStiff);
   const auto text = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(text.status, 0);
@@ -43,8 +43,8 @@ TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
   EXPECT_EQ(json["softened"][1]["shown"], 950);
 }
 
-// What limits it is what would help.
-TEST(SceneCheck, TellsWhetherDampingOrTheLimitOfTheDeviceWouldShowMore) {
+// The remedy depends on the limit.
+TEST(SceneCheck, NamesDampingOrTheDeviceLimitAsRemedy) {
   const auto wall = [](const std::string& device) {
     const TemporaryScene scene(
         "[[object]]\nname = \"wall\"\nplane = [1, 0, 0]\nsurface = { stiffness = 20000 }\n"
@@ -61,8 +61,8 @@ TEST(SceneCheck, TellsWhetherDampingOrTheLimitOfTheDeviceWouldShowMore) {
               HasSubstr("a greater max_stiffness in [[device]]"));
 }
 
-// Of 1 N s/m three quarters are for surfaces, half of it at most for dampers.
-TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
+// Of 1 N s/m three quarters are for surfaces, at most half for dampers.
+TEST(SceneCheck, ReportsRequestedAndReservedDamping) {
   const auto check = [](const std::string& damping, bool json) {
     const TemporaryScene scene(
         "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\nsurface = { stiffness = 100, damping = " +
@@ -79,7 +79,7 @@ TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
   EXPECT_EQ(row["asked"], 2.125);
   EXPECT_EQ(row["shown"], 0.375);
   EXPECT_EQ(row["unit"], "N s/m");
-  // Walls are left what the device itself keeps.
+  // Walls get the rest of the device's damping.
   const auto felt = [](const std::string& damping) {
     const TemporaryScene scene(
         "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\n"
@@ -93,8 +93,8 @@ TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
   EXPECT_GT(felt("0.37"), felt("0.375"));
 }
 
-// 0.3 m / 3.5 T of a ball.
-TEST(SceneCheck, TellsWhichDampersWouldTurnALightBody) {
+// Limit: 0.3 m / 3.5 T for a ball.
+TEST(SceneCheck, ReportsDampersTooStrongForALightBody) {
   const auto check = [](const std::string& mass) {
     const TemporaryScene scene(
         "[[object]]\nname = \"ball\"\nsphere = \"20 mm\"\nmass = \"" + mass +
@@ -109,7 +109,7 @@ TEST(SceneCheck, TellsWhichDampersWouldTurnALightBody) {
   EXPECT_THAT(check("40 g"), Not(HasSubstr("drag of ball")));
 }
 
-TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
+TEST(SceneCheck, ReportsOnlyTheWeakDevices) {
   const TemporaryScene scene(
       std::string(kStiff) +
       "[[operator]]\npassive = true\n[[device]]\nmarking = \"STRONG\"\ndamping = 20\n"
@@ -121,7 +121,7 @@ TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
   EXPECT_THAT(text.out, Not(HasSubstr("hand asks for"))) << "2 N s/m show 1900 N/m";
 }
 
-TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
+TEST(SceneCheck, ReportsTheSlopeLimitOfAHardeningHand) {
   const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\ndamping = 0\n");
   const auto text = run_reckon({"scene", "check", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("k3 of [hand] is felt up to a slope of 950 N/m, 3.16 mm deep"));
@@ -132,18 +132,18 @@ TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
   EXPECT_NEAR(json["softened"][0]["from_m"].get<double>(), 0.00316228, 1e-7);
 }
 
-TEST(SceneCheck, SaysNothingOfSofteningWhereAllIsShownAsAsked) {
+TEST(SceneCheck, ReportsNoSofteningIfAllIsShown) {
   const TemporaryScene scene(std::string(kPlain) + "[hand]\nk1 = 475\n");
   EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
   const TemporaryScene defaults{kPlain};
   EXPECT_THAT(run_reckon({"scene", "check", defaults.path()}).out, Not(HasSubstr("felt with")));
-  // Half of what the device could show of a spring goes into the damper of 0.5 N s/m.
+  // The damper of 0.5 N s/m uses half of the spring that the device could show.
   const TemporaryScene stiffer(std::string(kPlain) + "[hand]\nk1 = 476\n");
   EXPECT_THAT(run_reckon({"scene", "check", stiffer.path()}).out,
               HasSubstr("hand asks for 476 N/m and is felt with 475 N/m"));
 }
 
-TEST(SceneExplain, SaysWithWhichStiffnessAWallIsFeltBesideWhatItAsks) {
+TEST(SceneExplain, ShowsAWallsFeltStiffness) {
   const TemporaryScene scene(std::string(kStiff) +
                              "[[object]]\nname = \"soft\"\nsphere = 1\n"
                              "surface = { stiffness = 300 }\n");

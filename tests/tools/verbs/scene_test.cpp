@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon scene`: what it says of good and bad scene files, of meshes, and of what devices show
-// softer.
+// `reckon scene`: its output for good and bad scene files, meshes, and softened stiffness.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -32,7 +31,7 @@ TEST(SceneCheck, IsContentWithAGoodFile) {
   EXPECT_THAT(result.out, StartsWith(scene.path() + ": good; 2 objects, 0 operators, hash "));
 }
 
-TEST(SceneCheck, NotesThatTheRadiusHearsEverythingOrReachesTheCap) {
+TEST(SceneCheck, NotesARadiusThatReachesAllGroups) {
   const TemporaryScene all("[aoim]\npool = 16\nradius = \"20 m\"\n");
   const auto everything = run_reckon({"scene", "check", all.path()});
   EXPECT_EQ(everything.status, 0);
@@ -55,7 +54,7 @@ TEST(SceneCheck, RefusesAPoolThatNoDemoWouldTake) {
   }
 }
 
-TEST(SceneCheck, TellsPlaceAndRemedyOfEachProblem) {
+TEST(SceneCheck, NamesPlaceAndRemedyOfEachProblem) {
   const TemporaryScene scene("[[object]]\nname = \"a\"\nsphere = 1\nsurface = { stifness = 8 }\n");
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
@@ -63,7 +62,7 @@ TEST(SceneCheck, TellsPlaceAndRemedyOfEachProblem) {
             scene.path() + ":4:13: unknown key 'stifness' (did you mean 'stiffness'?)\n");
 }
 
-TEST(SceneCheck, LooksAtEveryFileAndTellsTheWorst) {
+TEST(SceneCheck, ChecksEveryFileAndReturnsTheWorst) {
   const TemporaryScene good(kPlain);
   const TemporaryScene bad("[scene]\nnane = 3\n");
   const auto result = run_reckon({"scene", "check", bad.path(), good.path()});
@@ -72,7 +71,7 @@ TEST(SceneCheck, LooksAtEveryFileAndTellsTheWorst) {
   EXPECT_THAT(result.out, HasSubstr(good.path() + ": good"));
 }
 
-TEST(SceneCheck, TellsWhatIsWrongWithAMesh) {
+TEST(SceneCheck, ReportsABadMesh) {
   const TemporaryScene mesh("this is no mesh\n");
   const TemporaryScene scene(fmt::format("[[object]]\nname = \"a\"\nmesh = \"{}\"\n", mesh.path()));
   const auto result = run_reckon({"scene", "check", scene.path()});
@@ -85,8 +84,8 @@ std::string scene_of(const test::TemporaryMesh& mesh) {
   return fmt::format("[[object]]\nname = \"stone\"\nmesh = \"{}\"\n", mesh.path().string());
 }
 
-// A cube of 100 m, that is of 100 mm drawn in millimetres; one face is missing, one turned, one
-// twice.
+// A cube of 100 m, meant as 100 mm in millimetres; one face is missing, one reversed, one
+// duplicate.
 std::string bad_cube() {
   test::MeshData cube = test::cube();
   for (auto& v : cube.vertices) v *= 100.0;
@@ -96,7 +95,7 @@ std::string bad_cube() {
   return test::obj_text(cube);
 }
 
-TEST(SceneCheck, TellsTheSizeOfAMeshAndNothingElseWhereItIsGood) {
+TEST(SceneCheck, PrintsOnlyTheSizeOfAGoodMesh) {
   const test::TemporaryMesh mesh(".obj", test::obj_text(test::cube()));
   const TemporaryScene scene(scene_of(mesh));
   const auto result = run_reckon({"scene", "check", scene.path()});
@@ -105,7 +104,7 @@ TEST(SceneCheck, TellsTheSizeOfAMeshAndNothingElseWhereItIsGood) {
   EXPECT_THAT(result.out, Not(HasSubstr("note: mesh")));
 }
 
-TEST(SceneCheck, CountsThePatchesOfAMeshAndTellsWhatIsNotFound) {
+TEST(SceneCheck, CountsPatchesAndReportsMissingOnes) {
   const test::TemporaryMesh mesh(
       ".obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nusemtl felt\nf 1 3 4\n");
   const TemporaryScene scene(scene_of(mesh) +
@@ -127,7 +126,7 @@ TEST(SceneCheck, CountsThePatchesOfAMeshAndTellsWhatIsNotFound) {
               HasSubstr("\"felt\", number 1, stiffness 200 N/m"));
 }
 
-TEST(SceneCheck, TellsWhatWasMendedInAMesh) {
+TEST(SceneCheck, ReportsRepairsOfAMesh) {
   const test::TemporaryMesh mesh(".obj", bad_cube());
   const TemporaryScene scene(scene_of(mesh));
   const auto result = run_reckon({"scene", "check", scene.path()});
@@ -156,7 +155,7 @@ TEST(SceneCheck, TellsWhatWasMendedInAMesh) {
   EXPECT_EQ(row["notes"].size(), facts["notes"].size() + row["softened"].size());
 }
 
-TEST(SceneExplain, TellsWhatWasMendedInAMesh) {
+TEST(SceneExplain, ReportsRepairsOfAMesh) {
   const test::TemporaryMesh mesh(".obj", bad_cube());
   const TemporaryScene scene(scene_of(mesh));
   const auto text = run_reckon({"scene", "explain", scene.path()});
@@ -173,7 +172,7 @@ TEST(SceneExplain, TellsWhatWasMendedInAMesh) {
   EXPECT_EQ(meshes, 1);
 }
 
-TEST(SceneCheck, TellsThatAMeshIsDrawnFarAway) {
+TEST(SceneCheck, ReportsAMeshFarAway) {
   const test::TemporaryMesh mesh(".obj",
                                  test::obj_text(test::cube(), {4321012.25, 678901.5, 432.0}));
   const TemporaryScene scene(scene_of(mesh));
@@ -183,7 +182,7 @@ TEST(SceneCheck, TellsThatAMeshIsDrawnFarAway) {
   EXPECT_THAT(run_reckon({"scene", "check", centred.path()}).out, Not(HasSubstr("note: mesh")));
 }
 
-TEST(SceneCheck, NamesFileAndLineOfAFaultInAMesh) {
+TEST(SceneCheck, NamesFileAndLineOfAMeshFault) {
   const test::TemporaryMesh mesh(".obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
   const TemporaryScene scene(scene_of(mesh));
   const auto result = run_reckon({"scene", "check", scene.path()});
@@ -193,7 +192,7 @@ TEST(SceneCheck, NamesFileAndLineOfAFaultInAMesh) {
   EXPECT_THAT(result.out, HasSubstr("object \"stone\""));
 }
 
-TEST(SceneCheck, TellsWhatIsWrongWithATrace) {
+TEST(SceneCheck, ReportsABadTrace) {
   const TemporaryScene trace("t_s,px_m\n0,0\n");
   const TemporaryScene scene(fmt::format("[[operator]]\ntrace = \"{}\"\n", trace.path()));
   const auto result = run_reckon({"scene", "check", scene.path()});
@@ -226,7 +225,7 @@ std::string bodies_on_a_table(const std::string& cube2_at, const std::string& mo
          "[[operator]]\npassive = true\nposition = \"0 0 300 mm\"\n[[device]]\npeer = 1\n";
 }
 
-TEST(SceneCheck, TellsWhichBodiesBeginInsideAnotherAndHowToPartThem) {
+TEST(SceneCheck, NamesOverlappingBodiesAndTheirSeparation) {
   const TemporaryScene scene(bodies_on_a_table("3 0 66.9 mm"));
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
@@ -239,7 +238,7 @@ TEST(SceneCheck, TellsWhichBodiesBeginInsideAnotherAndHowToPartThem) {
               StartsWith("object 'cube2' begins 3.1 mm deep"));
 }
 
-TEST(SceneCheck, IsContentWithBodiesThatRestOnOneAnother) {
+TEST(SceneCheck, AcceptsBodiesThatRestOnOneAnother) {
   for (const char* place : {"0 0 70 mm", "0 0 69.991 mm", "40 0 30 mm", "0 0 90 mm"}) {
     const TemporaryScene scene(bodies_on_a_table(place));
     const auto result = run_reckon({"scene", "check", scene.path()});
@@ -249,7 +248,7 @@ TEST(SceneCheck, IsContentWithBodiesThatRestOnOneAnother) {
   EXPECT_EQ(run_reckon({"scene", "check", deeper.path()}).status, 1);
 }
 
-TEST(SceneCheck, TellsOfBodiesInPlanesAndMeshesAndNotOfWhatStandsStill) {
+TEST(SceneCheck, ReportsBodiesInPlanesAndMeshes) {
   const TemporaryScene floor(bodies_on_a_table(
       "200 0 30 mm",
       "[[object]]\nname = \"ground\"\nplane = \"0 0 1\"\nposition = \"0 0 15 mm\"\n"));
@@ -287,7 +286,7 @@ TEST(SceneCheck, GivesOneJsonObjectALine) {
   EXPECT_EQ(second["column"], 1);
 }
 
-TEST(SceneNew, PrintsASceneThatIsGoodAsItIsAndWithAllItsExamples) {
+TEST(SceneNew, PrintsAValidSceneWithValidExamples) {
   const auto result = run_reckon({"scene", "new"});
   EXPECT_EQ(result.status, 0);
   std::string examples;
@@ -312,7 +311,7 @@ TEST(SceneKeysVerb, PrintsTheTablesOfTheDocumentation) {
   }
 }
 
-TEST(SceneVerb, SaysWhatItWants) {
+TEST(SceneVerb, PrintsItsUsage) {
   EXPECT_EQ(run_reckon({"scene"}).status, 2);
   EXPECT_EQ(run_reckon({"scene", "check"}).status, 2);
   EXPECT_EQ(run_reckon({"scene", "chekc", "x.toml"}).status, 2);

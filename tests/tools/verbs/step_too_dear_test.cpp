@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A scene that no host can run: a mesh of slivers that all meet where the hand is, at 10 kHz.
+// A scene that no host can run: a mesh of slivers that all meet at the hand, at 10 kHz.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -16,7 +16,7 @@ using test::run_reckon;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(StepTooDear, IsRefusedByDemoAndPeerWithTheDearestStagesAndTheSwitch) {
+TEST(StepTooDear, IsRefusedWithDearestStagesAndTheSwitch) {
   const test::ScratchFolder folder;
   test::write_obj(test::sliver_cone(100'000), folder.file("cone.obj"));
   std::ofstream(folder.file("cone.toml"))
@@ -34,7 +34,7 @@ TEST(StepTooDear, IsRefusedByDemoAndPeerWithTheDearestStagesAndTheSwitch) {
   EXPECT_EQ(peer.status, 3);
   EXPECT_THAT(peer.err, HasSubstr("a servo step that touches cone takes "));
 
-  // The hand is far from the cone. A run that is over before anybody looked tells it too.
+  // The hand is far from the cone. A run that ends before the first check reports it, too.
   const auto all_the_same =
       run_reckon({"peer", scene, "--iface", "lo", "--for", "1us", "--events", "--even-if-slow"});
   EXPECT_EQ(all_the_same.status, 0) << all_the_same.err;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What pages may do: the first tab that asks gets the first free hand, nobody moves another's, and
-// the network's law is what the sliders say.
+// The rights of pages: the first tab to ask gets the first free hand, no tab moves another's hand,
+// and the sliders set the network's law.
 #include "reckon/tools/verbs/view_controls.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class ViewControlsTest : public ::testing::Test {
   std::optional<ViewControls> controls_;
 };
 
-TEST_F(ViewControlsTest, GiveTheFirstTabTheFirstFreeHandAndTheThirdNone) {
+TEST_F(ViewControlsTest, GiveTheFirstTabTheFirstFreeHand) {
   EXPECT_TRUE(controls_->is_free(1));
   EXPECT_FALSE(controls_->is_free(0)) << "it follows no pointer";
   EXPECT_EQ(take(7), 1);
@@ -72,7 +72,7 @@ TEST_F(ViewControlsTest, LetGoWhereATabGoes) {
   EXPECT_FALSE(inboxes_[0].sample().held);
 }
 
-TEST_F(ViewControlsTest, SetTheLawAndKeepWhatNoSliderSets) {
+TEST_F(ViewControlsTest, SetTheLawAndKeepItsOtherValues) {
   EXPECT_EQ(controls_->set_network({100, 20, 0.5F, false}),
             "network: 100 ms delay, 20 ms jitter, 50 % loss");
   EXPECT_EQ(set_.delay, 100ms);
@@ -86,7 +86,7 @@ TEST_F(ViewControlsTest, SetTheLawAndKeepWhatNoSliderSets) {
   EXPECT_EQ(set_.loss, 0.0);
 }
 
-TEST_F(ViewControlsTest, SayThatThereIsNoNetworkToChange) {
+TEST_F(ViewControlsTest, ReportThatThereIsNoNetworkToChange) {
   ViewControls without(law_, nullptr);
   EXPECT_EQ(without.set_network({100, 0, 0, false}),
             "this program has no network of its own to change");

@@ -34,7 +34,7 @@ TEST(ViewVerb, ServesACaptureAndPrintsItsAddressAlone) {
   EXPECT_THAT(result.err, HasSubstr("0 tabs looked"));
 }
 
-TEST(ViewVerb, SaysWhomElseAnAddressLetsIn) {
+TEST(ViewVerb, PrintsThePageAddressOfAnOpenListener) {
   test::CaptureBuilder capture;
   const auto result =
       run_reckon({"view", capture.path(), "--port", "0", "--listen", "0.0.0.0", "--for", "50ms"});
@@ -42,7 +42,7 @@ TEST(ViewVerb, SaysWhomElseAnAddressLetsIn) {
   EXPECT_THAT(result.out, HasSubstr("http://127.0.0.1:"));
 }
 
-TEST(ViewVerb, KeyIsServedToOthersByTlsOrATunnelAlone) {
+TEST(ViewVerb, KeyNeedsTlsOrATunnelForOthers) {
   test::CaptureBuilder capture;
   const test::ScratchFolder folder;
   const std::string key = folder.file("k.key"), own = test::write_certificate(folder.file("own"));
@@ -68,7 +68,7 @@ TEST(ViewVerb, KeyIsServedToOthersByTlsOrATunnelAlone) {
   EXPECT_THAT(swapped.err, HasSubstr("is no certificate in PEM"));
 }
 
-TEST(ViewVerb, RefusesWhatItCannotServe) {
+TEST(ViewVerb, RefusesUnreadableSourcesAndBadAddresses) {
   EXPECT_EQ(run_reckon({"view", "/no/such.pcap", "--port", "0"}).status, 2);
   EXPECT_EQ(run_reckon({"view", "/no/such.toml", "--port", "0"}).status, 2);
   test::CaptureBuilder capture;
@@ -81,7 +81,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(ViewVerb, SavesAPageThatHoldsTheEndOfACapture) {
+TEST(ViewVerb, SavesAPageWithACapturesEnd) {
   test::CaptureBuilder capture;
   for (const trucks::Sent& sent : trucks::drive(2, 4)) capture.add(sent.octets, sent.time);
   const test::ScratchFolder folder;
@@ -102,7 +102,7 @@ TEST(ViewVerb, SavesAPageThatHoldsTheEndOfACapture) {
   EXPECT_THAT(end.err, AllOf(HasSubstr("1.0 s, 2 entities"), HasSubstr("the 2.5 s before are")));
 }
 
-TEST(ViewVerb, ShowsWhoLeavesTheLengthFieldAt0IfLenient) {
+TEST(ViewVerb, ShowsPdusWithALengthOf0IfLenient) {
   test::CaptureBuilder capture;
   for (const trucks::Sent& sent : trucks::drive(2, 1)) {
     std::vector<std::byte> octets = sent.octets;
@@ -145,7 +145,7 @@ TEST(ViewVerb, IsNoPartOfASimulatedDemo) {
   EXPECT_EQ(run_reckon({"demo", "--view=x", "--for", "1s"}).status, 2);
 }
 
-TEST(ViewVerb, OfADemoIsServedToOtherHostsWhereThatIsAskedFor) {
+TEST(ViewVerb, DemoServesOtherHostsOnRequest) {
   const auto alone = run_reckon({"demo", "--view=0", "--for", "200ms"});
   EXPECT_EQ(alone.status, 0);
   EXPECT_THAT(alone.err, HasSubstr("page: http://127.0.0.1:"));

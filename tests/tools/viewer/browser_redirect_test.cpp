@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Sets a variable of the environment for a scope.
+/// Sets an environment variable for a scope.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -52,7 +52,7 @@ TEST(BrowserRedirect, KeepsTheWordOutOfArguments) {
   const Variable path("PATH", fs::path(fake).parent_path().string() + ":" + std::getenv("PATH"));
   const Variable run("XDG_RUNTIME_DIR", fs::path(fake).parent_path().string());
   auto redirect = std::make_unique<BrowserRedirect>("http://127.0.0.1:8642/#word=5ec4e7");
-  std::string arguments = text_of(told);  // until the program has said them
+  std::string arguments = text_of(told);  // until the program has printed them
   arguments.pop_back();
   EXPECT_THAT(arguments, Not(HasSubstr("5ec4e7")));
   const fs::path file = arguments.substr(arguments.find(' ') + 1);

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(OwnHands, MarkTheForceOfAHiddenTwinWhileItFeels) {
+TEST(OwnHands, MarkTheForceOfAHiddenTwin) {
   OwnHands hands{peer::HandModel{}};
   hands.add(0, {});
   hands.add(1, {});
@@ -26,13 +26,13 @@ TEST(OwnHands, MarkTheForceOfAHiddenTwinWhileItFeels) {
   EXPECT_EQ(frame.twins[0].energy, -0.25);
   EXPECT_EQ(frame.twins[0].resets, 3U);
 
-  hands.set_twin(1, {std::nullopt, 0, 4});  // it stands aside
+  hands.set_twin(1, {std::nullopt, 0, 4});  // it is not shown
   frame = hands.frame(0ns, true);
   EXPECT_EQ(frame.hands[1].flags & kHandTwin, 0);
   EXPECT_EQ(frame.twins.size(), 1U);
 }
 
-// By the software stop, or by a device that lets go: these are two things.
+// By the software stop, or by a device that releases: two different causes.
 TEST(OwnHands, AreMarkedWhereTheirForceIsStopped) {
   OwnHands hands{peer::HandModel{}};
   hands.add(0, {});

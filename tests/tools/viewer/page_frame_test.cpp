@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A page of three modules, of which one is imported twice.
+/// A page of three modules, one of which is imported twice.
 std::string_view small_page(std::string_view name) {
   static const std::map<std::string_view, std::string_view> kFiles{
       {"index.html",
@@ -34,14 +34,14 @@ std::size_t count_of(std::string_view text, std::string_view part) {
   return count;
 }
 
-TEST(PageFrame, JoinsEachModuleOnceAndBeforeWhoImportsIt) {
+TEST(PageFrame, JoinsEachModuleOnceBeforeItsImporters) {
   EXPECT_EQ(bundle_modules("main.js", small_page),
             "const c = 1;\nfunction b() { return c; }\nb(c);\n");
 }
 
 TEST(PageFrame, LetsItsOwnScriptAndStyleAloneRun) {
   const std::string frame = page_frame(small_page);
-  // SHA-256 of the two texts, by another program.
+  // SHA-256 of the two texts, computed by another program.
   EXPECT_THAT(frame,
               HasSubstr("default-src 'none'; "
                         "script-src 'sha256-AYXB7hUV2fe9ZDuwX+4dGpmnmEloLjrCSjqoRAVm/LE='; "
@@ -61,7 +61,7 @@ TEST(PageFrame, OfThePageItselfAsksForNothingElse) {
     EXPECT_THAT(std::string(frame->text), Not(HasSubstr(absent)));
 }
 
-TEST(PageFrame, HoldsWhatItIsToPlayWhateverIsInIt) {
+TEST(PageFrame, EmbedsAnyContentSafely) {
   const auto items = nlohmann::json::array({"</script><script>alert(1)</script>", "<!--"});
   const std::string file = filled_frame(page_frame(small_page), items.dump());
   EXPECT_EQ(count_of(file, "</script>"), 2U) << "its own";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whom the page of a program lets look, and what strangers take of its room.
+// Access to the page of a program, and the room that strangers may use.
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 constexpr const char* kWord = "?word=1f2e";
 constexpr int kTicksASecond = 30;
 
-/// All till it hangs up; the text of its last message.
+/// Reads until the server closes the connection; returns the text of the last message.
 std::string last_words(Tab& tab) {
   for (int i = 0; i < kMostRounds && tab.take(); ++i) continue;
   if (tab.texts.empty() || tab.texts.back()["type"] != "bye") return {};

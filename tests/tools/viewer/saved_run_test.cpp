@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr auto kMinute = SaveOptions::kMinute;
 
-/// A stage that has taken `count` trucks of `length` [s].
+/// A stage that has taken `count` trucks for `length` [s].
 class TakenTrucks {
  public:
   TakenTrucks(std::uint16_t count, double length) : stage(options()) {
@@ -61,7 +61,7 @@ T value_at(const std::string& octets, std::size_t place) {
   return value;
 }
 
-/// What is in a run: its pictures, and its texts by type.
+/// The content of a run: its pictures, and its texts by type.
 struct Parts {
   explicit Parts(const SavedRun& run) {
     for (const json& item : json::parse(run.items)) {
@@ -77,7 +77,7 @@ struct Parts {
   std::vector<std::string> pictures;
 };
 
-TEST(SavedRun, IsWhatATabWouldHaveGotThirtyTimesASecond) {
+TEST(SavedRun, HasAllPicturesOfATab) {
   TakenTrucks taken(3, 10);
   const SavedRun run = save_run(taken.stage, {});
   const Parts parts(run);
@@ -97,7 +97,7 @@ TEST(SavedRun, IsWhatATabWouldHaveGotThirtyTimesASecond) {
   EXPECT_NEAR(value_at<double>(parts.pictures.back(), 8), 9.503, 0.01);
 }
 
-TEST(SavedRun, KeepsTheTextThatAPageNeedsAndMayPushNothing) {
+TEST(SavedRun, KeepsTheTextsOfAPageWithoutRights) {
   TakenTrucks taken(3, 10);
   taken.stage.note("info", "not for others");
   const Parts parts(save_run(taken.stage, {}));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The page by https, to a client of OpenSSL.
+// The page over https, with a client of OpenSSL.
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>
 
@@ -21,7 +21,7 @@ using served::Client;
 using served::kMostRounds;
 using served::Served;
 
-/// A client that speaks TLS, of at most this version.
+/// A TLS client of at most this version.
 class SecureClient : public Client {
  public:
   explicit SecureClient(Served& served, int version = TLS1_3_VERSION)
@@ -40,7 +40,7 @@ class SecureClient : public Client {
         finish([&] { return SSL_write(ssl_.get(), text.data(), static_cast<int>(text.size())); }),
         static_cast<int>(text.size()));
   }
-  /// What comes until this is in it, or the end.
+  /// Reads until the data contains `wanted`, or to the end.
   std::string hear(std::string_view wanted) {
     std::string all;
     std::array<char, 4096> room;

@@ -24,7 +24,7 @@ using served::status_of;
 using served::Tab;
 using served::upgrade;
 
-TEST(ViewServer, GivesThePageAndItsFilesWithTheirPolicy) {
+TEST(ViewServer, ServesThePagesFilesWithTheirPolicy) {
   Served served;
   const std::string page = answer_to(served, request(served, "GET /"));
   EXPECT_EQ(status_of(page), "HTTP/1.1 200");
@@ -45,7 +45,7 @@ TEST(ViewServer, GivesThePageAndItsFilesWithTheirPolicy) {
   EXPECT_TRUE(frame.ends_with("</html>\n"));
 }
 
-TEST(ViewServer, HasNothingForWhatIsNoFileOfThePage) {
+TEST(ViewServer, ServesNothingElse) {
   Served served;
   for (const std::string line :
        {"GET /../etc/passwd", "GET /..%2f..%2fetc/passwd", "GET /index.html/..", "GET //", "POST /",
@@ -93,7 +93,7 @@ TEST(ViewServer, OpensNoStreamWithoutTheHandshakeOfRfc6455) {
         << name;
 }
 
-TEST(ViewServer, HangsUpOnAHeadOf20KilobytesAndOnWhoSaysNothing) {
+TEST(ViewServer, ClosesOnLongHeadsAndSilentClients) {
   Served served;
   Client long_winded(served);
   long_winded.send(request(served, "GET /", {{"Cookie", std::string(20'000, 'x')}}));
@@ -119,7 +119,7 @@ TEST(ViewServer, GivesMarkupInMarkingsAsText) {
   EXPECT_TRUE(is_named);
 }
 
-TEST(ViewServer, SendsAPictureEachTickToWhoDraws) {
+TEST(ViewServer, SendsAPictureEachTickToDrawingTabs) {
   Served served;
   Tab tab(served);
   for (int i = 0; i < 30; ++i) {
@@ -132,7 +132,7 @@ TEST(ViewServer, SendsAPictureEachTickToWhoDraws) {
   EXPECT_NEAR(static_cast<double>(tab.pictures.size()), 31, 1);
 }
 
-TEST(ViewServer, SendsTwoPicturesToWhoNeverReads) {
+TEST(ViewServer, SendsTwoPicturesToAStalledTab) {
   Served served(200);
   Tab stalled(served, "", 4096), busy(served);
   for (int i = 0; i < 3; ++i) served.tick();
@@ -149,7 +149,7 @@ TEST(ViewServer, SendsTwoPicturesToWhoNeverReads) {
   EXPECT_EQ(stalled.pictures.size(), 2U);
 }
 
-TEST(ViewServer, GivesTheNewestToWhoIsSlow) {
+TEST(ViewServer, SendsTheNewestPictureToASlowTab) {
   Served served;
   Tab slow(served);
   slow.take();
@@ -162,7 +162,7 @@ TEST(ViewServer, GivesTheNewestToWhoIsSlow) {
   EXPECT_GT(slow.time(), 3.0);
 }
 
-TEST(ViewServer, TurnsTheNextTabAwayWithASentenceAndTakesItWhenOneHasGone) {
+TEST(ViewServer, RefusesTabsBeyondItsLimit) {
   Served served;
   std::vector<std::unique_ptr<Tab>> tabs;
   for (std::size_t i = 0; i < ViewServer::kMostTabs; ++i)
@@ -181,7 +181,7 @@ TEST(ViewServer, TurnsTheNextTabAwayWithASentenceAndTakesItWhenOneHasGone) {
   EXPECT_EQ(next.texts.at(0)["type"], "hello");
 }
 
-TEST(ViewServer, HangsUpOnFramesThatNoPageOfOursSends) {
+TEST(ViewServer, ClosesOnUnexpectedFrames) {
   Served served;
   const std::map<std::string, std::function<void(Tab&)>> frames{
       {"unmasked", [](Tab& tab) { tab.send(std::string("\x82\x01\x04", 3)); }},
@@ -211,14 +211,14 @@ TEST(ViewServer, TakesFramesThatComeInPieces) {
   EXPECT_EQ(served.server.tabs(), 1U);
 }
 
-TEST(ViewServer, SaysGoodByeWhenItEnds) {
+TEST(ViewServer, SendsACloseFrameAtItsEnd) {
   auto served = std::make_unique<Served>();
   auto tab = std::make_unique<Tab>(*served);
   tab->take();
   const auto sent = served->server.counts().tabs;
   EXPECT_EQ(sent, 1U);
   tab.reset();
-  served.reset();  // with nobody there any more
+  served.reset();  // without any client left
 }
 
 TEST(ViewServer, NamesTheAddressThatATabOpens) {
@@ -227,7 +227,7 @@ TEST(ViewServer, NamesTheAddressThatATabOpens) {
   EXPECT_TRUE(served.server.addresses_for_others().empty()) << "this host alone reaches it";
 }
 
-TEST(ViewServer, TakesTheNextPortWhereTheFirstIsTakenAndRefusesOneThatWasNamed) {
+TEST(ViewServer, TakesTheNextPortUnlessOneIsGiven) {
   ViewStage stage{StageOptions{}};
   const ViewServer first(stage, {"127.0.0.1", std::nullopt, "w"});
   const ViewServer second(stage, {"127.0.0.1", std::nullopt, "w"});

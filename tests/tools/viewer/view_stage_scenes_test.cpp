@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a tab learns of a scene and of its peers, and what it may push.
+// The information of a tab about a scene and its peers, and its rights to push.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -23,8 +23,8 @@ using trucks::seconds;
 
 peer::SceneFile scene_of(const char* text) { return peer::parse_scene_file(text, "scene.toml"); }
 
-TEST(ViewStage, TellsWhoSharesAContactGroupWhereTheSceneHasSome) {
-  // Trucks are heard by group 5: the first one behind those of cells.
+TEST(ViewStage, ListsTheMembersOfAContactGroup) {
+  // Trucks are received in group 5: the first one after the cells' groups.
   const peer::SceneFile scene = scene_of("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n");
   StageOptions options;
   options.scene = &scene;
@@ -45,7 +45,7 @@ TEST(ViewStage, TellsWhoSharesAContactGroupWhereTheSceneHasSome) {
   EXPECT_TRUE(other.last("groups").is_null()) << "nothing is known without a scene";
 }
 
-TEST(ViewStage, TellsTheThresholdsOfTheSceneAndTheFollowedOnesOwn) {
+TEST(ViewStage, SendsTheThresholdsOfSceneAndFollowedEntity) {
   const peer::SceneFile scene = scene_of(
       "[[operator]]\npassive = true\n[dead_reckoning]\nposition = \"1 mm\"\n"
       "[[entity]]\nmarking = \"TRUCK\"\ntype = \"1.1\"\ndead_reckoning = {position = \"3 m\"}\n");
@@ -61,7 +61,7 @@ TEST(ViewStage, TellsTheThresholdsOfTheSceneAndTheFollowedOnesOwn) {
   EXPECT_EQ(tab.last("numbers")["error"]["followed_m"], 3.0);
 }
 
-TEST(ViewStage, TellsHowThePeersReceiveEachOtherAsOfTheInstant) {
+TEST(ViewStage, SendsTheReceptionAmongPeers) {
   LiveTrucks live;
   Tab tab(live.stage, false);
   live.run(seconds(1), {&tab});
@@ -78,7 +78,7 @@ TEST(ViewStage, TellsHowThePeersReceiveEachOtherAsOfTheInstant) {
   EXPECT_EQ(tab.last("numbers")["peers"]["lost_share"], 0.2);
 }
 
-/// Notes what pages ask of it.
+/// Records the requests of pages.
 class NotedControls final : public ViewerControls {
  public:
   HandAnswer take_hand(Watcher watcher) override {
@@ -100,7 +100,7 @@ class NotedControls final : public ViewerControls {
   int networks = 0;
 };
 
-TEST(ViewStage, LetsOnlyWhoKnowsTheWordPush) {
+TEST(ViewStage, OnlyTabsWithThePasswordMayPush) {
   NotedControls controls;
   StageOptions options;
   options.controls = &controls;

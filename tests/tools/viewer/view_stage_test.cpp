@@ -32,10 +32,10 @@ StageOptions capture_options() {
   return options;
 }
 
-TEST(ViewStage, GreetsATabThenShowsWhatIsThereThirtyTimesASecond) {
+TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   LiveTrucks live;
   Tab tab(live.stage, false);
-  tab.take();  // before anybody is heard
+  tab.take();  // before anything was received
   live.run(seconds(2), {&tab});
   ASSERT_FALSE(tab.texts.empty());
   EXPECT_EQ(tab.texts[0]["type"], "hello");
@@ -55,7 +55,7 @@ TEST(ViewStage, GreetsATabThenShowsWhatIsThereThirtyTimesASecond) {
   EXPECT_NEAR(static_cast<double>(numbers), 8, 1);
 }
 
-TEST(ViewStage, SendsTwoPicturesToATabThatDrawsNoneAndThenNothing) {
+TEST(ViewStage, SendsTwoPicturesToATabWithoutDrawing) {
   LiveTrucks live;
   Tab idle(live.stage, false), busy(live.stage, false);
   idle.draws = false;
@@ -67,7 +67,7 @@ TEST(ViewStage, SendsTwoPicturesToATabThatDrawsNoneAndThenNothing) {
   EXPECT_GT(busy.pictures.size(), 900U);
 }
 
-TEST(ViewStage, GivesTheNewestPictureToATabThatIsSlow) {
+TEST(ViewStage, SendsTheNewestPictureToASlowTab) {
   LiveTrucks live;
   Tab slow(live.stage, false);
   slow.draws = false;
@@ -81,7 +81,7 @@ TEST(ViewStage, GivesTheNewestPictureToATabThatIsSlow) {
   EXPECT_EQ(slow.watcher().under_way.size(), 1U) << "a number that was never sent";
 }
 
-TEST(ViewStage, SendsOnePictureAtATimeToATabThatDrawsLate) {
+TEST(ViewStage, SendsLateTabsOnePictureAtATime) {
   LiveTrucks live;
   Tab late(live.stage, false);
   late.draws = false;
@@ -148,7 +148,7 @@ TEST(ViewStage, StepsByASecondOrByOneUpdate) {
   EXPECT_NEAR(step(-2), 3.503, 1e-9);
 }
 
-TEST(ViewStage, ShowsNoMoreThanTheMinuteThatIsKept) {
+TEST(ViewStage, ShowsNoMoreThanTheKeptMinute) {
   LiveTrucks live;
   Tab tab(live.stage, false);
   live.run(seconds(150), {&tab});
@@ -161,7 +161,7 @@ TEST(ViewStage, ShowsNoMoreThanTheMinuteThatIsKept) {
   EXPECT_EQ(tab.head().entities, 3);
 }
 
-TEST(ViewStage, MarksAGapThatTheSourceTells) {
+TEST(ViewStage, MarksAGapOfTheSource) {
   LiveTrucks live;
   Tab tab(live.stage, false);
   live.run(seconds(2), {&tab});
@@ -173,10 +173,10 @@ TEST(ViewStage, MarksAGapThatTheSourceTells) {
   EXPECT_EQ(tab.head().flags & kPictureGap, 0);
 }
 
-TEST(ViewStage, PlaysACaptureFromItsBeginToItsEnd) {
+TEST(ViewStage, PlaysACaptureFromBeginningToEnd) {
   ViewStage stage(capture_options());
   for (const Sent& sent : trucks::drive(2, 20)) ASSERT_TRUE(stage.take(trucks::datagram_of(sent)));
-  nanoseconds now = seconds(5'000);  // of a clock of its own
+  nanoseconds now = seconds(5'000);  // of its own clock
   const auto run = [&](nanoseconds span, Tab& tab) {
     for (const nanoseconds end = now + span; now < end;) {
       stage.pass(now += kTick);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A scene of their own.
+// A scene of the external project.
 #pragma once
 
 namespace theirs {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Records of their own.
+// Records of the external project.
 #pragma once
 
 namespace theirs {

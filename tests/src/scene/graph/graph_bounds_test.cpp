@@ -66,7 +66,8 @@ std::vector<NodeIndex> culled_by_force(const SceneGraph& graph, const Entries& e
   return found;
 }
 
-/// The nearest of the six faces that the ray crosses inside its border; 0 from inside.
+/// The distance to the nearest of the six faces that the ray crosses within its border; 0 from
+/// inside.
 std::optional<double> entered(const BoxBounds& box, const NodePose& pose, const Vector3d& from,
                               const Vector3d& along) {
   const Eigen::Matrix3d axes = pose.orientation.toRotationMatrix();
@@ -111,7 +112,7 @@ std::optional<Picked> picked_by_force(const SceneGraph& graph, const Entries& en
   return first;
 }
 
-TEST(GraphBounds, FindWhatBruteForceFinds) {
+TEST(GraphBounds, FindTheSameAsBruteForce) {
   std::size_t seen = 0, hit = 0, missed = 0;
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     RandomGraph random(seed);
@@ -176,7 +177,7 @@ TEST(GraphBounds, SeeAlongTheXAxisOfTheEye) {
   EXPECT_FALSE(sees({10.2, 0, 0}));
 }
 
-TEST(GraphBounds, OfWhatASwitchHidesAreNotFound) {
+TEST(GraphBounds, OmitContentHiddenByASwitch) {
   std::vector<GraphNode> nodes(4);
   nodes[0].name = "root";
   nodes[0].kind = NodeKind::switch_;

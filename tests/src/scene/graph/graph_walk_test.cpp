@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walk of thesis fig 5.2: its order, and the state that is modified on the way.
+// The walk of thesis fig 5.2: its order, and the state that it modifies on the way.
 #include "reckon/peer/scene/graph/graph_walk.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ GraphNode group(std::string name, std::optional<std::string> parent) {
   return made;
 }
 
-TEST(DrawWalk, DrawsEachGeometryWithTheLightsThatStandBeforeIt) {
+TEST(DrawWalk, DrawsGeometryWithTheLightsBeforeIt) {
   using enum NodeContent::Kind;
   const std::vector<GraphNode> nodes = {
       group("root", {}),           leaf("dark", "root", geometry), leaf("sun", "root", light),
@@ -52,7 +52,7 @@ TEST(DrawWalk, DrawsEachGeometryWithTheLightsThatStandBeforeIt) {
   EXPECT_THAT(drawn, ElementsAre("dark", "table sun lamp", "tree sun"));
 }
 
-TEST(DrawWalk, GoesTheWayOfARecursionOverATree) {
+TEST(DrawWalk, MatchesARecursionOverATree) {
   std::size_t drawn = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     RandomGraph random(seed);
@@ -85,7 +85,7 @@ TEST(DrawWalk, GoesTheWayOfARecursionOverATree) {
   EXPECT_GT(drawn, 500U);
 }
 
-TEST(GraphWalk, RestoresTheStateOnTheWayUpAndVisitsNothingBelowARefusedNode) {
+TEST(GraphWalk, RestoresStateAndSkipsBelowARefusedNode) {
   const std::vector<GraphNode> nodes = {group("a", {}),  group("b", "a"), group("c", "b"),
                                         group("d", "a"), group("e", "d"), group("f", "a")};
   const SceneGraph graph(nodes);

@@ -47,7 +47,7 @@ std::vector<std::string> names_of(const SceneGraph& graph) {
 
 NodeIndex at(const SceneGraph& graph, std::string_view name) { return graph.find(name).value(); }
 
-TEST(SceneGraph, StandsInTheOrderOfTheWalkWhateverTheOrderOfTheList) {
+TEST(SceneGraph, HasWalkOrderForAnyList) {
   const std::vector<GraphNode> nodes = {node("right", "root"), node("leaf", "left"),
                                         node("root", {}), node("left", "root"),
                                         node("under", "right")};
@@ -59,7 +59,7 @@ TEST(SceneGraph, StandsInTheOrderOfTheWalkWhateverTheOrderOfTheList) {
   EXPECT_EQ(graph.name(graph.place_of(1)), "leaf");
 }
 
-TEST(SceneGraph, PlacesNodesAsARecursionOverATreeDoes) {
+TEST(SceneGraph, PlacesNodesAsARecursionDoes) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     RandomGraph random(seed);
     const auto nodes = random.nodes({.nodes = 1000, .up = seed - 1.0, .moving = 0.2});
@@ -80,7 +80,7 @@ TEST(SceneGraph, PlacesNodesAsARecursionOverATreeDoes) {
   }
 }
 
-/// The octets of what a graph says of its nodes, and of nothing between them.
+/// The node state of a graph as octets, without padding.
 std::string state_of(const SceneGraph& graph) {
   std::string octets;
   const auto add = [&](const auto& value) {
@@ -99,7 +99,7 @@ std::string state_of(const SceneGraph& graph) {
   return octets;
 }
 
-/// The same changes for both graphs.
+/// Makes the same changes to both graphs.
 void change(SceneGraph& graph, RandomGraph& random, std::size_t changes) {
   for (std::size_t i = 0; i < changes; ++i) {
     const auto one = static_cast<NodeIndex>(random.below(static_cast<std::size_t>(graph.size())));
@@ -112,7 +112,7 @@ void change(SceneGraph& graph, RandomGraph& random, std::size_t changes) {
   }
 }
 
-TEST(SceneGraph, IsAfterAnyChangesEqualBitByBitToAWholeRewrite) {
+TEST(SceneGraph, ChangesEqualAWholeRewriteBitByBit) {
   RandomGraph random(7);
   const auto nodes = random.nodes({.nodes = 1000, .moving = 0.05, .procedural = 0.3});
   SceneGraph changed(nodes), whole(nodes);
@@ -136,7 +136,7 @@ TEST(SceneGraph, IsAfterAnyChangesEqualBitByBitToAWholeRewrite) {
   EXPECT_LT(shown, 300 * changed.size()) << "something is hidden";
 }
 
-TEST(SceneGraph, OfAHundredThousandNodesWithOneLeafInAHundredChangedIsEqualToo) {
+TEST(SceneGraph, ChangesEqualARewriteOfManyNodes) {
   for (const GraphShape& shape : {GraphShape{.nodes = 100000, .up = 1.0},
                                   GraphShape{.nodes = 100000, .up = 3.0, .deepest = 10}}) {
     RandomGraph random(11);
@@ -156,7 +156,7 @@ TEST(SceneGraph, OfAHundredThousandNodesWithOneLeafInAHundredChangedIsEqualToo) 
   }
 }
 
-TEST(SceneGraph, KeepsWhatDidNotChange) {
+TEST(SceneGraph, KeepsUnchangedNodes) {
   const std::vector<GraphNode> nodes = {node("root", {}), node("a", "root", {1, 0, 0}),
                                         node("b", "a", {1, 0, 0}), node("c", "root", {0, 1, 0})};
   SceneGraph graph(nodes);
@@ -319,7 +319,7 @@ TEST(SceneGraph, HasNoCircle) {
   EXPECT_EQ(faults[1].node, 4U);
 }
 
-TEST(SceneGraph, RefusesWhatIsNoNode) {
+TEST(SceneGraph, RefusesInvalidNodes) {
   std::vector<GraphNode> nodes = {node("a", {}), node("b", "a"), node("c", "a")};
   const auto with = [&](auto change) {
     std::vector<GraphNode> changed = nodes;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The rules of `reckon inspect check`: each fires on the fault that is planted for it and on
-// nothing else, and says what to do.
+// The rules of `reckon inspect check`: each reports its injected fault and nothing else, with a
+// remedy.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -27,7 +27,7 @@ struct Planted {
   Plant plant;
 };
 
-/// A fault made in the octets of such a datagram.
+/// Injects a fault into the octets of a datagram.
 Plant in_octets(const std::function<void(Octets&)>& change) {
   return [change](CaptureBuilder& capture) {
     Octets datagram = datagram_of(truck(seconds(4)));
@@ -45,7 +45,7 @@ void plant_kilometres_per_hour(CaptureBuilder& capture) {
   }
 }
 
-/// Two updates 500 m to the side of the way.
+/// Two updates 500 m beside the path.
 void plant_teleport(CaptureBuilder& capture) {
   for (int i = 4; i < 6; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
@@ -69,7 +69,7 @@ void plant_other_host(CaptureBuilder& capture) {
   capture.add(datagram_of(truck(seconds(6))), kStart + seconds(6), Sender{2, 3000, 0});
 }
 
-/// A truck whose timestamp stands still from its fourth second on.
+/// A truck whose timestamp stays constant from its fourth second on.
 void plant_still_stamps(CaptureBuilder& capture) {
   for (int i = 4; i < 10; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
@@ -188,7 +188,7 @@ std::vector<Planted> planted_courses() {
       {"I-UNKNOWN-TYPE", in_octets([](Octets& o) { o[2] = std::byte{222}; })},
       {"I-FOREIGN",
        [](CaptureBuilder& capture) {
-         for (int i = 0; i < 3; ++i)  // told once
+         for (int i = 0; i < 3; ++i)  // reported once
            capture.add(Octets(40, std::byte{0}), kStart + seconds(4 + i));
        }},
       {"I-COPIES",
@@ -227,11 +227,11 @@ TEST(InspectCheck, FindsNothingInGoodTraffic) {
   EXPECT_EQ(checked.summary["warnings"], 0);
 }
 
-/// Faults that break a second rule by their nature.
+/// Faults that inevitably break a second rule.
 const std::map<std::string, std::set<std::string>> kAlso{{"W-ATTRIBUTE-ORDER", {"I-BUNDLE-ORDER"}},
                                                          {"W-SIZE", {"W-TRAILING"}}};
 
-TEST(InspectCheck, FiresEachRuleOnItsFaultAloneAndOnce) {
+TEST(InspectCheck, EachRuleReportsItsFaultOnlyAndOnce) {
   for (const Planted& fault : planted()) {
     SCOPED_TRACE(fault.code);
     CaptureBuilder capture;
@@ -274,13 +274,13 @@ TEST(InspectCheck, NamesTheOctetOfTheField) {
   EXPECT_EQ(compared, octets.size());
 }
 
-TEST(InspectCheck, HasAPlantedFaultForEveryRuleThatOctetsCanBreak) {
+TEST(InspectCheck, EveryRuleHasAnInjectedFault) {
   std::set<std::string_view> rules;
   for (const CheckRule& rule : check_rules()) rules.insert(rule.code);
   EXPECT_EQ(rules.size(), check_rules().size()) << "a code twice";
   for (const Planted& fault : planted()) EXPECT_EQ(rules.erase(fault.code), 1U) << fault.code;
-  // E-TYPE is for callers of the codec that ask for a type; the limit has a test of its own.
-  // Notes of a lenient reader have one with it.
+  // E-TYPE is for callers of the codec that request a type; the entity limit has a test of its own.
+  // Notes of a lenient reader are tested with it.
   EXPECT_EQ(rules,
             (std::set<std::string_view>{"E-TYPE", "I-ENTITY-LIMIT", "I-NO-LENGTH", "I-TRAILING"}));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect check`: what it writes of a finding, what it takes for no fault over time, and
-// recorded exercises of a real product, which give no finding but the datagram that was cut.
+// `reckon inspect check`: the text of a finding, events that are not a fault over time, and
+// recorded exercises of a real product, whose only finding is a datagram that was cut.
 #include "reckon/tools/inspect/check/check_view.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using test::Sender;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(InspectCheck, WritesAFindingWithTheKeysOthersRelyOn) {
+TEST(InspectCheck, WritesAFindingWithItsJsonKeys) {
   CaptureBuilder capture;
   pdu::EntityState pdu = truck(seconds(0));
   pdu.force_id = pdu::ForceId{77};
@@ -44,7 +44,7 @@ TEST(InspectCheck, WritesAFindingWithTheKeysOthersRelyOn) {
             R"("rules":{"I-BUNDLE-ORDER":1,"W-SIDE":1}})");
 }
 
-TEST(InspectCheck, TellsFrameOctetReasonAndRemedyToPeople) {
+TEST(InspectCheck, PrintsFrameOctetReasonAndRemedy) {
   CaptureBuilder capture;
   drive(capture);
   in_fields([](auto& pdu) { pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm{77}; })(
@@ -69,7 +69,7 @@ TEST(InspectCheck, WritesCsvWithTitles) {
             "30\",send 0 to 30");
 }
 
-TEST(InspectCheck, TellsALastingFaultOnceUntilItIsRightAgain) {
+TEST(InspectCheck, ReportsALastingFaultOnceUntilCorrected) {
   CaptureBuilder capture;
   for (int i = 0; i < 9; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
@@ -85,7 +85,7 @@ TEST(InspectCheck, HoldsRelativeTimestampsAgainstTheArrival) {
     CaptureBuilder capture;
     for (int i = 0; i < 20; ++i) {
       pdu::EntityState pdu = truck(seconds(i));
-      // Counts from an origin of its own, across the end of its hour, 1.5 times too fast or right.
+      // Counts from its own origin, across the end of its hour, 1.5 times too fast or right.
       const nanoseconds told = seconds(3590) + milliseconds(i * (drifts ? 1500 : 1000));
       pdu.header.timestamp = pdu::to_dis_timestamp(told, false);
       pdu.linear_velocity.y = drifts ? 10.0F / 1.5F : 10.0F;
@@ -95,7 +95,7 @@ TEST(InspectCheck, HoldsRelativeTimestampsAgainstTheArrival) {
   }
 }
 
-TEST(InspectCheck, TellsUnixSecondsInTimestampsOnce) {
+TEST(InspectCheck, ReportsUnixSecondsInTimestampsOnce) {
   CaptureBuilder capture;
   for (int i = 0; i < 12; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
@@ -129,7 +129,7 @@ TEST(InspectCheck, CountsCopiesOfOneSenderAtTheEnd) {
   EXPECT_TRUE(notes_of(milliseconds(1), Sender{2, 3000, 0}).empty()) << "a bridge";
 }
 
-TEST(InspectCheck, ChecksPdusThatHaveOctetsBehindTheirLastField) {
+TEST(InspectCheck, ChecksPdusWithTrailingOctets) {
   CaptureBuilder capture;
   pdu::EntityState pdu = truck(seconds(0));
   pdu.force_id = pdu::ForceId{77};
@@ -141,7 +141,7 @@ TEST(InspectCheck, ChecksPdusThatHaveOctetsBehindTheirLastField) {
             (std::map<std::string, int>{{"W-SIDE", 1}, {"W-TRAILING", 1}}));
 }
 
-TEST(InspectCheck, TellsOfSilenceUntilTheEndButNotOfWhoSaidGoodbye) {
+TEST(InspectCheck, ReportsSilenceUnlessAfterAFarewell) {
   for (const bool goodbye : {false, true}) {
     CaptureBuilder capture;
     pdu::EntityState plane = truck(seconds(0));
@@ -159,7 +159,7 @@ TEST(InspectCheck, TellsOfSilenceUntilTheEndButNotOfWhoSaidGoodbye) {
   }
 }
 
-TEST(InspectCheck, TakesARestartFromANewPortForNoDuplicate) {
+TEST(InspectCheck, TakesARestartForNoDuplicate) {
   CaptureBuilder capture;
   drive(capture);
   for (int i = 4; i < 8; ++i)
@@ -169,12 +169,12 @@ TEST(InspectCheck, TakesARestartFromANewPortForNoDuplicate) {
   EXPECT_EQ(check(capture.path()).codes()["W-DUPLICATE-ID"], 1);
 }
 
-TEST(InspectCheck, TakesASharpTurnAndAJumpForNoContradiction) {
+TEST(InspectCheck, TakesSharpTurnsAndJumpsForNoContradiction) {
   CaptureBuilder capture;
   double y = 0;
   for (int i = 0; i < 40; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
-    const float velocity = i / 10 % 2 == 0 ? 10.0F : -10.0F;  // turns back all ten seconds
+    const float velocity = i / 10 % 2 == 0 ? 10.0F : -10.0F;  // turns back every ten seconds
     pdu.linear_velocity = {0, velocity, 0};
     if (i == 25) y += 500;
     pdu.location.y = y;
@@ -184,19 +184,19 @@ TEST(InspectCheck, TakesASharpTurnAndAJumpForNoContradiction) {
   EXPECT_EQ(check(capture.path()).codes(), (std::map<std::string, int>{{"W-TELEPORT", 1}}));
 }
 
-TEST(InspectCheck, ReadsVelocityInBodyAxesWhereTheModelSaysSo) {
+TEST(InspectCheck, ReadsVelocityInBodyAxes) {
   CaptureBuilder capture;
   for (int i = 0; i < 8; ++i) {
     pdu::EntityState pdu = truck(seconds(i));
     pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpb;
     pdu.linear_velocity = {10, 0, 0};
-    pdu.orientation.psi = 1.5707963F;  // the body's x along the world's y
+    pdu.orientation.psi = 1.5707963F;  // the body's x axis along the world's y axis
     capture.add(datagram_of(pdu), kStart + seconds(i));
   }
   EXPECT_TRUE(check(capture.path()).findings.empty());
 }
 
-TEST(InspectCheck, KeepsMemoryBoundedAndSaysSo) {
+TEST(InspectCheck, ReportsItsMemoryLimit) {
   CheckView view(Format::json, false, 2);
   DatagramInspector inspector;
   std::string out;
@@ -232,7 +232,7 @@ TEST(InspectCheck, FindsOnlyTheCutDatagramInRecordedSessions) {
   }
 }
 
-/// A recorded session with the velocity of every Entity State multiplied.
+/// A recorded session with the velocity of every Entity State multiplied by `factor`.
 void scale_velocities(const std::string& path, float factor, CaptureBuilder& capture) {
   const auto source = peer::open_capture(path);
   peer::SourceDatagram datagram;
@@ -249,7 +249,7 @@ void scale_velocities(const std::string& path, float factor, CaptureBuilder& cap
   }
 }
 
-TEST(InspectCheck, FindsWrongUnitsAndSignsOfVelocityInRecordedSessions) {
+TEST(InspectCheck, FindsWrongUnitsAndSignsOfRecordedVelocities) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   const auto folder = test::reference_data() / "dis-captures/real-sessions";
   for (const char* name : {"gaz69-patrol.pcap", "gaz69-straight.pcap", "gaz69-single-block.pcap"}) {

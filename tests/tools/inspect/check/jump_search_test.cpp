@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Jumps of entities: planted ones are found with frame, time, entity and size, and told from each
-// other; what has another cause is none.
+// Jumps of entities: injected ones are found with frame, time, entity and size, and distinguished
+// from each other; motion with another cause is no jump.
 #include "reckon/tools/inspect/check/jump_search.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using test::Sender;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// One update on its way into a capture.
+/// One update for a capture.
 struct Update {
   pdu::EntityState pdu;
   nanoseconds arrival{};
@@ -43,7 +43,7 @@ void shift_from(Updates& updates, std::size_t first, double metres) {
   for (std::size_t i = first; i < updates.size(); ++i) shift(updates[i], metres);
 }
 
-/// What check says of places: teleports, spikes and IDs that are used twice.
+/// The position findings of check: teleports, spikes and duplicate IDs.
 std::vector<json> jumps_of(const Updates& updates) {
   CaptureBuilder capture;
   for (const Update& update : updates)
@@ -65,7 +65,7 @@ std::vector<std::string> rules_of(const Updates& updates) {
 const std::vector<std::string> kNone;
 using Rules = std::vector<std::string>;
 
-TEST(JumpSearch, FindsATeleportWithFrameTimeEntityAndSize) {
+TEST(JumpSearch, FindsATeleportWithItsFrameAndSize) {
   Updates updates = trucks(20);
   shift_from(updates, 12, 500);
   const auto found = jumps_of(updates);
@@ -84,7 +84,7 @@ TEST(JumpSearch, FindsATeleportWithFrameTimeEntityAndSize) {
   EXPECT_THAT(turned["reason"].get<std::string>(), EndsWith("; turned 172 deg"));
 }
 
-TEST(JumpSearch, TellsASpikeOfOneUpdateFromATeleport) {
+TEST(JumpSearch, DistinguishesASpikeFromATeleport) {
   Updates updates = trucks(20);
   shift(updates[7], 500);
   const auto found = jumps_of(updates);
@@ -95,7 +95,7 @@ TEST(JumpSearch, TellsASpikeOfOneUpdateFromATeleport) {
   EXPECT_THAT(found[0]["reason"].get<std::string>(), HasSubstr("7.000 s, back with the next"));
 }
 
-TEST(JumpSearch, FindsEachOfSeveralAndThoseAtTheEnd) {
+TEST(JumpSearch, FindsSeveralIncludingTheLast) {
   Updates updates = trucks(20);
   shift_from(updates, 4, 500);
   shift_from(updates, 9, -300);
@@ -118,7 +118,7 @@ TEST(JumpSearch, FindsJumpsOfAJetBetweenHeartbeats) {
   EXPECT_EQ(rules_of(updates), Rules{"W-TELEPORT"});
 }
 
-TEST(JumpSearch, FindsATeleportWhoseVelocityWasTakenFromIt) {
+TEST(JumpSearch, FindsATeleportWithAMatchingVelocity) {
   Updates updates = trucks(20);
   shift_from(updates, 12, 500);
   updates[12].pdu.linear_velocity.z = 500;  // 500 m in the second since the update before
@@ -131,7 +131,7 @@ TEST(JumpSearch, FindsJumpsInEveryDeadReckoningModel) {
     Updates updates = trucks(12);
     for (Update& update : updates)
       update.pdu.dead_reckoning.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(drm);
-    // Body axes: x forward, which these angles lay on y of the earth.
+    // Body axes: x forward, which these angles put on the earth's y axis.
     const bool body = drm >= 6;
     for (Update& update : updates)
       if (body) {
@@ -148,7 +148,7 @@ TEST(JumpSearch, TakesThresholdCrossingsAndTurnsForNone) {
   Updates updates;
   for (int i = 0; i < 200; ++i) {
     const double t = 0.7 * i;
-    const double angle = std::sin(0.9 * t) * 2;  // sharp turns to and fro at 25 m/s
+    const double angle = std::sin(0.9 * t) * 2;  // sharp turns back and forth at 25 m/s
     pdu::EntityState pdu = truck(milliseconds(700 * i));
     const auto& last = updates.empty() ? pdu : updates.back().pdu;
     pdu.location.y = last.location.y + 0.7 * last.linear_velocity.y;
@@ -161,7 +161,7 @@ TEST(JumpSearch, TakesThresholdCrossingsAndTurnsForNone) {
 }
 
 TEST(JumpSearch, TakesLostUpdatesForNone) {
-  // A car round a corner, seen every 10 s instead of every second.
+  // A car turns a corner, received every 10 s instead of every second.
   Updates updates = trucks(2);
   pdu::EntityState late = truck(seconds(11));
   late.location.y = 20;
@@ -171,7 +171,7 @@ TEST(JumpSearch, TakesLostUpdatesForNone) {
   EXPECT_EQ(rules_of(updates), kNone);
 }
 
-TEST(JumpSearch, TakesAReturnAfterATimeOutForNone) {
+TEST(JumpSearch, TakesReturnsAfterATimeOutForNone) {
   Updates updates = trucks(8);
   for (std::size_t i = 4; i < 8; ++i) {
     updates[i].pdu.header.timestamp = pdu::to_dis_timestamp(kStart + seconds(i + 300), true);
@@ -181,7 +181,7 @@ TEST(JumpSearch, TakesAReturnAfterATimeOutForNone) {
   EXPECT_EQ(rules_of(updates), kNone);
 }
 
-TEST(JumpSearch, SaysTwoSendersInsteadOfJumps) {
+TEST(JumpSearch, ReportsTwoSendersInsteadOfJumps) {
   Updates updates = trucks(20);
   for (std::size_t i = 1; i < updates.size(); i += 2) {
     shift(updates[i], 5000);
@@ -190,7 +190,7 @@ TEST(JumpSearch, SaysTwoSendersInsteadOfJumps) {
   EXPECT_EQ(rules_of(updates), Rules{"W-DUPLICATE-ID"});
 }
 
-TEST(JumpSearch, SaysTwoPlacesByTurnsOfOneSenderOnce) {
+TEST(JumpSearch, ReportsAlternatingPlacesOfOneSenderOnce) {
   Updates updates = trucks(20);
   for (std::size_t i = 1; i < updates.size(); i += 2) shift(updates[i], 5000);
   const auto found = jumps_of(updates);
@@ -201,7 +201,7 @@ TEST(JumpSearch, SaysTwoPlacesByTurnsOfOneSenderOnce) {
               HasSubstr("at two places by turns, 5000 m apart"));
 }
 
-TEST(JumpSearch, TakesAProgramThatBeganAnewForNone) {
+TEST(JumpSearch, TakesARestartedProgramForNone) {
   Updates updates = trucks(20);
   for (std::size_t i = 10; i < updates.size(); ++i) updates[i].sender.port = 4000;
   shift_from(updates, 10, 5000);
@@ -233,7 +233,7 @@ TEST(JumpSearch, TakesCapturesThatAreSortedBadlyForNone) {
   EXPECT_EQ(rules_of(updates), kNone);
 }
 
-TEST(JumpSearch, TakesOneThatMovesWithoutSayingSoForNone) {
+TEST(JumpSearch, TakesMotionWithoutVelocityForNone) {
   Updates updates = trucks(20);
   for (std::size_t i = 0; i < updates.size(); ++i) {
     updates[i].pdu.location.y *= 20;  // 200 m/s
@@ -246,7 +246,7 @@ TEST(JumpSearch, PassesOverPlacesThatAreNoNumbers) {
   Updates updates = trucks(20);
   updates[7].pdu.location.z = std::nan("");
   EXPECT_EQ(rules_of(updates), kNone);
-  updates[12].pdu.location = {};  // the middle of the earth is a place
+  updates[12].pdu.location = {};  // the centre of the earth is a position
   EXPECT_EQ(rules_of(updates), Rules{"W-SPIKE"});
 }
 

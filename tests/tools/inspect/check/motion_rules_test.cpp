@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rules of `reckon inspect check` about orientation and frozen entities: what turns as it says is
-// left alone, whatever its angles do.
+// Rules of `reckon inspect check` about orientation and frozen entities: a body that turns as it
+// states is not reported, whatever its angles.
 #include "reckon/tools/inspect/check/motion_rules.hpp"
 
 #include <gmock/gmock.h>
@@ -29,12 +29,12 @@ using Codes = std::map<std::string, int>;
 const Codes kNone;
 const Codes kOrientation{{"W-ORIENTATION", 1}};
 
-/// Twenty updates of a body that stands and turns, one each `step` [s].
+/// Twenty updates of a resting body that turns, one each `step` [s].
 struct Turning {
   DeadReckoningAlgorithm model = DeadReckoningAlgorithm::rvw;
   double step = 1;
-  Eigen::Vector3d stated = Eigen::Vector3d::Zero();  // body axes [rad/s]
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();    // of the truth
+  Eigen::Vector3d stated = Eigen::Vector3d::Zero();  // in body axes [rad/s]
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();    // true rate
   Eigen::Quaterniond begin = Eigen::Quaterniond::Identity();
 
   [[nodiscard]] Checked checked() const {
@@ -59,11 +59,11 @@ struct Turning {
   }
 };
 
-TEST(MotionRules, LeaveABodyAloneThatTurnsAsItSays) {
+TEST(MotionRules, AcceptABodyThatTurnsAsStated) {
   for (const auto model : {DeadReckoningAlgorithm::rpw, DeadReckoningAlgorithm::rvb}) {
     for (const double step : {0.1, 1.0, 4.0}) {
       for (const double speed : {0.5, -3.0, 7.3, 31.0}) {
-        // Through +-pi about z, in loops through 90 degrees of pitch, and about an axis askew.
+        // Through +-pi about z, in loops through 90 degrees of pitch, and about an oblique axis.
         for (const Eigen::Vector3d& axis :
              {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0.6, 0, 0.8)}) {
           const Eigen::Vector3d rate = speed * axis;
@@ -75,7 +75,7 @@ TEST(MotionRules, LeaveABodyAloneThatTurnsAsItSays) {
   }
 }
 
-TEST(MotionRules, LeaveAloneTurnsThatTheModelDoesNotState) {
+TEST(MotionRules, AcceptTurnsOfModelsWithoutTurnRate) {
   // A roundabout at 60 degrees a second, and a pirouette.
   for (const double speed : {1.0, 2.1, 2.9})
     EXPECT_EQ((Turning{DeadReckoningAlgorithm::fpw, 1, {0, 0, 0}, {0, 0, speed}}.checked().codes()),
@@ -83,7 +83,7 @@ TEST(MotionRules, LeaveAloneTurnsThatTheModelDoesNotState) {
         << speed;
 }
 
-TEST(MotionRules, TellATurnRateThatTheOrientationDoesNotFollow) {
+TEST(MotionRules, ReportATurnRateWithoutMatchingOrientation) {
   const Checked still = Turning{.stated = {0, 0, 20}}.checked();
   EXPECT_EQ(still.codes(), kOrientation);
   EXPECT_EQ(still.findings[0]["frame"], 4) << "the third time in a row";
@@ -94,7 +94,7 @@ TEST(MotionRules, TellATurnRateThatTheOrientationDoesNotFollow) {
       << "degrees a second";
 }
 
-TEST(MotionRules, TellAHeadingThatFlipsToAndFro) {
+TEST(MotionRules, ReportAHeadingThatFlips) {
   for (const auto model : {DeadReckoningAlgorithm::static_, DeadReckoningAlgorithm::fpw,
                            DeadReckoningAlgorithm::rvw}) {
     const Checked checked = Turning{.model = model, .rate = {0, 0, pi}}.checked();
@@ -103,7 +103,7 @@ TEST(MotionRules, TellAHeadingThatFlipsToAndFro) {
   }
 }
 
-TEST(MotionRules, TellAnglesOutOfTheirRangeOnceAnEntity) {
+TEST(MotionRules, ReportAnglesOutOfRangeOncePerEntity) {
   const auto findings_of = [](float psi, float theta, float phi) {
     CaptureBuilder capture;
     for (int i = 0; i < 3; ++i) {
@@ -130,7 +130,7 @@ TEST(MotionRules, LeaveFrozenEntitiesAlone) {
     CaptureBuilder capture;
     for (int i = 0; i < 6; ++i) {
       pdu::EntityState pdu = truck(seconds(i));
-      pdu.location.y = 0;  // it stands, and keeps the velocity that it had
+      pdu.location.y = 0;  // it rests, and keeps its former velocity
       pdu.dead_reckoning.algorithm = model;
       if (frozen) pdu.appearance = pdu::kAppearanceFrozen;
       capture.add(datagram_of(pdu), kStart + seconds(i));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Timestamps that stand still, count in another unit or have a constant error: each fault gets its
-// own rule, once, and correct timestamps get none.
+// Timestamps that stay constant, count in another unit or have a constant error: each fault gets
+// its own rule, once, and correct timestamps get none.
 #include "reckon/tools/inspect/check/stamp_course.hpp"
 
 #include <gmock/gmock.h>
@@ -28,10 +28,10 @@ constexpr nanoseconds kBegin = seconds(1'700'000'000);
 
 struct Told {
   std::vector<std::string> rules;
-  std::string reason;  // of the last
+  std::string reason;  // of the last finding
 };
 
-/// What is said of `count` updates, `interval` [s] apart, whose stamp is that of `stamp(t)`.
+/// The findings for `count` updates, `interval` [s] apart, with timestamps `stamp(t)`.
 Told told_of(
     int count, double interval, const std::function<std::uint32_t(double)>& stamp,
     const std::function<double(double)>& arrival = [](double t) { return t; }) {
@@ -50,18 +50,18 @@ Told told_of(
   return told;
 }
 
-/// A stamp that is right.
+/// A correct timestamp.
 std::uint32_t relative(double t) { return pdu::to_dis_timestamp(from_seconds(t), false); }
 std::uint32_t absolute(double t) { return pdu::to_dis_timestamp(kBegin + from_seconds(t), true); }
 
 using ToldRules = std::vector<std::string>;
 const ToldRules kNothing;
 
-TEST(StampCourse, TellsNothingOfStampsThatAreRight) {
+TEST(StampCourse, ReportsNothingForCorrectTimestamps) {
   for (const double interval : {0.03, 0.7, 1.0, 5.0, 60.0}) {
     EXPECT_EQ(told_of(200, interval, relative).rules, kNothing) << interval;
     EXPECT_EQ(told_of(200, interval, absolute).rules, kNothing) << interval;
-    // From 50 min past the hour on, over its end.
+    // From 50 min past the hour on, across its end.
     EXPECT_EQ(told_of(200, interval, [](double t) { return relative(3000 + t); }).rules, kNothing);
   }
 }
@@ -70,7 +70,7 @@ TEST(StampCourse, BearsJitterAndBurstsOfArrivals) {
   int number = 0;
   const auto jitter = [&](double t) { return t + 0.15 * (number++ % 3); };
   EXPECT_EQ(told_of(100, 0.5, absolute, jitter).rules, kNothing);
-  // Held for 3 s of every 6, then all at once.
+  // Held for 3 s of every 6, then released at once.
   const auto held = [](double t) {
     const double phase = std::fmod(t, 6.0);
     return phase < 3 ? t - phase + 3 : t;
@@ -78,7 +78,7 @@ TEST(StampCourse, BearsJitterAndBurstsOfArrivals) {
   EXPECT_EQ(told_of(300, 0.2, relative, held).rules, kNothing);
 }
 
-TEST(StampCourse, TellsAStampThatStandsStill) {
+TEST(StampCourse, ReportsAConstantTimestamp) {
   const Told told = told_of(12, 1, [](double) { return 0U; });
   EXPECT_EQ(told.rules, ToldRules({"W-TIMESTAMP-STILL"}));
   EXPECT_EQ(told.reason, "timestamp stays 0x00000000 for 4.000 s of arrivals");
@@ -87,7 +87,7 @@ TEST(StampCourse, TellsAStampThatStandsStill) {
   EXPECT_EQ(told_of(3, 1, [](double) { return 0U; }).rules, kNothing) << "nothing is off yet";
 }
 
-TEST(StampCourse, TellsWhatElseIsCounted) {
+TEST(StampCourse, ReportsOtherUnits) {
   const auto counts = [](double per_second, double from) {
     return [=](double t) { return static_cast<std::uint32_t>(from + per_second * t); };
   };
@@ -102,25 +102,25 @@ TEST(StampCourse, TellsWhatElseIsCounted) {
   EXPECT_THAT(told_of(40, 0.5, counts(0x1p31 / 3600, 0)).reason, HasSubstr("not shifted"));
 }
 
-TEST(StampCourse, TellsAReplayAtAnotherRateByItsPace) {
+TEST(StampCourse, ReportsAReplayByItsPace) {
   const auto faster = [](double t) { return t / 4; };
   const Told told = told_of(60, 1, absolute, faster);
   EXPECT_EQ(told.rules, ToldRules({"W-TIMESTAMP-PACE"}));
   EXPECT_THAT(told.reason, HasSubstr("advance 8 s in 2 s of arrivals"));
 }
 
-TEST(StampCourse, TellsAnErrorOnceThePaceIsKnownToBeRight) {
+TEST(StampCourse, ReportsAnErrorOnceThePaceIsRight) {
   const auto ahead = [](double t) { return absolute(t + 60); };
   const Told told = told_of(10, 1, ahead);
   EXPECT_EQ(told.rules, ToldRules({"W-TIMESTAMP-TOLERANCE"}));
   EXPECT_EQ(told.reason, "absolute timestamp is 60.000 s ahead of the arrival, 5 s are allowed");
   EXPECT_EQ(told_of(1, 1, ahead).rules, ToldRules({"W-TIMESTAMP-TOLERANCE"})) << "one update alone";
-  // A clock that runs 1.5 times too fast is one that drifts.
+  // A clock that runs 1.5 times too fast is a drifting one.
   EXPECT_EQ(told_of(30, 1, [](double t) { return relative(1.5 * t); }).rules,
             ToldRules({"W-TIMESTAMP-TOLERANCE"}));
 }
 
-TEST(StampCourse, TakesAPauseOfTheSenderForNoOtherPace) {
+TEST(StampCourse, TakesAPauseForNoOtherPace) {
   const auto paused = [](double t) { return relative(t < 20 ? t : std::max(20.0, t - 10)); };
   EXPECT_EQ(
       told_of(
@@ -131,7 +131,7 @@ TEST(StampCourse, TakesAPauseOfTheSenderForNoOtherPace) {
       << "updates went on while its clock stood";
 }
 
-TEST(StampCourse, BeginsAnewWhereTheCaptureGoesBack) {
+TEST(StampCourse, RestartsWhereTheCaptureGoesBack) {
   const auto twice = [](double t) { return std::fmod(t, 30.0); };
   EXPECT_EQ(told_of(
                 60, 1, [&](double t) { return relative(twice(t)); }, twice)

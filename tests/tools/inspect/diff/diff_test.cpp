@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect diff`: captures that differ in exactly what the test put there.
+// `reckon inspect diff`: captures that differ in exactly the change of the test.
 #include "reckon/tools/inspect/diff/diff.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ Capture two_balls() {
   return capture;
 }
 
-/// A file of a capture that goes away with its scope.
+/// A capture file that is removed at the end of its scope.
 struct File {
   explicit File(const Capture& capture, nanoseconds shift = nanoseconds::zero()) {
     for (const Datagram& datagram : capture) builder.add(datagram.octets, datagram.time + shift);
@@ -93,7 +93,7 @@ TEST(InspectDiff, FindsNothingBetweenACaptureAndItself) {
   EXPECT_THAT(diff(file, file).out, HasSubstr("100 PDUs in both, in the same order"));
 }
 
-TEST(InspectDiff, NamesTheFieldTheOctetAndBothValuesOfAChange) {
+TEST(InspectDiff, NamesFieldOctetAndBothValues) {
   Capture changed = two_balls();
   // entity_location.x of the 7th datagram's Entity State, at octet 48.
   pdu::store_big_endian(changed[6].octets.data() + 48, test::kGround + 2.0);
@@ -133,12 +133,12 @@ TEST(InspectDiff, NamesFieldsOfRecordsInsideAttributePdus) {
   const json first = rows(result, "first_changed").at(0);
   ASSERT_EQ(first["fields"].size(), 1U);
   EXPECT_EQ(first["fields"][0]["field"], "attribute_record_sets[0].attribute_records[0].k1");
-  EXPECT_EQ(first["fields"][0]["at"], 32 + 8 + 16);  // PDU, record set, place in the record
+  EXPECT_EQ(first["fields"][0]["at"], 32 + 8 + 16);  // PDU, record set, offset in the record
   EXPECT_EQ(first["a"]["offset"], 144);
   EXPECT_EQ(rows(result, "field").at(0)["field"], "attribute_record_sets[].attribute_records[].k1");
 }
 
-TEST(InspectDiff, FindsAPduThatIsMissingAndGoesOn) {
+TEST(InspectDiff, FindsAMissingPduAndContinues) {
   Capture shorter = two_balls();
   shorter[20].octets.resize(144);  // without its Attribute
   const auto result = diff(File(two_balls()), File(shorter), {"--json"});
@@ -158,7 +158,7 @@ TEST(InspectDiff, FindsAPduThatIsMissingAndGoesOn) {
   EXPECT_THAT(mirrored.out, HasSubstr("ONLY IN B\n  frame 21 PDU 2: attribute 1:2:1"));
 }
 
-TEST(InspectDiff, TakesAShiftOfAllTimesOffAndTellsIt) {
+TEST(InspectDiff, RemovesAndReportsAConstantTimeShift) {
   const File a(two_balls());
   const File b(two_balls(), seconds(5000) + nanoseconds(7));
   const auto result = diff(a, b, {"--json"});
@@ -180,7 +180,7 @@ Capture played(Capture capture, double rate) {
   return capture;
 }
 
-/// Two balls that fly apart at 5 m/s: a second is 5 m.
+/// Two balls that move apart at 5 m/s: a second is 5 m.
 Capture two_flying_balls() {
   Capture capture;
   for (int i = 0; i < 50; ++i) {
@@ -192,7 +192,7 @@ Capture two_flying_balls() {
   return capture;
 }
 
-TEST(InspectDiff, PairsACaptureOfAnotherRateByItsPdus) {
+TEST(InspectDiff, PairsACaptureOfAnotherRate) {
   const File a(two_flying_balls());
   for (const double rate : {0.25, 2.0, 8.0}) {
     SCOPED_TRACE(rate);
@@ -205,14 +205,14 @@ TEST(InspectDiff, PairsACaptureOfAnotherRateByItsPdus) {
     EXPECT_EQ(rows(result, "pose").size(), 2U);
     for (const json& pose : rows(result, "pose")) EXPECT_EQ(pose["max_m"], 0);
     for (const json& force : rows(result, "contact_force")) EXPECT_EQ(force["max"], 0);
-    // By the clock they are far apart.
+    // Compared by the clock they are far apart.
     EXPECT_GT(rows(diff(a, b, {"--json", "--align", "first"}), "pose").at(0)["max_m"], 0.1);
   }
   EXPECT_THAT(diff(a, File(played(two_flying_balls(), 2))).out,
               HasSubstr("was played 2 times as fast: its PDUs are laid on A's times"));
 }
 
-TEST(InspectDiff, FindsWhatDiffersInACaptureOfAnotherRate) {
+TEST(InspectDiff, FindsChangesInACaptureOfAnotherRate) {
   const File a(two_flying_balls());
   Capture changed = played(two_flying_balls(), 2);
   Ball moved{.entity = 1, .up = 5 * 0.02 * 20 + 3, .rising = 5};
@@ -248,7 +248,7 @@ TEST(InspectDiff, HoldsArrivalsAgainstATolerance) {
   EXPECT_NEAR(rows(diff(a, b, {"--json"}), "all").at(0)["time_max"].get<double>(), 0.003, 1e-12);
 }
 
-TEST(InspectDiff, TellsAnotherOrderFromOtherPdus) {
+TEST(InspectDiff, DistinguishesAnotherOrderFromOtherPdus) {
   Capture swapped = two_balls();
   std::swap(swapped[30].octets, swapped[31].octets);
   const auto result = diff(File(two_balls()), File(swapped), {"--json"});
@@ -265,8 +265,8 @@ TEST(InspectDiff, TellsAnotherOrderFromOtherPdus) {
 TEST(InspectDiff, LeavesTimesInsidePdusOutWhenAsked) {
   Capture restamped = two_balls();
   for (Datagram& datagram : restamped) {
-    datagram.octets[6] ^= std::byte{0x11};        // of the Entity State's timestamp
-    datagram.octets[144 + 5] ^= std::byte{0x22};  // of the Attribute's
+    datagram.octets[6] ^= std::byte{0x11};        // in the Entity State's timestamp
+    datagram.octets[144 + 5] ^= std::byte{0x22};  // in the Attribute's timestamp
   }
   const File a(two_balls());
   const File b(restamped);
@@ -280,7 +280,7 @@ TEST(InspectDiff, LeavesTimesInsidePdusOutWhenAsked) {
   EXPECT_EQ(fields[0]["pdus"], 100);
 }
 
-TEST(InspectDiff, TellsWhatEntitiesSayOfThemselves) {
+TEST(InspectDiff, ReportsChangedEntityAttributes) {
   Capture other;
   for (const Datagram& datagram : two_balls()) {
     Octets octets = datagram.octets;
@@ -343,7 +343,7 @@ TEST(InspectDiff, WritesOneTableAsCsv) {
   EXPECT_THAT(lines, ::testing::Contains("type,attribute,50,49,-1"));
 }
 
-TEST(InspectDiff, SaysWhatItCannotRead) {
+TEST(InspectDiff, RefusesUnreadableFilesAndUsage) {
   const File good(two_balls());
   EXPECT_EQ(run_reckon({"inspect", "diff", good.path, "no-such-file.pcap"}).status, 2);
   EXPECT_EQ(run_reckon({"inspect", "diff", good.path}).status, 2);

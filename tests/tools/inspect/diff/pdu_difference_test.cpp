@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Fields in which two PDUs differ: names and octets against the byte tables of the wire format.
+// Differing fields of two PDUs: names and octets, compared with the byte tables of the wire format.
 #include "reckon/tools/inspect/diff/pdu_difference.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 using test::Octets;
 
-TEST(PduDifferences, NameFieldsAndOffsetsAsTheByteTableOfTheDocsHasThem) {
+TEST(PduDifferences, NameFieldsAndOffsetsOfTheByteTable) {
   struct Row {
     std::size_t offset;
     std::size_t size;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of the inspector's output against fmt, whose octets they must have.
+// Numbers of the inspector's output, compared octet for octet with fmt.
 #include "reckon/tools/inspect/output/format.hpp"
 
 #include <fmt/format.h>
@@ -22,18 +22,18 @@ std::string thousandths(double value) {
   return text;
 }
 
-TEST(InspectFormat, RoundsHalvesOfAThousandthToTheEvenOne) {
+TEST(InspectFormat, RoundsHalvesOfAThousandthToEven) {
   EXPECT_EQ(thousandths(0.0625), "0.062");
   EXPECT_EQ(thousandths(0.1875), "0.188");
   EXPECT_EQ(thousandths(-0.0625), "-0.062");
   EXPECT_EQ(thousandths(4443210.0625), "4443210.062");
   EXPECT_EQ(thousandths(std::nextafter(0.0625, 1)), "0.063");
   EXPECT_EQ(thousandths(std::nextafter(0.0625, 0)), "0.062");
-  EXPECT_EQ(thousandths(0.0005), "0.001");  // the double lies above the half
+  EXPECT_EQ(thousandths(0.0005), "0.001");  // the double is above the half
   EXPECT_EQ(thousandths(0.9996), "1.000");
 }
 
-TEST(InspectFormat, KeepsTheSignOfZeroAndWhatIsNoNumber) {
+TEST(InspectFormat, KeepsSignsOfZeroAndNonFiniteNumbers) {
   EXPECT_EQ(thousandths(0.0), "0.000");
   EXPECT_EQ(thousandths(-0.0), "-0.000");
   EXPECT_EQ(thousandths(-1e-9), "-0.000");
@@ -43,7 +43,7 @@ TEST(InspectFormat, KeepsTheSignOfZeroAndWhatIsNoNumber) {
   EXPECT_EQ(thousandths(std::numeric_limits<double>::quiet_NaN()), "nan");
 }
 
-TEST(InspectFormat, AgreesWithFmtAtTheEdgesOfItsRange) {
+TEST(InspectFormat, AgreesWithFmtAtItsRangesEdges) {
   for (int exponent = -70; exponent <= 70; ++exponent) {
     const double edge = std::ldexp(1.0, exponent);
     for (const double value : {std::nextafter(edge, 0.0), edge, std::nextafter(edge, 1e300)})
@@ -90,7 +90,7 @@ TEST(InspectCsvCell, QuotesByRfc4180) {
   EXPECT_EQ(csv_cell(""), "");
 }
 
-TEST(InspectCsvCell, HoldsNothingThatMovesACursorOrBreaksALine) {
+TEST(InspectCsvCell, HasNoCursorMovesOrLineBreaks) {
   EXPECT_EQ(csv_cell("\x1b[2J\x1b]0;x\x07"), ".[2J.]0;x.");
   EXPECT_EQ(csv_cell("a\nb\r\tc\x7f"), "a.b..c.");
   EXPECT_EQ(csv_cell("a\u009b2Jb"), "a.2Jb");  // C1, as UTF-8

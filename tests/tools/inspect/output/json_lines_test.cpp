@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How long the JSON lines of Entity States are: what is stored and piped depends on it.
+// Length of the JSON lines of Entity States: storage and pipe costs depend on it.
 #include "reckon/tools/inspect/output/json_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ pdu::EntityState plain() {
 }
 
 // Frame 1 million of a capture, a marking of all 11 characters, every coordinate with its sign.
-TEST(InspectJson, GivesAPlainEntityStateInAtMost330OctetsAndNoHeap) {
+TEST(InspectJson, PlainEntityStateHas330OctetsWithoutHeap) {
   std::size_t allocations = 1;
   const std::string line =
       line_of(plain(), 1'000'000, nanoseconds(1'700'000'000'123'456'789), &allocations);
@@ -70,7 +70,7 @@ TEST(InspectJson, GivesAPlainEntityStateInAtMost330OctetsAndNoHeap) {
   EXPECT_NEAR(row["height"].get<double>(), 0.0, 30000.0);
 }
 
-TEST(InspectJson, SaysWhereAnyPduWithAPositionIs) {
+TEST(InspectJson, GivesThePositionOfAnyPdu) {
   pdu::Fire fire;
   fire.location_in_world_coordinates = {0, 6378137 + 100, 0};
   const auto row = nlohmann::json::parse(line_of(fire, 1, {}));
@@ -83,9 +83,9 @@ TEST(InspectJson, SaysWhereAnyPduWithAPositionIs) {
   EXPECT_FALSE(nowhere.contains("location") || nowhere.contains("latitude"));
 }
 
-// All that an Entity State without a finding can hold: numbers at their longest, a marking that is
-// no text, positions at the end of the range of a double (309 digits each).
-TEST(InspectJson, GivesTheLongestEntityStateInLessThan1400Octets) {
+// The maximum of an Entity State without a finding: numbers at their longest, a marking that is no
+// text, positions at the end of the range of a double (309 digits each).
+TEST(InspectJson, LongestEntityStateHasUnder1400Octets) {
   pdu::EntityState pdu = plain();
   pdu.entity_id = {65535, 65535, 65535};
   pdu.force_id = static_cast<pdu::ForceId>(255);

@@ -24,7 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A table with `count` entities, the last heard at 10 s.
+/// A table with `count` entities, last received at 10 s.
 TopData data_of(std::uint16_t count) {
   TopData data;
   data.source = "lo 239.1.2.3:3000";
@@ -58,7 +58,7 @@ void type(TopScreen& screen, std::string_view letters, const TopData& data) {
   for (const char letter : letters) screen.press({Key::character, letter}, data);
 }
 
-TEST(TopScreen, FitsEveryTerminalWhateverItShows) {
+TEST(TopScreen, FitsEveryTerminal) {
   const TopData data = data_of(50);
   for (const std::size_t rows : {0U, 1U, 2U, 3U, 5U, 24U, 80U}) {
     for (const std::size_t columns : {1U, 2U, 9U, 40U, 80U, 300U}) {
@@ -77,7 +77,7 @@ TEST(TopScreen, FitsEveryTerminalWhateverItShows) {
   }
 }
 
-TEST(TopScreen, SaysHowToQuitInAnyTerminalAndCutsNoKey) {
+TEST(TopScreen, ShowsHowToQuitInAnyTerminal) {
   const TopData data = data_of(5);
   TopScreen screen;
   for (const bool pane : {false, true}) {
@@ -90,7 +90,7 @@ TEST(TopScreen, SaysHowToQuitInAnyTerminalAndCutsNoKey) {
   EXPECT_THAT(screen.lines(data, {}, {24, 120})[23].text, testing::EndsWith("[space] freeze"));
 }
 
-TEST(TopScreen, TellsOfSilenceInsteadOfATimeThatNobodyMeasured) {
+TEST(TopScreen, ReportsSilenceInsteadOfAnUnknownTime) {
   TopData data;
   data.source = "239.192.1.0:3000";
   data.now = after(1e6);
@@ -142,7 +142,7 @@ TEST(TopScreen, SortsByTheColumnThatSChooses) {
   EXPECT_THAT(first_row(), HasSubstr("VEH1"));
 }
 
-TEST(TopScreen, FiltersByTheLanguageOfWhereAndShowsTheColumnOfAnError) {
+TEST(TopScreen, FiltersAndMarksTheColumnOfAnError) {
   const TopData data = data_of(5);
   TopScreen screen;
   const ScreenSize size{24, 200};
@@ -181,7 +181,7 @@ TEST(TopScreen, FollowsOneEntity) {
   EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH5"));
 }
 
-TEST(TopScreen, StandsStillWhileFrozen) {
+TEST(TopScreen, StaysConstantWhileFrozen) {
   TopScreen screen;
   const TopData before = data_of(2);
   (void)screen.lines(before, {}, {24, 200});
@@ -194,9 +194,9 @@ TEST(TopScreen, StandsStillWhileFrozen) {
   EXPECT_THAT(text_of(screen.lines(later, {}, {24, 200})), HasSubstr("VEH3"));
 }
 
-TEST(TopScreen, TellsWhoSpendsMostWhereOneSimulationDoes) {
+TEST(TopScreen, NamesTheBusiestSimulation) {
   TopData data = data_of(5);
-  EXPECT_EQ(top_advice(data), "");  // there is nobody else
+  EXPECT_EQ(top_advice(data), "");  // there is no other
   DatagramInspector inspector;
   Octets octets;
   pdu::EntityState other = entity_at(0, 0, 1, "OTHER");
@@ -216,7 +216,7 @@ TEST(TopScreen, TellsWhoSpendsMostWhereOneSimulationDoes) {
   EXPECT_THAT(text_of(screen.lines(data, {}, {24, 200})), HasSubstr("advice: 1:2:* spends"));
 }
 
-TEST(TopScreen, EndsByQAndNotWhileAFilterIsWritten) {
+TEST(TopScreen, EndsByQExceptWhileTypingAFilter) {
   const TopData data = data_of(1);
   TopScreen screen;
   type(screen, "/q", data);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""`reckon inspect` on a terminal: started in a pseudo terminal within a network namespace of its
-own, fed with datagrams, worked by keys, resized, ended by a key and by signals.
+"""`reckon inspect` on a terminal: started in a pseudo-terminal within a network namespace, with incoming datagrams,
+keys and resizes, ended by a key and by signals.
 
     top_terminal.py RECKON        exit status 77 = skipped, with a message
 """
@@ -29,7 +29,7 @@ def entity_state(marking: bytes, entity: int = 1, length: int = 144) -> bytes:
 
 
 class Terminal(pseudo_terminal.Terminal):
-    """The program on a pseudo terminal, and the datagrams that it hears."""
+    """The program on a pseudo-terminal, and the datagrams sent to it."""
 
     def __init__(self, program: str, environment: dict, arguments=()):
         self.sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

@@ -82,7 +82,7 @@ TEST(Top, MeasuresJumpsOfTheOrientationInDegrees) {
   CaptureBuilder capture;
   for (int i = 0; i <= 20; ++i) {
     pdu::EntityState pdu = entity_at(i, 0.0, 1, "TURNER");
-    pdu.orientation.psi = i < 12 ? 3.1F : -3.1F;  // over pi: 4.8 degrees
+    pdu.orientation.psi = i < 12 ? 3.1F : -3.1F;  // across pi: 4.8 degrees
     Octets datagram;
     append_pdu(datagram, pdu);
     capture.add(datagram, after(i));
@@ -130,7 +130,7 @@ TEST_F(TopOfCapture, GivesCsvWithAsManyCellsAsTitles) {
   EXPECT_THAT(lines[1], HasSubstr("1:2:1,1,MOVER,1,1,2,2,21,1,threshold"));
 }
 
-TEST(InspectTop, WritesMarkingsThatNoTerminalObeysAndNoSpreadsheetComputes) {
+TEST(InspectTop, WritesHarmlessMarkings) {
   CaptureBuilder capture;
   Octets datagram;
   append_pdu(datagram, entity_at(0, 0.0, 1, "\x1b[2J\n\x9b,x"));
@@ -150,8 +150,8 @@ TEST_F(TopOfCapture, KeepsToTheFilter) {
   EXPECT_THAT(lines[2], HasSubstr("SILENT"));
 }
 
-/// Jumps of DRM 1, 2 and 4 from the fields that --full prints, and the formula by hand.
-TEST(InspectTop, JumpsEqualThoseReckonedFromTheFieldsOfARealSession) {
+/// Jumps of DRM 1, 2 and 4 from the fields that --full prints, by the formula.
+TEST(InspectTop, JumpsEqualThoseComputedFromARealSession) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   const std::string file = test::reference_data() / "dis-captures/real-sessions/gaz69-patrol.pcap";
   struct Last {
@@ -197,10 +197,10 @@ TEST(InspectTop, JumpsEqualThoseReckonedFromTheFieldsOfARealSession) {
   EXPECT_GT(compared, 0U);
 }
 
-TEST(InspectTop, ShowsTheForceOfAPlaneOnTheProbeThatTouchesIt) {
+TEST(InspectTop, ShowsAPlanesForceOnAProbe) {
   CaptureBuilder capture;
   pdu::EntityState table = entity_at(0, 0, 1, "TABLE");
-  pdu::EntityState probe = entity_at(0, 0.004, 2, "PROBE");  // centre 4 mm above, 10 mm of radius
+  pdu::EntityState probe = entity_at(0, 0.004, 2, "PROBE");  // centre 4 mm above, radius 10 mm
   pdu::HapticRecord plane;
   plane.kind = pdu::ForceModelKind::plane;
   plane.k1 = 500;
@@ -238,7 +238,7 @@ TEST(InspectTop, ShowsTheForceOfAPlaneOnTheProbeThatTouchesIt) {
   EXPECT_THAT(text, HasSubstr("3.60 N  k1 600  b 4"));
 }
 
-TEST(InspectTop, CountsWhatTrailersSayIsLost) {
+TEST(InspectTop, CountsLossesFromTrailers) {
   CaptureBuilder capture;
   for (const std::uint32_t sequence : {1U, 2U, 5U}) {
     Octets datagram;

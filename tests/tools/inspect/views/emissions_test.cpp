@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect FILE emissions`: who emits what in a capture of the test's own.
+// `reckon inspect FILE emissions`: the emissions by entity in a capture of the test.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -71,7 +71,7 @@ TEST(InspectEmissions, ShowsSystemsBeamsAndTargets) {
   }
 }
 
-TEST(InspectEmissions, ShowsCodesRadiosAndWhatIsOver) {
+TEST(InspectEmissions, ShowsCodesRadiosAndEndedOnes) {
   test::CaptureBuilder capture;
   test::Octets datagram;
   pdu::Iff iff;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect haptics`: samples against the spring's closed form, forces against the servos of
-// peers.
+// `reckon inspect haptics`: samples compared with the spring's closed form, and forces compared
+// with the servos of peers.
 #include "reckon/tools/inspect/views/haptics.hpp"
 
 #include <gmock/gmock.h>
@@ -37,8 +37,8 @@ using ::testing::Not;
 
 constexpr nanoseconds kStart = seconds(1'700'000'000);
 
-/// Ball 1 rests; ball 2 comes down to it at 0.1 m/s, is 4.5 mm deep after 150 ms, then stays for
-/// 100 ms, jumps 2 mm back and away at 1 s. k = 500 N/m, k3 = 0.
+/// Ball 1 rests; ball 2 approaches it from above at 0.1 m/s, is 4.5 mm deep after 150 ms, stays for
+/// 100 ms, then jumps 2 mm back, and away at 1 s. k = 500 N/m, k3 = 0.
 void add_press(CaptureBuilder& capture) {
   const auto add = [&](Ball ball, nanoseconds after) {
     ball.k3 = 0;
@@ -84,7 +84,7 @@ TEST(InspectHaptics, SamplesTheForceOfTheSpringEvery10Milliseconds) {
     EXPECT_EQ(row["by"], "1:2:1");
     EXPECT_GT(row["vector"][2].get<double>(), 0);
   }
-  // 110, 120, ... 990 ms; while it comes down a timestamp's unit is 0.17 um.
+  // 110, 120, ... 990 ms; during the descent a timestamp's unit is 0.17 um.
   EXPECT_EQ(samples, 89);
   EXPECT_LT(residual, 5e-5);
 }
@@ -103,11 +103,11 @@ TEST(InspectHaptics, AddsUpContactsPeaksMeansAndJumps) {
   EXPECT_NEAR(contact["mean"].get<double>(), mean, 0.01);
   // 150 ms: none; 250 ms: 1 N; 500 ms: none; 1 s: 1.25 N.
   EXPECT_EQ(contact["updates"], 4);
-  EXPECT_NEAR(contact["jump_max"].get<double>(), 1.25, 0.04);  // a histogram of 3 % wide buckets
+  EXPECT_NEAR(contact["jump_max"].get<double>(), 1.25, 0.04);  // a histogram with buckets 3 % wide
   EXPECT_LT(contact["jump_p50"].get<double>(), 1e-4);
 }
 
-TEST(InspectHaptics, TellsCoefficientsValidityAndEnergy) {
+TEST(InspectHaptics, ReportsCoefficientsValidityAndEnergy) {
   CaptureBuilder capture;
   pdu::EnergyAccountRecord account;
   account.counterpart = {1, 2, 2};
@@ -121,7 +121,7 @@ TEST(InspectHaptics, TellsCoefficientsValidityAndEnergy) {
   EXPECT_EQ(entities[0]["k1"], 500);
   EXPECT_EQ(entities[0]["k3"], 1e6);
   EXPECT_EQ(entities[0]["validity"], 1);
-  EXPECT_EQ(entities[0]["valid"], false);  // 1 s after its update, 2 s ago
+  EXPECT_EQ(entities[0]["valid"], false);  // valid for 1 s after its update, 2 s ago
   EXPECT_EQ(entities[1]["valid"], true);
   EXPECT_NEAR(entities[0]["given"].get<double>(), 0.004, 1e-9);
   EXPECT_NEAR(entities[0]["need"].get<double>(), 0.001, 1e-9);
@@ -132,7 +132,7 @@ TEST(InspectHaptics, TellsCoefficientsValidityAndEnergy) {
   EXPECT_THAT(text.out, HasSubstr("No two of them touched."));
 }
 
-TEST(InspectHaptics, WritesOneTableAsCsvAndDrawsInAscii) {
+TEST(InspectHaptics, WritesOneCsvTableAndPlotsInAscii) {
   CaptureBuilder capture;
   add_press(capture);
   const auto lines = run_reckon({"inspect", capture.path(), "haptics", "--csv"}).lines();
@@ -145,7 +145,7 @@ TEST(InspectHaptics, WritesOneTableAsCsvAndDrawsInAscii) {
   EXPECT_THAT(text.out, HasSubstr("0 s"));
 }
 
-TEST(InspectHaptics, DrawsIntoAFileAndSaysWhereItCannot) {
+TEST(InspectHaptics, DrawsIntoAFileOrReportsTheError) {
   CaptureBuilder capture;
   add_press(capture);
   const std::string file = capture.path() + ".svg";
@@ -210,15 +210,15 @@ TEST(InspectHaptics, TakesAnyOctetsAndStaysFinite) {
   }
 }
 
-// Against the servos of peers
-// ------------------------------------------------------------------------------------------------
+// Compared with the servos of peers
+// --------------------------------------------------------------------------------------
 
-/// What every servo knew in every step.
+/// The inputs of every servo in every step.
 struct Traced {
   haptics::TraceRing ring{8192};
 };
 
-TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {
+TEST(ContactForcesOfPeers, EqualTheServosForcesWithinTheThresholds) {
   const peer::SceneFile scene = test::scene_of(test::kTwoHandsOnAWall);
   test::InProcess run(2);
   std::array<Traced, 2> traced;
@@ -243,7 +243,7 @@ TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {
     if (one.count == 0 || one.contacts[0].ungated_force.isZero()) continue;
     const Eigen::Vector3d found = ContactForces::force_on(listener, {1, 1, 1}, one.time + to_utc);
     against_servo.push_back((found - one.contacts[0].ungated_force).norm());
-    // The closed form, from where the two devices truly are and how they move.
+    // The closed form, from the true positions and motions of the two devices.
     const Eigen::Vector3d apart = one.device - two.device;
     const double depth = 2 * scene.hand.radius - apart.norm();
     const double rate = apart.normalized().dot(one.device_velocity - two.device_velocity);
@@ -260,8 +260,8 @@ TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {
            << percentile(against_servo, 0.99) << "; to the truth " << percentile(against_truth, 0.5)
            << ", " << percentile(against_truth, 0.99);
   RecordProperty("residual", residual.str());
-  // The servo knows where its own hand is, here both are predicted: each may be 0.5 mm (0.15 N)
-  // or 0.05 N off before it is sent again.
+  // The servo knows the true position of its own hand; here both are predicted: each may be 0.5 mm
+  // (0.15 N) or 0.05 N off before the next update.
   EXPECT_LT(percentile(against_servo, 0.5), 0.05) << residual.str();
   EXPECT_LT(percentile(against_servo, 0.99), 0.15) << residual.str();
   EXPECT_LT(percentile(against_truth, 0.5), 0.05) << residual.str();

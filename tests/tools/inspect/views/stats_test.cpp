@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect stats` and `bundles`: sums equal to those of an independent count.
+// `reckon inspect stats` and `bundles`: sums equal an independent count.
 #include "reckon/tools/inspect/views/stats.hpp"
 
 #include <gmock/gmock.h>
@@ -62,7 +62,7 @@ std::ostream& operator<<(std::ostream& out, const Sum& sum) {
   return out << sum.pdus << " PDUs, " << sum.octets << " octets";
 }
 
-TEST(InspectStats, SumsEqualThoseOfTheRowsOfTail) {
+TEST(InspectStats, SumsEqualTheRowsOfTail) {
   RECKON_NEED_DATA("dis-captures/real-sessions");
   const std::string file =
       test::reference_data() / "dis-captures/real-sessions/gaz69-multi-block-1.pcap";
@@ -124,8 +124,8 @@ TEST(InspectStats, CountsLossBySenderFromTrailers) {
               HasSubstr("1 lost of 9, 1 late, 1 twice"));
 }
 
-// To one address come the numbers of many groups: a frame in front says which.
-TEST(InspectStats, CountsLossByTheGroupThatAUnicastFrameSays) {
+// One address receives the numbers of many groups: a frame before each datagram names its group.
+TEST(InspectStats, CountsLossPerGroupOfUnicastFrames) {
   CaptureBuilder capture;
   int datagram = 0;
   const auto add = [&](std::uint16_t group, std::uint32_t sequence) {
@@ -178,7 +178,7 @@ TEST(InspectStats, WritesOneTableAsCsv) {
   EXPECT_EQ(lines[1], "entity,1:2:3,1,144,,,,0,,,");
 }
 
-TEST(InspectStats, ShowsTheGreatestJumpsOfEntitiesInMetresAndDegrees) {
+TEST(InspectStats, ShowsTheGreatestJumpsInMetresAndDegrees) {
   CaptureBuilder capture;
   for (int i = 0; i < 4; ++i) {
     pdu::EntityState state;
@@ -216,7 +216,7 @@ TEST(InspectStats, KeepsMemoryBoundedAndLosesNoPdu) {
   EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 5);
 }
 
-TEST(InspectBundles, ShowsOctetsPaddingOrderAndTypesOfEachDatagram) {
+TEST(InspectBundles, ShowsOctetsPaddingOrderAndTypes) {
   CaptureBuilder capture;
   Octets good;
   append_pdu(good, pdu::EntityState{});
@@ -290,7 +290,7 @@ TEST(InspectBundles, CountsEveryDatagramAndPduOfRecordedSessions) {
   EXPECT_EQ(pdus, 383U);
 }
 
-TEST(InspectViews, RefuseFlagsOfOtherViewsAndSayWhatWouldDo) {
+TEST(InspectViews, RefuseFlagsOfOtherViewsWithTheRemedy) {
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{"inspect", "x.pcap", "--csv"},
         {"inspect", "x.pcap", "stats", "--tree"},

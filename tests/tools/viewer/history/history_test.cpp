@@ -40,7 +40,8 @@ void take(History& history, const std::vector<Sent>& all) {
   for (const Sent& sent : all) ASSERT_TRUE(history.take(datagram_of(sent)));
 }
 
-/// What the inspector's table shows at an instant, of what had come by then; by marking's slot.
+/// The positions in the inspector's table at an instant, from the datagrams until then; by
+/// marking's slot.
 std::vector<Eigen::Vector3d> shown_by_table(const std::vector<Sent>& all, nanoseconds time) {
   EntityTable table(64);
   DatagramInspector inspector;
@@ -71,13 +72,13 @@ void expect_same(const std::vector<EntityMark>& marks, const std::vector<Eigen::
     EXPECT_LT((marks[i].position - places[marks[i].slot]).norm(), kMillimetre);
 }
 
-TEST(History, ShowsAnyInstantOfACaptureAsTheInspectorDoes) {
+TEST(History, ShowsAnyInstantAsTheInspectorDoes) {
   const auto all = trucks::drive(5, 40);
   History history(whole());
   take(history, all);
   history.roster().publish();
   std::unique_ptr<History::Cursor> cursor;
-  // On, back, far on, to an update itself, to the end.
+  // Forward, back, far forward, to an update itself, to the end.
   for (const nanoseconds since : std::initializer_list<nanoseconds>{
            seconds(3), milliseconds(12'345), seconds(7), milliseconds(39'004), milliseconds(20'502),
            nanoseconds(0), seconds(39)}) {
@@ -105,7 +106,7 @@ TEST(History, ComesToTheSameWorldFromEitherSide) {
   }
 }
 
-TEST(History, ShowsTheErrorOfAnUpdateAndLetsItGo) {
+TEST(History, ShowsAndRemovesTheErrorOfAnUpdate) {
   History history(whole());
   Sent first{{}, kStart}, second{{}, kStart + seconds(1)};
   pdu::EntityState state = trucks::truck(1, 0);
@@ -158,7 +159,7 @@ TEST(History, FindsTheUpdatesBesideAnInstant) {
   EXPECT_EQ(history.update_before(all.front().time), std::nullopt);
 }
 
-TEST(History, KeepsTheLastMinuteOfALiveSourceAndForgetsTheRest) {
+TEST(History, KeepsTheLastMinuteOfALiveSource) {
   HistoryOptions options;
   options.span = seconds(60);
   History history(options);
@@ -174,7 +175,7 @@ TEST(History, KeepsTheLastMinuteOfALiveSourceAndForgetsTheRest) {
   std::unique_ptr<History::Cursor> cursor;
   history.seek(cursor, wanted);
   expect_same(marks_of(cursor->world(), history, wanted), shown_by_table(all, wanted));
-  // What is forgotten is shown as its begin.
+  // A forgotten instant is shown as the beginning.
   history.seek(cursor, kStart);
   EXPECT_EQ(cursor->time(), history.begin());
 }
@@ -197,7 +198,7 @@ TEST(History, StaysWithinItsOctets) {
   EXPECT_LE(capture.weight(), options.octets + 1000);
 }
 
-TEST(History, HearsOneExerciseAloneWhereItIsAskedTo) {
+TEST(History, ReceivesOneExerciseIfConfigured) {
   HistoryOptions options = whole();
   options.exercise = 9;
   History history(options);
@@ -205,14 +206,14 @@ TEST(History, HearsOneExerciseAloneWhereItIsAskedTo) {
   EXPECT_TRUE(history.live().table().entities().empty());
 }
 
-TEST(History, TellsRatesAndErrorsOfTheSecondBefore) {
+TEST(History, ReturnsRatesAndErrorsOfThePreviousSecond) {
   History history(whole());
   take(history, trucks::drive(4, 10));
   const NumbersSample* sample = history.numbers().at(kStart + seconds(5));
   ASSERT_NE(sample, nullptr);
   EXPECT_NEAR(sample->pdu_per_s, 8, 4);
   EXPECT_NEAR(sample->bit_per_s, 8 * 144 * sample->pdu_per_s, 1);
-  // Half a second at 2 m/s^2 towards the middle: 0.25 m.
+  // Half a second at 2 m/s^2 towards the centre: 0.25 m.
   EXPECT_NEAR(sample->error_mean.value(), 0.25, 0.01);
   EXPECT_FALSE(sample->lost_share.has_value());
   EXPECT_EQ(history.numbers().at(kStart), nullptr);
@@ -234,7 +235,7 @@ peer::GroupAddress group_number(std::uint32_t number, std::uint16_t port = 3000)
   return peer::IpEndpoint::v4(0xEFC00100 + number, port);
 }
 
-TEST(GroupTiers, TellNearAndContactGroupsFromThoseOfCells) {
+TEST(GroupTiers, DistinguishNearAndContactGroupsFromCells) {
   const GroupTiers tiers = three_tiers();
   for (const std::uint32_t number : {0U, 1U, 8U, 25U})
     EXPECT_EQ(tiers.of(group_number(number)).number, 0) << number;
@@ -247,7 +248,7 @@ TEST(GroupTiers, TellNearAndContactGroupsFromThoseOfCells) {
   EXPECT_EQ(GroupTiers().of(group_number(24)).number, 0) << "no scene, no knowledge";
 }
 
-TEST(ReceivedGroups, KnowWhoWasHeardOfLateInAContactGroup) {
+TEST(ReceivedGroups, KnowRecentSendersOfAContactGroup) {
   HistoryOptions options = whole();
   options.tiers = three_tiers();
   History history(options);
@@ -295,7 +296,7 @@ Sent roles(std::uint32_t tag, std::int32_t column, std::uint16_t flags, double t
   return sent;
 }
 
-TEST(ReceivedGroups, KnowTheCellOfABeaconUntilItLeaves) {
+TEST(ReceivedGroups, KnowABeaconsCellUntilItLeaves) {
   History history(whole());
   take(history, {roles(7, 3, 0, 0), roles(7, 4, 0, 1), roles(7, 3, pdu::kRoleLeaves, 1.1)});
   const auto& beacons = history.live().groups().beacons();
@@ -307,7 +308,7 @@ TEST(ReceivedGroups, KnowTheCellOfABeaconUntilItLeaves) {
   EXPECT_TRUE(beacons.empty());
 }
 
-TEST(ReceivedGroups, HaveRoomForSoManyBeaconsAndForNewOnesWhenTheOldAreSilent) {
+TEST(ReceivedGroups, ReplaceSilentBeaconsAtTheirLimit) {
   History history(whole());
   for (std::uint32_t tag = 1; tag <= 2000; ++tag) take(history, {roles(tag, 0, 0, 0.001 * tag)});
   EXPECT_EQ(history.live().groups().beacons().size(), ReceivedGroups::kMostBeacons);
@@ -315,7 +316,7 @@ TEST(ReceivedGroups, HaveRoomForSoManyBeaconsAndForNewOnesWhenTheOldAreSilent) {
   EXPECT_TRUE(history.live().groups().beacons().contains(5000));
 }
 
-TEST(Roster, NamesWhomItShowsAndGivesSlotsAwayAgain) {
+TEST(Roster, NamesShownEntitiesAndReusesSlots) {
   HistoryOptions options;
   options.span = seconds(5);
   History history(options);

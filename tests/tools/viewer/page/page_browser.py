@@ -27,7 +27,8 @@ from pathlib import Path
 
 from page_driver import CHROMIUM, DRIVER, PATIENCE, ActionChains, browser, expect, program, shows_no_fault, skip
 
-# Numbers of a picture are single precision, and a step that comes late on a busy machine takes what no servo knows in time [J].
+# Numbers of a picture have single precision, and a late step on a busy machine takes energy that the servo cannot
+# know in time [J].
 PASSIVE = "(hand) => hand.energy + hand.loan >= -1e-6"
 
 
@@ -101,7 +102,7 @@ def plays_from_disk(page, file, entities):
 
 def capture(reckon, scenes):
     markup = "<img src=x onerror='window.foreign=1'></script>"
-    marking = "</script><b"  # the eleven letters of one
+    marking = "</script><b"  # a marking has eleven letters
     with tempfile.TemporaryDirectory() as folder, resting_hands() as scene:
         heard, file = Path(folder) / f"{markup.replace('/', '%')}.pcapng", Path(folder) / "run.html"
         speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--name", marking, "--for", "1min", "--json"],
@@ -123,10 +124,10 @@ def capture(reckon, scenes):
 
 
 class OtherHand:
-    """The hand that is not ours, and the pointer that goes to it."""
+    """The hand of another peer, and the pointer that moves to it."""
 
     OTHER = "window.reckon.hands.find((hand) => hand.index !== window.reckon.yours).index"
-    WHEEL = 0.2  # pixels of depth for one of the wheel
+    WHEEL = 0.2  # pixels of depth for each pixel of the wheel
 
     def __init__(self, page):
         self.page = page
@@ -153,7 +154,8 @@ class OtherHand:
         raise AssertionError(f"more than 1 N at both hands within 5 s; felt are {self.forces()}")
 
     def hold(self):
-        """Three seconds without a motion of the pointer, and more where a busy machine delays the servo: then the same force over a second."""
+        """Keeps the pointer still for three seconds, and longer if a busy machine delays the servo; then requires the
+        same force over a second."""
         for second in range(PATIENCE):
             sums = self.summed_forces()
             low, high = sorted(sums)
@@ -162,7 +164,7 @@ class OtherHand:
         raise AssertionError(f"held still, both feel the same within 5 %: sums over the last second are {low} and {high} N")
 
     def summed_forces(self):
-        """Of as many samples as a second has, in which no energy is below zero."""
+        """Sums over as many samples as a second has; in none of them is an energy below zero."""
         sums, begin = [0, 0], time.monotonic()
         while time.monotonic() - begin < 1:
             expect(self.page.ask(f"window.reckon.hands.every({PASSIVE})"), "energy never below zero")
@@ -174,12 +176,12 @@ def set_network(page, delay_ms, loss_percent):
     for name, value in (("delay", delay_ms), ("loss", loss_percent)):
         page.driver.execute_script("const slider = document.getElementById(arguments[0]); slider.value = arguments[1];"
                                    "for (const type of ['input', 'change']) slider.dispatchEvent(new Event(type))", name, value)
-        # Among the last lines: one about a peer may have come behind it.
+        # Searched among the last lines, because a line about a peer may come after it.
         page.wait(f"[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes(': {name} {value} '))",
                   "the log says what a slider did")
 
 
-# Two hands that rest beside each other until a pointer comes.
+# Two hands that rest beside each other until a pointer moves.
 RESTING = """
 [scene]
 name = "resting hands"
@@ -204,7 +206,7 @@ position = "25 0 90 mm"
 def resting_hands():
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "resting.toml"
-        # Nobody else's peers on this host come in.
+        # Peers of other programs on this host cannot join.
         scene.write_text(RESTING + f'[network]\ngroup = "239.192.79.0"\nport = {20000 + os.getpid() % 20000}\n')
         yield str(scene)
 
@@ -229,7 +231,8 @@ def hand(reckon, scenes):
 
 
 def twin(reckon, scenes):
-    """Without the gate: on the felt force at no delay, shaken over a bad network, where the hands themselves stay calm."""
+    """Without the gate: equal to the felt force without a delay, and oscillating over a bad network, where the hands
+    themselves stay calm."""
     with program(reckon, "demo", f"{scenes}/meeting.toml", "--view=0", "--for", "10min") as started, browser() as page:
         page.size(1280, 800)
         page.open(started.address)

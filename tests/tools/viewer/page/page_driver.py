@@ -14,7 +14,7 @@ import time
 SKIPPED = 77
 CHROMIUM = "/usr/bin/chromium"
 DRIVER = "/usr/bin/chromedriver"
-PATIENCE = 30  # [s] for anything that is waited for; the machine may be busy
+PATIENCE = 30  # [s] for any expected event; the machine may be busy
 
 
 def skip(why):
@@ -111,7 +111,7 @@ class Page:
         self.wait(f"(window.reckon?.frames ?? 0) >= {seen + count}", f"{count} pictures")
 
     def settled(self, expression):
-        """Its value when the page has said the same for four looks of the page at itself."""
+        """Its value after the page has shown the same in four of its updates."""
         before, since = self.ask(expression), time.monotonic()
         while time.monotonic() - since < 1:
             now = self.ask(expression)

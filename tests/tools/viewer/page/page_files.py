@@ -134,7 +134,7 @@ def faults(files):
 
 
 def planted(files):
-    """Each fault, planted by itself, and what must be said of it."""
+    """Each single fault, and the expected message."""
     def changed(name, change):
         return {**files, name: change(files[name])}
     main = "main.js"

@@ -51,7 +51,7 @@ TEST(PageRequest, IsReadOfEachKind) {
   EXPECT_EQ(std::get<FollowRequest>(*read_page_request(message(10, std::uint16_t{5}))).slot, 5);
 }
 
-TEST(PageRequest, RefusesNumbersThatAreNoneOrOutOfRange) {
+TEST(PageRequest, RefusesInvalidAndOutOfRangeNumbers) {
   const auto is_refused = [](const std::vector<std::byte>& octets) {
     return !read_page_request(octets).has_value();
   };
@@ -79,7 +79,7 @@ TEST(PageRequest, RefusesEveryOtherLengthAndKind) {
   EXPECT_FALSE(read_page_request(message(11)).has_value());
 }
 
-TEST(PageRequest, ChangesTheExerciseByPointerNetworkAndHandsAlone) {
+TEST(PageRequest, PointerNetworkAndHandsChangeTheExercise) {
   EXPECT_TRUE(changes_exercise(PointerRequest{}));
   EXPECT_TRUE(changes_exercise(NetworkRequest{}));
   EXPECT_TRUE(changes_exercise(TakeHandRequest{}));

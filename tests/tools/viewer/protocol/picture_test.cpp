@@ -10,7 +10,7 @@
 namespace reckon::tools {
 namespace {
 
-/// The oracle: the host's own little endian.
+/// The oracle: the host's own little endian order.
 template <typename Value>
 Value at(const std::string& octets, std::size_t place) {
   Value value;
@@ -55,7 +55,7 @@ PictureRows rows() {
   return picture;
 }
 
-TEST(Picture, IsAsLongAsItsCountsSay) {
+TEST(Picture, HasTheLengthOfItsCounts) {
   std::string octets;
   encode_picture(rows(), octets);
   EXPECT_EQ(octets.size(), 32U + 2 * 56 + 72 + 40 + 124 + 20);
@@ -115,7 +115,7 @@ TEST(Picture, MarksAHandAsItsReadersOwn) {
   EXPECT_EQ(at<std::uint16_t>(octets, 32 + 112 + 2), kHandInContact | kHandYours);
 }
 
-TEST(Picture, SaysMillimetresSixThousandKilometresAway) {
+TEST(Picture, ResolvesMillimetresSixThousandKilometresAway) {
   PictureRows picture = rows();
   const Eigen::Vector3d away(-4'461'603.0, 2'757'549.5, -2'740'670.75);
   std::string before, after;
@@ -128,7 +128,7 @@ TEST(Picture, SaysMillimetresSixThousandKilometresAway) {
     EXPECT_NEAR(at<double>(after, place) - at<double>(before, place), 0.001, 1e-8) << place;
 }
 
-TEST(Picture, CutsWhatDoesNotFit) {
+TEST(Picture, ClampsValuesOutOfRange) {
   PictureRows picture = rows();
   picture.entities.resize(1);
   picture.entities[0].jump = 1e9;

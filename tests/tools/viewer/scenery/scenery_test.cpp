@@ -37,7 +37,7 @@ EntityMark mark_at(std::uint16_t slot, double x, double y) {
   return mark;
 }
 
-TEST(SubscribedCells, SayWhoHearsTheCellOfTheOneThatIsFollowed) {
+TEST(SubscribedCells, NameTheSubscribersOfTheFollowedCell) {
   SubscribedCells cells(squares());
   std::vector<EntityMark> marks{mark_at(1, 5, 5), mark_at(2, 16, 5), mark_at(3, 95, 5)};
   cells.place(marks);
@@ -57,10 +57,10 @@ TEST(SubscribedCells, SayWhoHearsTheCellOfTheOneThatIsFollowed) {
     EXPECT_NEAR(cell["x"].get<double>(), 5, 1e-9);
   }
   EXPECT_TRUE(is_there);
-  EXPECT_EQ(heard, 9U);  // 12 m about the middle of a cell of 10 m
+  EXPECT_EQ(heard, 9U);  // 12 m about the centre of a cell of 10 m
 }
 
-TEST(SubscribedCells, HaveNoNumberForAPlaceThatIsNone) {
+TEST(SubscribedCells, HaveNoNumberForAnInvalidPosition) {
   SubscribedCells cells(squares());
   std::vector<EntityMark> marks{mark_at(1, std::numeric_limits<float>::quiet_NaN(), 0)};
   cells.place(marks);
@@ -97,7 +97,7 @@ test::Octets roles(std::string_view name, aoim::CellId cell) {
   return octets;
 }
 
-/// A cell far away that has the same number.
+/// A distant cell with the same number.
 aoim::CellId same_number(const aoim::CellPartition& cells, aoim::CellId cell) {
   aoim::CellId other = cell;
   do ++other.q;
@@ -105,11 +105,11 @@ aoim::CellId same_number(const aoim::CellPartition& cells, aoim::CellId cell) {
   return other;
 }
 
-TEST(DrawnGroups, PutABeaconInTheCellOfItsOwnersEntityUnderItsName) {
+TEST(DrawnGroups, PutABeaconInItsOwnersCell) {
   const peer::SceneFile scene = peer::parse_scene_file(kGate, "gate.toml");
   ASSERT_TRUE(DrawnGroups::has_any(scene));
   using std::chrono::seconds;
-  History history(HistoryOptions{});  // knows truck 1:2:1 at slot 0
+  History history(HistoryOptions{});  // has truck 1:2:1 at slot 0
   trucks::Sent sent{{}, trucks::kStart};
   test::append_pdu(sent.octets, trucks::truck(1, 0));
   ASSERT_TRUE(history.take(trucks::datagram_of(sent)));
@@ -134,7 +134,7 @@ TEST(DrawnGroups, PutABeaconInTheCellOfItsOwnersEntityUnderItsName) {
   }
 }
 
-TEST(DrawnGroups, SayWhoSharesAGroup) {
+TEST(DrawnGroups, ListTheSendersOfAGroup) {
   const peer::SceneFile scene =
       peer::parse_scene_file("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n", "touch.toml");
   ASSERT_TRUE(DrawnGroups::has_any(scene));
@@ -199,7 +199,7 @@ TEST(SolidShapes, DrawEveryKindOfSolid) {
   EXPECT_EQ(solids[7].shape, "sphere") << "a part that is taken away is not drawn";
 }
 
-/// Two sides of a box, of a material each, and a third of none.
+/// Two sides of a box, each with its material, and a third without.
 constexpr const char* kPad = R"(
 v 0 0 0
 v 1 0 0
@@ -215,7 +215,7 @@ usemtl bare
 f 1 2 6
 )";
 
-TEST(SolidShapes, NumberThePatchesOfAllMeshesAndFindTheOneThatIsTouched) {
+TEST(SolidShapes, NumberPatchesAndFindTheTouchedOne) {
   const std::string file = testing::TempDir() + "reckon_pad.obj";
   std::ofstream(file) << kPad;
   haptics::Scene scene;
@@ -238,7 +238,7 @@ TEST(SolidShapes, NumberThePatchesOfAllMeshesAndFindTheOneThatIsTouched) {
   EXPECT_EQ(touched_patch(solids, 9, {0.9, 0, 0}), 0);
 }
 
-TEST(ShownThresholds, AreThreeAtMostAndThoseOfAnEntityByItsMarking) {
+TEST(ShownThresholds, AreAtMostThreeOrTheEntitysOwn) {
   const auto scene = [](std::string_view more) {
     return peer::parse_scene_file(fmt::format("[dead_reckoning]\nposition = \"0.5 mm\"\n{}", more),
                                   "thresholds.toml");
@@ -260,7 +260,7 @@ TEST(ShownThresholds, AreThreeAtMostAndThoseOfAnEntityByItsMarking) {
   EXPECT_EQ(many.of("stranger", false), std::nullopt);
 }
 
-TEST(SolidShapes, DrawAPictureCoarserWhereItHasTooManyTriangles) {
+TEST(SolidShapes, SimplifyAPictureWithTooManyTriangles) {
   const test::ScratchFolder folder;
   std::ofstream(folder.file("land.pgm")) << "P5 200 100 255\n" << std::string(200 * 100, 'a');
   haptics::Scene scene;
@@ -281,7 +281,7 @@ TEST(SolidShapes, DrawAPictureCoarserWhereItHasTooManyTriangles) {
   EXPECT_EQ(drawn_solids(scene)[0].shape, "box");
 }
 
-TEST(SolidShapes, DrawTheBoxOfAMeshThatCannotBeRead) {
+TEST(SolidShapes, DrawTheBoxOfAnUnreadableMesh) {
   haptics::Scene scene;
   scene.objects.push_back({"lost", haptics::MeshShape{"/none.obj", 0.2}, {}, {}, {}});
   const auto solids = drawn_solids(scene);

@@ -7,7 +7,7 @@
 namespace reckon::tools {
 namespace {
 
-TEST(Access, KnowsItsOwnAddressesAsWholeStrings) {
+TEST(Access, MatchesItsOwnAddressesAsWholeStrings) {
   const Access access({"localhost", "127.0.0.1"}, 8642, "word");
   EXPECT_TRUE(access.is_own_host("127.0.0.1:8642"));
   EXPECT_TRUE(access.is_own_host("localhost:8642"));
@@ -16,7 +16,7 @@ TEST(Access, KnowsItsOwnAddressesAsWholeStrings) {
     EXPECT_FALSE(access.is_own_host(host)) << host;
 }
 
-TEST(Access, TakesAnOriginOnlyTogetherWithTheHostThatItNames) {
+TEST(Access, TakesAnOriginOnlyWithItsHost) {
   const Access access({"localhost", "127.0.0.1"}, 8642, "word");
   EXPECT_TRUE(access.is_own_origin("http://127.0.0.1:8642", "127.0.0.1:8642"));
   EXPECT_FALSE(access.is_own_origin("http://localhost:8642", "127.0.0.1:8642"));
@@ -26,7 +26,7 @@ TEST(Access, TakesAnOriginOnlyTogetherWithTheHostThatItNames) {
     EXPECT_FALSE(access.is_own_origin(origin, "127.0.0.1:8642")) << origin;
 }
 
-TEST(Access, LeavesOutThePortOfHttpAsBrowsersDo) {
+TEST(Access, OmitsTheHttpPortAsBrowsersDo) {
   EXPECT_TRUE(Access({"127.0.0.1"}, 80, "word").is_own_host("127.0.0.1"));
 }
 

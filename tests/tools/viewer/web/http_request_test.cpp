@@ -14,7 +14,7 @@ const std::string kRequest =
     "Upgrade: websocket\r\nConnection: keep-alive, Upgrade\r\nSec-WebSocket-Key: abc\r\n"
     "Sec-WebSocket-Version: 13\r\nUser-Agent: x\r\n\r\n";
 
-TEST(HttpRequest, SaysWhatTheHeadOfABrowserSays) {
+TEST(HttpRequest, ReadsTheHeadOfABrowser) {
   HttpRequest request;
   const std::string octets = kRequest + "behind";
   ASSERT_EQ(read_request(octets, request), RequestVerdict::good);
@@ -36,7 +36,7 @@ TEST(HttpRequest, WaitsForMoreWhereverItIsCut) {
     EXPECT_EQ(read_request(kRequest.substr(0, size), request), RequestVerdict::incomplete) << size;
 }
 
-TEST(HttpRequest, RefusesFieldsThatComeTwiceAndLinesThatAreNone) {
+TEST(HttpRequest, RefusesDuplicateFieldsAndInvalidLines) {
   HttpRequest request;
   for (const std::string line : {"Host: a\r\nHost: b", "Origin: a\r\norigin: a", "no colon",
                                  ": no name", "a b: c", "Ho st: a"})
@@ -55,13 +55,13 @@ TEST(HttpRequest, GivesUpOnAHeadWithoutAnEnd) {
             RequestVerdict::incomplete);
 }
 
-TEST(HttpRequest, FindsWordsOfAListWhateverTheirCase) {
+TEST(HttpRequest, FindsListWordsInAnyCase) {
   EXPECT_TRUE(lists_word("keep-alive, Upgrade", "upgrade"));
   EXPECT_FALSE(lists_word("keep-alive, Upgraded", "upgrade"));
   EXPECT_FALSE(lists_word("", "upgrade"));
 }
 
-TEST(HttpRequest, FindsTheValueOfOneNameOfAQuery) {
+TEST(HttpRequest, FindsTheValueOfAQueryName) {
   EXPECT_EQ(value_in_query("a=1&word=1f2e&b", "word"), "1f2e");
   EXPECT_EQ(value_in_query("aword=1", "word"), "");
   EXPECT_EQ(value_in_query("word", "word"), "");

@@ -17,7 +17,7 @@ std::vector<std::byte> octets(std::initializer_list<unsigned> values) {
   return out;
 }
 
-TEST(WebSocket, AnswersTheKeyOfRfc6455AsItSays) {
+TEST(WebSocket, AnswersTheExampleKeyOfRfc6455) {
   EXPECT_EQ(web_socket_accept("dGhlIHNhbXBsZSBub25jZQ=="), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
 }
 
@@ -29,7 +29,7 @@ TEST(WebSocket, KnowsAKeyByItsForm) {
   EXPECT_FALSE(is_web_socket_key(""));
 }
 
-TEST(WebSocket, SaysTheLengthOfAPayloadInAsFewOctetsAsRfc6455Wants) {
+TEST(WebSocket, WritesPayloadLengthsInTheShortestForm) {
   const auto head = [](std::size_t size) {
     const FrameHead made = frame_head(WebSocketOpcode::binary, size);
     return std::vector<std::byte>(made.bytes().begin(), made.bytes().end());
@@ -51,7 +51,7 @@ TEST(WebSocket, UnmasksAShortBinaryFrame) {
     EXPECT_EQ(read_client_frame(std::span(frame).first(size), read), FrameVerdict::incomplete);
 }
 
-TEST(WebSocket, RefusesWhatIsNotMaskedTooLongInPartsOrOfAnotherKind) {
+TEST(WebSocket, RefusesUnmaskedLongPartialAndOtherFrames) {
   ClientFrame read;
   EXPECT_EQ(read_client_frame(octets({0x82, 0x01, 7}), read), FrameVerdict::bad);
   EXPECT_EQ(read_client_frame(octets({0x82, 0xFE, 0, 126}), read), FrameVerdict::bad);
