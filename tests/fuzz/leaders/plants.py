@@ -19,7 +19,7 @@ PLANTS = [
      "  if (leading_ && incoming.verdict == IncomingVerdict::use && tiers_.tier_of(group) == kCellTier) {\n    leading_->receive(group, datagram, trailer->epoch, now, came.value_or(now));",
      "  if (leading_ && trailer && tiers_.tier_of(group) == kCellTier &&\n      presence_.standing(trailer->epoch) == Standing::member) {\n    leading_->receive(group, datagram, trailer->epoch, now, now);"),
     ("owners tell newcomers too", "area_of_interest_manager.cpp",
-     "        introduce_ = introduce_ || !leading_;  // it asks the leaders of its cells\n", "        introduce_ = true;\n"),
+     "        introduce_ = introduce_ || !leading_;  // leaders answer the newcomer\n", "        introduce_ = true;\n"),
     ("leader speaks seldom", "leader/cell_leadership.cpp",
      "(leads ? config_.heartbeat : config_.member_beat)", "(leads ? 6 * config_.heartbeat : config_.member_beat)"),
     ("snapshot never begins", "leader/snapshot_server.cpp",

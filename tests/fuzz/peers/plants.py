@@ -37,7 +37,7 @@ PLANTS = [
     ("numbers of strangers believed", "area_of_interest_manager.cpp",
      "  if (standing == Standing::unknown) return IncomingVerdict::use;\n", ""),
     ("numbers kept of a peer that moved", "area_of_interest_manager.cpp",
-     "      case PresenceEventKind::moved:  // what was counted of it may have been another's\n        sequences_.forget(event.announced.epoch);\n",
+     "      case PresenceEventKind::moved:  // its counts may come from another sender\n        sequences_.forget(event.announced.epoch);\n",
      "      case PresenceEventKind::moved:\n"),
     ("who has gone is shown on", "participant.cpp",
      "  if (const auto dropped = event.dropped()) handler_.drop(*dropped, event.kind == Kind::timed_out);\n", ""),
