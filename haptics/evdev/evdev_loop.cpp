@@ -96,13 +96,14 @@ SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
 // @return why the device is too slow for the declared delay, as a sentence; empty: it is fast
 // enough
 std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
-  const ReportIntervals told = calls_->report_intervals(path);
+  const ReportIntervals intervals = calls_->report_intervals(path);
   constexpr int kTurns = WallEffects::kTurns, kReports = WallEffects::kReportsOfAChange;
   const nanoseconds rest = settings_.chain - WallEffects::kReaction;
-  interval_ = told.takes.count() > 0 ? nanoseconds(told.takes)
-                                     : std::clamp<nanoseconds>(rest / (kTurns * (kReports + 1)),
-                                                               microseconds(1), kReport);
-  age_ = kTurns * (told.sends.count() > 0 ? nanoseconds(told.sends) : interval_);
+  interval_ =
+      intervals.takes.count() > 0
+          ? nanoseconds(intervals.takes)
+          : std::clamp<nanoseconds>(rest / (kTurns * (kReports + 1)), microseconds(1), kReport);
+  age_ = kTurns * (intervals.sends.count() > 0 ? nanoseconds(intervals.sends) : interval_);
   const auto text = [](nanoseconds time) {
     return std::to_string(std::chrono::ceil<microseconds>(time).count()) + " us";
   };

@@ -102,12 +102,12 @@ SpringWall WallEffects::next_wall(std::size_t axis, WallSide side,
 
 // Books the energy over all positions that the handle may reach until the device has the change.
 int WallEffects::tell_side(WallSide side, const SpringModel& model, nanoseconds now) noexcept {
-  ff_effect& told = effects_[index_of(side)];
-  ff_effect next = effect_of(model, side, settings_.scale, told.id, kLengthInEffect);
-  if (!are_equal(next, told)) {
+  ff_effect& uploaded = effects_[index_of(side)];
+  ff_effect next = effect_of(model, side, settings_.scale, uploaded.id, kLengthInEffect);
+  if (!are_equal(next, uploaded)) {
     const int result = calls_.control(file_, EVIOCSFF, &next);
     if (result < 0) return result;
-    told = next;
+    uploaded = next;
     changed_[index_of(side)] = now;
     line_up(kReportsOfAChange, now);
   }
@@ -121,13 +121,13 @@ int WallEffects::tell_side(WallSide side, const SpringModel& model, nanoseconds 
 
 int WallEffects::tell_wall(std::size_t axis, WallSide side, const SpringWall& wall,
                            nanoseconds now) noexcept {
-  ff_effect& told = effects_[index_of(side)];
-  ff_effect next = told;
+  ff_effect& uploaded = effects_[index_of(side)];
+  ff_effect next = uploaded;
   next.u.condition[axis] = condition_of(wall, side, settings_.scale);
-  if (!are_equal(next, told)) {
+  if (!are_equal(next, uploaded)) {
     const int result = calls_.control(file_, EVIOCSFF, &next);
     if (result < 0) return result;
-    told = next;
+    uploaded = next;
     changed_[index_of(side)] = now;
   }
   if (books_.shown().wall(axis, side) != wall)

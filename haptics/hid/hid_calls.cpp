@@ -69,7 +69,9 @@ bool has_springs(const path& inputs) {
 }
 
 // An unplugged device fails with ESHUTDOWN until its file is gone.
-int told(long result) noexcept { return result == -ESHUTDOWN ? -ENODEV : static_cast<int>(result); }
+int result_of(long result) noexcept {
+  return result == -ESHUTDOWN ? -ENODEV : static_cast<int>(result);
+}
 
 class KernelHidCalls final : public HidCalls {
  public:
@@ -111,24 +113,24 @@ class KernelHidCalls final : public HidCalls {
   }
   int read(int file, std::span<std::uint8_t> report) noexcept override {
     const auto octets = kernel_call([&] { return ::read(file, report.data(), report.size()); });
-    return octets == 0 ? -ENODEV : told(octets);
+    return octets == 0 ? -ENODEV : result_of(octets);
   }
   int write(int file, std::span<const std::uint8_t> report) noexcept override {
     const auto octets = kernel_call([&] { return ::write(file, report.data(), report.size()); });
-    return octets < 0 ? told(octets) : 0;
+    return octets < 0 ? result_of(octets) : 0;
   }
   int set_feature(int file, std::span<const std::uint8_t> report) noexcept override {
     auto* const octets = const_cast<std::uint8_t*>(report.data());  // it is only read
     const int result =
         kernel_call([&] { return ::ioctl(file, HIDIOCSFEATURE(report.size()), octets); });
-    return result < 0 ? told(result) : 0;
+    return result < 0 ? result_of(result) : 0;
   }
   int get_feature(int file, std::span<std::uint8_t> report) noexcept override {
-    return told(
+    return result_of(
         kernel_call([&] { return ::ioctl(file, HIDIOCGFEATURE(report.size()), report.data()); }));
   }
   int get_input(int file, std::span<std::uint8_t> report) noexcept override {
-    return told(
+    return result_of(
         kernel_call([&] { return ::ioctl(file, HIDIOCGINPUT(report.size()), report.data()); }));
   }
   void wait(int file, std::chrono::microseconds longest) noexcept override {

@@ -126,10 +126,10 @@ int HidDevice::upload(ff_effect& wanted) noexcept {
   if (wanted.type != FF_SPRING || effect == nullptr) return -EINVAL;
   for (std::size_t axis = 0; axis < axes(); ++axis) {
     const ff_condition_effect& condition = wanted.u.condition[axis];
-    if (!is_new && is_same_condition(condition, effect->told[axis])) continue;
+    if (!is_new && is_same_condition(condition, effect->sent[axis])) continue;
     const int result = send(reports_.set_condition(effect->block, axis, condition));
     if (result < 0) return result;
-    effect->told[axis] = condition;
+    effect->sent[axis] = condition;
   }
   return 0;
 }

@@ -51,7 +51,7 @@ class HidDevice {
  private:
   struct Effect {
     std::uint8_t block = 0;  // 0: the slot is free
-    std::array<ff_condition_effect, EventState::kAxes> told{};
+    std::array<ff_condition_effect, EventState::kAxes> sent{};
   };
 
   [[nodiscard]] int send(const HidReport& report) noexcept {

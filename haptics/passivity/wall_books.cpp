@@ -24,11 +24,11 @@ SpringWall WallBooks::payable(std::size_t axis, WallSide side, const SpringWall&
   return {paid, wanted.stiffness, wanted.most};
 }
 
-void WallBooks::book(std::size_t axis, WallSide side, const SpringWall& told,
+void WallBooks::book(std::size_t axis, WallSide side, const SpringWall& wall,
                      PlaceRange places) noexcept {
   SpringWall& old = shown_.wall(axis, side);
-  energy_ = std::min(kMost, energy_ - worst_rise(old, told, side, places));
-  old = told;
+  energy_ = std::min(kMost, energy_ - worst_rise(old, wall, side, places));
+  old = wall;
 }
 
 }  // namespace reckon::haptics

@@ -28,7 +28,7 @@ class WallBooks {
   [[nodiscard]] SpringWall payable(std::size_t axis, WallSide side, const SpringWall& wanted,
                                    PlaceRange places) const noexcept;
   /// Books a wall that was sent to the device.
-  void book(std::size_t axis, WallSide side, const SpringWall& told, PlaceRange places) noexcept;
+  void book(std::size_t axis, WallSide side, const SpringWall& wall, PlaceRange places) noexcept;
   /// The device may have ended its effects by itself, or not: writes off the stored energy.
   void forget() noexcept { shown_ = {}; }
 

@@ -10,10 +10,10 @@
  * allocation, no waiting for a line. A driver whose line is slower has a thread of its own, and hands over the newest reading and the newest
  * force. Units: m, s, N, rad. Axes: those of the device, right-handed.
  *
- * SAFETY. A force is held from write() until the next write(). Where none has come for 10 ms the driver sets it to zero by itself, whatever
- * became of the program, and says so by RECKON_DEVICE_LET_GO in the next reading. It limits what it is told to what the device bears. `damping`
- * is the viscous friction of the handle that one is SURE of, along each axis: the stiffness of walls follows from it, and more than there is makes
- * the device shake. */
+ * SAFETY. A force is held from write() until the next write(). If none comes for 10 ms the driver sets it to zero by itself, even if the program
+ * has ended, and sets RECKON_DEVICE_LET_GO in the next reading. It limits each force to what the device can bear. `damping` is the viscous
+ * friction of the handle that is CERTAIN, along each axis: the stiffness of walls follows from it, and a value above the real one makes the
+ * device shake. */
 #ifndef RECKON_HAPTICS_PLUGIN_DEVICE_PLUGIN_H
 #define RECKON_HAPTICS_PLUGIN_DEVICE_PLUGIN_H
 

@@ -138,7 +138,7 @@ static inline void reckon_board_take(reckon_board* board, uint8_t octet) {
   uint8_t frame[RECKON_CARRIED + 3];
   uint8_t length = 0, at = 0, end;
   if (octet != 0) {
-    /* A full buffer is no frame: its end is told by a length that is too great. */
+    /* A full buffer is no frame: a length beyond it marks that. */
     if (board->in_length < sizeof board->in) board->in[board->in_length] = octet;
     if (board->in_length <= sizeof board->in) ++board->in_length;
     return;

@@ -168,23 +168,23 @@ Eigen::Vector3d SerialSession::place_of(const SerialReport& report) const noexce
 }
 
 SerialForce SerialSession::force_of(const Eigen::Vector3d& force) const noexcept {
-  SerialForce told;
+  SerialForce command;
   for (std::size_t i = 0; i < greeting_.axes; ++i) {
     const SerialAxis& axis = greeting_.axis[i];
     const double most = std::min<double>(axis.most_force, 32'767);
     const double along = (axis.nm_per_count < 0 ? -1e3 : 1e3) * force[axis.direction];
-    told.force[i] = static_cast<std::int16_t>(std::lround(std::clamp(along, -most, most)));
+    command.force[i] = static_cast<std::int16_t>(std::lround(std::clamp(along, -most, most)));
   }
-  return told;
+  return command;
 }
 
 SerialFrame SerialSession::tell(const UsbForce& force, bool is_its) noexcept {
   ++told_;
   const std::int64_t zero = is_its ? sent(told_ - 1).zero : told_;
   frames_[static_cast<std::size_t>(told_ % kKept)] = {force.number, force.at, zero};
-  SerialForce told = force_of(is_its ? force.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  told.number = static_cast<std::uint16_t>(told_);
-  return frame_of(told, greeting_.axes);
+  SerialForce command = force_of(is_its ? force.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  command.number = static_cast<std::uint16_t>(told_);
+  return frame_of(command, greeting_.axes);
 }
 
 std::optional<SerialFrame> SerialSession::next(nanoseconds now) {

@@ -87,8 +87,9 @@ const Section<DeviceDescriptor>& descriptor_section() {
           {"usb", no_ids,
            "vendor and product under which it is attached, as \"0403:cb48\"; absent: by no USB"},
           {"kind", &Device::kind,
-           "which way it works: it tells its place and takes a force, tells a force and takes a "
-           "place, or takes a force model; a descriptor is of the first alone"},
+           "impedance: it reports its position and takes a force; admittance: it reports a force "
+           "and "
+           "takes a position; coefficients: it takes a force model. Descriptors are for the first"},
           {"axes", &Device::axes, within("", 1, 8),
            "3; or 6: it turns, and shows torque besides the force. Others are refused"},
           {"max_force", &Device::max_force, declared("N", 0.01, 1e3),

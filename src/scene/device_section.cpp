@@ -234,7 +234,7 @@ std::vector<Row<Device>> driver_rows() {
       {"plugin", no_text,
        "of a plugin: name of the driver's shared library, which is installed or given by "
        "--plugin; what the device can do, it says itself"},
-      {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
+      {"plugin_options", &Device::plugin_options, "of a plugin: options for its driver"},
       {"firmware", &Device::firmware,
        "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
       {"port", &Device::port,
@@ -252,12 +252,12 @@ std::vector<Row<Device>> driver_rows() {
       {"event_axes", &Device::event_axes, within("", 1, 2),
        "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
       {"travel", &Device::travel, declared("m", 0.01, 10),
-       "of evdev: way of the handle from one end of an axis to the other; no device tells it"},
+       "of evdev: handle travel from one end of an axis to the other; no device reports it"},
       {"full_force", &Device::full_force, declared("N", 0.1, 1e3),
-       "of evdev: force at the handle at the greatest level; no device tells it"},
+       "of evdev: force at the handle at the greatest level; no device reports it"},
       {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
        "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
-       "tells it"},
+       "reports it"},
   };
 }
 
@@ -273,7 +273,7 @@ std::vector<Row<Device>> handle_rows() {
       {"sensor_stiffness", in(&Device::admittance, &AdmittanceConfig::sensor_stiffness),
        within("N/m", 100, 1e6), "with a virtual mass: of the sensor between hand and handle"},
       {"motion_loop", in(&Device::admittance, &AdmittanceConfig::loop),
-       "with a virtual mass: whether it is told places or velocities"},
+       "with a virtual mass: whether its command is a position or a velocity"},
       {"reach", &Device::reach, within("m", 0.001, 10),
        "of a pointer: so far from there it takes the hand, along each axis of the device"},
       {"marking", &Device::marking,

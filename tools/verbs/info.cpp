@@ -13,7 +13,7 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kInfoSummary =
-    "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
+    "Summarises a capture: times, datagrams, PDUs by type, senders, groups, entities, "
     "damage.\n\n"
     "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 where something in "
     "it is damaged.";
