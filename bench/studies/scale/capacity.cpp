@@ -16,12 +16,12 @@ namespace reckon::bench {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kLeastPower = 0.02;  // below, a quantity does not grow
+constexpr double kLeastPower = 0.02;  // a quantity with a smaller power is constant
 
-/// What a peer uses up.
+/// A resource that a peer uses.
 struct Use {
   std::string_view words;
-  double (*of)(const ScaleRow&);  ///< of a peer, a second
+  double (*of)(const ScaleRow&);  ///< use per peer and second
   double (*most)(const HostLimits&);
 };
 
@@ -73,7 +73,7 @@ Capacity capacity_of(const ScaleRow& small, const ScaleRow& large, const HostLim
   return out;
 }
 
-/// "1,200": two digits count.
+/// Rounds down to two significant digits: "1,200".
 std::string rounded(double value) {
   const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 1));
   const auto whole = static_cast<std::uint64_t>(std::max(0.0, std::floor(value / unit) * unit));

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kNotable = 0.02, kNotableCpu = 0.1;
 
-/// What stands behind a key of our own lines, whose texts hold neither quotes nor commas.
+/// The value of a key in a JSON line of this study. Its strings hold neither quotes nor commas.
 std::optional<std::string_view> member(std::string_view line, std::string_view key) {
   const std::string wanted = fmt::format("\"{}\":", key);
   const auto at = line.find(wanted);
@@ -49,7 +49,7 @@ bool is_cpu(std::string_view measure) { return measure.find("cpu") != measure.np
 
 double notable(std::string_view measure) { return is_cpu(measure) ? kNotableCpu : kNotable; }
 
-/// What the kernel of this host takes is measured anew at each start, and is no change of ours.
+/// The kernel's cost on this host is measured at each start. It is no change between builds.
 bool is_of_host(std::string_view measure) {
   return measure == "kernel_cpu_share" || measure == "cpu_share";
 }
@@ -63,8 +63,8 @@ bool has_base(const ScaleRow& row, std::span<const BaseRow> base) {
   return std::ranges::any_of(base, [&](const BaseRow& other) { return is_of(other, row); });
 }
 
-/// The value of the base that is nearest to `now`: `now` itself between two of them; none where the
-/// base lacks the row, or the runs to judge it by.
+/// The value nearest to `now` in the range of the base: `now` itself inside the range. None if the
+/// base lacks the row or has too few runs of it.
 std::optional<double> nearest_of_base(const ScaleRow& row, std::string_view measure, double now,
                                       std::span<const BaseRow> base) {
   std::optional<double> least, most;
@@ -76,7 +76,7 @@ std::optional<double> nearest_of_base(const ScaleRow& row, std::string_view meas
     least = std::min(least.value_or(value), value);
     most = std::max(most.value_or(value), value);
   }
-  // Of one run nobody knows how much its CPU time varies.
+  // One run does not show how much the CPU time varies.
   if (!least || (is_cpu(measure) && runs < 2)) return std::nullopt;
   return std::clamp(now, *least, *most);
 }

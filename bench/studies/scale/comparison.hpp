@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two builds beside each other: the rows of a run and those that an earlier one wrote by --json.
+// Compares two builds: the rows of a run with the rows that an earlier run wrote by --json.
 #pragma once
 
 #include <map>
@@ -19,8 +19,8 @@ struct BaseRow {
   std::map<std::string, double, std::less<>> values;  ///< by ScaleMeasure::name
 };
 
-/// The lines of kind "row" of a file. @throws UsageError with file, line and remedy; also where
-/// there is none
+/// Reads the lines of kind "row" of a file. @throws UsageError with file, line and remedy; also if
+/// there is no such line
 [[nodiscard]] std::vector<BaseRow> read_scale_rows(const std::string& path);
 
 /// A number that has changed between two builds.
@@ -29,18 +29,18 @@ struct ScaleChange {
   std::size_t peers = 0, entities = 0;
   double before = 0, now = 0;
 
-  /// now / before; 1 where both are 0, infinite where only the first is.
+  /// now / before; 1 if both are 0, infinite if only `before` is 0.
   [[nodiscard]] double ratio() const;
 };
 
-/// Numbers that are outside what the base has, which may hold several runs of an exercise, by more
-/// than 2 %; the largest change first. CPU of the library's code counts where the base has two runs
-/// or more, and differs by more than 10 %; that of the kernel does not count. `before` is the
-/// nearest of the base.
+/// Numbers outside the range of the base by more than 2 %, largest change first. The base may hold
+/// several runs of an exercise. CPU time of the library's code is compared if the base has two runs
+/// or more, and counts from 10 % on. CPU time of the kernel is not compared. `before` is the
+/// nearest value of that range.
 [[nodiscard]] std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows,
                                                   std::span<const BaseRow> base);
 
-/// @throws UsageError for an exercise that the base does not have, with those that it has
+/// @throws UsageError for an exercise that the base lacks; lists the exercises of the base
 void check_same_exercises(std::span<const ScaleSetting> settings, std::span<const BaseRow> base,
                           std::string_view file);
 

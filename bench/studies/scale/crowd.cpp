@@ -17,9 +17,9 @@ namespace reckon::bench {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStraight = 1e-9;  // [rad] in a step, below it is none
-constexpr double kMiddle = 0x1p30;  // of the numbers of blocks
-constexpr double kBlock = 100;      // [m], of what counts as one neighbourhood
+constexpr double kStraight = 1e-9;  // [rad] in a step; below: no turn
+constexpr double kMiddle = 0x1p30;  // of the block numbers
+constexpr double kBlock = 100;      // [m], side of a neighbourhood
 constexpr double kRestShare = 0.5, kVehicleShare = 0.3;
 
 std::uint8_t gait_named(std::string_view name) {
@@ -36,7 +36,7 @@ std::uint8_t mixed_gait(double draw) {
   return gait_named(draw < kRestShare + kVehicleShare ? "vehicles" : "walkers");
 }
 
-/// The bits of two numbers in turn: near in the plane is near in number.
+/// Morton code: interleaves the bits of x and y. Neighbours in the plane get similar numbers.
 std::uint64_t interleaved(std::uint32_t x, std::uint32_t y) {
   const auto spread = [](std::uint64_t v) {
     v = (v | v << 16) & 0x0000FFFF0000FFFFULL;
@@ -48,7 +48,7 @@ std::uint64_t interleaved(std::uint32_t x, std::uint32_t y) {
   return spread(x) | spread(y) << 1;
 }
 
-/// Numbers 0 .. size - 1 in the order of neighbourhoods.
+/// Indices 0 .. size - 1, sorted by neighbourhood.
 std::vector<std::uint32_t> by_neighbourhood(std::span<const aoim::Position> places) {
   const auto block = [](double v) {
     return static_cast<std::uint32_t>(std::clamp(v / kBlock + kMiddle, 0.0, 2.0 * kMiddle));
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> by_neighbourhood(std::span<const aoim::Position> plac
   return order;
 }
 
-/// Of all samples of all tracks.
+/// Bounding box of all samples of all tracks.
 Eigen::AlignedBox3d bounds_of(std::span<const Track> tracks) {
   Eigen::AlignedBox3d bounds;
   for (const Track& track : tracks)
@@ -202,7 +202,7 @@ void Crowd::begin_leg(std::size_t entity, double time) {
   walker.heading += gait.heading_change * (2 * draw(entity) - 1);
   const double wanted = gait.top_speed * draw(entity);
   if (gait.acceleration == 0) return;
-  // The leg ends where the speed is reached.
+  // The leg ends when the speed is reached.
   walker.acceleration = wanted > walker.speed ? gait.acceleration : -gait.acceleration;
   walker.leg_end =
       time + std::min(length, std::abs(wanted - walker.speed) / gait.acceleration + 1e-3);

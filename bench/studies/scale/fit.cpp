@@ -17,23 +17,23 @@
 namespace reckon::bench {
 namespace {
 
-// Octets of an announcement: Presence, Time Exchange and Peers Heard without their lists, trailer.
+// Octets of an announcement: Presence, Time Exchange and PeersHeard without lists, and the trailer.
 constexpr double kFixedOctets = 160 + 24 + 24 + 24;
-constexpr double kTimedOctets = 12, kMostTimed = 8;  // of each peer in a Time Exchange
-constexpr double kListedOctets = 4;                  // of each peer heard
+constexpr double kTimedOctets = 12, kMostTimed = 8;  // a peer in a Time Exchange
+constexpr double kListedOctets = 4;                  // a peer in PeersHeard
 
 double basis(Growth growth, double peers) {
   return growth == Growth::edge ? 1 / std::sqrt(peers) : peers;
 }
 
-/// Only announcements grow with the peers where each hears its surroundings alone, and with them
-/// the time that reading takes.
+/// With areas of interest, only announcements grow with the number of peers. The CPU time to
+/// receive them grows too.
 Growth growth_of(std::string_view measure, const ScaleDesign& design) {
   const bool is_of_all = measure.starts_with("heard_") && !design.areas;
   return is_of_all || measure == "cpu_share" ? Growth::peers : Growth::edge;
 }
 
-/// What announcements have of a quantity, of each peer a second.
+/// The part of announcements in a quantity, per peer and second.
 double announced(std::string_view measure, double peers) {
   if (measure == "sent_packets_per_s") return 1;
   if (measure == "sent_bytes_per_s") return announcement_octets(peers);
@@ -85,7 +85,7 @@ double announcement_octets(double peers) {
   const aoim::PresenceConfig config;
   double listed = peers - 1;
   if (listed > static_cast<double>(config.most_listed)) {
-    // Each part begins with the last one of the part before.
+    // Each part begins with the last entry of the previous part.
     const double parts = std::ceil((listed - 1) / static_cast<double>(config.part - 1));
     listed = (listed + parts - 1) / parts;
   }

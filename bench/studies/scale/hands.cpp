@@ -16,8 +16,8 @@
 namespace reckon::bench {
 namespace {
 
-constexpr double kLongest = 20;  // [s], of a run of the shipped pair
-constexpr double kTenths = 10;   // a second
+constexpr double kLongest = 20;  // [s], run of the shipped pair
+constexpr double kTenths = 10;   // in a second
 
 /// A scene and the part of it in which the hands are pressed together all the time [s].
 struct Part {
@@ -63,7 +63,7 @@ std::string times_fewer(double packets) {
 
 std::string newtons(double value) { return fmt::format("{} mN", number_text(1e3 * value)); }
 
-/// Where the bars are met, at the least error: that of the smallest threshold that does.
+/// For each scene and bar, the smallest threshold that meets the bar, and its error.
 std::string bars_text(std::span<const HandsRow> rows) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"HANDS"},

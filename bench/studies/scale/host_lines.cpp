@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kBegin = "begin ";
 
-/// What stands behind a key of our own lines, to the end of the line.
+/// The rest of a JSON line of this study after a key.
 std::optional<std::string_view> behind(std::string_view line, std::string_view key) {
   const std::string wanted = fmt::format("\"{}\":", key);
   const auto at = line.find(wanted);
@@ -23,7 +23,7 @@ std::optional<std::string_view> behind(std::string_view line, std::string_view k
   return line.substr(at + wanted.size());
 }
 
-/// Takes a number off the front.
+/// Removes a number from the front.
 template <typename Number>
 bool take_number(std::string_view& text, Number& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

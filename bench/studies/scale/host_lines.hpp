@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the two ends of `bench scale --whole hosts` say to each other, a JSON object a line from the
-// host, a word a line to it.
+// Protocol of `bench scale --whole hosts`: a host sends one JSON object a line and receives one
+// word a line.
 #pragma once
 
 #include <chrono>
@@ -15,23 +15,23 @@
 
 namespace reckon::bench {
 
-/// Asked for at once and answered with kClockLine, which tells how long a line is under way.
+/// Word that a host answers at once with kClockLine, to measure the round trip.
 inline constexpr std::string_view kClockWord = "clock";
 inline constexpr std::string_view kClockLine = R"({"kind":"clock"})";
 
-/// The word with which a host's processes begin so long after they read it.
+/// The word to begin: the host's processes begin `after` from the time that it is read.
 [[nodiscard]] std::string begin_word(std::chrono::nanoseconds after);
-/// Nothing for other words.
+/// None for other words.
 [[nodiscard]] std::optional<std::chrono::nanoseconds> read_begin_word(std::string_view word);
 
-/// All processes of a host are there. @param scene hash of what they announce
+/// Reports that all processes of a host are ready. @param scene hash of their scene
 [[nodiscard]] std::string ready_line(std::uint64_t scene);
-/// The hash; nothing for other lines.
+/// The hash; none for other lines.
 [[nodiscard]] std::optional<std::uint64_t> read_ready_line(std::string_view line);
 
-/// How the process of a peer ended.
+/// Result of a peer's process.
 [[nodiscard]] std::string peer_line(std::size_t peer, const PeerProcess& process);
-/// False for other lines, and those that are damaged.
+/// False for other or damaged lines.
 [[nodiscard]] bool read_peer_line(std::string_view line, std::size_t& peer, PeerProcess& process);
 
 }  // namespace reckon::bench

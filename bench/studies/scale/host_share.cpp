@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// The next word of stdin; nothing at its end. Octet by octet: what follows is not ours to keep.
+/// The next line of stdin; none at its end. Reads octet by octet, to leave later lines unread.
 std::optional<std::string> next_word() {
   std::string word;
   for (char octet = 0;;) {
@@ -35,7 +35,7 @@ std::optional<std::string> next_word() {
   }
 }
 
-/// Whether whoever started this is still there: it says nothing more until the end.
+/// False once stdin is closed, so the starter has ended. It sends no more words after the begin.
 bool is_asked() {
   pollfd in{STDIN_FILENO, POLLIN, 0};
   return poll(&in, 1, 0) <= 0 || next_word().has_value();
@@ -46,7 +46,7 @@ void say(const tools::Console& console, std::string_view line) {
   std::fflush(console.out);
 }
 
-/// Better now than after all hosts have begun.
+/// Fails now rather than after all hosts have begun.
 void check_interface(const std::string& name) {
   try {
     static_cast<void>(peer::choose_interface(name, false));
@@ -57,7 +57,7 @@ void check_interface(const std::string& name) {
   }
 }
 
-/// Answers until the word to begin comes; nothing where none does.
+/// Answers clock words until the word to begin arrives; none if stdin ends before. Steady time.
 std::optional<nanoseconds> asked_begin(const tools::Console& console) {
   const peer::SteadyClock clock;
   while (const auto word = next_word()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The peers of one host of an exercise on several: started there over ssh by hosts.hpp, whose words
-// it reads.
+// The peers of one host in an exercise on several hosts. hosts.hpp starts them over ssh and sends
+// words to them.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@
 
 namespace reckon::bench {
 
-/// Which peers live here.
+/// The peers of this host.
 struct HostShare {
-  std::size_t first = 0, end = 0;  ///< numbers
+  std::size_t first = 0, end = 0;  ///< numbers from 0
   std::string interface;           ///< empty: chosen by rule
 };
 /// "FIRST-LAST", numbers from 1, or "FIRST-LAST=INTERFACE". @throws UsageError with the remedy
 [[nodiscard]] HostShare read_host_share(const std::string& text);
 
-/// Runs them as processes from the word on stdin to begin, and prints a line for each. Ends where
-/// stdin does. @throws EnvironmentError where the interface cannot be used, UsageError for a share
-/// that is not of this exercise, or other words
+/// Runs the peers as processes after the word to begin on stdin, and prints a line for each. Ends
+/// when stdin ends. @throws EnvironmentError if the interface is unusable, UsageError for a share
+/// beyond the peers of the exercise, or for an unknown word
 void run_host_share(const ScaleSetting& setting, const HostShare& share,
                     const tools::Console& console);
 

@@ -24,17 +24,17 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr int kClocks = 9;                   // words to and fro of which the fastest counts
-constexpr double kAnswer = 60, kSlack = 30;  // [s] until a host is given up
+constexpr int kClocks = 9;                   // round trips; the fastest counts
+constexpr double kAnswer = 60, kSlack = 30;  // [s], for an answer, after the end
 
-/// A host at work.
+/// A host with a running command.
 struct Remote {
   const ScaleHost& host;
   std::size_t first, end;  // peers
   RemoteCommand command;
 };
 
-/// Of what it was asked: its exit status by ssh, or the kernel.
+/// The error for a command that ended. @param status of ssh, its shell or reckon, or 128 + signal
 tools::EnvironmentError failed(const ScaleHost& host, const std::string& ssh, int status) {
   constexpr int kNotReached = 255, kNotFound = 127, kUsage = 2, kEnvironment = 3;
   std::string why = fmt::format("ended early, with status {} (its words are above)", status);
@@ -58,7 +58,7 @@ tools::EnvironmentError silent(const ScaleHost& host) {
   return tools::EnvironmentError(fmt::format("host {}: does not answer", host.name));
 }
 
-/// One line of each. @throws EnvironmentError where a host has none
+/// The next line of a host. @throws EnvironmentError if none arrives
 std::string answer_of(Remote& remote, const std::string& ssh) {
   const auto deadline = peer::SteadyClock().now() + pdu::from_seconds(kAnswer);
   auto line = remote.command.read_line([&] { return peer::SteadyClock().now() < deadline; });
@@ -81,7 +81,7 @@ void check_versions(const HostsPlan& plan) {
   }
 }
 
-/// Starts the shares and waits until all processes are there.
+/// Starts the shares and waits until all processes are ready.
 std::vector<std::unique_ptr<Remote>> start(const ScaleSetting& setting, const HostsPlan& plan) {
   std::vector<std::unique_ptr<Remote>> all;
   const std::size_t hosts = plan.hosts.size();
@@ -101,7 +101,7 @@ std::vector<std::unique_ptr<Remote>> start(const ScaleSetting& setting, const Ho
   return all;
 }
 
-/// Half of the least time for a word and its answer.
+/// Half of the shortest round trip.
 nanoseconds way_to(Remote& remote, const std::string& ssh) {
   const peer::SteadyClock clock;
   nanoseconds least = nanoseconds::max();
@@ -114,7 +114,7 @@ nanoseconds way_to(Remote& remote, const std::string& ssh) {
   return least / 2;
 }
 
-/// False where it was stopped.
+/// Reads the results of a host's peers. False if stopped.
 bool gather(Remote& remote, const std::string& ssh, std::vector<PeerProcess>& processes,
             const std::function<bool()>& go_on, nanoseconds deadline) {
   for (std::size_t expected = remote.first; expected < remote.end; ++expected) {
@@ -142,7 +142,7 @@ std::vector<ScaleHost> read_hosts(std::string_view text) {
     const auto equals = part.find('=');
     ScaleHost host{std::string(part.substr(0, equals)),
                    equals == part.npos ? "" : std::string(part.substr(equals + 1))};
-    // One with a dash would be an option of ssh.
+    // ssh would read a name with a leading dash as an option.
     if (host.name.empty() || host.name.starts_with('-') ||
         (equals != part.npos && host.interface.empty()))
       throw tools::UsageError(fmt::format(
@@ -189,7 +189,7 @@ WholeRun run_on_hosts(const ScaleSetting& setting, const HostsPlan& plan,
   const peer::SteadyClock clock;
   const nanoseconds begun = clock.now();
   ScaleSetting own = setting;
-  own.port = static_cast<std::uint16_t>(20'000 + getpid() % 20'000);  // not that of another run
+  own.port = static_cast<std::uint16_t>(20'000 + getpid() % 20'000);  // avoids other runs' ports
   check_versions(plan);
   const auto all = start(own, plan);
   std::vector<nanoseconds> ways;

@@ -18,7 +18,7 @@
 namespace reckon::bench {
 namespace {
 
-constexpr double kApart = 0.4;  // [m], between places, so that no others touch
+constexpr double kApart = 0.4;  // [m], between places, so that no other hands touch
 constexpr std::size_t kInRow = 8;
 constexpr double kServoHz = 1000;
 // Entity State, Attribute PDU with one force model, headers of UDP and IPv4 [octets].
@@ -29,7 +29,7 @@ Eigen::Vector3d place_of_hand(std::size_t place) {
                                   static_cast<double>(place / kInRow), 0);
 }
 
-/// Two and two make the visit of contact_scenes(); the others go to and fro by 5 cm in 2 to 5 s.
+/// Pairs of hands perform the visit of contact_scenes(). The others oscillate by 5 cm in 2 to 5 s.
 haptics::HandTarget target_of(std::size_t hand, std::size_t touching, double time,
                               const ContactScene& visit) {
   if (hand < touching) {
@@ -46,7 +46,7 @@ haptics::HandTarget target_of(std::size_t hand, std::size_t touching, double tim
   return target;
 }
 
-/// All in pairs, as far as there are so many.
+/// Number of touching hands: kManyTouching, or with fewer peers as many pairs as there are.
 std::size_t touching_of(std::size_t peers) { return std::min(kManyTouching, peers / 2 * 2); }
 
 ManyHandsRow run_at(double threshold, std::size_t peers, const peer::ImpairmentLaw& network,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand of each of many peers, of which few touch: what all of them send over a whole run with and
-// without dead reckoning of the force, against a stream of every servo step.
+// Many peers with a hand each, few of which touch. Measures the traffic of all over a whole run,
+// with and without dead reckoning of the force, against a stream of every servo step.
 #pragma once
 
 #include <array>
@@ -17,28 +17,29 @@
 
 namespace reckon::bench {
 
-/// The most peers of such a run, and how many of them touch at most, two by two.
+/// Most peers of a run, and most of them that touch, in pairs.
 inline constexpr std::size_t kManyHands = 64, kManyTouching = 4;
-/// Errors of the force at which hands send [N]: with dead reckoning of it, and without, where each
-/// change is told.
+/// Force errors at which hands send [N]: with dead reckoning of the force; without it, where each
+/// change is sent.
 inline constexpr std::array kManyThresholds{0.015, 0.0001};
 
-/// One of these runs; rates are of all peers, headers of UDP and IPv4 in the octets.
+/// One run. Rates are sums over all peers; octets include headers of UDP and IPv4.
 struct ManyHandsRow {
   double threshold = 0;  ///< [N]
   std::size_t peers = 0, touching = 0;
   double packets_per_s = 0, octets_per_s = 0;
-  ForceError error;  ///< of those that touch, while they do, against stiffness x overlap
+  ForceError error;  ///< of touching hands during contact, against stiffness x overlap
 };
-/// A datagram with an Entity State and a force model of each of so many hands in each servo step.
+/// Traffic of so many hands that each send an Entity State and a force model at each servo step.
 struct RawStream {
   double packets_per_s = 0, octets_per_s = 0;
 };
 [[nodiscard]] RawStream raw_stream_of(std::size_t peers);
 
-/// 22 s of whole peers in simulated time for each threshold: of one core some 2 s for 4 peers, two
-/// minutes for 64. @param peers 2 .. kManyHands  @param network between them  @param seed of it
-/// @param go_on asked ten times a simulated second; false ends it: fewer rows
+/// Runs 22 s of whole peers in simulated time for each threshold. One core takes some 2 s for 4
+/// peers, two minutes for 64. @param peers 2 .. kManyHands  @param network between them
+/// @param seed of the network  @param go_on called ten times a simulated second; false ends the
+/// study with fewer rows
 [[nodiscard]] std::vector<ManyHandsRow> run_many_hands(
     std::size_t peers, const peer::ImpairmentLaw& network, std::uint64_t seed,
     const std::function<bool(double share)>& go_on = {});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of what spares the network, in the order in which the study adds it. A new mechanism is
-// a member of ScaleDesign and a row here.
+// THE list of mechanisms that reduce traffic, in the order in which the study adds them. A new
+// mechanism is a member of ScaleDesign and a row here.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 
 namespace reckon::bench {
 
-/// What peers do of it.
+/// Which mechanisms peers use.
 struct ScaleDesign {
   bool dead_reckoning = false;  ///< else each entity is sent at each tick
   bool bundling = false;        ///< else one Entity State a datagram
-  bool areas = false;           ///< a group a cell; else everybody hears everything
-  /// As often and as well as the nearest receiver needs, what those alone need who are near by a
-  /// group of its own; else all alike.
+  bool areas = false;           ///< a group for each cell; else all receive everything
+  /// Rate and threshold depend on the nearest receiver. Updates that only near receivers need are
+  /// sent to groups of their own. Else all updates are alike.
   bool channels = false;
-  bool compression = false;  ///< what is not predicted; else whole Entity States
+  bool compression = false;  ///< see scale_compression(); else whole Entity States
 };
 
 struct Mechanism {
   std::string_view name;
   std::string_view short_name;  ///< for a narrow table
   std::string_view meaning;
-  void (*add)(ScaleDesign&);  ///< to what the rows before it do
+  void (*add)(ScaleDesign&);  ///< to the mechanisms of the rows before it
 };
 
 inline constexpr std::array kMechanisms{
@@ -57,7 +57,7 @@ inline constexpr std::array kMechanisms{
         [](ScaleDesign& design) { design.compression = true; }},
 };
 
-/// What the rows up to and with `row` do.
+/// The mechanisms of the rows up to and including `row`.
 [[nodiscard]] constexpr ScaleDesign design_of(std::size_t row) {
   ScaleDesign design;
   for (const Mechanism& mechanism : std::span(kMechanisms).first(row + 1)) mechanism.add(design);

@@ -64,8 +64,8 @@ aoim::CellScheme read_scheme(const std::string& text) {
       fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
 }
 
-/// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
-/// 0 on.
+/// Finds the interval of `length` [s] that most tracks cover. Returns these tracks cut to it; time
+/// 0 is its begin.
 std::vector<Track> cut_out(const std::vector<Track>& tracks, double length) {
   double begin = 0;
   std::size_t best = 0;
@@ -109,7 +109,7 @@ std::vector<Track> read_tracks(const ScaleWords& words, double length) {
   return tracks;
 }
 
-/// What is measured, in simulated time [s].
+/// Measured simulated time [s].
 double length_of(const ScaleWords& words) {
   const double seconds = words.length ? pdu::to_seconds(*words.length) : ScaleSetting().seconds;
   if (!(seconds >= kShortest && seconds <= kLongest))
@@ -117,13 +117,13 @@ double length_of(const ScaleWords& words) {
   return seconds;
 }
 
-/// @throws UsageError with the first flag that says nothing here
+/// @throws UsageError if a flag is given that has no effect here
 void check_used(bool given, std::string_view flag, bool used, std::string_view by) {
   if (given && !used)
     throw tools::UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
 }
 
-/// What is said of several hosts.
+/// Reads the flags for several hosts.
 void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
   const bool on_hosts = plan.meeting == Meeting::hosts, is_share = !words.share.empty();
   check_used(!words.hosts.empty(), "--hosts", on_hosts, "--whole hosts");
@@ -142,7 +142,7 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
         "run that");
 }
 
-/// Exercises of more than kMostWhole peers are fitted, but where processes run beside them.
+/// Moves exercises of more than kMostWhole peers to `fitted`, unless peers run as processes.
 void set_fitted_apart(ScalePlan& plan) {
   if (plan.meeting != Meeting::simulated || plan.share) return;
   const auto is_run = [](const ScaleSetting& setting) { return setting.peers <= kMostWhole; };

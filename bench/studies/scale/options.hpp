@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon bench scale` was asked for, read from its words.
+// The plan of a `reckon bench scale` run, read from its flags.
 #pragma once
 
 #include <chrono>
@@ -17,16 +17,16 @@
 
 namespace reckon::bench {
 
-inline constexpr std::size_t kEntitiesAPeer = 100;  ///< unless --entities says otherwise
+inline constexpr std::size_t kEntitiesAPeer = 100;  ///< default of --entities
 
-/// The words as typed.
+/// The flags as typed.
 struct ScaleWords {
-  std::string file;  ///< of tracks; empty: movement by a seed
+  std::string file;  ///< of tracks; empty: movement from a seed
   std::string peers = "8,16,32,64";
   std::string entities;  ///< empty: kEntitiesAPeer each
   std::string movement;  ///< empty: mixed
   std::string radius = "200 m";
-  std::string scheme;      ///< of cells, a word of a scene; empty: hexagonal
+  std::string scheme;      ///< of cells, as in a scene; empty: hexagonal
   std::string cell, pool;  ///< empty: 125 m, 256 groups
   std::string density;     ///< entities a square kilometre; empty: 400
   std::string threshold = "1 m";
@@ -34,32 +34,32 @@ struct ScaleWords {
   std::optional<std::chrono::nanoseconds> delay;
   std::string jitter, loss;  ///< shares
   std::optional<std::uint64_t> seed;
-  std::optional<std::chrono::nanoseconds> length;  ///< 5 s
+  std::optional<std::chrono::nanoseconds> length;  ///< none: 5 s
   std::string report;
   std::string compare;                ///< JSON Lines of an earlier run
-  std::string whole;                  ///< where processes meet, see read_meeting(); empty: none
+  std::string whole;                  ///< network of processes, see read_meeting(); empty: none
   std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
-  std::string ssh;                    ///< words; empty: of HostsPlan
-  std::string share;                  ///< of one host, see read_host_share(); empty: none
-  std::optional<std::uint64_t> port;  ///< of its peers
+  std::string ssh;                    ///< command; empty: HostsPlan::ssh
+  std::string share;                  ///< peers of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;  ///< of the share's peers
   bool hands = false;                 ///< hands in contact too
-  bool many_hands = false;            ///< and hands among many
+  bool many_hands = false;            ///< hands of many peers too
   bool json = false;
   bool wide = false;  ///< all columns
 };
 
-/// What is run.
+/// The runs of the study.
 struct ScalePlan {
-  std::vector<Track> tracks;             ///< what settings' crowds refer to; none: by a seed
-  Meeting meeting = Meeting::simulated;  ///< and there, unless simulated
+  std::vector<Track> tracks;             ///< the settings' crowds refer to them; none: a seed
+  Meeting meeting = Meeting::simulated;  ///< peers also run there, unless simulated
   HostsPlan hosts;                       ///< of Meeting::hosts
-  std::optional<HostShare> share;        ///< this alone is run, of the first setting
-  std::vector<ScaleSetting> settings;    ///< peers times entities, entities fastest
-  std::vector<ScaleSetting> fitted;      ///< likewise, of those with more than kMostWhole peers
-  std::size_t hands = 0;  ///< among many: as many as the largest has peers, kManyHands at most
+  std::optional<HostShare> share;        ///< if set, only this runs, with the first setting
+  std::vector<ScaleSetting> settings;    ///< peers times entities; entities vary fastest
+  std::vector<ScaleSetting> fitted;      ///< with more than kMostWhole peers; not run
+  std::size_t hands = 0;  ///< of many peers: peers of the largest setting, kManyHands at most
 };
 
-/// @throws UsageError with the word and the remedy, or what reading the file throws.
+/// @throws UsageError with the flag and the remedy, or as read_track_file() does.
 [[nodiscard]] ScalePlan read_scale_plan(const ScaleWords& words);
 
 }  // namespace reckon::bench

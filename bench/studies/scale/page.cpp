@@ -25,7 +25,7 @@ constexpr std::string_view kStyle =
     "gap:1rem}"
     ".plots svg{width:100%;height:auto}";
 
-/// What is drawn.
+/// A plot of one measure.
 struct Picture {
   std::string_view measure, title, axis;
 };
@@ -38,14 +38,14 @@ constexpr std::array kPictures{
     Picture{"cpu_share", "CPU of a peer", "share of a core"},
 };
 
-/// Without the sign of what is added.
+/// The name without its leading "+ ".
 std::string short_name(std::size_t mechanism) {
   const std::string_view name = kMechanisms[mechanism].name;
   return std::string(name.substr(name.starts_with("+ ") ? 2 : 0));
 }
 
-/// A curve for each mechanism, over the entities, with a line for each number of peers; where there
-/// is one number of entities, over peers.
+/// A curve for each mechanism over the entities, with a line for each number of peers. With one
+/// number of entities, or if entities grow with peers: over the peers.
 std::string picture(const ScaleReport& report, const Picture& drawn) {
   std::set<std::size_t> sizes, peers;
   for (const ScaleRow& row : report.rows) {
@@ -90,7 +90,7 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
   return log_plot_svg(plot);
 }
 
-/// A curve for each way of touching, a point for each threshold.
+/// A curve for each scene, a point for each threshold.
 std::string hands_picture(std::span<const HandsRow> rows) {
   LogPlot plot;
   plot.title = "Hands in contact: what they send against how far off the force is";

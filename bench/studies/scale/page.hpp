@@ -15,20 +15,20 @@
 
 namespace reckon::bench {
 
-/// All that a run gave.
+/// All results of a run.
 struct ScaleReport {
   std::string command;        ///< as typed
   std::string circumstances;  ///< date, version and host
   HostLimits limits;          ///< of the capacities
   std::vector<ScaleRow> rows;
   std::vector<FittedRow> fitted;
-  std::vector<WholeRow> whole;  ///< of processes; empty where none were asked for
-  std::vector<HandsRow> hands;  ///< likewise
+  std::vector<WholeRow> whole;  ///< of processes; empty unless requested
+  std::vector<HandsRow> hands;  ///< empty unless requested
   std::vector<ManyHandsRow> many_hands;
   std::vector<BaseRow> base;  ///< of --compare
 };
 
-/// Tables, and for each number that grows a picture over the entities, a curve a mechanism.
+/// Tables and plots: one for each main measure, with a curve for each mechanism, and one of hands.
 [[nodiscard]] std::string scale_page(const ScaleReport& report);
 
 }  // namespace reckon::bench

@@ -29,11 +29,11 @@ namespace {
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-constexpr auto kQuerier = 4s;       // until the bridge has made itself the querier
-constexpr auto kStart = 1s;         // from the word to begin until the begin,
-constexpr auto kStartEach = 100ms;  // and so much more for each peer
+constexpr auto kQuerier = 4s;       // until the bridge is the IGMP querier
+constexpr auto kStart = 1s;         // from the decision to begin until the begin,
+constexpr auto kStartEach = 100ms;  // plus this for each peer
 
-/// Two ends of a pipe, closed at the end.
+/// A pipe; its ends are closed at destruction.
 class Pipe {
  public:
   Pipe() {
@@ -51,7 +51,7 @@ class Pipe {
     if (ends_[end] >= 0) close(ends_[end]);
     ends_[end] = -1;
   }
-  /// False at the end of the other side.
+  /// False if the other end is closed, or for an error.
   bool read_all(void* into, std::size_t octets) const {
     for (auto* at = static_cast<char*>(into); octets > 0;) {
       const ssize_t got = read(ends_[0], at, octets);
@@ -97,7 +97,7 @@ bool get(const Pipe& pipe, std::vector<float>& values) {
   return pipe.read_all(values.data(), count * sizeof(float));
 }
 
-/// Memory that this process shares with no other [octets]: not what it has from its parent.
+/// Memory of this process alone [octets], without pages shared with its parent.
 double own_memory() {
   std::ifstream rollup("/proc/self/smaps_rollup");
   double octets = 0;
@@ -107,7 +107,7 @@ double own_memory() {
   return octets;
 }
 
-/// Runs lines of iproute2 in this process's network. @throws EnvironmentError
+/// Runs commands of iproute2 in this process's network namespace. @throws EnvironmentError
 void run_ip(const std::string& lines) {
   std::FILE* ip = popen("ip -batch -", "w");
   const bool is_said = ip != nullptr && std::fputs(lines.c_str(), ip) >= 0;
@@ -124,7 +124,7 @@ void enter_own_network() {
         std::strerror(errno)));
 }
 
-/// The bridge between the processes.
+/// Creates the bridge between the processes.
 void make_switch(const std::vector<pid_t>& peers) {
   enter_own_network();
   std::string lines =
@@ -144,14 +144,14 @@ void plug_in(std::size_t peer) {
                   peer / 250, peer % 250 + 1));
 }
 
-/// The processes of a run; ends those that are still there.
+/// The processes of a run; destruction kills the remaining ones.
 class Family {
  public:
   ~Family() {
     for (const pid_t child : children_) kill(child, SIGKILL);
     for (const pid_t child : children_) waitpid(child, nullptr, 0);
   }
-  /// @param work of the child, which ends with it
+  /// Forks. @param work runs in the child, which then exits
   pid_t add(const std::function<void()>& work) {
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -186,7 +186,7 @@ tools::EnvironmentError ended_early(std::size_t peer) {
       fmt::format("the process of peer {} ended early, see above", peer + 1));
 }
 
-/// A process, its three wires to the parent.
+/// The three pipes between a process and its parent.
 struct Wires {
   Pipe ready, begin, outcome;
 };
@@ -206,7 +206,7 @@ void live(const ProcessPlan& plan, std::size_t index, const Wires& wires, const 
                     put(wires.outcome, outcome.samples.discovery));
 }
 
-/// Puts the processes onto one switch, which lasts as long as they do.
+/// Connects the processes by one bridge, which exists as long as `family`.
 void join_by_switch(Family& family) {
   Wires hub;
   const std::vector<pid_t> children = family.children();
@@ -214,7 +214,7 @@ void join_by_switch(Family& family) {
     make_switch(children);
     static_cast<void>(put(hub.ready, true));
     hub.ready.close_end(1);
-    for (;;) pause();  // its namespace lasts as long as it does
+    for (;;) pause();  // its namespace exists as long as this process
   });
   hub.ready.close_end(1);
   bool is_there = false;
@@ -222,7 +222,7 @@ void join_by_switch(Family& family) {
   std::this_thread::sleep_for(kQuerier);
 }
 
-/// False where it is to end.
+/// False if `progress` ends the run.
 bool wait_until(nanoseconds begin, double seconds, const ScaleProgress& progress) {
   const peer::SteadyClock clock;
   for (double share = 0; share < 1;) {

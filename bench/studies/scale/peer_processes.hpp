@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers as processes of this machine: on loopback, on an interface, or on a LAN made of network
-// namespaces. All that
-// is made goes with the processes: nothing has to be cleaned up.
+// Peers as processes of this machine: on loopback, on an interface, or on a LAN of network
+// namespaces. The namespaces end with the processes: nothing has to be cleaned up.
 #pragma once
 
 #include <chrono>
@@ -17,27 +16,28 @@
 
 namespace reckon::bench {
 
-/// What a process does between `begin` [steady time, the same of all] and its end.
+/// The work of a process from `begin` on [steady time, the same for all].
 using PeerTask =
     std::function<LiveOutcome(std::size_t peer, peer::Link& link, std::chrono::nanoseconds begin)>;
 
 /// Which processes, and where.
 struct ProcessPlan {
-  std::size_t first = 0, count = 0;  ///< numbers of the peers; 1 .. kMostProcesses
-  /// Each in a network namespace with an interface e0 on one bridge, which asks who has joined what
-  /// and floods nothing; root.
+  std::size_t first = 0, count = 0;  ///< number of the first peer; count: 1 .. kMostProcesses
+  /// Each process has a network namespace with an interface e0 on one bridge. The bridge has an
+  /// IGMP querier and snoops, so it floods nothing. Needs root.
   bool lan = false;
-  std::string interface = "lo";  ///< of those that are not; empty: chosen by rule
-  double seconds = 0;            ///< that the task takes
-  /// Asked once all are there: steady time of the begin; none: end. Default: a moment later.
+  std::string interface = "lo";  ///< without `lan`; empty: chosen by rule
+  double seconds = 0;            ///< duration of the task
+  /// Called when all processes are ready. Returns the steady time of the begin; none ends the run.
+  /// Default: time_to_begin() later.
   std::function<std::optional<std::chrono::nanoseconds>()> begin = {};
 };
 
-/// From the word to begin until the begin, time for so many processes to open their sockets.
+/// Time that so many processes need before the begin to open their sockets.
 [[nodiscard]] std::chrono::nanoseconds time_to_begin(std::size_t processes) noexcept;
 
-/// Forks the processes and waits for them. @return by peer; nothing where progress or `begin` ended
-/// it @throws EnvironmentError where the network cannot be made, or a process ends early
+/// Forks the processes and waits for them. @return by peer; empty if `progress` or `begin` ended
+/// the run  @throws EnvironmentError if the network cannot be created, or a process ends early
 [[nodiscard]] std::vector<PeerProcess> run_peer_processes(const ProcessPlan& plan,
                                                           const PeerTask& task,
                                                           const ScaleProgress& progress = {});

@@ -23,9 +23,9 @@ using std::chrono::steady_clock;
 constexpr int kDatagrams = 1000;
 constexpr std::size_t kOctets = 1000;
 constexpr std::chrono::microseconds kGap{200};
-constexpr timeval kSilence{0, 200'000};  // after the last datagram
+constexpr timeval kSilence{0, 200'000};  // receive time-out
 
-/// Closed at its end.
+/// A UDP socket on loopback.
 class UdpSocket {
  public:
   UdpSocket() : number_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
@@ -47,7 +47,7 @@ class UdpSocket {
                              reinterpret_cast<const sockaddr*>(&other.address_),
                              sizeof other.address_));
   }
-  /// False where nothing comes for kSilence.
+  /// False if nothing arrives within kSilence.
   [[nodiscard]] bool receive() const {
     std::array<char, kOctets> octets;
     return recv(number_, octets.data(), octets.size(), 0) > 0;

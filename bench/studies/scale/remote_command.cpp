@@ -21,7 +21,7 @@
 namespace reckon::bench {
 namespace {
 
-constexpr int kAsked = 200;  // [ms]
+constexpr int kAsked = 200;  // [ms], period of go_on
 constexpr int kNotFound = 127, kSignalled = 128;
 
 std::vector<std::string> words_of(std::string_view text) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A command on another host, over ssh or what stands for it: lines to it and from it; its errors go
-// where ours go.
+// A command on another host, over ssh or a replacement for it. Sends lines to its stdin and reads
+// lines from its stdout. It shares our stderr.
 #pragma once
 
 #include <functional>
@@ -11,28 +11,28 @@
 
 namespace reckon::bench {
 
-/// One word of a command of a POSIX shell, whatever is in it.
+/// Quotes any text as one word for a POSIX shell.
 [[nodiscard]] std::string quoted_for_shell(std::string_view word);
 
-/// Runs from construction to destruction at the longest. One thread.
+/// The command starts at construction and ends at destruction at the latest. One thread.
 class RemoteCommand {
  public:
-  /// @param ssh words between blanks, after which the host and the command follow
-  /// @throws EnvironmentError where no process can be made
+  /// @param ssh words separated by blanks; the host and the command are appended
+  /// @throws EnvironmentError if no process can be created
   RemoteCommand(std::string_view ssh, const std::string& host, const std::string& command);
   ~RemoteCommand();
   RemoteCommand(RemoteCommand&& other) noexcept;
   RemoteCommand& operator=(RemoteCommand&&) = delete;
 
-  /// Lost where it has ended.
+  /// The line is lost if the command has ended.
   void write_line(std::string_view line);
-  /// Waits for the next line, without its end; nothing where it has ended, or `go_on`, asked five
-  /// times a second, says no.
+  /// Waits for the next line; its newline is removed. None if the command has ended, or if `go_on`,
+  /// called five times a second, returns false.
   [[nodiscard]] std::optional<std::string> read_line(const std::function<bool()>& go_on);
-  /// Whether nothing more will come.
+  /// Whether the end of its output has been read.
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
-  /// Waits for its end: its exit status; 127 where the ssh itself is not there, 128 + the signal
-  /// where one killed it.
+  /// Waits for its end. @return exit status; 127 if ssh is not found, 128 + the signal that killed
+  /// it, -1 if waitpid() fails
   [[nodiscard]] int status();
 
  private:

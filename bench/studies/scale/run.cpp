@@ -33,7 +33,7 @@ class Sweep {
   Sweep(std::size_t runs, const tools::Console& console)
       : runs_(runs), console_(console), bar_(console) {}
 
-  /// @param run takes a callback for its progress  @return false where the study is to end
+  /// @param run takes a callback for its progress  @return false if the study was stopped
   bool next(const std::function<void(const ScaleProgress&)>& run) {
     run([&](double share) {
       bar_.show((static_cast<double>(done_) + share) / static_cast<double>(runs_),
@@ -50,7 +50,7 @@ class Sweep {
   ProgressBar bar_;
 };
 
-/// What is sent at every tick is the same in each second, and much.
+/// Without dead reckoning the traffic is large and the same in each second: one is enough [s].
 constexpr double kTickSeconds = 1;
 
 ScaleSetting setting_of(const ScaleSetting& exercise, std::size_t mechanism) {
@@ -60,7 +60,7 @@ ScaleSetting setting_of(const ScaleSetting& exercise, std::size_t mechanism) {
   return setting;
 }
 
-/// False where it was stopped: the report has the runs that had ended by then.
+/// False if stopped: the report then has the completed runs.
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const tools::Console& console) {
   const bool live = plan.meeting != Meeting::simulated;
@@ -158,7 +158,7 @@ int bench_scale(const ScaleWords& words, const std::string& command,
     check_same_exercises(plan.settings, report.base, words.compare);
   }
   const bool whole = run_all(plan, words, report, console);
-  if (!whole) report.base.clear();  // what is missing is no difference
+  if (!whole) report.base.clear();  // missing rows are no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)
     fmt::print(console.err, "stopped{}\n",

@@ -11,13 +11,12 @@
 
 namespace reckon::bench {
 
-/// All that the report has, as tables or as JSON Lines; empty where it has nothing.
+/// All results of the report, as tables or as JSON Lines; empty if it has none.
 /// @param wide tables with all columns
 [[nodiscard]] std::string scale_findings(const ScaleReport& report, bool json, bool wide = false);
 
-/// Runs the study and returns the exit status, `findings` where something differs from the base. Of
-/// a study that is stopped the runs that had ended are reported. @throws UsageError @param command
-/// as typed
+/// Runs the study. A stopped study reports its completed runs. @param command as typed
+/// @return exit status: `findings` if something differs from the base  @throws UsageError
 [[nodiscard]] int bench_scale(const ScaleWords& words, const std::string& command,
                               const tools::Console& console);
 

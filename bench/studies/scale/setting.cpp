@@ -18,7 +18,7 @@
 namespace reckon::bench {
 namespace {
 
-constexpr std::size_t kMostNumbers = 65'534;  // that DIS gives to applications and to entities
+constexpr std::size_t kMostNumbers = 65'534;  // of applications and of entities in DIS
 
 }  // namespace
 

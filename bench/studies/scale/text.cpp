@@ -23,7 +23,7 @@ double ratio(std::uint64_t part, std::uint64_t all) {
   return ratio(static_cast<double>(part), static_cast<double>(all));
 }
 
-/// A sum over all peers as what one has of it in a second.
+/// Converts a sum over all peers to a value per peer and second.
 double each(const ScaleRow& row, double sum) {
   return ratio(sum, row.run.counts.seconds * static_cast<double>(row.peers()));
 }
@@ -94,7 +94,7 @@ std::string exercise_name(const ScaleRow& row) {
                      row.entities() == 1 ? "1 entity" : fmt::format("{} entities", row.entities()));
 }
 
-/// "5 s", or with what was counted for a shorter time "5 s (every tick: 1 s)".
+/// "5 s"; if the first row was measured for less, "5 s (every tick: 1 s)".
 std::string length_of(std::span<const ScaleRow> rows) {
   const double longest = rows.back().run.counts.seconds, first = rows.front().run.counts.seconds;
   if (first >= longest) return fmt::format("{:g} s", longest);
@@ -120,7 +120,7 @@ std::string measure_text(const ScaleMeasure& measure, double value) {
 
 namespace {
 
-/// What --pool 1 is; else nothing.
+/// A note on --pool 1; else empty.
 std::string one_group_text(std::span<const ScaleRow> rows) {
   const auto one = [](const ScaleRow& row) { return shares_one_group(row.run.setting); };
   if (std::ranges::none_of(rows, one)) return {};
@@ -163,7 +163,7 @@ std::string scale_text(std::span<const ScaleRow> rows) {
 
 namespace {
 
-/// "heard 3.4 x less", "sent 2 x more"; empty where nothing changes.
+/// "sent 3.4 x less", "sent 2 x more"; empty for a change within 5 %.
 std::string times(double before, double now, std::string_view what) {
   if (!(before > 0) || !(now > 0)) return {};
   const double factor = before / now;
@@ -204,7 +204,7 @@ void add_narrow(tools::TextTable& table, std::vector<std::string> cells, const S
   table.add(cells);
 }
 
-/// Where what a peer hears begins to grow in step with the exercise, and why.
+/// From which size on a peer's received datagrams grow in step with the exercise, and why.
 std::string knee_text(std::span<const ScaleRow> rows) {
   constexpr double kInStep = 0.9;
   const ScaleMeasure& heard = scale_measure("heard_packets_per_s");

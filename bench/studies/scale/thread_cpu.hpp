@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the calling thread has computed: other programs on the machine do not count.
+// CPU time of the calling thread: other programs on the machine do not count.
 #pragma once
 
 #include <time.h>

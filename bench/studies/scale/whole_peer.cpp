@@ -22,15 +22,15 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::uint16_t kSite = 7;
-constexpr int kMostPasses = 32;  // of one step, while datagrams wait
+constexpr int kMostPasses = 32;  // of one step, while datagrams are pending
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 
-/// Whatever the error, it is sent.
+/// Sends for any error.
 constexpr deadreckon::SendRule kEveryTick{
     "every tick", "each entity at each tick",
     [](const deadreckon::PoseError&, const deadreckon::Thresholds&) noexcept { return kOutside; }};
 
-/// Notes which groups are joined, beside the link, and what comes all the same.
+/// Records which groups are joined. Counts datagrams of other groups, or from the wrong interface.
 class WatchedLink final : public peer::Link {
  public:
   explicit WatchedLink(peer::Link& link) : link_(link) {}
@@ -82,7 +82,7 @@ peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) 
   options.name = "whole";
   options.scene = scale_scene(setting);
   options.site = kSite;
-  options.capacity = setting.crowd.entities;  // a table reserves for all
+  options.capacity = setting.crowd.entities;  // the table reserves room for all entities
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
 }
@@ -123,7 +123,7 @@ void WholeSamples::add(const WholeSamples& other) {
   discovery.insert(discovery.end(), other.discovery.begin(), other.discovery.end());
 }
 
-// The federate, what it owns and what the study measures of it.
+// The federate, its own entities and the measurements of the study.
 struct WholePeer::MeasuredFederate {
   MeasuredFederate(const ScaleSetting& given, std::size_t number, peer::Link& link,
                    const peer::Clock& clock, nanoseconds start, std::uint32_t epoch,
@@ -172,7 +172,7 @@ struct WholePeer::MeasuredFederate {
     }
   }
 
-  /// All that waits.
+  /// Steps until no datagram is pending, at most kMostPasses times.
   void pass() {
     for (int pass = 0; pass < kMostPasses; ++pass) {
       const std::uint64_t heard = counted("datagrams_in");
@@ -181,7 +181,7 @@ struct WholePeer::MeasuredFederate {
     }
   }
 
-  /// The box around what its own entities sense.
+  /// Box around the own entities, enlarged by the radius of interest.
   [[nodiscard]] Eigen::AlignedBox2d reach(const Crowd& crowd) const {
     Eigen::AlignedBox2d box;
     for (std::uint32_t own = owned.first; own < owned.end; ++own)
@@ -190,7 +190,7 @@ struct WholePeer::MeasuredFederate {
     return {box.min() - margin, box.max() + margin};
   }
 
-  /// One that may be shown, or has to be. @param reach at this time
+  /// Compares an entity of another peer with the truth. @param reach of reach(), at `time`
   void look_at(std::uint32_t e, double time, Crowd& crowd, const Eigen::AlignedBox2d& reach) {
     const Attendance there = attendance ? attendance(owners[e], time) : Attendance::present;
     const aoim::Position& place = crowd.position(e);
@@ -217,10 +217,10 @@ struct WholePeer::MeasuredFederate {
         static_cast<float>((pose.position - Eigen::Vector3d(place.x, place.y, place.z)).norm()));
     if (entered[e] >= 0 && !is_new)
       samples.discovery.push_back(static_cast<float>(time - entered[e]));
-    entered[e] = -kOutside;  // told
+    entered[e] = -kOutside;  // counted as shown
   }
 
-  /// Of its whole life.
+  /// Totals since construction.
   [[nodiscard]] WholeCounts sums() {
     WholeCounts sums;
     sums.updates = counted("updates_out");

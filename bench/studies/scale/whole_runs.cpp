@@ -22,8 +22,8 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kExerciseBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
-constexpr std::size_t kLeastRoom = 512;  // datagrams under way to a peer
-constexpr double kComing = 1;            // [s] in which all of a simulated network come
+constexpr std::size_t kLeastRoom = 512;  // datagrams in flight to a peer
+constexpr double kComing = 1;            // [s] in which all peers of a simulated network join
 
 std::size_t ticks_until(const ScaleSetting& setting, double time) {
   return static_cast<std::size_t>(std::llround(time * setting.rate));
@@ -32,7 +32,7 @@ bool is_look(const ScaleSetting& setting, std::size_t tick) {
   return tick % std::max<std::size_t>(1, ticks_until(setting, kLookPeriod)) == 0;
 }
 
-/// Of this process [octets].
+/// Resident memory of this process [octets].
 double resident_memory() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident = 0;
@@ -49,7 +49,7 @@ void summarise(WholeRun& run, const WholeSamples& samples) {
   run.discovery = peer::percentiles(discovery);
 }
 
-/// Peers of one simulated network, whose links have room for so many datagrams each.
+/// The peers of one simulated network. Each link has room for room_of() datagrams in flight.
 class SimulatedPeers {
  public:
   SimulatedPeers(const ScaleSetting& setting, const peer::Clock& clock)
@@ -60,8 +60,8 @@ class SimulatedPeers {
     network_.impair(setting.network);
   }
 
-  /// Takes a step with each. They come one after the other: else all would repeat all they have at
-  /// the same instants.
+  /// Steps each peer. Peers join one after the other; else all would repeat their states at the
+  /// same instants.
   void step(double time, Crowd& crowd) {
     const double come = time / kComing * static_cast<double>(setting_.peers);
     for (std::size_t p = peers_.size(); p < setting_.peers && static_cast<double>(p) <= come; ++p)
@@ -70,8 +70,8 @@ class SimulatedPeers {
                                                    static_cast<std::uint32_t>(p + 1)));
     for_each([&](WholePeer& peer) { peer.step(time, crowd); });
   }
-  /// Calls use(peer) for each that has come. When much is under way all take it, so that no link
-  /// overflows.
+  /// Calls use(peer) for each joined peer. When many datagrams are in flight, all peers read them,
+  /// so that no link overflows.
   template <typename Use>
   void for_each(Use&& use) {
     for (std::size_t p = 0; p < peers_.size(); ++p) {
@@ -81,7 +81,7 @@ class SimulatedPeers {
       if (2 * under_way_ > room_) serve();
     }
   }
-  /// Sends what is due and takes what has arrived.
+  /// All peers send due datagrams and read arrived ones.
   void serve() {
     under_way_ = 0;
     for_each([](WholePeer& peer) { peer.serve(); });
@@ -131,7 +131,7 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
     crowd.advance(time);
     if (tick == warm) peers.for_each([&](WholePeer& peer) { peer.begin_counting(time); });
     peers.step(time, crowd);
-    // What waits for company leaves in time, not with the next tick.
+    // Bundles are sent after their hold time, not at the next tick.
     if (setting.hold < 1 / setting.rate) {
       clock.set(kExerciseBegin + pdu::from_seconds(time + setting.hold));
       peers.serve();
@@ -154,7 +154,7 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
 WholeRun run_processes(const ScaleSetting& setting, Meeting meeting,
                        const ScaleProgress& progress) {
   ScaleSetting own = setting;
-  // On loopback another run may have the usual port.
+  // Another run on loopback may use the default port.
   if (meeting == Meeting::lo) own.port = static_cast<std::uint16_t>(20'000 + getpid() % 20'000);
   const auto task = [&](std::size_t peer, peer::Link& link, nanoseconds begin) {
     return live_for(own, peer, link, begin, {0, kWarmUp + own.seconds});
@@ -231,7 +231,7 @@ LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& 
   const std::size_t warm =
       std::max(ticks_until(setting, kWarmUp), ticks_until(setting, stay.from + kWarmUp));
   const std::size_t end = ticks_until(setting, stay.until);
-  // All processes take the same steps, so that they have the same truth.
+  // All processes take the same steps, so that their true positions are equal.
   for (std::size_t t = 0; t <= tick; ++t) crowd.advance(static_cast<double>(t) / setting.rate);
   const auto instant = [&](std::size_t t) {
     return begin + pdu::from_seconds(static_cast<double>(t) / setting.rate);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// All peers of an exercise: in one process and simulated time, or each a process of its own on a
-// real network of this machine.
+// All peers of an exercise: in one process and simulated time, or as processes on a real network.
 #pragma once
 
 #include <chrono>
@@ -16,62 +15,64 @@
 
 namespace reckon::bench {
 
-/// Takes the share of the run that is done; false ends it.
+/// Receives the completed share of the run; false ends the run.
 using ScaleProgress = std::function<bool(double share)>;
 
-/// Where peers meet.
+/// The network between the peers.
 enum class Meeting : std::uint8_t {
   simulated,  ///< one process, simulated time
   lo,         ///< processes on loopback
-  lan,        ///< processes in network namespaces of their own, on a bridge that snoops; root
+  lan,        ///< processes in network namespaces on a snooping bridge; needs root
   hosts,      ///< processes on several hosts, started over ssh
 };
 /// "lo", "lan" or "hosts"; empty: simulated. @throws UsageError for other words
 [[nodiscard]] Meeting read_meeting(const std::string& text);
-/// @throws UsageError or EnvironmentError where these peers cannot meet there, with the remedy
+/// @throws UsageError or EnvironmentError with the remedy if the exercise cannot run there
 void check_meeting(const ScaleSetting& setting, Meeting meeting);
 
-/// What all peers of an exercise counted.
+/// Results of all peers of an exercise.
 struct WholeRun {
   ScaleSetting setting;
   Meeting meeting = Meeting::simulated;
   WholeCounts counts;
-  peer::Spread pose;            ///< [m]
-  peer::Percentiles discovery;  ///< from coming into the radius until shown
-  double resident = 0;          ///< memory, of all [octets]
-  double wall = 0;              ///< [s] that it took
-  double latest = 0;            ///< [s] by which the latest step of a process was late
-  /// Of all, in a kernel that their simulated network lacks [s]; to be filled in.
+  peer::Spread pose;            ///< error of shown positions [m]
+  peer::Percentiles discovery;  ///< from entering the radius until shown
+  double resident = 0;          ///< memory of all peers [octets]
+  double wall = 0;              ///< duration of the run [s]
+  double latest = 0;            ///< largest delay of a step of a process [s]
+  /// CPU time of all peers in a kernel, which a simulated network lacks [s]; filled in by the
+  /// caller.
   double kernel_cpu = 0;
 };
 
-/// Most peers that may be processes of this machine.
+/// Most peers as processes of one machine.
 inline constexpr std::size_t kMostProcesses = 250;
 
-/// Simulated ones are the same every time but for the CPU. @param meeting not hosts @throws what
-/// check_scale_setting() and check_meeting() do, EnvironmentError where a process ends early
+/// Simulated runs repeat exactly, except for CPU times. @param meeting not hosts  @throws as
+/// check_scale_setting() and check_meeting() do; EnvironmentError if a process ends early
 [[nodiscard]] WholeRun run_whole_peers(const ScaleSetting& setting, Meeting meeting,
                                        const ScaleProgress& progress = {});
 
-/// One real peer from `from` until `until` [s since begin], at the setting's ticks, by the host's
-/// clock. It counts from kWarmUp after its coming, or the exercise's. @param begin steady time
+/// When a real peer takes part [s since begin].
 struct LiveStay {
   double from = 0, until = 0;
 };
 struct LiveOutcome {
   WholeCounts counts;
   WholeSamples samples;
-  double latest = 0;  ///< [s] by which the latest tick was late
+  double latest = 0;  ///< largest delay of a tick [s]
 };
-/// How the process of a peer ended.
+/// Result of a peer's process.
 struct PeerProcess {
   LiveOutcome outcome;
-  double resident = 0;  ///< memory of its own [octets]
+  double resident = 0;  ///< memory of the process alone [octets]
 };
-/// What they came to together.
+/// The results of all processes together.
 [[nodiscard]] WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
                               std::span<const PeerProcess> processes);
 
+/// Runs one real peer during `stay` at the setting's ticks, by the host's clock. It counts from
+/// kWarmUp after it joins, or after the begin if that is later. @param begin steady time
 [[nodiscard]] LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                                    std::chrono::nanoseconds begin, const LiveStay& stay,
                                    const AttendanceLaw& attendance = {});

@@ -16,7 +16,7 @@
 namespace reckon::bench {
 namespace {
 
-/// What is compared, of scale_measures().
+/// The measures of scale_measures() that are compared.
 constexpr std::array<std::string_view, 13> kCompared{
     "sent_packets_per_s", "sent_bytes_per_s",    "sent_updates_per_s",   "heard_packets_per_s",
     "heard_bytes_per_s",  "heard_updates_per_s", "wanted_updates_per_s", "pose_error_p50_m",
@@ -57,7 +57,7 @@ double octets_each(const WholeRun& run) {
   return run.resident / static_cast<double>(run.setting.peers);
 }
 
-/// Processes that stood still say little about peers.
+/// A warning about late processes: their results depend on the busy machine.
 std::string lateness_of(const WholeRun& run) {
   constexpr double kLate = 0.2;  // [s]
   if (run.latest < kLate) return "";
@@ -68,10 +68,10 @@ std::string lateness_of(const WholeRun& run) {
       run.latest);
 }
 
-/// What a peer cannot do for so many.
+/// A note if one peer cannot store so many others.
 std::string limit_of(const WholeRun& run) {
   const std::size_t capacity = aoim::PresenceConfig().capacity;
-  const bool has_one_address = run.meeting == Meeting::lo;  // of which it believes half as many
+  const bool has_one_address = run.meeting == Meeting::lo;  // of one address it stores half as many
   const std::size_t remembered = has_one_address ? capacity / 2 : capacity;
   if (run.setting.peers <= remembered + 1) return "";
   return fmt::format("a peer remembers {} others{}: what the rest own is not shown\n", remembered,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers as processes beside the same exercise in simulated time, as tables and JSON Lines.
+// Compares peers as processes with the same exercise in simulated time, as tables and JSON Lines.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace reckon::bench {
 
-/// A run of processes, and of simulated peers in the same exercise.
+/// A run of processes, and the same exercise with simulated peers.
 struct WholeRow {
   WholeRun run, simulated;
 };
 
-/// A table for each: simulated, processes, by how much they differ; then what each lost and takes.
+/// A table for each row: simulated, processes, difference; then losses and costs of each peer.
 [[nodiscard]] std::string whole_text(std::span<const WholeRow> rows);
 /// A line for each.
 [[nodiscard]] std::string whole_json(std::span<const WholeRow> rows);

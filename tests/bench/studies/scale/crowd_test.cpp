@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the entities of an exercise are.
+// Positions and motion of the entities of an exercise.
 #include "reckon/bench/studies/scale/crowd.hpp"
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ TEST(Crowd, HasTheRatesOfItsMotion) {
       crowd.advance(time + kStep);
       for (std::size_t i = 0; i < crowd.size(); ++i) {
         const deadreckon::MotionSample after = crowd.motion(i);
-        // A leg began, or an edge threw it back.
+        // A leg began, or an edge reflected the entity.
         if ((after.velocity - before[i].velocity).norm() > 40 * kStep) continue;
         ++compared;
         const Eigen::Vector3d seen = (after.position - before[i].position) / kStep;
@@ -54,7 +54,7 @@ TEST(Crowd, HasTheRatesOfItsMotion) {
         const Eigen::Vector3d rate = (after.velocity - before[i].velocity) / kStep;
         const bool stopped = before[i].velocity.norm() < 0.01;
         EXPECT_TRUE(stopped || (rate - before[i].acceleration).norm() < 0.05) << gait.name << i;
-        // The nose is ahead, body z down.
+        // Body z points down.
         EXPECT_LT(
             (before[i].orientation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitZ()).norm(),
             1e-9);

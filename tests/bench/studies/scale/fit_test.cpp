@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Exercises larger than those that are run.
+// Estimates for exercises that are too large to run.
 #include "reckon/bench/studies/scale/fit.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ TEST(ScaleFit, FitRecoversTheGeneratingLaw) {
   EXPECT_NEAR(fit_error(peers, Growth::peers, peers.back().value), -0.1, 1e-9);
 }
 
-// A list of 240 peers goes out whole, a longer one in parts of 192.
+// A list of 240 peers is sent in one part, a longer list in parts of 192.
 TEST(ScaleFit, KnowsTheLengthOfAnnouncements) {
   EXPECT_EQ(announcement_octets(1), 260);
   EXPECT_EQ(announcement_octets(9), 356 + 4 * 8);
@@ -49,7 +49,7 @@ TEST(ScaleFit, SlopesArePowers) {
   EXPECT_EQ(log_slope(std::vector<double>{80, 80}, std::vector<double>{20, 30}), 0);
 }
 
-/// All mechanisms at some sizes; each peer sends 20 datagrams a second beside its announcement.
+/// All mechanisms at some sizes; each peer sends 20 datagrams a second besides its announcement.
 std::vector<ScaleRow> rows_at(const std::vector<std::size_t>& sizes) {
   std::vector<ScaleRow> rows;
   for (const std::size_t peers : sizes)
@@ -101,7 +101,7 @@ TEST(ScaleFit, ClaimsNothingWhereCellsShareGroups) {
   EXPECT_TRUE(fitted_rows(rows_at({32, 64}), setting_of(400)).empty());
 }
 
-// The largest size against the smaller ones; the gate has small crowds.
+// Predicts the largest size from the smaller ones. Crowds are small unless soaking.
 TEST(ScaleFit, PredictsAWholeRunFromSmallerOnes) {
   std::vector<std::size_t> sizes{8, 16, 32, 64};
   if (test::soaks()) sizes = {32, 64, 128, 256};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What peers on several hosts are told and tell; whole runs of them: hosts.py.
+// Commands to peers on several hosts and their results; hosts.py has whole runs.
 #include "reckon/bench/studies/scale/hosts.hpp"
 
 #include <gmock/gmock.h>
@@ -55,7 +55,7 @@ TEST(HostLines, AreRefusedWhereverTheyAreCut) {
 TEST(HostLines, SayWhenToBegin) {
   using std::chrono::nanoseconds;
   EXPECT_EQ(read_begin_word(begin_word(nanoseconds(1'500'000'001))), nanoseconds(1'500'000'001));
-  EXPECT_EQ(read_begin_word(begin_word(nanoseconds(-5))), nanoseconds(-5));  // it is late
+  EXPECT_EQ(read_begin_word(begin_word(nanoseconds(-5))), nanoseconds(-5));  // already late
   for (const std::string_view word : {"", "begin", "begin ", "begin soon", "begin 5 ", "clock"})
     EXPECT_FALSE(read_begin_word(word)) << word;
 }
@@ -71,7 +71,7 @@ TEST(Hosts, AreNamesWithOrWithoutAnInterface) {
     EXPECT_THROW(static_cast<void>(read_hosts(wrong)), tools::UsageError) << wrong;
 }
 
-// What a shell over there takes for one word.
+// A remote shell must read each quoted text as one word.
 TEST(Hosts, GetWordsThatNoShellCutsOrRuns) {
   const auto echoed = [](const std::string& word) {
     RemoteCommand command("sh -c", "printf '%s\\n' " + quoted_for_shell(word), "unused");

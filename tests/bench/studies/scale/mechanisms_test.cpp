@@ -39,8 +39,8 @@ WholeRun run_with(ScaleSetting setting, std::string_view mechanism) {
   return run_whole_peers(setting, Meeting::simulated);
 }
 
-// 240 entities x 20 ticks, each alone in a datagram of 144 + 24 + 28 octets; and an announcement a
-// second from each peer.
+// 240 entities x 20 ticks a second, each update in its own datagram of 144 + 24 + 28 octets, plus
+// an announcement a second from each peer.
 TEST(Mechanisms, EveryTickSendsEverythingToAll) {
   const ScaleSetting setting = small_setting();
   const WholeRun run = run_with(setting, "every tick");
@@ -96,7 +96,7 @@ TEST(Mechanisms, AreasSpareWhatIsFar) {
   EXPECT_GT(areas.counts.joins, 0U);
   EXPECT_EQ(all.counts.groups, setting.peers);
   EXPECT_GT(areas.counts.groups, 4 * setting.peers);
-  // Sent more: introductions and borders.
+  // Areas send more: introductions, and updates near cell borders.
   EXPECT_GE(areas.counts.updates, all.counts.updates);
 }
 
@@ -116,9 +116,9 @@ std::uint64_t pairs_within(const ScaleSetting& setting, const Crowd& crowd, doub
   return pairs;
 }
 
-// Each entity at each tick, each peer: is it within the radius of one of its own? All of these take
-// it, and of the others only a peer that shows it and keeps it a tenth longer, about foci that
-// cover several of its own.
+// Brute force for each entity, tick and peer: is the entity within the radius of an own entity? If
+// so, the peer uses the update. Farther updates are used only for shown entities, which are kept up
+// to a tenth beyond the radius of foci that cover several own entities.
 TEST(Mechanisms, WantedLieBetweenWhatBruteForceCounts) {
   ScaleSetting setting = small_setting();
   setting.radius = 60;
@@ -136,7 +136,7 @@ TEST(Mechanisms, WantedLieBetweenWhatBruteForceCounts) {
   EXPECT_GT(within, 1000U);
 }
 
-// What stands is taken within the radius alone, of a focus that covers one entity.
+// Updates of entities at rest are used only within the radius of a focus that covers one entity.
 TEST(Mechanisms, WantedUpdatesOfRestingEntitiesAreWithinTheRadius) {
   ScaleSetting setting = small_setting();
   setting.seconds = 1;
@@ -155,7 +155,7 @@ TEST(Mechanisms, LoseTheShareThatTheNetworkLoses) {
   const WholeRun run = run_with(setting, "every tick");
   const auto sent = static_cast<double>(run.counts.lost + run.counts.heard_datagrams);
   EXPECT_NEAR(static_cast<double>(run.counts.lost) / sent, 0.2, 5 * std::sqrt(0.16 / sent) + 1e-3);
-  // Updates are late and carry their time: what is off is what changed since.
+  // Updates are late and carry their time: the error is the change since then.
   EXPECT_GT(run.pose.p99, 1e-3);
   EXPECT_LT(run.pose.p99, 0.5);
 }
@@ -180,7 +180,7 @@ TEST(Mechanisms, RefuseWhatPeersCannotNumber) {
   EXPECT_THROW(static_cast<void>(run_with(setting, "every tick")), tools::UsageError);
 }
 
-// A world that grows at one density, in cells that each have a group.
+// A world that grows at constant density; each cell has its own group.
 TEST(Mechanisms, AreasKeepWhatAPeerHearsFromGrowing) {
   ScaleSetting setting = small_setting();
   setting.radius = test::tries(40, 60);

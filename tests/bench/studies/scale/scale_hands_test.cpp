@@ -24,8 +24,8 @@ HandsRow hands_at(std::string_view scene, double threshold, double touching, dou
   return row;
 }
 
-// Of each touch the smallest threshold at which it sends little enough, also where a larger one
-// sends more again.
+// For each scene, the smallest threshold that meets the bar, even if a larger threshold sends more
+// again.
 TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
   const std::vector rows{hands_at("press-20", 0.005, 41, 60, 0.03),
                          hands_at("press-20", 0.015, 40, 30, 0.05),

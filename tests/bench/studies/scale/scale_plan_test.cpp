@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Flags of bench scale, and the exercises that they ask for.
+// Flags of bench scale, and the resulting exercises.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -72,7 +72,7 @@ TEST(ScalePlan, FitsWhatIsTooLargeToRun) {
   EXPECT_THAT(refusal(words), HasSubstr("with as many entities each"));
 }
 
-// Two that last the study and one that comes and goes; copies lie beside them.
+// Two tracks last as long as the study, one is shorter. Copies of the two are side by side.
 TEST(ScalePlan, TakesTracksThatLast) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("tracks.csv");

@@ -25,7 +25,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 10 peers over 2 s: round numbers for each of a peer and second.
+/// 10 peers over 2 s, which gives round numbers per peer and second.
 ScaleRow row_of(std::size_t mechanism, std::uint64_t datagrams) {
   ScaleRow row;
   row.mechanism = mechanism;
@@ -146,7 +146,7 @@ TEST(ScaleText, RefusesFilesThatHaveNoRows) {
   EXPECT_THROW(static_cast<void>(read_scale_rows(folder.file("none.json"))), tools::UsageError);
 }
 
-/// All mechanisms at one size; what a peer hears grows by a power of the number of peers.
+/// All mechanisms at one size. Datagrams received by a peer grow as a power of the number of peers.
 std::vector<ScaleRow> exercise_of(std::size_t peers, double power) {
   std::vector<ScaleRow> rows;
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
@@ -164,7 +164,7 @@ std::vector<ScaleRow> exercise_of(std::size_t peers, double power) {
   return rows;
 }
 
-// 20,000 datagrams of 10 us take a fifth of a core; half of one is 2.5 times as much.
+// 20,000 datagrams of 10 us take a fifth of a core; half a core is 2.5 times that.
 TEST(ScaleCapacity, IsReachedWhereAQuantityGrowsToItsLimit) {
   const HostLimits limits{1e9, 0.5, 0.5, 10e-6};
   for (const double power : {0.5, 1.0, 2.0}) {
@@ -229,7 +229,7 @@ TEST(ScaleSummary, FitsInto80ColumnsWithTheGainOfEachMechanism) {
   EXPECT_THAT(scale_summary(rows), HasSubstr("cells\nshare the groups"));
 }
 
-// As `bench scale --many-hands` is left by Ctrl-C in its last runs, or in its first.
+// Ctrl-C stops `bench scale --many-hands` in its last runs, or in its first.
 TEST(ScaleFindings, HoldTheRunsBeforeAStop) {
   ScaleReport report;
   EXPECT_EQ(scale_findings(report, false), "");
@@ -284,8 +284,8 @@ std::size_t lines_of(const std::string& picture) {
   return lines;
 }
 
-// A line goes on at the same number of peers, never from the last of one size to the first of the
-// next.
+// A line connects points of the same number of peers, never the last point of one number to the
+// first of the next.
 TEST(ScalePage, DrawsALineForEachNumberOfPeers) {
   ScaleReport report;
   for (const std::size_t entities : {640, 2560})

@@ -69,7 +69,8 @@ TEST(WholePeers, MissWhatTheNetworkLoses) {
   EXPECT_GT(run.counts.lost, 0U);
 }
 
-// Four fifths in a village of 1 km, the others all over 4 km; each walks on a circle of 30 m.
+// Four fifths are in a village of 1 km, the others across 4 km. Each walks on a circle of 30 m
+// radius.
 std::vector<Track> lopsided_crowd(std::size_t count) {
   std::vector<Track> tracks(count);
   std::mt19937_64 random(5);
@@ -108,7 +109,7 @@ TEST(WholePeers, OnAQuadTreeHearLessThatIsNotWanted) {
     return run;
   };
   std::uint64_t fewest = ~std::uint64_t{0};
-  for (const double side : {250.0, 350.0, 500.0}) {  // those of 500 m fill the square once
+  for (const double side : {250.0, 350.0, 500.0}) {  // 64 cells of 500 m fill the square once
     if (side > test::tries(250.0, 500.0)) break;
     setting.grid = {aoim::CellScheme::square, side, 64};
     fewest = std::min(fewest, unwanted(run_with("squares")));
@@ -119,7 +120,7 @@ TEST(WholePeers, OnAQuadTreeHearLessThatIsNotWanted) {
   EXPECT_LT(unwanted(run_with("quad-tree")), fewest);
 }
 
-// The slope without areas: all that is sent to cells comes to all.
+// Growth as without areas: all peers receive all updates that are sent to cells.
 TEST(WholePeers, ShareOneGroupWhereThePoolIsOne) {
   ScaleSetting setting = small_setting();
   setting.grid.pool = 1;
@@ -163,7 +164,7 @@ TEST(WholePeers, AreNotProcessesWhereAMadeUpNetworkIsAskedFor) {
   EXPECT_THROW(static_cast<void>(read_meeting("moon")), tools::UsageError);
 }
 
-// A peer remembers 1,024 others, and half as many of one address.
+// A peer stores 1,024 others, and half as many of one address.
 TEST(WholeText, SaysWhereAPeerCannotKnowAll) {
   const auto says_so = [](Meeting meeting, std::size_t peers) {
     WholeRow row;
