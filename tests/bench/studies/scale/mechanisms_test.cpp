@@ -137,7 +137,7 @@ TEST(Mechanisms, WantedLieBetweenWhatBruteForceCounts) {
 }
 
 // Updates of entities at rest are used only within the radius of a focus that covers one entity.
-TEST(Mechanisms, WantedUpdatesOfRestingEntitiesAreWithinTheRadius) {
+TEST(Mechanisms, RestingEntitiesAreWantedWithinTheRadius) {
   ScaleSetting setting = small_setting();
   setting.seconds = 1;
   setting.radius = 60;

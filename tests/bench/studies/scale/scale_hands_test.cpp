@@ -53,7 +53,7 @@ TEST(ScaleHands, AllOfFourTouchAndEndBetweenRuns) {
   EXPECT_THAT(many_hands_text(rows), Not(HasSubstr("the others moving")));
 }
 
-TEST(ScaleHands, AmongManyAreAsManyAsThereArePeers) {
+TEST(ScaleHands, ManyHandsAreAsManyAsPeers) {
   ScaleWords words;
   EXPECT_EQ(read_scale_plan(words).hands, 64U);
   words.peers = "4,8";

@@ -98,7 +98,7 @@ TEST(ScaleText, WritesWhatItCanCompareWith) {
   EXPECT_THAT(comparison_json(now, base), HasSubstr("sent_packets_per_s"));
 }
 
-TEST(ScaleText, TakesWhatRepeatedRunsOfTheBaseHaveForNoise) {
+TEST(ScaleText, RepeatedRunsOfTheBaseBoundTheNoise) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("base.json");
   std::ofstream(file) << scale_json(std::vector{row_of(1, 60)})
@@ -111,7 +111,7 @@ TEST(ScaleText, TakesWhatRepeatedRunsOfTheBaseHaveForNoise) {
   EXPECT_DOUBLE_EQ(changes.front().ratio(), 1.25);
 }
 
-TEST(ScaleText, JudgesCpuOnlyByRepeatedRunsAndNeverTheKernelsPart) {
+TEST(ScaleText, CpuIsJudgedOnlyByRepeatedRuns) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("base.json");
   std::ofstream(file) << scale_json(std::vector{row_of(1, 60)});
@@ -165,7 +165,7 @@ std::vector<ScaleRow> exercise_of(std::size_t peers, double power) {
 }
 
 // 20,000 datagrams of 10 us take a fifth of a core; half a core is 2.5 times that.
-TEST(ScaleCapacity, IsReachedWhereAQuantityGrowsToItsLimit) {
+TEST(ScaleCapacity, QuantityAtItsLimitEndsTheExercise) {
   const HostLimits limits{1e9, 0.5, 0.5, 10e-6};
   for (const double power : {0.5, 1.0, 2.0}) {
     std::vector<ScaleRow> rows = exercise_of(10, power);
@@ -196,7 +196,7 @@ TEST(ScaleCapacity, IsTheLinkWhereThatIsFullFirst) {
   EXPECT_EQ(found.back().limit, "the link of a host");
 }
 
-TEST(ScaleCapacity, IsNotGuessedFarBeyondTheSweepNorFromOneSize) {
+TEST(ScaleCapacity, FarExercisesAreNotExtrapolated) {
   const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
   std::vector<ScaleRow> rows = exercise_of(10, 0);
   EXPECT_TRUE(capacities(rows, limits).empty());
@@ -211,7 +211,7 @@ TEST(ScaleCapacity, IsNotGuessedFarBeyondTheSweepNorFromOneSize) {
   EXPECT_TRUE(capacities(rows, limits).empty()) << "other peers have other numbers of entities";
 }
 
-TEST(ScaleSummary, FitsInto80ColumnsWithTheGainOfEachMechanism) {
+TEST(ScaleSummary, TableFitsInto80Columns) {
   std::vector<ScaleRow> rows = exercise_of(10, 1);
   for (const ScaleRow& row : exercise_of(1000, 1.2)) rows.push_back(row);
   rows.back().run.counts.heard_datagrams /= 2;
@@ -247,7 +247,7 @@ TEST(ScaleFindings, HoldTheRunsBeforeAStop) {
   EXPECT_EQ(json::parse(many)["kind"], "many_hands");
 }
 
-TEST(ScaleBench, SaysThatNothingWasRunWhereItIsStoppedAtOnce) {
+TEST(ScaleBench, StopAtOnceReportsThatNothingRan) {
   const std::atomic<bool> stop = true;
   const auto result =
       reckon::test::run_bench({"bench", "scale", "--peers", "4", "--for", "1s"}, &stop);

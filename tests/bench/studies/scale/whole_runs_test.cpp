@@ -89,7 +89,7 @@ std::vector<Track> lopsided_crowd(std::size_t count) {
   return tracks;
 }
 
-TEST(WholePeers, OnAQuadTreeHearLessThatIsNotWanted) {
+TEST(WholePeers, QuadTreeReducesUnwantedUpdates) {
   const std::vector<Track> tracks = lopsided_crowd(320);
   ScaleSetting setting = small_setting();
   setting.peers = 32;
@@ -153,7 +153,7 @@ TEST(WholePeers, AreProcessesThatHearEachOther) {
   EXPECT_GT(run.resident, 1e5);
 }
 
-TEST(WholePeers, AreNotProcessesWhereAMadeUpNetworkIsAskedFor) {
+TEST(WholePeers, ProcessesRefuseASimulatedNetwork) {
   ScaleSetting setting = small_setting();
   setting.network.loss = 0.1;
   EXPECT_THROW(check_meeting(setting, Meeting::lo), tools::UsageError);
