@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -54,27 +55,15 @@ const Kind* kind_of(const UsbDeviceSeen& device) {
   return found == kinds().end() ? nullptr : &*found;
 }
 
-// The first of the driver's sentences that explains why forces are blocked; empty: none does.
-std::string problem_in(const Kind& kind, const std::vector<std::string>& said) {
-  const std::string its_own = std::string(kind.facts.name) + ": ";
-  for (const std::string& sentence : said) {
-    const bool is_good = !sentence.starts_with(its_own) ||
-                         sentence.find("ready") != std::string::npos ||
-                         sentence.find("an exchange takes") != std::string::npos ||
-                         sentence.find("firmware loaded") != std::string::npos;
-    if (!is_good) return sentence;
-  }
-  return {};
-}
-
 AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
-                        const std::vector<std::string>& said, bool has_rule) {
+                        std::span<const UsbProblem> problems, bool has_rule) {
   AttachedDevice device;
   device.driver = kind.driver;
   device.name = fmt::format("{}, /dev/bus/usb/{:03}/{:03}", kind.product, seen.bus, seen.address);
   device.use = kind.use;
   if (seen.is_open_to_us) {
-    device.problem = problem_in(kind, said);
+    const auto found = std::ranges::find(problems, kind.driver, &UsbProblem::driver);
+    if (found != problems.end()) device.problem = found->sentence;
   } else if (seen.is_denied) {
     device.problem = "this user may not open it";
     device.remedy =
@@ -88,22 +77,24 @@ AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
   return device;
 }
 
-// Sets a device up without any force. @return the notices of its driver within 2 s
-std::vector<std::string> ask(const Kind& kind) {
+// Sets a device up without any force, within 2 s. @return why it shows none; empty: it can
+std::string problem_of(const Kind& kind) {
   const peer::SteadyClock clock;
   haptics::UsbExchange exchange;
   haptics::UsbLoopOptions options;
   options.clock = [&clock] { return clock.now(); };
   haptics::UsbLoop loop(exchange, kind.make(), std::move(options));
-  const auto end = clock.now() + kAskFor;
-  while (clock.now() < end) {
+  std::string last = fmt::format("{}: it sends no answer", kind.facts.name);
+  for (const auto end = clock.now() + kAskFor; clock.now() < end;) {
     loop.step(std::chrono::milliseconds(1));
-    if (auto said = loop.take_notices(); !said.empty()) return said;
+    const auto stage = loop.stage();
+    if (stage == haptics::UsbStage::running) return {};
+    for (std::string& sentence : loop.take_notices()) last = std::move(sentence);
+    if (stage && stage != haptics::UsbStage::silent) break;  // set up, and no force yet
   }
-  return {fmt::format("{}: it says nothing", kind.facts.name)};
+  return last;
 }
 
-// A udev rule line: the group plugdev and the user logged in at this host may open the device.
 std::string rule_of(std::string_view subsystem, std::string_view attribute, const peer::UsbId& id) {
   return fmt::format(
       "SUBSYSTEM==\"{0}\", {1}{{idVendor}}==\"{2:04x}\", {1}{{idProduct}}==\"{3:04x}\", "
@@ -133,7 +124,7 @@ std::string driver_names() {
   return names + "evdev";
 }
 
-UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std::string>& said,
+UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, std::span<const UsbProblem> problems,
                   bool has_rule) {
   UsbLook look;
   if (seen.empty()) {
@@ -143,7 +134,7 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std:
   }
   for (const UsbDeviceSeen& device : seen) {
     if (const Kind* const kind = kind_of(device)) {
-      look.devices.push_back(attached(*kind, device, said, has_rule));
+      look.devices.push_back(attached(*kind, device, problems, has_rule));
     } else {
       ++look.others;
     }
@@ -156,15 +147,16 @@ UsbLook look_at_usb(bool ask_them) {
     haptics::UsbContext context;
     const auto seen = haptics::usb_devices(
         context, [](const UsbDeviceSeen& device) { return kind_of(device) != nullptr; });
-    std::vector<std::string> said;
+    std::vector<UsbProblem> problems;
     for (const Kind& kind : kinds()) {
       const bool is_here = std::ranges::any_of(seen, [&](const UsbDeviceSeen& device) {
         return kind_of(device) == &kind && device.is_open_to_us;
       });
       if (!ask_them || !is_here) continue;
-      for (std::string& sentence : ask(kind)) said.push_back(std::move(sentence));
+      if (std::string problem = problem_of(kind); !problem.empty())
+        problems.push_back({kind.driver, std::move(problem)});
     }
-    return judge_usb(seen, said,
+    return judge_usb(seen, problems,
                      std::filesystem::exists(std::filesystem::path(kRuleFolder) / kRuleFile));
   } catch (const std::exception& error) {
     UsbLook look;

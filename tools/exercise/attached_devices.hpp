@@ -3,7 +3,9 @@
 // Haptic devices attached to this host, and the problems that keep them from being used.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reckon/haptics/usb/usb_list.hpp"
@@ -37,13 +39,18 @@ inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
 /// Names of all drivers, as written after --device.
 [[nodiscard]] std::string driver_names();
 
+/// Why a driver shows no forces on the device that it has opened.
+struct UsbProblem {
+  std::string_view driver;  ///< its name
+  std::string sentence;
+};
+
 /// Sorts USB devices into supported and other ones.
-/// @param said notices of the drivers of the devices that this user may open
-/// @param has_rule the rule is installed
+/// @param problems of devices that this user may open @param has_rule the rule is installed
 [[nodiscard]] UsbLook judge_usb(const std::vector<haptics::UsbDeviceSeen>& seen,
-                                const std::vector<std::string>& said, bool has_rule);
-/// Scans this host. @param ask_them sets up devices that can be opened, without any force, and
-/// waits for the driver's notice, for 2 s each at most
+                                std::span<const UsbProblem> problems, bool has_rule);
+/// Scans this host. @param ask_them sets up devices that can be opened, without any force, until
+/// they can show one, for 2 s each at most
 [[nodiscard]] UsbLook look_at_usb(bool ask_them);
 
 }  // namespace reckon::tools
