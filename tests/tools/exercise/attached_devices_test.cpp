@@ -141,7 +141,8 @@ TEST(AttachedDevices, ReportOtherProblems) {
   seen.problem = "Input/Output Error";
   EXPECT_THAT(judge_usb({seen}, {}, false).devices.at(0).problem, HasSubstr("Input/Output Error"));
   const auto said = [](const std::string& sentence) {
-    return judge_usb({falcon(true)}, {sentence}, false).devices.at(0).problem;
+    const std::array problems{UsbProblem{"falcon", sentence}};
+    return judge_usb({falcon(true)}, problems, false).devices.at(0).problem;
   };
   EXPECT_THAT(said("Falcon: it has no firmware, which it forgets"), HasSubstr("no firmware"));
   EXPECT_THAT(said("Falcon: another program has it: Resource busy"), HasSubstr("another program"));
