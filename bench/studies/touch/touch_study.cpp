@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRounds = 21;
-constexpr double kBlock = 3e5;  // [ns], approximate length of a block
+constexpr double kTouchBlock = 3e5;  // [ns], approximate length of a block
 constexpr std::size_t kMostSteps = 4000;
 constexpr double kNoError = 1e-6;  // [N], smaller errors count as equal
 constexpr double kSameTime = 1.1;  // times within this ratio count as equal
@@ -110,7 +110,7 @@ void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>
     if (!settings[i].run) continue;
     const double first = block(settings[i], 100, sum);
     steps[i] = static_cast<std::size_t>(
-        std::clamp(kBlock / std::max(first, 1.0), 10.0, static_cast<double>(kMostSteps)));
+        std::clamp(kTouchBlock / std::max(first, 1.0), 10.0, static_cast<double>(kMostSteps)));
   }
   for (int round = 0; round < kRounds && (!go_on || go_on()); ++round) {
     for (std::size_t i = 0; i < settings.size(); ++i)
