@@ -136,7 +136,8 @@ def compiler_of(folder, commands):
     found = []
     for command in commands:
         words = shlex.split(command["command"])
-        if words[words.index("-o") + 1].startswith(folder + "/"):
+        is_cpp = Path(command["file"]).suffix not in (".S", ".c")
+        if is_cpp and words[words.index("-o") + 1].startswith(folder + "/"):
             found.append([word for at, word in enumerate(words) if word.startswith(("-I", "-isystem", "-std=", "--param="))
                           or words[at - 1] == "-isystem" or at < words.index(next(w for w in words if w[0] == "-"))])
     if not found:
