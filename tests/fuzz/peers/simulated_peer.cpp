@@ -150,7 +150,7 @@ void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint
   }
 }
 
-// The table of peers tells the owner of an entity.
+// The owner of an entity follows from the table of peers.
 void SimulatedPeer::claim(const aoim::PeerId&, std::uint32_t) noexcept {}
 
 void SimulatedPeer::drop(const aoim::PresenceEvent::Dropped& life, bool) noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // One process of the simulation: the product's peer logic, and the minimum of entities needed to
-// check who sends and who shows them.
+// check which process sends an entity and which ones show it.
 #pragma once
 
 #include <cstdint>

@@ -26,12 +26,12 @@ struct ProfilePoint {
   double radius, height;
 };
 
-/// The shortest turn of the axis z to a direction; half a turn about x to the opposite one.
+/// The shortest rotation of the axis z to a direction; half a turn about x to the opposite one.
 Eigen::Quaterniond turn_to(const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d to = direction.normalized();
-  if (to.z() < -1 + 1e-12) return {0, 1, 0, 0};
-  const double s = std::sqrt(2 * (1 + to.z()));
-  return {0.5 * s, -to.y() / s, to.x() / s, 0};
+  const double level = std::hypot(direction.x(), direction.y());
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  if (level > 0) axis = {-direction.y() / level, direction.x() / level, 0};
+  return Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(level, direction.z()), axis));
 }
 
 void revolve(std::span<const ProfilePoint> profile, DrawnSolid& out) {

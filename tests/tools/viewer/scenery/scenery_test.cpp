@@ -166,6 +166,19 @@ TEST(SolidShapes, DrawRegionsThatHaveAShape) {
   EXPECT_EQ(regions[1].radius, 0.2);
 }
 
+TEST(SolidShapes, PlaneFacesItsNormal) {
+  const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+  for (const Eigen::Vector3d& normal :
+       {Eigen::Vector3d(0, 0, 1), down, Eigen::Vector3d(1e-7, -1e-7, -1).normalized(),
+        Eigen::Vector3d(-1e-12, 0, 1).normalized(), Eigen::Vector3d(-1, 2, -2) / 3}) {
+    haptics::Scene scene;
+    scene.objects.push_back({"plane", haptics::PlaneShape{normal}, {}, {}, {}});
+    const Eigen::Quaterniond turn = drawn_solids(scene).at(0).pose.orientation;
+    EXPECT_NEAR(turn.norm(), 1, 1e-12) << normal.transpose();
+    EXPECT_LT((turn * Eigen::Vector3d::UnitZ() - normal).norm(), 1e-12) << normal.transpose();
+  }
+}
+
 TEST(SolidShapes, DrawEveryKindOfSolid) {
   haptics::Scene scene;
   const auto add = [&](const haptics::Shape& shape) {
