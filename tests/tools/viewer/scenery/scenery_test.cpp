@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -167,10 +168,11 @@ TEST(SolidShapes, DrawRegionsThatHaveAShape) {
 }
 
 TEST(SolidShapes, PlaneFacesItsNormal) {
-  const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
-  for (const Eigen::Vector3d& normal :
-       {Eigen::Vector3d(0, 0, 1), down, Eigen::Vector3d(1e-7, -1e-7, -1).normalized(),
-        Eigen::Vector3d(-1e-12, 0, 1).normalized(), Eigen::Vector3d(-1, 2, -2) / 3}) {
+  const std::array normals{Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1),
+                           Eigen::Vector3d(1e-7, -1e-7, -1), Eigen::Vector3d(-1e-12, 0, 1),
+                           Eigen::Vector3d(-1, 2, -2)};
+  for (const Eigen::Vector3d& given : normals) {
+    const Eigen::Vector3d normal = given.normalized();
     haptics::Scene scene;
     scene.objects.push_back({"plane", haptics::PlaneShape{normal}, {}, {}, {}});
     const Eigen::Quaterniond turn = drawn_solids(scene).at(0).pose.orientation;
