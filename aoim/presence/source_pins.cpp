@@ -14,7 +14,7 @@ using std::chrono::nanoseconds;
 // Time in which a sender at another address has to prove it, if the peer itself has, or has not.
 constexpr milliseconds kProvesItself{2500}, kUnprovedProves{10'000};
 // The old address may still be received this long after the first datagram from a new one.
-constexpr milliseconds kStraggler{500};
+constexpr milliseconds kMostLate{500};
 // A key confirms or refutes a move on approval within this time, or it is undone.
 constexpr milliseconds kApproval{4000};
 // A hand in contact: touched just now, and received at 20 datagrams a second or more.
@@ -101,10 +101,10 @@ bool SourcePins::begin_settling(nanoseconds now) noexcept {
 void SourcePins::settle_suspect(Peer& peer, nanoseconds now) {
   if (peer.suspect.port == 0) return;
   const bool speaks =
-      peer.held.port == 0 && !peer.doubtful && peer.last_heard > peer.suspected + kStraggler;
+      peer.held.port == 0 && !peer.doubtful && peer.last_heard > peer.suspected + kMostLate;
   nanoseconds due = peer.suspected + (peer.proof.is_proved() ? kProvesItself : kUnprovedProves);
   if (now >= due && speaks) return report_impostor(peer, peer.suspect);
-  if (now >= due) due = now + kStraggler;
+  if (now >= due) due = now + kMostLate;
   next_ = std::min(next_, due);
 }
 

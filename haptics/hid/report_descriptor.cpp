@@ -10,7 +10,7 @@ namespace {
 using Octets = std::span<const std::uint8_t>;
 
 // 6.2.2.2: the type and the tag of a short item.
-enum class Type : std::uint8_t { main, global, local };
+enum class ItemType : std::uint8_t { main, global, local };
 enum class MainTag : std::uint8_t { input = 8, output, collection, feature, end };
 enum class GlobalTag : std::uint8_t {
   page = 0,
@@ -81,9 +81,9 @@ class Reader {
     for (unsigned i = 0; i < item.octets; ++i)
       item.value |= static_cast<std::uint32_t>(rest_[1 + i]) << 8 * i;
     rest_ = rest_.subspan(1 + item.octets);
-    if (static_cast<Type>(item.type) == Type::global) return take_global(item);
-    if (static_cast<Type>(item.type) == Type::local) return take_local(item);
-    if (static_cast<Type>(item.type) != Type::main) return false;
+    if (static_cast<ItemType>(item.type) == ItemType::global) return take_global(item);
+    if (static_cast<ItemType>(item.type) == ItemType::local) return take_local(item);
+    if (static_cast<ItemType>(item.type) != ItemType::main) return false;
     const bool is_good = take_main(item);
     usages_.clear();
     first_.reset();
