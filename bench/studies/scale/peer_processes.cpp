@@ -124,12 +124,15 @@ void enter_own_network() {
         std::strerror(errno)));
 }
 
-/// Creates the bridge between the processes.
+/// Creates the bridge between the processes. The bridge floods reports of membership until the
+/// query response interval, as it was when the querier started, has passed. With IGMPv2 a host that
+/// receives the report of another sends none, and the bridge never learns of it.
 void make_switch(const std::vector<pid_t>& peers) {
   enter_own_network();
   std::string lines =
-      "link add br0 type bridge mcast_snooping 1 mcast_querier 1 mcast_query_response_interval 100 "
-      "mcast_startup_query_interval 100\nlink set br0 up\n";
+      "link add br0 type bridge mcast_snooping 1 mcast_igmp_version 3 "
+      "mcast_query_response_interval 100 mcast_startup_query_interval 100\n"
+      "link set br0 type bridge mcast_querier 1\nlink set br0 up\n";
   for (std::size_t p = 0; p < peers.size(); ++p)
     lines +=
         fmt::format("link add e0 netns {1} type veth peer name p{0}\nlink set p{0} master br0 up\n",
