@@ -15,6 +15,7 @@
 
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/whole_text.hpp"
+#include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/support/soak.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
@@ -151,6 +152,20 @@ TEST(WholePeers, AreProcessesThatHearEachOther) {
   EXPECT_GT(run.counts.heard_datagrams, 0U);
   EXPECT_GT(run.counts.cpu, 0);
   EXPECT_GT(run.resident, 1e5);
+}
+
+// On a bridge that snoops, a join that the bridge does not learn of costs all updates of a cell.
+// Within 10 %, as the processes do not take their steps at the same instants.
+TEST(WholePeers, ReceiveOnASwitchWhatTheSimulationPredicts) {
+  ScaleSetting setting = small_setting();
+  setting.peers = 8;
+  setting.crowd.entities = 80;
+  const WholeRun simulated = run_whole_peers(setting, Meeting::simulated);
+  WholeRun run;
+  RECKON_IN_OWN_NETWORK([&] { run = run_whole_peers(setting, Meeting::lan); });
+  EXPECT_EQ(run.counts.overdue, 0U);
+  const auto expected = static_cast<double>(simulated.counts.heard_updates);
+  EXPECT_NEAR(static_cast<double>(run.counts.heard_updates), expected, 0.1 * expected);
 }
 
 TEST(WholePeers, ProcessesRefuseASimulatedNetwork) {
