@@ -58,22 +58,22 @@ void AreaOfInterestManager::set_utc_offset(nanoseconds offset, bool synchronised
 
 // ----------------------------------------------------------------------------------------- route
 
-GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept {
-  if (config_.interop) return kBaseGroup;
-  const GroupIndex cell = cells_.group(position);
-  return leading_ ? leading_->speak_group(cell) : cell;
+GroupIndex AreaOfInterestManager::route(const RoutedPosition& position) const noexcept {
+  if (position.group) return *position.group;
+  const GroupIndex cell = config_.interop ? kBaseGroup : position.cell_in(cells_);
+  position.group = leading_ ? leading_->speak_group(cell) : cell;
+  return *position.group;
 }
 
 AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& update,
-                                      const Position& position, const BundleTerms& terms) {
+                                      const RoutedPosition& position, const BundleTerms& terms) {
   if (tier >= tiers_.count() && tier != kEverybody) return AddResult::refused_group;
   GroupIndex group = kBaseGroup;
-  if (tier == kCellTier) group = route(position);
-  if (tier < tiers_.count() && tier != kCellTier)
-    group = tiers_.group(tier, cells_.group(position));
+  if (tier != kEverybody)
+    group = tier == kCellTier ? route(position) : tiers_.group(tier, position.cell_in(cells_));
   if (const auto* plain = std::get_if<StatePayload>(&update)) {
     if (leading_ && tier == kCellTier)
-      leading_->note_own(cells_.group(position), plain->state, plain->records, terms.deadline);
+      leading_->note_own(position.cell_in(cells_), plain->state, plain->records, terms.deadline);
     return aggregator_.add(group, plain->state, plain->records, terms);
   }
   if (const auto* made = std::get_if<CompressedPayload>(&update))
@@ -83,13 +83,13 @@ AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& upd
 }
 
 bool AreaOfInterestManager::must_send(std::size_t tier, const pdu::EntityId& entity,
-                                      const Position& position, const LastSent& last,
+                                      const RoutedPosition& position, const LastSent& last,
                                       nanoseconds now) const noexcept {
   const bool has_crossed =
       tier == kCellTier && now - last.at >= config_.crossing_gap && route(position) != last.group;
   if (has_crossed) return true;
   return tier < tiers_.count() && introductions_.is_pending() &&
-         introductions_.is_due(entity, tiers_.group(tier, cells_.group(position)), last.at, now);
+         introductions_.is_due(entity, tiers_.group(tier, position.cell_in(cells_)), last.at, now);
 }
 
 // ------------------------------------------------------------------------------------- subscribe

@@ -21,6 +21,7 @@
 #include "reckon/aoim/area_of_interest_config.hpp"
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/cells/cell_partition.hpp"
+#include "reckon/aoim/cells/routed_position.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/incoming_datagram.hpp"
 #include "reckon/aoim/interest/receiver_channels.hpp"
@@ -61,7 +62,7 @@ class AreaOfInterestManager {
   // 1 route ---------------------------------------------------------------------------------------
 
   /// Group for this position [m, S]. If leaders hand out groups, as of the last step.
-  [[nodiscard]] GroupIndex route(const Position& position) const noexcept;
+  [[nodiscard]] GroupIndex route(const RoutedPosition& position) const noexcept;
 
   /// The recipient tiers of the scene.
   [[nodiscard]] const TierTable& tiers() const noexcept { return tiers_; }
@@ -70,7 +71,7 @@ class AreaOfInterestManager {
   /// example Stop/Freeze, the position is ignored. Refused for a tier that the scene does not have.
   /// The receivers of the tier must be able to decode a compressed form. Leaders keep only plain
   /// states of the cell's tier. See Aggregator::add.
-  AddResult send(std::size_t tier, const UpdatePayload& update, const Position& position,
+  AddResult send(std::size_t tier, const UpdatePayload& update, const RoutedPosition& position,
                  const BundleTerms& terms);
 
   /// The last update of an entity to a tier.
@@ -83,7 +84,7 @@ class AreaOfInterestManager {
   /// with another group since its last update. For the cell's tier, `last` is the last complete
   /// update.
   [[nodiscard]] bool must_send(std::size_t tier, const pdu::EntityId& entity,
-                               const Position& position, const LastSent& last,
+                               const RoutedPosition& position, const LastSent& last,
                                std::chrono::nanoseconds now) const noexcept;
 
   /// Introductions of our entities to newcomers.

@@ -24,6 +24,7 @@
 #include "reckon/peer/loops/model_loop.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/network_write_loop.hpp"
+#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_device.hpp"
@@ -56,6 +57,7 @@ struct PeerOptions {
   /// KiB. 2 MiB hold 5,400 typical updates, or a stall of 110 ms at 50,000 a second; then the
   /// kernel's buffer fills. Memory is used as the ring fills.
   std::size_t datagram_ring = std::size_t{2} << 20;
+  std::vector<NamedHooks> mechanisms = {};  ///< of the program, see PeerHooks
   DatagramTap* tap = nullptr;  ///< receives the fate of each datagram; outlives the peer
   /// The software stop of its hands, shared with other peers of a program; outlives the peer. Null:
   /// one of its own.

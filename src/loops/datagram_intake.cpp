@@ -31,10 +31,24 @@ constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
     DatagramFate::duplicate,  DatagramFate::too_old,     DatagramFate::other_exercise,
     DatagramFate::impostor,   DatagramFate::stranger};
 
+class ArrivingFilter final : public PduFilter {
+ public:
+  ArrivingFilter(const HookList& hooks, const Arrival& arrival) noexcept
+      : hooks_(hooks), arrival_(arrival) {}
+  [[nodiscard]] bool passes(const pdu::BundledPdu& pdu) const noexcept override {
+    return hooks_.arriving.pass({pdu, arrival_});
+  }
+
+ private:
+  const HookList& hooks_;
+  const Arrival& arrival_;
+};
+
 }  // namespace
 
 DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim,
-                               TimeKeeper& time, RemoteEntities& remote, ModelCounters& counted)
+                               TimeKeeper& time, RemoteEntities& remote, const HookList& hooks,
+                               ModelCounters& counted)
     : scene_(wiring.scene),
       pool_(wiring.pool),
       inbound_(wiring.inbound),
@@ -43,6 +57,7 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
       aoim_(aoim),
       time_(time),
       remote_(remote),
+      hooks_(hooks),
       counted_(counted),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
@@ -86,10 +101,12 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
   for (const QueuedDatagram& datagram : datagrams)
     count += admit(datagram, reading.pass, admitted_[count]);
   const std::span<const ArrivedDatagram> admitted = std::span(admitted_).first(count);
-  const bool backlog = count >= kBacklog && !needs_key_states(scene_.network.compression);
+  // A hook may refuse the newer state, so that the older one counts.
+  const bool backlog =
+      count >= kBacklog && !needs_key_states(scene_.network.compression) && hooks_.arriving.empty();
   if (backlog) overtaken_.look(admitted);
   for (std::size_t i = 0; i < count; ++i) {
-    reading.handler.take_datagram(admitted[i].octets);
+    hooks_.received(admitted[i].octets);
     const std::uint64_t overtaken = backlog ? overtaken_.of(i) : 0;
     if (backlog && overtaken_.is_whole(i)) {
       decoder_.leave_out(static_cast<std::size_t>(std::popcount(overtaken)),
@@ -97,8 +114,10 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
       --taken;
       continue;
     }
+    const ArrivingFilter filter(hooks_, admitted[i].arrival);
     const std::span<const Inbound> updates = decoder_.decode(
-        admitted[i].octets, reading.own, overtaken, key_speaker(admitted[i].arrival));
+        admitted[i].octets, reading.own, overtaken, key_speaker(admitted[i].arrival),
+        hooks_.arriving.empty() ? nullptr : &filter);
     remote_.prefetch(updates);
     for (const Inbound& update : updates) reading.handler.take_update(update, admitted[i].arrival);
   }

@@ -15,6 +15,7 @@
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/overtaken_states.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -25,9 +26,6 @@ namespace reckon::peer {
 class UpdateHandler {
  public:
   virtual ~UpdateHandler() = default;
-  /// Called by the thread of read() for each datagram of this exercise, before its updates.
-  /// @param octets valid until the call returns
-  virtual void take_datagram(std::span<const std::byte> octets) noexcept = 0;
   /// Called by the thread of read().  @param update valid until the call returns
   virtual void take_update(const Inbound& update, const Arrival& arrival) noexcept = 0;
 };
@@ -37,7 +35,7 @@ class DatagramIntake {
  public:
   /// References outlive this.
   DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, TimeKeeper& time,
-                 RemoteEntities& remote, ModelCounters& counted);
+                 RemoteEntities& remote, const HookList& hooks, ModelCounters& counted);
 
   /// Reads pending datagrams, beginning with urgent tiers. The number in a step is limited, so that
   /// a flood does not delay the own hand's updates.  @param own the simulation of this peer
@@ -71,6 +69,7 @@ class DatagramIntake {
   aoim::AreaOfInterestManager& aoim_;
   TimeKeeper& time_;
   RemoteEntities& remote_;
+  const HookList& hooks_;
   ModelCounters& counted_;
   DatagramDecoder decoder_;
   OvertakenStates overtaken_;

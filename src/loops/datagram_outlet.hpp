@@ -34,6 +34,10 @@ class DatagramOutlet {
   [[nodiscard]] std::size_t paced_room() const noexcept;
   /// Sends to a group of the pool; counted and dropped if the writer lags.
   void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
+  /// Does not send a datagram that a mechanism refused.
+  void withhold(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+    note(group, octets, DatagramFate::withheld);
+  }
   /// Drops a stale datagram instead of sending it.
   void drop_stale(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
 

@@ -7,7 +7,6 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -37,33 +36,33 @@ std::size_t urgent_of(const Audiences* audiences) noexcept {
 
 }  // namespace
 
-std::optional<std::size_t> EntitySender::asked_tier(const OwnedEntity& entity,
-                                                    const Pass& pass) const noexcept {
+std::optional<std::size_t> EntitySender::asked_tier(const Decision& decision) const noexcept {
   if (network_.interop) return {};
+  const OwnedEntity& entity = decision.entity;
   const aoim::TierTable& tiers = aoim_.tiers();
-  const aoim::Position position = to_position(entity.truth().position);
-  if (aoim_.must_send(aoim::kCellTier, entity.id(), position,
-                      {entity.last_whole, entity.last_group}, pass.now))
+  if (aoim_.must_send(aoim::kCellTier, entity.id(), decision.position,
+                      {entity.last_whole, entity.last_group}, decision.pass.now))
     return aoim::kCellTier;
   if (entity.audiences() == nullptr || !aoim_.introductions().is_pending()) return {};
   for (std::size_t row = tiers.last_row(); row-- > 0;) {
-    if (is_asked_in(tiers.of_row(row), entity, pass)) return tiers.of_row(row);
+    if (is_asked_in(tiers.of_row(row), decision)) return tiers.of_row(row);
   }
   return {};
 }
 
 // A new listener of a row has been a listener of the outer row.
-bool EntitySender::is_asked_in(std::size_t tier, const OwnedEntity& entity,
-                               const Pass& pass) const noexcept {
+bool EntitySender::is_asked_in(std::size_t tier, const Decision& decision) const noexcept {
+  const OwnedEntity& entity = decision.entity;
   const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
   return entity.audiences()->is_behind(audience + 1) &&
-         aoim_.must_send(tier, entity.id(), to_position(entity.truth().position),
-                         {entity.last_sent_at(audience), {}}, pass.now);
+         aoim_.must_send(tier, entity.id(), decision.position, {entity.last_sent_at(audience), {}},
+                         decision.pass.now);
 }
 
 // Whether a tier requests it. The next decision for the requesting tiers is then `event`.
-bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
-  const std::optional<std::size_t> tier = asked_tier(entity, pass);
+bool EntitySender::note_asked(const Decision& decision) const noexcept {
+  OwnedEntity& entity = decision.entity;
+  const std::optional<std::size_t> tier = asked_tier(decision);
   if (!tier) return false;
   if (*tier == aoim::kCellTier) {
     entity.event();
@@ -72,23 +71,25 @@ bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexc
   Audiences& audiences = *entity.audiences();
   const std::size_t row = aoim_.tiers().row_of(*tier);
   entity.event(audiences.audience_of(row));
-  audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
+  audiences.serve(std::min(row, audiences.served_row()), decision.pass.now + Audiences::kGrace);
   return true;
 }
 
-void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept {
-  Audiences& audiences = *entity.audiences();
-  if (aoim_.tiers().last_row() == 0 || !audiences.has_to_look(pass.now)) return;
-  const EntityTruth& truth = entity.truth();
-  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), truth.velocity.norm(),
-                                                audiences.slack()),
-                  pass.now + kLookAgain);
+void EntitySender::look_for_listeners(const Decision& decision) const noexcept {
+  Audiences& audiences = *decision.entity.audiences();
+  const nanoseconds now = decision.pass.now;
+  if (aoim_.tiers().last_row() == 0 || !audiences.has_to_look(now)) return;
+  const double speed = decision.entity.truth().velocity.norm();
+  audiences.serve(
+      aoim_.receivers()->served_row(decision.position.position, speed, audiences.slack()),
+      now + kLookAgain);
 }
 
-bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audience,
-                                  const Pass& pass) const noexcept {
-  return entity.audiences()->is_out_of_step(
-      audience, pdu::to_seconds(entity.last_sent_at(audience - 1)), pdu::to_seconds(pass.now));
+bool EntitySender::is_out_of_step(const Decision& decision, std::size_t audience) const noexcept {
+  const OwnedEntity& entity = decision.entity;
+  return entity.audiences()->is_out_of_step(audience,
+                                            pdu::to_seconds(entity.last_sent_at(audience - 1)),
+                                            pdu::to_seconds(decision.pass.now));
 }
 
 // Records of an entity near others are sent at once to nearby peers, in an urgent tier if there is
@@ -96,41 +97,46 @@ bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audienc
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
-  const bool is_asked = note_asked(entity, pass);
+  Decision decision{entity, pass, at};
+  const bool is_asked = note_asked(decision);
   entity.let_go(pass.now);
   counters_.checks.add();
   const SendReason inmost = entity.decide(at, probes);
   const bool has_urgent = urgent_of(entity.audiences()) > 0;
   const bool in_company = !probes.empty() || (has_urgent && !accounts.empty());
-  Dispatch how = choose(entity, pass, at, inmost, in_company);
+  Dispatch how = choose(decision, inmost, in_company);
   how.is_asked = is_asked;
   if (how.reason == SendReason::none) return false;
-  return send(entity, pass, at, how, accounts);
+  if (!hooks_.deciding.pass({entity, how, pass.now})) {
+    entity.withhold(pass.now + kLookAgain);
+    return false;
+  }
+  return send(decision, how, accounts);
 }
 
-Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds at,
-                              SendReason inmost, bool in_company) noexcept {
-  if (entity.audiences() != nullptr) {
-    look_for_listeners(entity, pass);
-    return choose_audience(entity, pass, at, inmost, in_company);
+Dispatch EntitySender::choose(Decision& decision, SendReason inmost, bool in_company) noexcept {
+  if (decision.entity.audiences() != nullptr) {
+    look_for_listeners(decision);
+    return choose_audience(decision, inmost, in_company);
   }
-  const bool waits = !in_company && is_by_distance(inmost) && may_wait(entity, pass, 0, inmost);
+  const bool waits = !in_company && is_by_distance(inmost) && may_wait(decision, 0, inmost);
   return {waits ? SendReason::none : inmost, in_company};
 }
 
 // The outermost tier with a due update determines the recipients.
-Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
-                                       SendReason inmost, bool in_company) noexcept {
+Dispatch EntitySender::choose_audience(Decision& decision, SendReason inmost,
+                                       bool in_company) noexcept {
+  const OwnedEntity& entity = decision.entity;
   const Audiences& audiences = *entity.audiences();
   const std::size_t inmost_group = in_company ? 0 : audiences.urgent();
   Dispatch how{SendReason::none, in_company, 0, false};
   for (std::size_t audience = audiences.last() + 1; audience-- > 0;) {
-    SendReason reason = audience == 0 ? inmost : entity.decide_for(audience, at);
-    if (reason == SendReason::none && audience > 0 && is_out_of_step(entity, audience, pass))
+    SendReason reason = audience == 0 ? inmost : entity.decide_for(audience, decision.at);
+    if (reason == SendReason::none && audience > 0 && is_out_of_step(decision, audience))
       reason = SendReason::heartbeat;
     if (reason == SendReason::none) continue;
     const bool at_once = in_company && (audience == 0 || aoim_.tiers().last_row() == 0);
-    if (!at_once && may_wait(entity, pass, audience, reason)) continue;
+    if (!at_once && may_wait(decision, audience, reason)) continue;
     const bool is_outmost = how.reason == SendReason::none;
     if (is_outmost) how.audience = std::max(audience, inmost_group);
     how.reason = is_outmost ? reason : std::min(how.reason, reason);
@@ -139,44 +145,46 @@ Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, na
 }
 
 // The row of the nearest receiver; null if all receive the same.
-const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const noexcept {
+const aoim::Channel* EntitySender::nearest_channel(Decision& decision) const noexcept {
   static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false, 1.0};
+  if (decision.nearest) return *decision.nearest;
   const aoim::ReceiverChannels* receivers = aoim_.receivers();
-  if (receivers == nullptr) return nullptr;
-  const aoim::Channel* channel = receivers->of(to_position(entity.truth().position));
-  return channel != nullptr ? channel : &kNothing;
+  const aoim::Channel* channel =
+      receivers == nullptr ? nullptr : receivers->of(decision.position.position);
+  if (receivers != nullptr && channel == nullptr) channel = &kNothing;
+  return *(decision.nearest = channel);
 }
 
 // The row of a tier: its own if rows have groups, except for a receiver that gets all updates
 // regardless of its budget.
-const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
+const aoim::Channel* EntitySender::channel_of(Decision& decision,
                                               std::size_t audience) const noexcept {
-  const aoim::Channel* nearest = channel_of(entity);
-  const Audiences* audiences = entity.audiences();
+  const aoim::Channel* nearest = nearest_channel(decision);
+  const Audiences* audiences = decision.entity.audiences();
   if (aoim_.tiers().last_row() == 0 || audiences == nullptr) return nearest;
   const aoim::ChannelTable& table = aoim_.receivers()->table();
   const std::size_t row = audiences->row_of(std::min(audience, audiences->last()));
   return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
 }
 
-bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
-                            SendReason reason) noexcept {
+bool EntitySender::may_wait(Decision& decision, std::size_t audience, SendReason reason) noexcept {
+  OwnedEntity& entity = decision.entity;
+  const nanoseconds now = decision.pass.now;
   const Audiences* audiences = entity.audiences();
   const bool by_rows = audiences != nullptr && aoim_.tiers().last_row() > 0;
   if (by_rows && audience < audiences->served()) {  // no listeners
-    if (reason != SendReason::heartbeat) hold(entity, pass.now + kLookAgain);
+    if (reason != SendReason::heartbeat) hold(entity, now + kLookAgain);
     return true;
   }
   if (!is_by_distance(reason)) return false;
-  const aoim::Channel* channel = channel_of(entity, std::max(audience, urgent_of(audiences)));
+  const aoim::Channel* channel = channel_of(decision, std::max(audience, urgent_of(audiences)));
   if (channel == nullptr || channel->kept) return false;
   const nanoseconds last = by_rows ? entity.last_sent_at(audience) : entity.last_sent;
   // A stopped entity is at rest for its receivers only after they received that state.
-  const bool rests =
-      entity.is_resting() && !entity.is_shown_moving(by_rows ? audience : 0, pass.now);
+  const bool rests = entity.is_resting() && !entity.is_shown_moving(by_rows ? audience : 0, now);
   const double rate = rests ? channel->passive_hz : channel->active_hz;
-  if (rate > 0.0 && pass.now - last >= pdu::from_seconds(1.0 / rate)) return false;
-  nanoseconds again = pass.now + kLookAgain;
+  if (rate > 0.0 && now - last >= pdu::from_seconds(1.0 / rate)) return false;
+  nanoseconds again = now + kLookAgain;
   if (rate > 0.0) again = std::min(again, last + pdu::from_seconds(1.0 / rate));
   hold(entity, again);
   return true;
@@ -188,44 +196,62 @@ void EntitySender::hold(OwnedEntity& entity, nanoseconds until) noexcept {
 
 bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, const Dispatch& how,
                         std::span<const EnergyAccount> accounts) noexcept {
-  const nanoseconds utc = pass.utc - (pass.now - at);
+  Decision decision{entity, pass, at};
+  return send(decision, how, accounts);
+}
+
+bool EntitySender::send(Decision& decision, const Dispatch& how,
+                        std::span<const EnergyAccount> accounts) noexcept {
+  OwnedEntity& entity = decision.entity;
+  const nanoseconds now = decision.pass.now, at = decision.at;
+  const nanoseconds utc = decision.pass.utc - (now - at);
   aoim::Body body = aoim::Body::full;
   if (!how.in_company && is_by_distance(how.reason)) {
-    if (const aoim::Channel* channel = channel_of(entity, how.audience)) body = channel->body;
+    if (const aoim::Channel* channel = channel_of(decision, how.audience)) body = channel->body;
   }
   if (!entity.build(at, utc, how.reason, accounts, update_, body, how.audience)) return false;
   update_.state.header.timestamp = time_.stamp(utc);
 
   std::array<std::byte, kMaxEntityRecords> room;
   const std::span<const std::byte> records(room.data(), store_records(update_, room));
-  const aoim::Position position = to_position(entity.truth_at(at).position);
+  // Other than the last truth only if the entity has not been moved since.
+  const aoim::Position sent_at = to_position(entity.truth_at(at).position);
+  aoim::RoutedPosition position = decision.position;
+  if (sent_at != position.position) position = sent_at;
   const bool waits = is_patient(how.reason) && !how.in_company;
   const BundlePolicy policy = waits ? bundle_policy_of(network_, entity.type()) : BundlePolicy{};
-  const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
+  const aoim::BundleTerms terms(now + policy.hold, policy.updates);
   const Audiences* audiences = entity.audiences();
   std::size_t octets = 0;
   if (how.in_company) {
     for (const std::size_t tier : aoim_.tiers().urgent().first(urgent_of(audiences)))
-      octets += send_at_once(tier, position, records, pass.now);
+      octets += send_at_once(tier, position, records, now);
   }
   if (audiences == nullptr || how.audience >= audiences->last()) {
-    const Written written =
-        send_to_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
-    octets += written.octets;
     entity.last_group = aoim_.route(position);
-    entity.last_sent = pass.now;
-    if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = pass.now;
+    if (!hooks_.routing.empty()) reroute(entity, position);
+    const Written written =
+        send_to_all(entity, position, records, terms, how.reason == SendReason::event, now);
+    octets += written.octets;
+    entity.last_sent = now;
+    if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = now;
   } else if (how.audience >= urgent_of(audiences)) {
-    entity.look_again(pass.now + kLookAgain);  // it may still be due to other tiers
-    octets += send_to_row(entity, position, records, terms, how.audience, pass.now);
+    entity.look_again(now + kLookAgain);  // it may still be due to other tiers
+    octets += send_to_row(entity, position, records, terms, how.audience, now);
   }
   if (octets == 0) return false;
   counters_.sent(how.reason, octets);
-  if (how.is_asked) aoim_.introductions().note_sent(octets, pass.now);
+  if (how.is_asked) aoim_.introductions().note_sent(octets, now);
   return true;
 }
 
-std::size_t EntitySender::send_at_once(std::size_t tier, const aoim::Position& position,
+void EntitySender::reroute(const OwnedEntity& entity,
+                           aoim::RoutedPosition& position) const noexcept {
+  RoutedUpdate update{entity, entity.last_group};
+  if (!hooks_.routing.pass(update)) position.group = update.group;
+}
+
+std::size_t EntitySender::send_at_once(std::size_t tier, const aoim::RoutedPosition& position,
                                        std::span<const std::byte> records,
                                        nanoseconds now) noexcept {
   static_cast<void>(aoim_.send(tier, aoim::StatePayload{update_.state, records}, position, now));
@@ -234,7 +260,7 @@ std::size_t EntitySender::send_at_once(std::size_t tier, const aoim::Position& p
 }
 
 // A state without a compact form is not sent now, but to all in the next pass.
-std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position& position,
+std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::RoutedPosition& position,
                                       std::span<const std::byte> records,
                                       const aoim::BundleTerms& terms, std::size_t audience,
                                       nanoseconds now) noexcept {
@@ -261,7 +287,8 @@ std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position&
 }
 
 // Octets of the state as sent. After an event, and for newcomers, it is uncompressed.
-EntitySender::Written EntitySender::send_to_all(OwnedEntity& entity, const aoim::Position& position,
+EntitySender::Written EntitySender::send_to_all(OwnedEntity& entity,
+                                                const aoim::RoutedPosition& position,
                                                 std::span<const std::byte> records,
                                                 const aoim::BundleTerms& terms, bool is_event,
                                                 nanoseconds now) noexcept {

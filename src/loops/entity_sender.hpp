@@ -10,9 +10,11 @@
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
+#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/send_counters.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/owned_entity.hpp"
+#include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
 
@@ -35,13 +37,19 @@ class EntitySender {
  public:
   /// References outlive this.
   EntitySender(const NetworkConfig& network, aoim::AreaOfInterestManager& aoim,
-               const TimeKeeper& time, Counters& counters)
-      : network_(network), aoim_(aoim), time_(time), counters_(counters, aoim.tiers()) {}
+               const TimeKeeper& time, const HookList& hooks, Counters& counters)
+      : network_(network),
+        aoim_(aoim),
+        time_(time),
+        hooks_(hooks),
+        counters_(counters, aoim.tiers()) {}
 
   /// The outermost tier for which the entity is requested, independent of its predictor: by a
   /// newcomer, a change of cell, or a new listener of a tier.
-  [[nodiscard]] std::optional<std::size_t> asked_tier(const OwnedEntity& entity,
-                                                      const Pass& pass) const noexcept;
+  [[nodiscard]] std::optional<std::size_t> asked_tier(OwnedEntity& entity,
+                                                      const Pass& pass) const noexcept {
+    return asked_tier({entity, pass, pass.now});
+  }
 
   /// Decides by the true state at `at`, and sends if an update is due. True if it was sent.
   /// @param probes at which its force must be accurate  @param accounts sent with it
@@ -56,38 +64,50 @@ class EntitySender {
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  [[nodiscard]] bool is_asked_in(std::size_t tier, const OwnedEntity& entity,
-                                 const Pass& pass) const noexcept;
-  bool note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
-  void look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept;
-  [[nodiscard]] bool is_out_of_step(const OwnedEntity& entity, std::size_t audience,
-                                    const Pass& pass) const noexcept;
-  [[nodiscard]] Dispatch choose(OwnedEntity& entity, const Pass& pass, Nanoseconds at,
-                                deadreckon::SendReason inmost, bool in_company) noexcept;
-  [[nodiscard]] Dispatch choose_audience(OwnedEntity& entity, const Pass& pass, Nanoseconds at,
-                                         deadreckon::SendReason inmost, bool in_company) noexcept;
-  [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity) const noexcept;
-  [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity,
+  // A decision whether an entity is due. Its group and its nearest receiver are found once.
+  struct Decision {
+    OwnedEntity& entity;
+    const Pass& pass;
+    Nanoseconds at;
+    aoim::RoutedPosition position = to_position(entity.truth().position);
+    std::optional<const aoim::Channel*> nearest = {};
+  };
+
+  [[nodiscard]] std::optional<std::size_t> asked_tier(const Decision& decision) const noexcept;
+  [[nodiscard]] bool is_asked_in(std::size_t tier, const Decision& decision) const noexcept;
+  bool note_asked(const Decision& decision) const noexcept;
+  void look_for_listeners(const Decision& decision) const noexcept;
+  [[nodiscard]] bool is_out_of_step(const Decision& decision, std::size_t audience) const noexcept;
+  [[nodiscard]] Dispatch choose(Decision& decision, deadreckon::SendReason inmost,
+                                bool in_company) noexcept;
+  [[nodiscard]] Dispatch choose_audience(Decision& decision, deadreckon::SendReason inmost,
+                                         bool in_company) noexcept;
+  [[nodiscard]] const aoim::Channel* nearest_channel(Decision& decision) const noexcept;
+  [[nodiscard]] const aoim::Channel* channel_of(Decision& decision,
                                                 std::size_t audience) const noexcept;
-  [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
+  [[nodiscard]] bool may_wait(Decision& decision, std::size_t audience,
                               deadreckon::SendReason reason) noexcept;
   void hold(OwnedEntity& entity, Nanoseconds until) noexcept;
-  std::size_t send_at_once(std::size_t tier, const aoim::Position& position,
+  bool send(Decision& decision, const Dispatch& how,
+            std::span<const EnergyAccount> accounts) noexcept;
+  void reroute(const OwnedEntity& entity, aoim::RoutedPosition& position) const noexcept;
+  std::size_t send_at_once(std::size_t tier, const aoim::RoutedPosition& position,
                            std::span<const std::byte> records, Nanoseconds now) noexcept;
-  std::size_t send_to_row(OwnedEntity& entity, const aoim::Position& position,
+  std::size_t send_to_row(OwnedEntity& entity, const aoim::RoutedPosition& position,
                           std::span<const std::byte> records, const aoim::BundleTerms& terms,
                           std::size_t audience, Nanoseconds now) noexcept;
   struct Written {
     std::size_t octets;
     bool needs_key;  ///< depends on a key state that a newcomer lacks
   };
-  Written send_to_all(OwnedEntity& entity, const aoim::Position& position,
+  Written send_to_all(OwnedEntity& entity, const aoim::RoutedPosition& position,
                       std::span<const std::byte> records, const aoim::BundleTerms& terms,
                       bool is_event, Nanoseconds now) noexcept;
 
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;
   const TimeKeeper& time_;
+  const HookList& hooks_;
   SendCounters counters_;
   EntityUpdate update_;
 };

@@ -39,18 +39,18 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       link_(wiring.link),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
-      participant_(
-          with_secret(aoim_config(wiring.scene, wiring.frame, wiring.link), identity.secret),
-          presence(wiring.scene, wiring.frame, wiring.pool, identity), *this),
+      aoim_(with_secret(aoim_config(wiring.scene, wiring.frame, wiring.link), identity.secret),
+            presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
-      sender_(wiring.scene.network, aoim_, time_, wiring.counters),
-      intake_(wiring, aoim_, time_, remote_, counted_),
+      sender_(wiring.scene.network, aoim_, time_, hooks_, wiring.counters),
+      intake_(wiring, aoim_, time_, remote_, hooks_, counted_),
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
       bodies_(wiring),
-      subscriber_(wiring, participant_, owned_, remote_),
+      subscriber_(wiring, aoim_, owned_, remote_),
       watches_(wiring),
+      hooks_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       view_(wiring) {}
 
@@ -100,7 +100,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
 
 void ModelLoop::read_sensors() noexcept {
   intake_.read(pass_, owned_.simulation().simulation(), *this);
-  participant_.deliver(pass_.now);
+  deliver_events(aoim_, *this, pass_.now);
   doubt_the_silent();
   remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
@@ -254,7 +254,8 @@ bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcep
 
 void ModelLoop::emit(bool everything) noexcept {
   const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
-    watches_.hooks().sent(octets);
+    if (!hooks_.leaving.pass({group, octets})) return outlet_.withhold(group, octets);
+    hooks_.sent(octets);
     outlet_.push(group, octets);
   };
   pdu::TimeExchange exchange;
@@ -263,8 +264,8 @@ void ModelLoop::emit(bool everything) noexcept {
     if (time_.echo(owned_.simulation().simulation(), exchange))
       send_pdu(aoim_, exchange, std::nullopt, pass_.now);
   }
-  if (everything) return participant_.drain(pass_.now, sink);
   aoim_.step(pass_.now, sink);
+  if (everything) aoim_.flush(pass_.now, sink);
 }
 
 // Position of the first hand, or of the first entity, or the scene's origin.
@@ -278,7 +279,8 @@ void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
   bodies_.look(aoim_.presence());
-  watches_.look(remote_, aoim_, unfelt, touch_.crowder(), pass_.now);
+  watches_.look(remote_, aoim_.presence().id(), pass_.now);
+  hooks_.look({remote_, aoim_, unfelt, touch_.crowder(), pass_.now, watches_.notices()});
   watches_.look(bodies_.owner(), pass_.now);
   view.own = own_id();
   view.owned = owned_.size();
@@ -296,10 +298,6 @@ void ModelLoop::publish_view() noexcept {
 }
 
 // In
-
-void ModelLoop::take_datagram(std::span<const std::byte> octets) noexcept {
-  watches_.hooks().received(octets);
-}
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind == Inbound::Kind::claim) {
@@ -360,6 +358,7 @@ void ModelLoop::receive(const aoim::RelayedState& relayed,
                         time_.evidence(relayed.epoch),
                         from};
   subscriber_.note_relayed();
+  if (!hooks_.admits(relayed.octets, arrival)) return;
   take_update(update, arrival);
 }
 

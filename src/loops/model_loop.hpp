@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "reckon/aoim/participant.hpp"
+#include "reckon/aoim/event_handler.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
@@ -26,6 +26,7 @@
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/order_stage.hpp"
+#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/peer_watches.hpp"
 #include "reckon/peer/loops/subscriber.hpp"
 #include "reckon/peer/loops/touch_stage.hpp"
@@ -55,7 +56,7 @@ class ModelGuest {
 };
 
 /// The loop. One thread calls step() and stop(); only add() allocates.
-class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
+class ModelLoop : private UpdateHandler, private aoim::EventHandler {
  public:
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
@@ -136,7 +137,6 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void do_tasks() noexcept;
   void publish() noexcept;
   void drop_stale(Nanoseconds now) noexcept;
-  void take_datagram(std::span<const std::byte> octets) noexcept override;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
   void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
   void claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept override;
@@ -163,8 +163,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   ModelCounters counted_;
   OwnedEntities owned_;
   TrackedEntities tracked_;
-  aoim::Participant participant_;
-  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
+  aoim::AreaOfInterestManager aoim_;
   TimeKeeper time_;
   RemoteEntities remote_;
   EmissionTable emissions_;
@@ -175,6 +174,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   BodyStage bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;
+  HookList hooks_;  // behind the stages that ask it, whose counters its rows read
   OrderStage orders_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
@@ -16,6 +17,7 @@
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/known_sources_publisher.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
+#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
@@ -46,6 +48,7 @@ struct ModelWiring {
   BodyMover* mover = nullptr;  ///< moves carried objects; may be null
   /// Fault reports of the program's own effects, from the servos.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
+  std::span<const NamedHooks> mechanisms = {};  ///< of the program; only for the construction
 };
 
 }  // namespace reckon::peer

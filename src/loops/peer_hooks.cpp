@@ -3,7 +3,6 @@
 #include "reckon/peer/loops/peer_hooks.hpp"
 
 #include <memory>
-#include <utility>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/budget_keeper.hpp"
@@ -12,6 +11,7 @@
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
 #include "reckon/peer/loops/loss_watch.hpp"
+#include "reckon/peer/loops/model_wiring.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -72,6 +72,7 @@ PeerHooks link(const ModelWiring& wiring) {
 }
 
 struct HookRow {
+  std::string_view name;
   bool (*is_on)(const SceneFile& scene);
   PeerHooks (*make)(const ModelWiring& wiring);
 };
@@ -79,30 +80,51 @@ struct HookRow {
 // THE list, in the order of the calls.
 // clang-format off
 constexpr HookRow kHookRows[]{
-    {always, channels},
-    {has_budget, budget},
-    {always, known_sources},
-    {always, custom_effects},
-    {always, limits},
-    {always, losses},
-    {always, link}};
+    {"channels", always, channels},
+    {"budget", has_budget, budget},
+    {"known_sources", always, known_sources},
+    {"custom_effects", always, custom_effects},
+    {"limits", always, limits},
+    {"losses", always, losses},
+    {"link", always, link}};
 // clang-format on
 
-template <typename Hook>
-void add(std::vector<Hook>& hooks, Hook& hook) {
-  if (hook) hooks.push_back(std::move(hook));
-}
+constexpr CounterGroup kActs{"acts", "mechanism", "what mechanisms refused, held or changed"};
 
 }  // namespace
 
 HookList::HookList(const ModelWiring& wiring) {
   for (const HookRow& row : kHookRows) {
-    if (!row.is_on(wiring.scene)) continue;
-    PeerHooks hooks = row.make(wiring);
-    add(look_, hooks.look);
-    add(sent_, hooks.sent);
-    add(received_, hooks.received);
+    if (row.is_on(wiring.scene)) add(row.name, row.make(wiring), wiring.counters);
   }
+  for (const NamedHooks& program : wiring.mechanisms)
+    add(program.name, program.hooks, wiring.counters);
+}
+
+bool HookList::all_arrive(std::span<const std::byte> datagram, const Arrival& arrival) const {
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
+    if (!arriving.pass({pdu, arrival})) return false;
+  }
+  return true;
+}
+
+void HookList::add(std::string_view name, const PeerHooks& hooks, Counters& counters) {
+  const auto watch = [](auto& list, const auto& hook) {
+    if (hook) list.push_back(hook);
+  };
+  watch(look_, hooks.look);
+  watch(sent_, hooks.sent);
+  watch(received_, hooks.received);
+  const auto act = [&](auto& list, const auto& hook) {
+    if (!hook) return;
+    list.add(hook, counters.make_in(kActs, name, "acts_" + std::string(name),
+                                    "PDUs, updates or datagrams that this mechanism refused, held "
+                                    "or changed"));
+  };
+  act(arriving, hooks.arriving);
+  act(deciding, hooks.deciding);
+  act(routing, hooks.routing);
+  act(leaving, hooks.leaving);
 }
 
 }  // namespace reckon::peer

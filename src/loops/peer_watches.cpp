@@ -9,8 +9,7 @@ PeerWatches::PeerWatches(const ModelWiring& wiring)
       refused_(wiring.refused),
       interop_(wiring.scene.network.interop),
       notices_(256),
-      silence_watch_(wiring.counters),
-      hooks_(wiring) {}
+      silence_watch_(wiring.counters) {}
 
 void PeerWatches::report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept {
   // The sender of a discovery request is no peer yet.
@@ -18,9 +17,7 @@ void PeerWatches::report(const aoim::PresenceEvent& event, Nanoseconds now) noex
   notice_gate_.report(event, now, notices_);
 }
 
-void PeerWatches::look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
-                       std::size_t unfelt, const aoim::SourceAddress& crowder,
-                       Nanoseconds now) noexcept {
+void PeerWatches::look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept {
   while (const MutedSender* sender = muted_ == nullptr ? nullptr : muted_->front()) {
     notice_gate_.report(*sender, now, notices_);
     muted_->pop();
@@ -31,9 +28,8 @@ void PeerWatches::look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim
     refused_->pop();
   }
   notice_gate_.look(now, notices_);
-  refusal_watch_.look(remote, aoim.presence().id(), now);
+  refusal_watch_.look(remote, own, now);
   refusal_watch_.look(silence_watch_, now);
-  hooks_.look({remote, aoim, unfelt, crowder, now, notices_});
 }
 
 }  // namespace reckon::peer

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports about a peer to the user: peers that join, leave and become silent, refusals, and the
-// reports of the rows of peer_hooks.hpp.
+// Reports about a peer to the user: peers that join, leave and become silent, and refusals.
 #pragma once
 
 #include <chrono>
@@ -13,7 +12,6 @@
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
-#include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/refusal_watch.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -30,7 +28,6 @@ class PeerWatches {
   PeerWatches& operator=(const PeerWatches&) = delete;
 
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
-  [[nodiscard]] const HookList& hooks() const noexcept { return hooks_; }
   /// Reports an event of a peer.
   void report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept;
   /// Reports a refused order; see RefusalWatch.
@@ -48,10 +45,7 @@ class PeerWatches {
   /// Reports rivals of the owner of the scene's bodies; call it some twenty times a second.
   void look(const BodyOwner& bodies, Nanoseconds now) noexcept { refusal_watch_.look(bodies, now); }
   /// Makes the remaining reports; call it some twenty times a second.
-  /// @param unfelt most bodies that a servo has omitted
-  /// @param crowder host with more bodies within reach of a hand than it takes
-  void look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim, std::size_t unfelt,
-            const aoim::SourceAddress& crowder, Nanoseconds now) noexcept;
+  void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
 
  private:
   haptics::SpscRing<MutedSender>* muted_;
@@ -61,7 +55,6 @@ class PeerWatches {
   NoticeGate notice_gate_;
   SilenceWatch silence_watch_;
   RefusalWatch refusal_watch_{notice_gate_, notices_};
-  HookList hooks_;
 };
 
 }  // namespace reckon::peer

@@ -12,13 +12,12 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-Subscriber::Subscriber(const ModelWiring& wiring, aoim::Participant& participant,
+Subscriber::Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim,
                        OwnedEntities& owned, RemoteEntities& remote)
     : scene_(wiring.scene),
       pool_(wiring.pool),
       commands_(wiring.commands),
-      participant_(participant),
-      aoim_(participant.manager()),
+      aoim_(aoim),
       owned_(owned),
       remote_(remote),
       cover_(cells_of(wiring.scene.aoim)),
@@ -56,13 +55,12 @@ void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> in_reach
   const bool cut = std::exchange(cut_, aoim_.sight().cut()) != cut_;
   if (moved_ || cut) cover_our_entities();
   const FociInputs inputs{owned_, foci_, in_reach, now};
-  const auto foci_of = [&](std::size_t tier) { return tier_foci_[tier](inputs); };
-  const auto follow = [&](std::size_t tier, const aoim::SubscriptionChange& change) {
+  for (std::size_t tier = 0; tier < aoim_.tiers().count(); ++tier) {
+    const aoim::SubscriptionChange change = aoim_.listen(tier, tier_foci_[tier](inputs), now);
     command(change);
     remote_.leave_groups(change.leave, now);
     if (tier == aoim::kCellTier) aoim_watch_.look(aoim_, change, now, notices);
-  };
-  participant_.listen_by_tier(foci_of, now, follow);
+  }
   leader_watch_.look(aoim_, now, notices);
   beacon_watch_.look(aoim_, now, notices, leader_watch_.view());
 }

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/aoim/interest/focus_cover.hpp"
-#include "reckon/aoim/participant.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/beacon_watch.hpp"
 #include "reckon/peer/loops/leader_watch.hpp"
@@ -27,7 +27,7 @@ namespace reckon::peer {
 class Subscriber {
  public:
   /// References outlive this.
-  Subscriber(const ModelWiring& wiring, aoim::Participant& participant, OwnedEntities& owned,
+  Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, OwnedEntities& owned,
              RemoteEntities& remote);
 
   /// Records that an entity of ours was moved, added or removed.
@@ -55,7 +55,6 @@ class Subscriber {
   const SceneFile& scene_;
   const GroupPool& pool_;
   haptics::SpscRing<GroupCommand>& commands_;
-  aoim::Participant& participant_;
   aoim::AreaOfInterestManager& aoim_;
   OwnedEntities& owned_;
   RemoteEntities& remote_;

@@ -8,14 +8,14 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::array<std::string_view, kFates> kFateNames{
-    "numbered",     "sent",           "held_back",    "send_error", "write_overflow",
-    "stale_unsent", "copied_to_list", "to_nobody",    "sealed",     "unsealable",
-    "joined",       "left",           "kernel_drops", "arrived",    "copied_by_law",
-    "lost_by_law",  "queue_overflow", "not_listened", "opened",     "held",
-    "greeting",     "not_opened",     "unread",       "stale",      "muted",
-    "refused",      "too_long",       "delivered",    "own",        "not_joined",
-    "other_scene",  "former_life",    "duplicate",    "too_old",    "other_exercise",
-    "impostor",     "stranger",       "unicast"};
+    "numbered",       "sent",        "held_back",      "send_error",   "write_overflow",
+    "stale_unsent",   "withheld",    "copied_to_list", "to_nobody",    "sealed",
+    "unsealable",     "joined",      "left",           "kernel_drops", "arrived",
+    "copied_by_law",  "lost_by_law", "queue_overflow", "not_listened", "opened",
+    "held",           "greeting",    "not_opened",     "unread",       "stale",
+    "muted",          "refused",     "too_long",       "delivered",    "own",
+    "not_joined",     "other_scene", "former_life",    "duplicate",    "too_old",
+    "other_exercise", "impostor",    "stranger",       "unicast"};
 static_assert(!kFateNames.back().empty());
 
 }  // namespace

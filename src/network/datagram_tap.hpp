@@ -29,6 +29,7 @@ enum class DatagramFate : std::uint8_t {
   send_error,      ///< the kernel refused it
   write_overflow,  ///< no room in the ring towards the network
   stale_unsent,  ///< it was pending for more than 1 s, for example while the process was suspended
+  withheld,      ///< a mechanism of the peer refused it
   copied_to_list,  ///< a copy for another address of a list
   to_nobody,       ///< the list has no other address
   sealed,          ///< it was sent in an envelope, which has its own number

@@ -34,8 +34,8 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters,
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
                                                  const pdu::SimulationAddress& own,
-                                                 std::uint64_t overtaken,
-                                                 const KeySpeaker& speaker) noexcept {
+                                                 std::uint64_t overtaken, const KeySpeaker& speaker,
+                                                 const PduFilter* filter) noexcept {
   count_ = 0;
   speaker_ = speaker;
   std::uint64_t good = 0, left_out = 0;
@@ -48,7 +48,7 @@ std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> data
       ++good;
       const bool is_overtaken = pdu.index < 64 && (overtaken >> pdu.index & 1) != 0;
       left_out += is_overtaken ? 1 : 0;
-      if (!is_overtaken) take_pdu(pdu, own);
+      if (!is_overtaken && (filter == nullptr || filter->passes(pdu))) take_pdu(pdu, own);
     }
   }
   pdus_.add(good);

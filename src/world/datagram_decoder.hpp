@@ -46,6 +46,14 @@ struct Inbound {
   pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
 };
 
+/// Selects PDUs to decode.
+class PduFilter {
+ public:
+  virtual ~PduFilter() = default;
+  /// @param pdu undamaged and of this exercise, except that its body was not checked
+  [[nodiscard]] virtual bool passes(const pdu::BundledPdu& pdu) const noexcept = 0;
+};
+
 /// The decoder. One thread, never throws; allocates for a new entity with compressed states.
 class DatagramDecoder {
  public:
@@ -60,10 +68,12 @@ class DatagramDecoder {
   /// @param overtaken bit i: PDU i is an overtaken state (OvertakenStates), which is only counted.
   /// @param speaker whose states may be key states, and whose compressed states may depend on them;
   /// by default of no entity
+  /// @param filter other PDUs are only counted; null: all are decoded
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::SimulationAddress& own,
                                                 std::uint64_t overtaken = 0,
-                                                const KeySpeaker& speaker = {}) noexcept;
+                                                const KeySpeaker& speaker = {},
+                                                const PduFilter* filter = nullptr) noexcept;
   /// Forgets the key states of a peer whose epoch has ended.
   void forget_keys(std::uint32_t epoch) noexcept { restorer_.forget(epoch); }
   /// Counts this many overtaken states of a datagram that has nothing else but perhaps a trailer.

@@ -371,11 +371,11 @@ bool OwnedEntity::hold_back(nanoseconds time) noexcept {
 // Without listeners nothing is due.
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
   const nanoseconds own = last_built_ + pdu::from_seconds(policy_.silence());
-  if (!audiences_) return std::min(held_until_, own);
+  if (!audiences_) return std::max(withheld_until_, std::min(held_until_, own));
   const std::size_t served = audiences_->served();
   const nanoseconds others = pdu::from_seconds(audiences_->next(served));
   const nanoseconds next = std::min(held_until_, others);
-  return served == 0 ? std::min(next, own) : next;
+  return std::max(withheld_until_, served == 0 ? std::min(next, own) : next);
 }
 
 }  // namespace reckon::peer

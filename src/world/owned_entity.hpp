@@ -189,6 +189,8 @@ class OwnedEntity {
   /// Defers a due update to `time`, unless an update is sent before. True if nothing was deferred
   /// since the last update.
   bool hold_back(std::chrono::nanoseconds time) noexcept;
+  /// Has it not checked before `time`, unless it changes.
+  void withhold(std::chrono::nanoseconds time) noexcept { withheld_until_ = time; }
   /// Has it checked again at `time`, unless an update is sent before.
   void look_again(std::chrono::nanoseconds time) noexcept {
     held_until_ = std::min(held_until_, time);
@@ -236,6 +238,7 @@ class OwnedEntity {
   EntityTruth truth_;
   bool frozen_ = false;
   std::chrono::nanoseconds held_until_ = std::chrono::nanoseconds::max();
+  std::chrono::nanoseconds withheld_until_ = std::chrono::nanoseconds::min();
   bool has_waited_ = false;  // an update was deferred since the last one
   std::chrono::nanoseconds last_built_{std::chrono::nanoseconds::min() / 2};
   DeadReckoningConfig config_;

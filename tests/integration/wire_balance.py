@@ -20,7 +20,7 @@ LEAVING = 0.05  # [s], longest time of a datagram from the switch to a socket
 WAITING = 30.0  # [s], longest time of a host's datagrams in its slow cable; its own copy arrives earlier
 EXPLAINED = 20  # findings that are printed with the state of the switch: each takes about 0.1 s
 WENT = ("sent", "sealed")
-NEVER_SENT = ("held_back", "send_error", "write_overflow", "stale_unsent", "to_nobody", "unsealable")
+NEVER_SENT = ("held_back", "send_error", "write_overflow", "stale_unsent", "withheld", "to_nobody", "unsealable")
 OUT = WENT + NEVER_SENT
 NOT_IN = frozenset(OUT) | {"numbered", "copied_to_list", "arrived", "copied_by_law"}
 

@@ -3,8 +3,8 @@
 """Planted faults in the leaders of cells: name, file of aoim, text that occurs once, replacement."""
 
 PLANTS = [
-    ("what leaders relay not passed on", "participant.cpp",
-     "    if (from) handler_.receive(state, *from);\n", ""),
+    ("what leaders relay not passed on", "event_handler.cpp",
+     "    if (from) handler.receive(state, *from);\n", ""),
     ("neither of two leaders gives way", "leader/cell_leadership.cpp",
      "    if (older) return follow(cell, claimed, now);\n", ""),
     ("newcomer does not listen", "leader/cell_leadership.cpp",
@@ -12,7 +12,7 @@ PLANTS = [
     ("dead leader waited for", "leader/cell_leadership.cpp",
      "  nanoseconds silent = led ? cell.leader.heard + patience()", "  nanoseconds silent = led ? cell.leader.heard + 3 * patience()"),
     ("snapshot without the leader's own", "area_of_interest_manager.cpp",
-     "    if (leading_ && tier == kCellTier)\n      leading_->note_own(cells_.group(position), plain->state, plain->records, terms.deadline);\n", ""),
+     "    if (leading_ && tier == kCellTier)\n      leading_->note_own(position.cell_in(cells_), plain->state, plain->records, terms.deadline);\n", ""),
     ("strangers may lead", "area_of_interest_manager.cpp",
      "    incoming.verdict = IncomingVerdict::stranger;\n", ""),
     ("impostors may lead", "area_of_interest_manager.cpp",

@@ -52,7 +52,7 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds clock, nanoseconds now)
     : place_(plan.hosts[host].place),
       beacon_(plan.beacons ? beacon_of(host) : 0),
-      participant_(config_of(plan, host), presence_of(host, epoch, now + clock), *this),
+      aoim_(config_of(plan, host), presence_of(host, epoch, now + clock)),
       maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
@@ -65,7 +65,7 @@ void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
   const aoim::PlacedBeacon beacon{beacon_, place_};
   if (beacon_ != 0) aoim_.leading()->set_beacons({&beacon, 1}, now);
-  participant_.listen({&focus, 1}, now, [](std::size_t, const aoim::SubscriptionChange&) {});
+  aoim_.listen(aoim::kCellTier, {&focus, 1}, now);
 }
 
 void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool relayed) {
@@ -92,7 +92,7 @@ void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> d
       if (counts) take(state, epoch, false);
     }
   }
-  participant_.deliver(now);
+  deliver_events(aoim_, *this, now);
 }
 
 void SimulatedHost::receive(const aoim::RelayedState& relayed,
@@ -126,12 +126,13 @@ void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
   send_due(now);
   aoim_.step(now, sink);
   maps_.look(role(), now);
-  participant_.deliver(now);
+  deliver_events(aoim_, *this, now);
 }
 
 void SimulatedHost::say_goodbye(nanoseconds now, aoim::DatagramSink sink) {
   aoim_.stop();
-  participant_.drain(now, sink);
+  aoim_.step(now, sink);
+  aoim_.flush(now, sink);
 }
 
 nanoseconds SimulatedHost::next(nanoseconds now) const noexcept {

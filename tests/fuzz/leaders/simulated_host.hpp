@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/aoim/participant.hpp"
+#include "reckon/aoim/event_handler.hpp"
 #include "reckon/tests/fuzz/leaders/map_record.hpp"
 #include "reckon/tests/fuzz/leaders/plan.hpp"
 
@@ -32,7 +32,7 @@ struct Known {
   double version = 0.0;
 };
 
-class SimulatedHost : private aoim::ParticipantHandler {
+class SimulatedHost : private aoim::EventHandler {
  public:
   SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds clock,
                 nanoseconds now);
@@ -92,8 +92,7 @@ class SimulatedHost : private aoim::ParticipantHandler {
   aoim::Position place_;
   std::uint32_t beacon_ = 0;  ///< the beacon that it carries; 0: none
   double version_ = 1.0;
-  aoim::Participant participant_;
-  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
+  aoim::AreaOfInterestManager aoim_;
   MapRecord maps_;
   std::vector<Sent> sent_;
   std::map<pdu::EntityId, Known> known_;

@@ -75,7 +75,7 @@ SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds now, nanoseconds clock)
     : wide_(plan.wide),
       moves_(plan.hosts[host].moves),
-      participant_(config_of(plan, epoch), presence_of(plan, host, epoch, now + clock), *this),
+      aoim_(config_of(plan, epoch), presence_of(plan, host, epoch, now + clock)),
       id_(aoim_.presence().id()) {
   Dice dice(mixed(plan.seed, 5, host));
   for (std::size_t i = 0; i < plan.hosts[host].entities; ++i) {
@@ -105,7 +105,7 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
   if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
   if (incoming.verdict == IncomingVerdict::use) take_entities(datagram, epoch, now);
-  participant_.deliver(now);
+  deliver_events(aoim_, *this, now);
   return incoming;
 }
 
@@ -188,13 +188,12 @@ void SimulatedPeer::look_around(nanoseconds now) {
   for (const OwnEntity& entity : entities_) {
     foci_.push_back({entity.at(now), entity.speed, kRadius});
   }
-  participant_.listen(foci_, now, [&](std::size_t, const aoim::SubscriptionChange& change) {
-    for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
-    for (const aoim::GroupIndex group : change.join) {
-      truth_.forget(group);
-      joined_[group.value] = now;
-    }
-  });
+  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, now);
+  for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
+  for (const aoim::GroupIndex group : change.join) {
+    truth_.forget(group);
+    joined_[group.value] = now;
+  }
   next_look_ = now + kLookPeriod;
   std::erase_if(shown_,
                 [&](const ShownEntity& shown) { return now - shown.heard > kEntityTimeout; });
@@ -232,13 +231,14 @@ void SimulatedPeer::step(nanoseconds now, aoim::DatagramSink sink) {
   if (now >= next_look_) look_around(now);
   send_due(now);
   aoim_.step(now, sink);
-  participant_.deliver(now);
+  deliver_events(aoim_, *this, now);
 }
 
 void SimulatedPeer::leave(nanoseconds now, aoim::DatagramSink sink) {
   aoim_.stop();
-  participant_.drain(now, sink);
-  participant_.deliver(now);
+  aoim_.step(now, sink);
+  aoim_.flush(now, sink);
+  deliver_events(aoim_, *this, now);
 }
 
 nanoseconds SimulatedPeer::next(nanoseconds now) const noexcept {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/participant.hpp"
+#include "reckon/aoim/event_handler.hpp"
 #include "reckon/tests/fuzz/peers/counted_truth.hpp"
 #include "reckon/tests/fuzz/peers/plan.hpp"
 
@@ -44,7 +44,7 @@ struct OwnEntity {
   [[nodiscard]] aoim::Position at(nanoseconds now) const noexcept;
 };
 
-class SimulatedPeer : private aoim::ParticipantHandler {
+class SimulatedPeer : private aoim::EventHandler {
  public:
   SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds now,
                 nanoseconds clock);
@@ -106,8 +106,7 @@ class SimulatedPeer : private aoim::ParticipantHandler {
 
   bool wide_, moves_ = false;
   nanoseconds chatter_at_ = nanoseconds::max();
-  aoim::Participant participant_;
-  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
+  aoim::AreaOfInterestManager aoim_;
   aoim::PeerId id_;
   std::vector<OwnEntity> entities_;
   std::vector<ShownEntity> shown_;
