@@ -13,6 +13,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/federate.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
@@ -65,7 +66,8 @@ class PeerHooksTest : public testing::Test {
   }
   Peer& start(std::vector<NamedHooks> mechanisms = {}, double east = 0.0) {
     PeerOptions options;
-    options.application = options.epoch = static_cast<std::uint16_t>(peers_.size() + 1);
+    options.application = static_cast<std::uint16_t>(peers_.size() + 1);
+    options.epoch = options.application;
     options.mechanisms = std::move(mechanisms);
     peers_.push_back(std::make_unique<Peer>(scene_, options, network_.link(peers_.size()),
                                             std::span<const PeerDevice>{}));
