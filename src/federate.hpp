@@ -198,7 +198,7 @@ class Federate {
   /// Converts between the scene's frame and geocentric coordinates
   /// (deadreckon/motion/geocentric.hpp).
   [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept;
-  /// A truth at rest at a geodetic place [rad, rad, m over the ellipsoid], with a heading [rad]
+  /// A truth at rest at a geodetic place [rad, rad, m above the ellipsoid], with a heading [rad]
   /// clockwise from north.
   [[nodiscard]] EntityTruth place(double latitude, double longitude, double height = 0.0,
                                   double heading = 0.0) const;

@@ -70,7 +70,7 @@ class Front {
     CommandLine line("help", "List the verbs, or explain one.",
                      "reckon help\nreckon help inspect\nreckon help rules\n"
                      "reckon help --man | man -l -");
-    line.word("VERB", name, false, "the verb to explain; rules: those of `inspect check`");
+    line.word("VERB", name, false, "the verb to explain; rules: the rules of `inspect check`");
     line.flag("--man", manual, "write the manual page of all verbs, for man -l");
     if (const auto status = line.parse(arguments, console)) return *status;
 

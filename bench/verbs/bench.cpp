@@ -30,17 +30,16 @@ class ScaleStudy final : public Study {
     for (const Gait& gait : kGaits) movements += fmt::format("{}, ", gait.name);
     return {
         {"--peers", &words_.peers,
-         "scale: numbers of peers, as in 16,64,256 (8,16,32,64); more than 256 are fitted to three "
-         "smaller exercises or more"},
-        {"--entities", &words_.entities,
-         "scale: numbers of entities, all together (100 for each peer)"},
+         "scale: numbers of peers, such as 16,64,256 (8,16,32,64); more than 256 are extrapolated "
+         "from three or more smaller exercises"},
+        {"--entities", &words_.entities, "scale: total numbers of entities (100 for each peer)"},
         {"--movement", &words_.movement,
-         fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait),
+         fmt::format("scale: motion of entities: {}{} (mixed)", movements, kMixedGait),
          movements + std::string(kMixedGait)},
         {"--density", &words_.density, "scale: entities a square kilometre (400)"},
         {"--scheme", &words_.scheme,
-         "scale: cells: square, hexagonal, or a quadtree divided by where the crowd begins "
-         "(hexagonal)",
+         "scale: cells: square, hexagonal, or a quadtree divided by the initial positions of the "
+         "crowd (hexagonal)",
          "square, hexagonal, quadtree"},
         {"--cell", &words_.cell,
          "scale: corner radius of a hexagon, side of a square or of the smallest cell of a "
@@ -50,24 +49,25 @@ class ScaleStudy final : public Study {
         {"--rate", &words_.rate, "scale: ticks a second (30)"},
         {"--threshold", &words_.threshold, "scale: error at which an owner sends (1 m)"},
         {"--whole", &words_.whole,
-         "scale: peers as processes too, beside the simulated ones: on lo, on a lan of network "
-         "namespaces (root), or on several hosts"},
+         "scale: compares simulated peers with processes: on lo, on a lan of network namespaces "
+         "(root), or on several hosts"},
         {"--hosts", &words_.hosts,
-         "scale: where --whole hosts starts them over ssh, as in a,b=eth1: HOST or HOST=INTERFACE"},
+         "scale: hosts on which --whole hosts starts them over ssh, such as a,b=eth1: HOST or "
+         "HOST=INTERFACE"},
         {"--ssh", &words_.ssh,
-         fmt::format("scale: what takes HOST and COMMAND ({})", HostsPlan().ssh)},
+         fmt::format("scale: program to which HOST and COMMAND are appended ({})",
+                     HostsPlan().ssh)},
         {"--share", &words_.share,
-         "scale: FIRST-LAST or FIRST-LAST=INTERFACE, the peers of this host; --whole hosts says so "
-         "by itself"},
+         "scale: FIRST-LAST or FIRST-LAST=INTERFACE, the peers of this host; --whole hosts passes "
+         "it by itself"},
         {"--port", &words_.port, "scale: UDP port of --share"},
         {"--hands", &words_.hands,
-         "scale: hands in contact too: what they send, against a stream of each servo step"},
+         "scale: also hands in contact: their traffic, against a stream of each servo step"},
         {"--many-hands", &words_.many_hands,
-         "scale: as many peers as --peers (64 at most) with a hand each, 4 of them touching: what "
-         "all send over a whole run with and without dead reckoning of the force"},
+         "scale: as many peers as --peers (at most 64) with a hand each, 4 of them touching: total "
+         "traffic of a run with and without dead reckoning of the force"},
         {"--wide", &words_.wide, "scale: tables with all columns, one for each exercise"},
-        {"--compare", &words_.compare,
-         "scale: what has changed against this file, which --json wrote"},
+        {"--compare", &words_.compare, "scale: show changes against this file, which --json wrote"},
     };
   }
 
@@ -94,24 +94,22 @@ class ScaleStudy final : public Study {
 /// The list of studies, in the order of their flags in the help.
 constexpr std::array kStudies{
     StudyKind{"scale",
-              "what many peers and entities cost and see, mechanism by mechanism, over a simulated "
-              "network",
+              "cost and awareness of many peers and entities, mechanism by mechanism, over a "
+              "simulated network",
               "--report --delay",
               "reckon bench scale --peers 16,32,64 --entities 6400 --movement vehicles\n"
               "reckon bench scale town.csv --peers 64 --entities 2000 --delay 20ms --loss 1%",
               []() -> std::unique_ptr<Study> { return std::make_unique<ScaleStudy>(); }},
-    StudyKind{
-        "stability",
-        "what each coupling does over a network, energy made and forces that are off, simulated",
-        "--csv --report",
-        "reckon bench stability --report maps.html\n"
-        "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep "
-        "hand.k1=200,800N/m\n"
-        "reckon bench stability --sweep loss=0..50%/6 --sweep delay=50ms --csv loss.csv",
-        stability_study},
+    StudyKind{"stability",
+              "energy generated and force errors of each coupling over a simulated network",
+              "--csv --report",
+              "reckon bench stability --report maps.html\n"
+              "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep "
+              "hand.k1=200,800N/m\n"
+              "reckon bench stability --sweep loss=0..50%/6 --sweep delay=50ms --csv loss.csv",
+              stability_study},
     StudyKind{"accuracy",
-              "what a pose costs on the wire and how far off it is, for each model, threshold and "
-              "convergence curve",
+              "traffic and error of a pose, for each model, threshold and convergence curve",
               "--csv --report --delay",
               "reckon bench accuracy --motion circle,hand\n"
               "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
@@ -122,7 +120,7 @@ constexpr std::array kStudies{
               "reckon bench accuracy --touch --axis order,precision --report touch.html",
               accuracy_study},
     StudyKind{"latency",
-              "how long a touch is under way between two peers with threads and sockets, beside a "
+              "latency of a touch between two peers with threads and sockets, beside that of a "
               "bare datagram",
               "", "reckon bench latency --for 60s", latency_study},
 };
@@ -157,20 +155,19 @@ void declare_shared(tools::CommandLine& line, std::string& study, SharedWords& s
               }));
   const Flag flags[]{
       {"FILE", &shared.files,
-       "accuracy, scale: trajectories instead of the motions; stability: a scene file whose "
-       "device, impairment and hand stiffness are what --sweep varies"},
+       "accuracy, scale: trajectories instead of the motions; stability: a scene file with the "
+       "device, impairment and hand stiffness that --sweep varies"},
       {"--json", &shared.json, "one JSON object per line"},
       {"--seed", &shared.seed, "first seed of motions and network (1)"},
       {"--for", &shared.length,
-       "length of a motion, or of the study of latency (60s); of a run of stability (12s), of "
-       "scale (5s)"},
+       "length of a motion, of latency (60s), of a run of stability (12s), of scale (5s)"},
       {"--csv", &shared.csv,
-       "write all figures to this file; stability: as they come, and where it is there go on from "
-       "it"},
+       "write all figures to this file; stability: each at once, and an existing file is "
+       "continued"},
       {"--report", &shared.report, "write one HTML page with pictures and tables"},
-      {"--delay", &shared.delay, "time that an update is under way (0s)"},
-      {"--jitter", &shared.jitter, "share of the delay by which it varies, as in 40%"},
-      {"--loss", &shared.loss, "share of the updates that is lost, as in 10%"}};
+      {"--delay", &shared.delay, "delay of an update (0s)"},
+      {"--jitter", &shared.jitter, "variation of the delay, as a share of it, such as 40%"},
+      {"--loss", &shared.loss, "share of lost updates, such as 10%"}};
   for (const Flag& flag : flags) {
     const auto names_of = [](const StudyKind& kind) { return std::string(kind.name); };
     if (kShared.find(flag.name) != kShared.npos) line.only_for(joined(flag.name, " ", names_of));
@@ -184,8 +181,8 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
   const std::string examples =
       joined("", "\n", [](const StudyKind& kind) { return std::string(kind.examples); });
   tools::CommandLine line("bench",
-                          "The studies: what accuracy costs, how long a touch is under way, what "
-                          "many peers cost, and which coupling stays calm over a network.",
+                          "The studies: cost of accuracy, latency of a touch, cost of many peers, "
+                          "and stability of couplings over a network.",
                           examples);
   declare_shared(line, name, shared);
   std::vector<std::unique_ptr<Study>> studies;
@@ -196,8 +193,8 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
   if (name.empty()) {
     throw tools::UsageError(
-        "say which study: reckon bench accuracy, reckon bench latency, reckon bench scale, or "
-        "reckon bench stability");
+        "name a study: reckon bench accuracy, reckon bench latency, reckon bench scale, or reckon "
+        "bench stability");
   }
   line.check_for(name);
   const auto place = std::ranges::find(kStudies, name, &StudyKind::name) - kStudies.begin();

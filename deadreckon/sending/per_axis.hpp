@@ -13,7 +13,7 @@ namespace reckon::deadreckon {
 
 struct PerAxis {
   static constexpr std::string_view kName = "per_axis";
-  static constexpr std::string_view kMeaning = "each axis by itself, a cube: for comparison";
+  static constexpr std::string_view kMeaning = "each axis separately, a cube: for comparison";
   using Parameters = NoRuleParameters;
   static constexpr auto& kParameters = kNoRuleParameters;
 

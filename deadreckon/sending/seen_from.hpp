@@ -21,10 +21,10 @@ struct SeenFrom {
     double visual_angle = 2.908882086657216e-4;
   };
   static constexpr std::string_view kName = "seen_from";
-  static constexpr std::string_view kMeaning = "what the eye resolves at the viewer's distance";
+  static constexpr std::string_view kMeaning = "the resolution of the eye at the viewer's distance";
   static constexpr std::array<RuleParameter<Parameters>, 1> kParameters{{
       {"viewer_distance", "m", &Parameters::viewer_distance, 0, 1e6, 0,
-       "of the nearest viewer, whose eye resolves one minute of arc"},
+       "distance of the nearest viewer, whose eye resolves one minute of arc"},
   }};
 
   [[nodiscard]] static double share(const PoseError& error, double position,

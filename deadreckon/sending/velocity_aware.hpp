@@ -19,7 +19,7 @@ struct VelocityAware {
     double speed_allowance = 0;  ///< [s], >= 0
   };
   static constexpr std::string_view kName = "velocity_aware";
-  static constexpr std::string_view kMeaning = "distance, and more for what is fast";
+  static constexpr std::string_view kMeaning = "distance, larger for fast entities";
   static constexpr std::array<RuleParameter<Parameters>, 1> kParameters{{
       {"speed_allowance", "s", &Parameters::speed_allowance, 0, 10, 0,
        "seconds of speed on top of `position`"},

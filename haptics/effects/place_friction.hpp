@@ -42,13 +42,13 @@ class PlaceFriction : public CountedEffect<PlaceFriction> {
       {"kinetic", "", &Grain::kinetic_coefficient, 0.0, 10.0, 0.35,
        "Mean tangential over normal force while sliding, at most the static value."},
       {"share", "", &Grain::share, 0.0, 1.0, 0.5,
-       "By how much of themselves they vary over the surface; higher feels rougher."},
+       "Relative variation of both over the surface; higher feels rougher."},
       {"wavelength_x", "m", &Grain::wavelength_x, 0.0, 1.0, 0.0,
-       "From rough to rough along the object's x axis; 0 is even along it."},
+       "Distance of rough places along the object's x axis; 0 is even along it."},
       {"wavelength_y", "m", &Grain::wavelength_y, 0.0, 1.0, 0.0,
-       "From rough to rough along the object's y axis; 0 is even along it."},
+       "Distance of rough places along the object's y axis; 0 is even along it."},
       {"wavelength_z", "m", &Grain::wavelength_z, 0.0, 1.0, 0.0,
-       "From rough to rough along the object's z axis; 0 is even along it."},
+       "Distance of rough places along the object's z axis; 0 is even along it."},
   }};
 
   /// @throws std::invalid_argument when a value is out of range, or kinetic is above static.

@@ -39,10 +39,10 @@ class Relief : public CountedEffect<Relief> {
   static constexpr std::string_view kKey = "relief";
   static constexpr std::string_view kCost = "sixteen heights of the picture";
   static constexpr EffectFile kFile{
-      "file", "PNG or PGM beside the scene file, white is high; random ground if absent."};
+      "file", "PNG or PGM beside the scene file, white is high; when absent, random ground."};
   static constexpr std::array<EffectParameter<ReliefPicture>, 3> kParameters{{
       {"width", "m", &ReliefPicture::width, 1e-4, 10.0, 0.02,
-       "Of the picture along the object's x axis, where it begins anew; lower feels finer."},
+       "Of the picture along the object's x axis; it repeats after this width; lower feels finer."},
       {"height", "m", &ReliefPicture::height, 0.0, 1e-2, 1e-4,
        "From black to white; higher feels rougher."},
       {"seed", "", &ReliefPicture::seed, 0.0, 1e9, 1.0,

@@ -29,9 +29,9 @@ class Skin : public CountedEffect<Skin> {
   static constexpr std::string_view kCost = "a few multiplications";
   static constexpr std::array<EffectParameter<Membrane>, 2> kParameters{{
       {"stiffness", "N/m", &Membrane::stiffness, 1.0, 1e6, 400.0,
-       "Force for each metre, besides the surface's; higher feels tighter."},
+       "Force per metre, added to the surface's; higher feels tighter."},
       {"force", "N", &Membrane::force, 0.01, 20.0, 1.0,
-       "Force of the skin at which it gives way; higher is tougher."},
+       "Force at which the skin yields; higher is tougher."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range.

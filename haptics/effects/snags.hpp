@@ -37,15 +37,16 @@ class Snags : public CountedEffect<Snags> {
   static constexpr std::string_view kCost = "one square root and eight hashes while it slides";
   static constexpr std::array<EffectParameter<Snagging>, 5> kParameters{{
       {"density", "1/m2", &Snagging::density, 1.0, 1e6, 2e4,
-       "Snags on a square metre; higher is rougher."},
+       "Snags per square metre; higher is rougher."},
       {"force", "N", &Snagging::force, 0.01, 20.0, 1.0,
-       "Force along the surface that tears the tip off; higher catches more."},
+       "Tangential force that releases the tip; higher catches more."},
       {"reach", "m", &Snagging::reach, 1e-5, 0.01, 5e-4,
        "Distance within which a snag catches; at 1 kHz a tip faster than 1000 times this may pass "
        "over it."},
       {"friction", "", &Snagging::friction, 0.0, 10.0, 0.1,
        "Tangential over normal force between the snags."},
-      {"seed", "", &Snagging::seed, 0.0, 1e6, 1.0, "Whole number; another gives other places."},
+      {"seed", "", &Snagging::seed, 0.0, 1e6, 1.0,
+       "Whole number; selects the places of the snags."},
   }};
 
   /// @throws std::invalid_argument when a value is out of range, the seed is no whole number, or

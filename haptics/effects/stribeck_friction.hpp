@@ -43,9 +43,9 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
       {"coulomb", "", &Lubrication::coulomb, 0.0, 10.0, 0.3,
        "Tangential over normal force in fast sliding, at most the static value."},
       {"speed", "m/s", &Lubrication::speed, 1e-4, 1.0, 0.02,
-       "Sliding speed at which a third of the difference is left; higher squeaks less."},
+       "Sliding speed at which a third of the difference remains; higher squeaks less."},
       {"viscous", "s/m", &Lubrication::viscous, 0.0, 100.0, 0.0,
-       "Growth of the coefficient for each m/s; higher slows fast strokes."},
+       "Growth of the coefficient per m/s; higher slows fast strokes."},
   }};
   /// Greatest viscous part of the coefficient.
   static constexpr double kMostViscous = 10.0;

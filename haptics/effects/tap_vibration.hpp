@@ -36,11 +36,10 @@ class TapVibration : public CountedEffect<TapVibration> {
   static constexpr std::string_view kCost = "a sine and an exponential while it rings";
   static constexpr std::array<EffectParameter<Ringing>, 3> kParameters{{
       {"amplitude", "N s/m", &Ringing::amplitude, 0.0, 100.0, 1.0,
-       "Force of the oscillation for each m/s of the tap; higher rings louder."},
+       "Force of the oscillation per m/s of the tap; higher rings louder."},
       {"frequency", "Hz", &Ringing::frequency, 1.0, 300.0, 100.0,
        "Of the oscillation; higher feels harder, rubber is below 50 Hz and metal above 200 Hz."},
-      {"decay", "1/s", &Ringing::decay, 10.0, 1000.0, 80.0,
-       "Rate at which it fades; higher is shorter."},
+      {"decay", "1/s", &Ringing::decay, 10.0, 1000.0, 80.0, "Decay rate; higher is shorter."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range.

@@ -40,11 +40,11 @@ class Texture : public CountedEffect<Texture> {
       {"height", "m", &TextureRelief::height, 0.0, 1e-3, 5e-5,
        "Half the height between grooves and bumps; higher feels rougher."},
       {"wavelength_x", "m", &TextureRelief::wavelength_x, 0.0, 1.0, 0.0,
-       "From bump to bump along the object's x axis; 0 is even along it."},
+       "Distance of bumps along the object's x axis; 0 is even along it."},
       {"wavelength_y", "m", &TextureRelief::wavelength_y, 0.0, 1.0, 0.0,
-       "From bump to bump along the object's y axis; 0 is even along it."},
+       "Distance of bumps along the object's y axis; 0 is even along it."},
       {"wavelength_z", "m", &TextureRelief::wavelength_z, 0.0, 1.0, 0.0,
-       "From bump to bump along the object's z axis; 0 is even along it."},
+       "Distance of bumps along the object's z axis; 0 is even along it."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range, or a wavelength below

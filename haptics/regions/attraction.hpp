@@ -37,9 +37,9 @@ class Attraction : public CountedEffect<Attraction> {
   static constexpr std::string_view kCost = "one square root, a sine and a cosine";
   static constexpr std::array<EffectParameter<Magnet>, 5> kParameters{{
       {"force", "N", &Magnet::force, 0.0, 20.0, 1.0, "Greatest force, at half the range."},
-      {"range", "m", &Magnet::range, 1e-3, 1.0, 0.02, "Farthest distance at which it draws."},
+      {"range", "m", &Magnet::range, 1e-3, 1.0, 0.02, "Greatest distance at which it attracts."},
       {"free_x", "", &Magnet::free_x, 0.0, 1.0, 0.0,
-       "Share of the distance along x that does not count; 1 snaps to the x axis."},
+       "Ignored share of the distance along x; 1 snaps to the x axis."},
       {"free_y", "", &Magnet::free_y, 0.0, 1.0, 0.0, "The same along y."},
       {"free_z", "", &Magnet::free_z, 0.0, 1.0, 0.0, "The same along z."},
   }};

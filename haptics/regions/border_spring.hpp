@@ -27,7 +27,7 @@ class BorderSpring : public CountedEffect<BorderSpring> {
   static constexpr std::string_view kCost = "a few multiplications";
   static constexpr std::array<EffectParameter<Border>, 1> kParameters{{
       {"stiffness", "N/m", &Border::stiffness, 0.0, 1e5, 300.0,
-       "Force back into the region for each metre outside; higher is firmer."},
+       "Force back into the region per metre outside; higher is firmer."},
   }};
 
   /// @throws std::invalid_argument when the value is out of the table's range.

@@ -29,7 +29,7 @@ class DryFriction : public CountedEffect<DryFriction> {
   static constexpr std::array<EffectParameter<Yield>, 2> kParameters{{
       {"force", "N", &Yield::force, 0.0, 20.0, 0.5, "Force against any motion; higher holds more."},
       {"stiffness", "N/m", &Yield::stiffness, 1.0, 1e5, 150.0,
-       "Of the hold at rest: force / stiffness is the way until it yields."},
+       "Of the hold at rest; it yields after force / stiffness."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range.

@@ -34,7 +34,7 @@ class Oscillation : public CountedEffect<Oscillation> {
       {"y", "N", &Shaking::y, 0.0, 20.0, 0.0, "Amplitude along the region's y axis."},
       {"z", "N", &Shaking::z, 0.0, 20.0, 0.3, "Amplitude along the region's z axis."},
       {"frequency", "Hz", &Shaking::frequency, 0.1, 250.0, 50.0,
-       "Oscillations a second; felt as vibration above some 30 Hz."},
+       "Frequency; above about 30 Hz it feels like vibration."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range.

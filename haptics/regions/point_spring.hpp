@@ -30,9 +30,9 @@ class PointSpring : public CountedEffect<PointSpring> {
   static constexpr std::string_view kCost = "one square root";
   static constexpr std::array<EffectParameter<Tether>, 3> kParameters{{
       {"stiffness", "N/m", &Tether::stiffness, 0.1, 1e5, 100.0,
-       "Force to the region's origin for each metre; higher is firmer."},
+       "Force to the region's origin per metre; higher is firmer."},
       {"damping", "N s/m", &Tether::damping, 0.0, 100.0, 0.0,
-       "Force against motion inside the region, for each m/s; higher swings less."},
+       "Force against motion inside the region per m/s; higher swings less."},
       {"most", "N", &Tether::most, 0.01, 100.0, 5.0, "The spring's largest force."},
   }};
 

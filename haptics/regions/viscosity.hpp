@@ -27,9 +27,9 @@ class Viscosity : public CountedEffect<Viscosity> {
   static constexpr std::string_view kCost = "one square root";
   static constexpr std::array<EffectParameter<Medium>, 2> kParameters{{
       {"linear", "N s/m", &Medium::linear, 0.0, 100.0, 5.0,
-       "Force against the motion for each m/s; higher is thicker."},
+       "Force against the motion per m/s; higher is thicker."},
       {"quadratic", "N s2/m2", &Medium::quadratic, 0.0, 1000.0, 0.0,
-       "The same for the square of the speed, as of a large body in water."},
+       "The same per square of the speed, as for a large body in water."},
   }};
 
   /// @throws std::invalid_argument when a value is out of the table's range.

@@ -159,7 +159,7 @@ class Federate:
         return self._session.utc()
 
     def position(self, latitude_deg: float, longitude_deg: float, height: float = 0.0) -> Vector:
-        """A place in frame S [m]. height: over the ellipsoid [m]"""
+        """A place in frame S [m]. height: above the ellipsoid [m]"""
         return self._session.position(math.radians(latitude_deg), math.radians(longitude_deg), height)
 
     def world(self, position: Vector) -> Vector:

@@ -51,26 +51,25 @@ Section<AoimConfig> aoim_section() {
   Section<AoimConfig> section{
       {
           {"scheme", &AoimConfig::scheme,
-           "how space is divided into cells: equal squares, equal hexagons, a quad-tree that is "
-           "finer in crowds, or locales such as rooms"},
+           "cells of space: equal squares, equal hexagons, a quad-tree that is finer in crowds, or "
+           "locales such as rooms"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
-           "side of a square, corner radius of a hexagon; when absent in a scene whose entities "
-           "are farther apart than 2 m, half of the power of ten that holds them"},
+           "side of a square, corner radius of a hexagon; when absent in a scene with entities "
+           "farther apart than 2 m, half of the power of ten that contains them"},
           {"radius", &AoimConfig::radius, within("m", 0.01, kWorld),
-           "how far this peer senses; when absent in a scene whose entities are farther apart than "
-           "2 m, the power of ten that holds them"},
+           "distance within which this peer receives entities; when absent in a scene with "
+           "entities farther apart than 2 m, the power of ten that contains them"},
           {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
-           "groups of the pool that are joined at most at the same time; more are reported and not "
+           "most groups of the pool that are joined at the same time; more are reported and not "
            "received"},
           {"leaders", &AoimConfig::leaders,
            "each cell has a leader that sends the states of its entities to newcomers; the same "
            "for all peers"},
           {"hand_out", &AoimConfig::hand_out,
-           "with leaders: the leader of the scene gives each occupied cell a group of the pool "
-           "while there are free ones; otherwise cells one tile apart share a group; the same for "
-           "all peers"},
+           "with leaders: the leader of the scene assigns free groups of the pool to occupied "
+           "cells; otherwise cells one tile apart share a group; the same for all peers"},
           {"follow", &AoimConfig::follow,
            "with `hand_out`: names of beacons, for example \"gate, ferry\"; this peer joins their "
            "cells, wherever they are, and shows the entities there"},

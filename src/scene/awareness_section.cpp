@@ -20,7 +20,7 @@ Section<NimbusClass> nimbus_section() {
                "required; as in [[entity]]; missing numbers and 0 match any: \"1.1\" is all land "
                "platforms"},
               {"reach", &NimbusClass::nimbus, within("m", 0, kWorld),
-               "they are sensed this far beyond `radius`; cells are joined that far too"},
+               "they are received, and cells joined, this far beyond `radius`"},
           },
           [](TomlReader& table, NimbusClass& one) {
             table.require("type");
@@ -58,15 +58,15 @@ std::vector<Row<AoimConfig>> awareness_rows() {
   using Config = AwarenessConfig;
   return {
       {"budget", of(&Config::budget), within("B", 0, 1e9),
-       "octets a second that this peer accepts. Where more are heard, it leaves the most distant "
-       "cells, but neither those of its own entities nor what its hands can reach; with tiers by "
-       "distance, distances to it count as longer too, and the others are informed; 0 is no bound"},
+       "octets a second that this peer accepts. Above it, the peer leaves the most distant cells, "
+       "except those of its own entities and those that its hands can reach; with tiers by "
+       "distance, it also stretches distances and informs the other peers; 0 is no bound"},
       {"kinds", of(&Config::kinds),
        "kinds of entities that are shown, for example \"platform, life form\"; when absent, all"},
       {"aura", of(&Config::aura), within("m", 0, kWorld),
        "entities farther away than this are never shown; 0 is no bound"},
       {"nimbus", of(&Config::nimbus), nimbus_section(),
-       "types of entities that are sensed from farther away; the first match applies"},
+       "types of entities that are received from farther away; the first match applies"},
       {"occluder", of(&Config::occluders), occluder_section(),
        "a solid box; entities behind it are not shown"},
   };

@@ -28,13 +28,13 @@ Section<QuadTreeConfig> quad_tree_section() {
            "most cells; 0: one for each group, or 1000 with `hand_out`"},
           {"density", &Config::density,
            "sample of entity positions, CSV with x_m,y_m (or px_m,py_m) and, for several instants, "
-           "t_s, beside the scene file; cells are divided where peers would receive most from "
+           "t_s, beside the scene file; it divides cells whose peers would receive most from "
            "beyond `reach`"},
           {"reach", &Config::reach, declared("m", 0.01, kWorld),
-           "with `density`: how far they sense; the usual `radius` of the peers"},
+           "with `density`: the usual `radius` of the peers"},
           {"leaves", &Config::leaves,
-           "instead of `density`: each cell by the quarters that lead to it (east 1, north 2), for "
-           "example \"0 1 2 30 31 32 33\"; the rest of the square gets the largest possible cells"},
+           "instead of `density`: each cell as its path of quarters (east 1, north 2), for example "
+           "\"0 1 2 30 31 32 33\"; the rest of the square gets the largest possible cells"},
       },
       [](TomlReader& table, QuadTreeConfig&) {
         (void)only_one(table, {"density", "leaves"}, "where the square is divided");
@@ -46,26 +46,26 @@ Section<QuadTreeConfig> quad_tree_section() {
 
 Section<LocaleConfig> locale_section() {
   using Config = LocaleConfig;
-  return {
-      {
-          {"name", &Config::name, "required; unlike all others, without commas"},
-          {"origin", &Config::origin, within("m", -kWorld, kWorld),
-           "centre, the origin of its own frame, in S"},
-          {"yaw", &Config::yaw, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-           "direction of its x axis, anticlockwise from east, seen from above"},
-          {"size", &Config::size, within("m", 0, kWorld),
-           "sides along its own x, y and z axes; z = 0 is any height"},
-          {"neighbours", &Config::neighbours,
-           "names of adjacent locales, for example \"hall, stairs\"; one of two names the other"},
-      },
-      [](TomlReader& table, LocaleConfig& locale) {
-        table.require("name");
-        table.require("size");
-        if (locale.name.find(',') != std::string::npos)
-          table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
-        if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
-          table.problem("size", "'size' is 0 along x or y: a locale has an area");
-      }};
+  return {{
+              {"name", &Config::name, "required; unique, without commas"},
+              {"origin", &Config::origin, within("m", -kWorld, kWorld),
+               "centre, the origin of its own frame, in S"},
+              {"yaw", &Config::yaw, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
+               "direction of its x axis, anticlockwise from east, seen from above"},
+              {"size", &Config::size, within("m", 0, kWorld),
+               "sides along its own x, y and z axes; z = 0 is any height"},
+              {"neighbours", &Config::neighbours,
+               "names of adjacent locales, for example \"hall, stairs\"; naming one in the other "
+               "is enough"},
+          },
+          [](TomlReader& table, LocaleConfig& locale) {
+            table.require("name");
+            table.require("size");
+            if (locale.name.find(',') != std::string::npos)
+              table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
+            if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
+              table.problem("size", "'size' is 0 along x or y: a locale has an area");
+          }};
 }
 
 /// The cells in `leaves`; an invalid name is a problem.
@@ -137,12 +137,10 @@ bool check_scheme(TomlReader& table, const AoimConfig& config, aoim::CellScheme 
 std::vector<Row<AoimConfig>> cell_rows() {
   return {
       {"quadtree", &AoimConfig::quad_tree, quad_tree_section(),
-       "with scheme = \"quadtree\": a square that is divided where many are; the same for all "
-       "peers"},
+       "with scheme = \"quadtree\": a square that is divided in crowds; the same for all peers"},
       {"locale", &AoimConfig::locales, locale_section(),
-       "with scheme = \"locales\": a piece of the world, such as a room; what is in it is heard by "
-       "those within `radius` in it or where a way of neighbours leads there; the same for all "
-       "peers"},
+       "with scheme = \"locales\": a piece of the world, such as a room; peers receive entities "
+       "within `radius` in it or in locales connected to it by neighbours; the same for all peers"},
   };
 }
 

@@ -152,10 +152,10 @@ Section<TouchModel> force_model_section() {
       {
           {"kind", &Model::kind,
            "required; sphere: a ball about `point`; plane: the half-space below `point`; field: a "
-           "ball felt by the middle of the hand alone; region: a round patch of a plane"},
+           "ball that only the centre of the hand feels; region: a round patch of a plane"},
           {"radius", &Model::radius, within("m", 1e-4, 1e3), "of sphere, field or region"},
           {"k1", &Model::k1, within("N/m", 0, 1e6),
-           "stiffness; each receiver caps it at what its device can show"},
+           "stiffness; each receiver limits it to that of its device"},
           {"k3", &Model::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
           {"damping", &Model::damping, within("N s/m", 0, 1e4), "along the contact normal"},
           {"static_friction", &Model::static_friction, within("", 0, 10),
@@ -212,38 +212,38 @@ Section<EntityConfig> entity_section() {
   constexpr double kWord = 4294967295.0;
   Section<Entity> section{
       {
-          {"peer", &Entity::peer, within("", 1, kMostPeers), "number of the peer that owns it"},
+          {"peer", &Entity::peer, within("", 1, kMostPeers), "number of its owner"},
           {"marking", &Entity::marking, "at most 11 printable ASCII characters"},
           {"type", text,
-           "kind.domain.country.category.subcategory.specific.extra by number, missing ones 0, or "
-           "in words as the inspector writes them: \"Platform Land United States Tank\""},
-          {"force_id", &Entity::force_id, within("", 0, 255), "whose side it is on"},
+           "kind.domain.country.category.subcategory.specific.extra as numbers, missing ones 0, or "
+           "in words, as `reckon inspect` prints them: \"Platform Land United States Tank\""},
+          {"force_id", &Entity::force_id, within("", 0, 255), "its force ID"},
           {"appearance", &Entity::appearance, within("", 0, kWord), "bits as on the wire"},
           {"capabilities", &Entity::capabilities, within("", 0, kWord), "bits as on the wire"},
           {"position", &Entity::position, within("m", -kWorld, kWorld),
            "in S; with a track: added to every point"},
-          {"place", place, origin_section(), "instead of `position`: where it is on Earth"},
+          {"place", place, origin_section(), "instead of `position`: its geodetic position"},
       },
       check_entity};
   const std::vector<Row<Entity>> attitude = attitude_rows<Entity>();
   section.rows.insert(section.rows.end(), attitude.begin(), attitude.end());
   const std::vector<Row<Entity>> rest = {
       {"track", &Entity::track,
-       "its motion, CSV with t_s,px_m,py_m,pz_m and perhaps qw,qx,qy,qz or heading_rad, beside the "
-       "scene file"},
-      {"speed", &Entity::speed, within("", 0.01, 100), "of the track: 2 plays twice as fast"},
+       "its motion, CSV with t_s,px_m,py_m,pz_m and optionally qw,qx,qy,qz or heading_rad, beside "
+       "the scene file"},
+      {"speed", &Entity::speed, within("", 0.01, 100), "of the track; 2 is twice as fast"},
       {"repeat", &Entity::repeat,
        "the track starts again at its end, otherwise the entity stays there; when absent: true if "
        "its ends meet"},
       {"dead_reckoning", dead_reckoning, own_dead_reckoning_section(),
        "error of remote copies at which an update is sent"},
       {"force_model", model, force_model_section(),
-       "what hands feel of it; when absent, they pass through"},
+       "force that hands feel; when absent, they pass through it"},
       {"power", &Entity::power, within("W", 0, 1e3),
-       "most power that it gives to hands while it moves"},
+       "greatest power that it gives to hands while it moves"},
       {"beacon", &Entity::beacon,
-       "with `hand_out`: a unique name by which peers find its cell, wherever it goes: letters, "
-       "digits, '-', '_', '.'"},
+       "with `hand_out`: a unique name by which peers find its current cell: letters, digits, '-', "
+       "'_', '.'"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;

@@ -144,8 +144,8 @@ Section<NetworkConfig> network_section() {
   return {
       {
           {"group", address,
-           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255 or the broadcast address "
-           "of the subnet, where multicast is disabled: either hears both"},
+           "base group, IPv4 or IPv6; with `interop`, if multicast is disabled, also "
+           "255.255.255.255 or the broadcast address of the subnet: either receives both"},
           {"port", port, within("", 1, 65535), "UDP port"},
           {"interop", &NetworkConfig::interop,
            "plain DIS to the base group, for other DIS programs"},
@@ -159,10 +159,10 @@ Section<NetworkConfig> network_section() {
            "interface name or address; when absent, chosen by the rule that `reckon doctor` "
            "shows"},
           {"rate", &NetworkConfig::rate, within("", 100, 1e6),
-           "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
-           "them; less than that is reported"},
+           "datagrams a second in one group from all peers; the receive buffer should hold 50 ms "
+           "of them; a smaller one is reported"},
           {"offload", &NetworkConfig::offload,
-           "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
+           "the kernel segments and coalesces datagrams (UDP_SEGMENT, UDP_GRO) if it can"},
           {"key", &NetworkConfig::key,
            "key file beside the scene file: the exercise is sealed, on the port above `port`; "
            "when absent, plain DIS"},
@@ -170,18 +170,18 @@ Section<NetworkConfig> network_section() {
            "for networks without multicast: the hosts that receive each datagram, for example "
            "[\"10.0.0.7\", \"host-b:3001\"]; the same list for all peers; `--to` overrides it"},
           {"allow_management", management,
-           "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this scene), "
-           "anyone, or a list of site:application, for example \"1:2, 40:1\""},
+           "senders whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
+           "scene), anyone, or a list of site:application, for example \"1:2, 40:1\""},
           {"touch", touch,
-           "whose bodies are felt: scene (peers that announced this scene), all, members (peers "
-           "that have proved to have the `key`), or a list of site:application, for example "
-           "[\"1:2\", \"40:1\"], of peers and of plain DIS programs, each at the address that used "
-           "its number first. With `interop` the default is all"},
+           "owners of felt bodies: scene (peers that announced this scene), all, members (peers "
+           "that proved to have the `key`), or a list of site:application, for example [\"1:2\", "
+           "\"40:1\"], of peers and plain DIS programs, each at the address that used its number "
+           "first. With `interop` the default is all"},
           {"strangers_memory", &NetworkConfig::strangers_memory, within("B", 65536, 1e12),
            "memory for entities of plain DIS programs; 32 MiB hold 12,000 to 30,000 of them"},
           {"compression", &NetworkConfig::compression,
            "of Entity States, the same for all peers: compact: rounded and short, each complete; "
-           "residual: what cannot be predicted from the last ones"},
+           "residual: differences from a prediction by the last ones"},
           {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
       },
       check_network};
@@ -191,7 +191,7 @@ Section<Outage> outage_section() {
   return {{
       {"start", &Outage::start, within("s", 0, 1e9), "after the start of the run"},
       {"duration", &Outage::duration, within("s", 0, 1e9), "how long"},
-      {"period", &Outage::period, within("s", 0, 1e9), "repeated after this time; 0 is once"},
+      {"period", &Outage::period, within("s", 0, 1e9), "repetition time; 0 is once"},
   }};
 }
 
@@ -202,7 +202,7 @@ Section<ImpairmentConfig> impairment_section() {
       {
           {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
           Row<ImpairmentConfig>("jitter", law(&Law::jitter), within("s", 0, 10),
-                                "delay varies uniformly by this much in both directions")
+                                "the delay varies uniformly by up to this much, both ways")
               .or_share_of("delay"),
           {"loss", law(&Law::loss), within("", 0, 1),
            "share of datagrams lost, independently of each other"},
@@ -211,8 +211,7 @@ Section<ImpairmentConfig> impairment_section() {
           {"burst_length", law(&Law::burst_length), within("", 1, Law::kMostBurstLength),
            "mean datagrams in such a burst"},
           {"reorder", law(&Law::reorder), within("", 0, 1), "share of datagrams held back"},
-          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10),
-           "how long they are held back"},
+          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10), "their additional delay"},
           {"duplicate", law(&Law::duplicate), within("", 0, 1),
            "share of datagrams that arrive twice"},
           {"seed", &ImpairmentConfig::seed, within("", 0, 9007199254740992.0),

@@ -71,35 +71,32 @@ Section<NodeConfig> node_section() {
   const auto motion = [](auto member) { return in(&Config::motion, member); };
   return {
       {
-          {"name", &Config::name, "required; unlike those of all other nodes"},
-          {"parent", &Config::parent,
-           "the node that it hangs on; absent: the scene, whose frame "
-           "is S"},
+          {"name", &Config::name, "required; unique among nodes"},
+          {"parent", &Config::parent, "its parent node; absent: the scene, with frame S"},
           {"kind", &Config::kind,
-           "group: all that hangs on it is there; switch: of its nodes one is, `shows`; "
-           "level_of_detail: its nodes are one thing from near to far, and hands feel the first"},
-          {"use", &Config::use,
-           "this node is a copy of that one, with all that hangs on it, in its own place and size: "
-           "object \"cube\" of it is \"NAME/cube\""},
-          {"shows", &Config::shows,
-           "switch: the name of the node that is there; absent: the "
+           "group: all its children exist; switch: only the child named by `shows` exists; "
+           "level_of_detail: its children show one object from near to far, and hands feel the "
            "first"},
+          {"use", &Config::use,
+           "copies that node and its children, with its own pose and scale: object \"cube\" of it "
+           "is \"NAME/cube\""},
+          {"shows", &Config::shows, "switch: name of the child that exists; absent: the first"},
           {"farthest", &Config::farthest, declared("m", 1e-4, kWorld),
-           "on a level_of_detail: the distance up to which it is shown; absent: any"},
+           "child of a level_of_detail: greatest distance at which it is shown; absent: unbounded"},
           {"position", &Config::position, within("m", -kWorld, kWorld),
            "of its origin in the parent"},
           {"orientation", no_turn, within("rad", -kMostTurn, kMostTurn),
-           "turned about the parent's x, then y, then z axis"},
+           "rotations about the parent's x, then y, then z axis"},
           {"scale", &Config::scale, within("", 1e-3, 1e3),
-           "of all lengths that hang on it; masses and effects stay as they are"},
+           "factor of all lengths of its children; masses and effects stay unchanged"},
           {"turn_axis", motion(&NodeMotion::turn_axis), within("", -1e6, 1e6),
-           "it turns about this axis through its origin, given in its own axes"},
+           "axis of rotation through its origin, in its own axes"},
           {"turn_rate", motion(&NodeMotion::turn_rate), within("rad/s", -1e3, 1e3),
-           "how fast, by the right hand; 0: it does not turn"},
+           "rate by the right-hand rule; 0: no rotation"},
           {"swing", motion(&NodeMotion::swing), within("m", -1e3, 1e3),
-           "it swings so far to both sides of `position`, in the parent's axes"},
+           "amplitude of its oscillation about `position`, in the parent's axes"},
           {"swing_rate", motion(&NodeMotion::swing_rate), within("Hz", 0, 1e3),
-           "how often, as a sine"},
+           "frequency of that sine"},
           {"swing_phase", motion(&NodeMotion::swing_phase), within("rad", -kMostTurn, kMostTurn),
            "of the sine at time 0"},
       },

@@ -107,10 +107,10 @@ Section<haptics::GrabSpring> grab_section() {
   using haptics::GrabSpring;
   return {{
       {"stiffness", &GrabSpring::stiffness, within("N/m", 0, 1e5),
-       "of its spring, as far as device and body can take it"},
+       "of its spring, limited by device and body"},
       {"viscosity", &GrabSpring::viscosity, within("N s/m", 0, 100), "of its spring"},
       {"most", &GrabSpring::most, declared("N", 1e-3, 1e3),
-       "what pulls harder tears it off; absent: nothing does"},
+       "a greater pull tears it off; absent: it holds any pull"},
   }};
 }
 
@@ -121,42 +121,41 @@ Section<haptics::SceneObject> object_section() {
   const auto patches = [](const Object& object) { return object.patches; };
   const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
   const auto no_node = [](const Object&) { return std::string(); };
-  Section<Object> section{{
-                              {"name", &Object::name, "required; unlike all others"},
-                              {"mesh", of_shape(&haptics::MeshShape::file),
-                               "an OBJ, PLY, STL or OFF file beside the scene file"},
-                              {"heights", as_shape<haptics::HeightsShape>(), heights_section(),
-                               "a block whose upper side is a picture, its middle the origin"},
-                          },
-                          check_object,
-                          add_effects};
+  Section<Object> section{
+      {
+          {"name", &Object::name, "required; unique"},
+          {"mesh", of_shape(&haptics::MeshShape::file),
+           "an OBJ, PLY, STL or OFF file beside the scene file"},
+          {"heights", as_shape<haptics::HeightsShape>(), heights_section(),
+           "a block whose upper side follows a height image; its centre is the origin"},
+      },
+      check_object,
+      add_effects};
   const std::vector<Row<Object>> solids = solid_rows<Object>();
   section.rows.insert(section.rows.end(), solids.begin(), solids.end());
   const std::vector<Row<Object>> rest = {
       {"part", of_shape(&haptics::CsgShape::parts), part_section(),
-       "a solid made of parts, one after the other"},
+       "one part of a solid; parts are combined in order"},
       {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
-       "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
+       "mesh: it is scaled to this diagonal of its bounding box; when absent, its units are "
+       "metres"},
       {"centre", of_shape(&haptics::MeshShape::centre),
-       "mesh: the middle of its bounding box becomes its origin"},
+       "mesh: moves its origin to the centre of its bounding box"},
       {"position", in(&Object::pose, &haptics::ObjectPose::position), within("m", -kWorld, kWorld),
        "of its origin, in S or in its node"},
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-       "turned about x, then y, then z axis of S or of its node"},
-      {"node", no_node, "the [[node]] that it hangs on; absent: none, it stands in S"},
+       "rotations about the x, then y, then z axis of S or of its node"},
+      {"node", no_node, "its parent [[node]]; absent: none, it stands in S"},
       {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
-       "of a box, sphere, solid or closed mesh: it is a body, and moves when it is pushed; absent: "
-       "it "
-       "stands "
-       "still"},
+       "makes a box, sphere, solid or closed mesh a movable body; absent: it stands still"},
       {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),
-       "between bodies and to what stands still; of a pair, the geometric mean"},
+       "coefficient between bodies and to fixed objects; a pair uses the geometric mean"},
       {"restitution", in(&Object::matter, &haptics::Matter::restitution), within("", 0, 1),
-       "how much of its speed a body keeps in a hit; of a pair, the greater one"},
+       "share of its speed that a body keeps in a collision; a pair uses the greater value"},
       {"body_drag", in(&Object::matter, &haptics::Matter::drag), within("N s/m", 0, 1e3),
-       "of a body: force against its speed"},
+       "body: drag force per m/s"},
       {"grab", &Object::grab, grab_section(),
-       "of a body: it sticks to the hand that touches it, until it is torn off"},
+       "body: it sticks to the hand that touches it, until it is torn off"},
       {"patch", patches, patch_section(),
        "mesh: the faces of a material or group with other properties; heights: top, side or "
        "bottom"},

@@ -68,7 +68,7 @@ struct OperatorConfig {
   std::filesystem::path trace;  ///< kind trace: CSV t_s,px_m,py_m,pz_m; absolute once loaded
   /// Kind trace: the recording is centred in this box [m] of S and scaled to fit; set by programs.
   std::optional<Eigen::AlignedBox3d> fit_to = {};
-  double speed = 1.0;                 ///< kind trace: 2 plays twice as fast; > 0
+  double speed = 1.0;                 ///< kind trace: playback speed; 2 is twice as fast; > 0
   std::chrono::nanoseconds begin{0};  ///< kind trace: start within the recording, >= 0
   /// [m] S, kind trace: offset of its first position from the point of `begin`, which it reaches at
   /// `start`.
@@ -111,7 +111,7 @@ struct EntityConfig {
   /// Body (forward, right, down) to S; level, its nose to the north.
   Eigen::Quaterniond orientation = orientation_of({});
   std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: at rest
-  double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
+  double speed = 1.0;           ///< of the track; 2 is twice as fast; > 0
   std::optional<bool> repeat;   ///< of the track; none: true if its end equals its begin
   /// With a track: whether it turns, by the track's columns of orientation. Without such columns
   /// its nose points along the track, unless hands feel it.

@@ -78,9 +78,9 @@ void read_regions(TomlReader& file, SceneFile& out) {
 Section<SceneRegion> region_section() {
   const auto no_turn = [](const SceneRegion&) { return Eigen::Vector3d(0, 0, 0); };
   return {{
-              {"name", &SceneRegion::name, "required; unlike all others"},
+              {"name", &SceneRegion::name, "required; unique"},
               {"plane", of_region_shape(&haptics::PlaneShape::normal), declared("", -1e6, 1e6),
-               "the half-space below; its outward normal. A region without a shape is everywhere"},
+               "a half-space; its outward normal. A region without a shape is everywhere"},
               {"sphere", of_region_shape(&haptics::SphereShape::radius), declared("m", 1e-4, 1e3),
                "radius of a sphere"},
               {"box", of_region_shape(&haptics::BoxShape::size), declared("m", -1e3, 1e3),
@@ -88,7 +88,7 @@ Section<SceneRegion> region_section() {
               {"position", in(&SceneRegion::pose, &haptics::ObjectPose::position),
                within("m", -kWorld, kWorld), "of its origin in S"},
               {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-               "turned about S's x, then y, then z axis"},
+               "rotations about S's x, then y, then z axis"},
           },
           check_region,
           add_region_effects};

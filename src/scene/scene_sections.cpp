@@ -32,7 +32,7 @@ Section<OriginConfig> origin_section() {
   return {{
       {"latitude", &OriginConfig::latitude, within("rad", -kPi / 2, kPi / 2), "geodetic, WGS84"},
       {"longitude", &OriginConfig::longitude, within("rad", -kPi, kPi), "east of Greenwich"},
-      {"height", &OriginConfig::height, within("m", -12e3, 1e6), "over the ellipsoid"},
+      {"height", &OriginConfig::height, within("m", -12e3, 1e6), "above the ellipsoid"},
   }};
 }
 
@@ -41,21 +41,22 @@ namespace {
 Section<haptics::WorkSpace> work_space_section() {
   using haptics::WorkSpace;
   return {{
-      {"size", &WorkSpace::size, within("m", 0, kWorld), "all edges above 0, or there is none"},
-      {"position", &WorkSpace::position, within("m", -kWorld, kWorld), "of its middle, in S"},
-      {"restitution", &WorkSpace::restitution, within("", 0, 1), "of a rebound from it"},
+      {"size", &WorkSpace::size, within("m", 0, kWorld), "edge lengths, all above 0; 0: no box"},
+      {"position", &WorkSpace::position, within("m", -kWorld, kWorld), "of its centre, in S"},
+      {"restitution", &WorkSpace::restitution, within("", 0, 1),
+       "coefficient of a rebound from it"},
   }};
 }
 
 Section<SceneFile> scene_section() {
   return {{
-      {"name", &SceneFile::name, "for display; when absent, the file name without its ending"},
+      {"name", &SceneFile::name, "for display; when absent, the file name without its extension"},
       {"origin", &SceneFile::origin, origin_section(),
-       "where the scene's frame S (east, north, up) stands"},
+       "origin of the scene's frame S (east, north, up)"},
       {"gravity", in(&SceneFile::scene, &haptics::Scene::gravity), within("m/s2", -100, 100),
-       "what bodies fall by, in S"},
+       "acceleration of bodies, in S"},
       {"work_space", in(&SceneFile::scene, &haptics::Scene::work_space), work_space_section(),
-       "a box that no body leaves; hands do not feel it"},
+       "a box that bodies cannot leave; hands do not feel it"},
   }};
 }
 
@@ -63,32 +64,33 @@ Section<HandModel> hand_section() {
   const auto grab = [](double haptics::GrabSpring::*member) {
     return in(&HandModel::grab, member);
   };
-  return {
-      {
-          {"radius", &HandModel::radius, within("m", 1e-4, 1), "of the sphere that others touch"},
-          {"contact_radius", &HandModel::contact_radius, within("m", 0, 1),
-           "of the ball that feels the objects; 0 is a point"},
-          {"patch_radius", &HandModel::patch_radius, within("m", 0, 1),
-           "of the patch by which it holds bodies against turning, as a soft finger; 0 is a point"},
-          {"grab_stiffness", grab(&haptics::GrabSpring::stiffness), within("N/m", 0, 1e5),
-           "of the spring by which it holds a body while its button is pressed, as far as device "
-           "and body can take it; 0: it holds none"},
-          {"grab_most", grab(&haptics::GrabSpring::most), declared("N", 1e-3, 1e3),
-           "what pulls harder tears the body off; absent: nothing does"},
-          {"grab_viscosity", grab(&haptics::GrabSpring::viscosity), within("N s/m", 0, 100),
-           "of that spring"},
-          {"k1", &HandModel::k1, within("N/m", 0, 1e6),
-           "stiffness; each receiver caps it at what its device can show"},
-          {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
-          {"damping", &HandModel::damping, within("N s/m", 0, 1e4), "along the contact normal"},
-          {"static_friction", &HandModel::static_friction, within("", 0, 10),
-           "coefficient, at least kinetic_friction"},
-          {"kinetic_friction", &HandModel::kinetic_friction, within("", 0, 10),
-           "coefficient; 0 is no friction"},
-          {"validity", &HandModel::validity, within("s", 12, 65),
-           "the force fades out after this time without an update"},
-      },
-      check_hand};
+  return {{
+              {"radius", &HandModel::radius, within("m", 1e-4, 1),
+               "of the sphere that other hands touch"},
+              {"contact_radius", &HandModel::contact_radius, within("m", 0, 1),
+               "of the ball that touches objects; 0 is a point"},
+              {"patch_radius", &HandModel::patch_radius, within("m", 0, 1),
+               "of the contact patch of a soft finger, which resists rotation of held bodies; 0 is "
+               "a point"},
+              {"grab_stiffness", grab(&haptics::GrabSpring::stiffness), within("N/m", 0, 1e5),
+               "of the spring that holds a body while its button is pressed, limited by device and "
+               "body; 0: it holds none"},
+              {"grab_most", grab(&haptics::GrabSpring::most), declared("N", 1e-3, 1e3),
+               "a greater pull tears the body off; absent: it holds any pull"},
+              {"grab_viscosity", grab(&haptics::GrabSpring::viscosity), within("N s/m", 0, 100),
+               "of that spring"},
+              {"k1", &HandModel::k1, within("N/m", 0, 1e6),
+               "stiffness; each receiver limits it to that of its device"},
+              {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
+              {"damping", &HandModel::damping, within("N s/m", 0, 1e4), "along the contact normal"},
+              {"static_friction", &HandModel::static_friction, within("", 0, 10),
+               "coefficient, at least kinetic_friction"},
+              {"kinetic_friction", &HandModel::kinetic_friction, within("", 0, 10),
+               "coefficient; 0 is no friction"},
+              {"validity", &HandModel::validity, within("s", 12, 65),
+               "the force fades out after this time without an update"},
+          },
+          check_hand};
 }
 
 Section<OperatorConfig> sweep_section() {
@@ -96,10 +98,10 @@ Section<OperatorConfig> sweep_section() {
       {"from", &OperatorConfig::from, within("m", -kWorld, kWorld), "one end, in S"},
       {"to", &OperatorConfig::to, within("m", -kWorld, kWorld), "the other end, in S"},
       {"turn", &OperatorConfig::turned, within("rad", -kPi, kPi),
-       "how a device of six axes is turned at `to`, about the axis of S of this vector; not at "
-       "`from`"},
-      {"period", &OperatorConfig::period, within("s", 0.01, 86400), "period, sinusoidal motion"},
-      {"grab", &OperatorConfig::grabs, "on the way to `to` it holds what it touches"},
+       "rotation vector in S of a device of six axes at `to`; none at `from`"},
+      {"period", &OperatorConfig::period, within("s", 0.01, 86400),
+       "period of the sinusoidal motion"},
+      {"grab", &OperatorConfig::grabs, "it holds what it touches on the way to `to`"},
   }};
 }
 
@@ -129,7 +131,8 @@ Section<DeadReckoningConfig> dead_reckoning_section() {
       {
           {"algorithm", &Config::algorithm,
            "DRM of IEEE 1278.1: F/R without or with rotation, P/V velocity or acceleration, W/B "
-           "world or body axes; auto: the one that needs the fewest updates, as the motion goes"},
+           "world or body axes; auto: the one that needs the fewest updates for the present "
+           "motion"},
           {"position", threshold(&Thresholds::position), within("m", 1e-6, 1e4),
            "an update is sent if the error of remote copies exceeds this"},
           {"angle", threshold(&Thresholds::angle), within("rad", kPi / 180e3, kPi),
@@ -139,10 +142,10 @@ Section<DeadReckoningConfig> dead_reckoning_section() {
           {"force_share", threshold(&Thresholds::weber), within("", 0, 1),
            "or this share of the force, if that is larger; people notice 0.07 to 0.1"},
           {"rule", &Config::rule,
-           "how `position` is meant: " + meanings_of(deadreckon::kSendRules)},
+           "meaning of `position`: " + meanings_of(deadreckon::kSendRules)},
           {"acceleration", &Config::acceleration,
-           "what peers mean by it in rvb: the rate of the velocity's body components, or the "
-           "acceleration itself in body axes; must be the same for all"},
+           "meaning of the acceleration in rvb: rate of the velocity's body components, or the "
+           "acceleration itself in body axes; the same for all peers"},
           {"heartbeat", &Config::heartbeat, within("s", 0.1, 60),
            "longest time between two updates; silence for 2.4 times this is a time-out"},
       },
@@ -161,8 +164,8 @@ Section<ConvergenceConfig> convergence_section() {
   const auto setting = [](auto member) { return in(&ConvergenceConfig::settings, member); };
   return {{
       {"curve", setting(&ConvergenceSettings::curve),
-       "how the error of what is shown goes to zero after an update; cubic has no step in "
-       "velocity, quintic none in acceleration"},
+       "curve along which the error of the shown pose goes to zero after an update; cubic has no "
+       "step in velocity, quintic none in acceleration"},
       {"duration", setting(&ConvergenceSettings::duration),
        within("s", ConvergenceSettings::kLeastDuration, ConvergenceSettings::kMostDuration),
        "duration of convergence; longer is smoother and less accurate"},
@@ -185,32 +188,31 @@ Section<ConvergenceConfig> convergence_section() {
 
 Section<OperatorConfig> operator_section() {
   const auto no_key = [](const OperatorConfig&) { return false; };
-  return {
-      {
-          {"trace", &OperatorConfig::trace,
-           "a recorded hand, CSV with t_s,px_m,py_m,pz_m, beside the scene file"},
-          {"passive", no_key, "a hand that holds still at `position`"},
-          {"sweep", std::identity(), sweep_section(),
-           "a hand that moves back and forth along a line"},
-          {"position", &OperatorConfig::position, within("m", -kWorld, kWorld),
-           "passive: where it rests; trace: added to every point"},
-          {"speed", &OperatorConfig::speed, within("", 0.01, 100), "trace: 2 plays twice as fast"},
-          {"begin", &OperatorConfig::begin, within("s", 0, 86400),
-           "trace: where in the recording it begins; later rounds begin at its first point"},
-          {"approach", &OperatorConfig::approach, within("m", -kWorld, kWorld),
-           "trace: where it is at first, beside the point where it begins; it comes from there "
-           "until `start`"},
-          {"start", &OperatorConfig::start, within("s", 0, 86400),
-           "trace: it rests at its first point until then"},
-          {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),
-           "stiffness of the grip between hand and device"},
-          {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "damping of the grip"},
-          {"turn_stiffness", &OperatorConfig::turn_stiffness, within("N m/rad", 0, 1e3),
-           "the same of a device of six axes, in turning"},
-          {"turn_damping", &OperatorConfig::turn_damping, within("N m s/rad", 0, 10),
-           "damping of that"},
-      },
-      check_operator};
+  return {{
+              {"trace", &OperatorConfig::trace,
+               "a recorded hand, CSV with t_s,px_m,py_m,pz_m, beside the scene file"},
+              {"passive", no_key, "a hand that rests at `position`"},
+              {"sweep", std::identity(), sweep_section(),
+               "a hand that moves back and forth along a line"},
+              {"position", &OperatorConfig::position, within("m", -kWorld, kWorld),
+               "passive: its rest position; trace: added to every point"},
+              {"speed", &OperatorConfig::speed, within("", 0.01, 100),
+               "trace: playback speed; 2 is twice as fast"},
+              {"begin", &OperatorConfig::begin, within("s", 0, 86400),
+               "trace: start time in the recording; later rounds start at its first point"},
+              {"approach", &OperatorConfig::approach, within("m", -kWorld, kWorld),
+               "trace: initial offset from the starting point; it moves from there until `start`"},
+              {"start", &OperatorConfig::start, within("s", 0, 86400),
+               "trace: it rests at its first point until then"},
+              {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),
+               "stiffness of the grip between hand and device"},
+              {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "damping of the grip"},
+              {"turn_stiffness", &OperatorConfig::turn_stiffness, within("N m/rad", 0, 1e3),
+               "rotational stiffness of the grip, for a device of six axes"},
+              {"turn_damping", &OperatorConfig::turn_damping, within("N m s/rad", 0, 10),
+               "rotational damping of the grip"},
+          },
+          check_operator};
 }
 
 const Section<SceneFile>& file_section() {
@@ -221,25 +223,27 @@ const Section<SceneFile>& file_section() {
   static const Section<SceneFile> section{
       {
           {"scene", std::identity(), scene_section(), "the world: its name and its place on Earth"},
-          {"object", objects, object_section(), "one thing to touch; none is an empty world"},
+          {"object", objects, object_section(),
+           "one object to touch; without any, the world is empty"},
           {"node", &SceneFile::node_tables, node_section(),
-           "a frame that objects and other nodes hang on: docs/scene_graph.md"},
+           "a parent frame of objects and other nodes: docs/scene_graph.md"},
           {"region", regions, region_section(),
-           "a part of space, or all of it, in which a device feels a force and touches nothing"},
+           "a part of space, or all of it, that applies a force without contact"},
           {"hand", &SceneFile::hand, hand_section(),
-           "the force model of this peer's own hand, which others feel"},
+           "the force model of this peer's hand, which other peers feel"},
           {"operator", &SceneFile::operators, operator_section(),
-           "one simulated hand for each table, and what moves it"},
+           "one simulated hand per table, and its motion"},
           {"device", devices, device_section(),
-           "one device of one peer; where a file has none, each peer has a simulated one"},
+           "one device of one peer; in a file without any, each peer has a simulated one"},
           {"entity", entities, entity_section(),
-           "an entity that no device moves: a vehicle, a post, a robot's tip"},
+           "an entity without a device: a vehicle, a post, a robot's tip"},
           {"dead_reckoning", &SceneFile::dead_reckoning, dead_reckoning_section(),
-           "when updates are sent, and how they are extrapolated"},
+           "thresholds of updates, and their extrapolation"},
           {"convergence", &SceneFile::convergence, convergence_section(),
-           "how the shown pose converges after an update"},
-          {"aoim", &SceneFile::aoim, aoim_section(), "cells, and how far this peer senses"},
-          {"network", &SceneFile::network, network_section(), "how this peer sends and receives"},
+           "convergence of the shown pose after an update"},
+          {"aoim", &SceneFile::aoim, aoim_section(),
+           "cells, and the radius within which this peer receives"},
+          {"network", &SceneFile::network, network_section(), "sending and receiving of this peer"},
           {"impairment", &SceneFile::impairment, impairment_section(),
            "simulated impairment of received datagrams, for tests"},
       },

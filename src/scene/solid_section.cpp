@@ -66,14 +66,14 @@ Section<haptics::CylinderShape> cylinder_section() {
 Section<haptics::ConeShape> cone_section() {
   using Shape = haptics::ConeShape;
   return {{{"radius", &Shape::radius, kRadiusOrTip, "required; of its base"},
-           {"top_radius", &Shape::top_radius, within("m", 0, 1e3), "of its upper face; 0 is a tip"},
+           {"top_radius", &Shape::top_radius, within("m", 0, 1e3), "of its top face; 0 is a tip"},
            {"height", &Shape::height, kLength, "required"}},
           [](TomlReader& table, Shape&) { require_all(table, "radius", "height"); }};
 }
 
 Section<haptics::TorusShape> torus_section() {
   using Shape = haptics::TorusShape;
-  return {{{"radius", &Shape::radius, kLength, "required; of the circle in the middle of its tube"},
+  return {{{"radius", &Shape::radius, kLength, "required; of the centre circle of its tube"},
            {"tube", &Shape::tube, kLength, "required; radius of the tube"}},
           [](TomlReader& table, Shape&) { require_all(table, "radius", "tube"); }};
 }
@@ -81,18 +81,17 @@ Section<haptics::TorusShape> torus_section() {
 Section<haptics::CsgPart> part_section() {
   using Part = haptics::CsgPart;
   const auto no_turn = [](const Part&) { return Eigen::Vector3d(0, 0, 0); };
-  Section<Part> section{
-      {{"operation", &Part::operation,
-        "how it is combined with the parts before it: add, subtract, or intersect"}},
-      check_part};
+  Section<Part> section{{{"operation", &Part::operation,
+                          "combines it with the previous parts: add, subtract, or intersect"}},
+                        check_part};
   const std::vector<Row<Part>> solids = solid_rows<Part>();
   section.rows.insert(section.rows.end(), solids.begin(), solids.end());
   const std::vector<Row<Part>> rest = {
       {"position", &Part::position, within("m", -1e3, 1e3), "of its origin, in the object's axes"},
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-       "turned about the object's x, then y, then z axis"},
+       "rotations about the object's x, then y, then z axis"},
       {"rounding", &Part::rounding, within("m", 0, 1e3),
-       "radius of the edges between it and the parts before it; 0 is sharp"},
+       "radius of the edges between it and the previous parts; 0 is sharp"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;
@@ -103,10 +102,10 @@ Section<haptics::HeightsShape> heights_section() {
   return {
       {{"file", &Shape::file, "required; PNG or PGM of 8 or 16 bits beside the scene file"},
        {"width", &Shape::width, within("m", 1e-4, 1e3),
-        "along x, between the middles of the outermost pixels"},
+        "along x, between the centres of the outermost pixels"},
        {"length", &Shape::length, declared("m", 1e-4, 1e3),
-        "along y, likewise; pixels are squares when absent"},
-       {"height", &Shape::height, within("m", 0, 1e3), "of white above black, which is at z = 0"},
+        "the same along y; when absent, pixels are square"},
+       {"height", &Shape::height, within("m", 0, 1e3), "of white above black; black is at z = 0"},
        {"base", &Shape::base, within("m", 1e-4, 1e3), "of black above the flat bottom"}},
       [](TomlReader& table, Shape& shape) {
         table.require("file");

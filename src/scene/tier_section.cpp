@@ -104,32 +104,31 @@ void check_own_groups(TomlReader& aoim, const Tiers& tiers) {
 Section<TierConfig> tier_section() {
   using aoim::Channel;
   const auto of = [](auto member) { return in(&TierConfig::channel, member); };
-  return {
-      {
-          {"to", &TierConfig::to,
-           "distance: peers up to `farthest` away. touch: peers that can touch the entity; they "
-           "receive what is felt by a group of each cell that only they join, and read it first. "
-           "touch is the first row and takes no other key"},
-          {"own_group", &TierConfig::own_group,
-           "each cell has a multicast group for this row, which only peers within its distance "
-           "join; set it for all rows that are neither `kept` nor the last, or for none"},
-          {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
-           "greatest distance of the receivers; when absent, unbounded"},
-          {"body", of(&Channel::body),
-           "rigid: position and orientation; approximate: articulated parts, too; full: what "
-           "hands feel, too. Of what is new or abrupt and at heartbeats all is sent"},
-          {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
-           "most updates a second of a moving entity"},
-          {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000),
-           "most updates a second of an entity at rest"},
-          {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
-           "octets that an update counts against `budget`"},
-          {"kept", of(&Channel::kept), "this row is exempt from `budget`"},
-          {"coarser", of(&Channel::coarser), within("", 1, 1e6),
-           "with `own_group`: factor of the thresholds of position and orientation for these "
-           "receivers; at least that of the row before"},
-      },
-      check_tier};
+  return {{
+              {"to", &TierConfig::to,
+               "distance: peers up to `farthest` away. touch: peers that can touch the entity; "
+               "each cell has a group for felt states that only they join and read first. touch is "
+               "the first row and takes no other key"},
+              {"own_group", &TierConfig::own_group,
+               "each cell has a multicast group for this row, which only peers within its distance "
+               "join; set it for all rows that are neither `kept` nor the last, or for none"},
+              {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
+               "greatest distance of the receivers; when absent, unbounded"},
+              {"body", of(&Channel::body),
+               "rigid: position and orientation; approximate: also articulated parts; full: also "
+               "force models. New or abrupt states and heartbeats are sent in full"},
+              {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
+               "most updates a second of a moving entity"},
+              {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000),
+               "most updates a second of an entity at rest"},
+              {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
+               "octets that an update counts against `budget`"},
+              {"kept", of(&Channel::kept), "this row is exempt from `budget`"},
+              {"coarser", of(&Channel::coarser), within("", 1, 1e6),
+               "with `own_group`: factor of the thresholds of position and orientation for these "
+               "receivers; at least that of the row before"},
+          },
+          check_tier};
 }
 
 void check_tiers(TomlReader& aoim, const Tiers& tiers) {

@@ -29,14 +29,13 @@ std::string line_of(std::uint64_t count, std::string_view what) {
 
 void ExerciseMapOptions::declare(CommandLine& line) {
   line.option("--map-exercise", exercises,
-              "send exercise FROM as TO: 1=7; or all as one: 7; repeatable");
+              "send exercise FROM as TO: 1=7; or all exercises as one: 7; repeatable");
   line.option("--map-id", ids,
-              "send entities under other IDs, wherever PDUs name them: 1:2:*=9:2:*; such a rule "
-              "for all entities holds for their simulation too; the first that fits counts; "
-              "repeatable");
+              "replace entity IDs wherever PDUs name them: 1:2:*=9:2:*; a rule for all entities of "
+              "a simulation applies to its address too; the first match applies; repeatable");
   line.option("--map-place", place,
               "move the exercise: 48.14,11.58=34.05,-118.24, latitude,longitude[,height] in "
-              "degrees and metres; without FROM= its first place goes there");
+              "degrees and metres; without FROM=, its first position moves there");
 }
 
 ExerciseMap::ExerciseMap(const ExerciseMapOptions& options, bool lenient)

@@ -153,10 +153,9 @@ void print_manual_page(std::span<const Verb> verbs, std::FILE* out) {
       "with IEEE 1278.1-2012 PDUs. The program demonstrates it, runs a peer, and inspects, records "
       "and replays any DIS traffic.\n\n"
       "Data goes to standard output, everything else to standard error. Durations take units, as "
-      "in "
-      "250ms, 10s or 5min; lengths and sizes too. `reckon VERB --help` shows what a verb takes. "
-      "`reckon FILE` inspects a capture and touches a scene or a mesh. "
-      "With --json, data comes as one JSON object a line.",
+      "in 250ms, 10s or 5min; lengths and sizes too. `reckon VERB --help` shows what a verb takes. "
+      "`reckon FILE` inspects a capture and touches a scene or a mesh. With --json, data comes as "
+      "one JSON object per line.",
       out);
   print_verbs(verbs, out);
   print_exit_status(out);

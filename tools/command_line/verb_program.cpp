@@ -116,12 +116,12 @@ const Verb* find_verb(const VerbProgram& program, std::string_view name) {
 void print_overview(const VerbProgram& program, std::FILE* out) {
   fmt::print(out, "{}\n\nusage: {} VERB [ARGUMENTS]\n", program.title, program.name);
   if (program.run_other)
-    fmt::print(out, "       {} FILE    a capture is inspected, a scene or a mesh touched\n",
+    fmt::print(out, "       {} FILE    inspect a capture, or run the demo with a scene or a mesh\n",
                program.name);
   fmt::print(out, "\n");
   for (const Verb& verb : program.verbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
   fmt::print(out,
-             "\n`{} VERB --help` shows what a verb takes, with examples.\n"
+             "\n`{} VERB --help` shows the options of a verb, with examples.\n"
              "Data goes to stdout, everything else to stderr. Exit status:\n",
              program.name);
   for (const ExitMeaning& row : exit_meanings())

@@ -23,7 +23,7 @@ struct VerbRow {
 };
 
 inline constexpr std::array kVerbRows{
-    VerbRow{"demo", "two peers on loopback whose hands touch; prints what it cost", kPeerProgram},
+    VerbRow{"demo", "two peers on loopback whose hands touch; prints the costs", kPeerProgram},
     VerbRow{"peer", "one peer on a LAN", kPeerProgram},
     VerbRow{"inspect", "show every PDU of every datagram, from a capture or live", kInspectProgram},
     VerbRow{"view", "show the world in a browser page, live or from a capture", kPeerProgram},
@@ -34,7 +34,7 @@ inline constexpr std::array kVerbRows{
     VerbRow{"scene", "check or explain a scene file, or print a new one", kPeerProgram},
     VerbRow{"key", "create and show the key of a sealed exercise", kPeerProgram},
     VerbRow{"tune", "find the model and threshold for recorded motion", kBenchProgram},
-    VerbRow{"devices", "list real devices, and what keeps one from being used", kPeerProgram},
+    VerbRow{"devices", "list real devices and the problems that prevent their use", kPeerProgram},
     VerbRow{"doctor", "report problems of this host with remedies", kPeerProgram},
     VerbRow{"bench", "studies: cost of accuracy, latency of a touch, stability, scaling",
             kBenchProgram},

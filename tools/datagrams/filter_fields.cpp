@@ -136,7 +136,8 @@ constexpr auto kFields = std::to_array<FilterField>({
        if (s.entity_state == nullptr) return std::nullopt;
        return type_in_words(s.entity_state->entity_type);
      }},
-    {"entity.type", "its type as numbers, which may be * or left out at the end: 1.1.225.*",
+    {"entity.type",
+     "its type as numbers; * matches any, and trailing numbers may be omitted: 1.1.225.*",
      ValueKind::type},
     {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name,
      from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
@@ -147,11 +148,11 @@ constexpr auto kFields = std::to_array<FilterField>({
        if (s.entity_state == nullptr) return std::nullopt;
        return std::string(s.entity_state->marking.view());
      }},
-    {"entity.heading", "where its x axis points, degrees from north by east", ValueKind::number,
+    {"entity.heading", "direction of its x axis, degrees clockwise from north", ValueKind::number,
      from_attitude<&pdu::Attitude::heading_deg>},
-    {"entity.pitch", "its x axis above the horizon in degrees", ValueKind::number,
+    {"entity.pitch", "elevation of its x axis in degrees", ValueKind::number,
      from_attitude<&pdu::Attitude::pitch_deg>},
-    {"entity.roll", "its right side down in degrees", ValueKind::number,
+    {"entity.roll", "rotation about its x axis in degrees, right side down", ValueKind::number,
      from_attitude<&pdu::Attitude::roll_deg>},
     {"latitude", "of the PDU's first position, degrees north (WGS84)", ValueKind::number,
      from_place<&pdu::Geodetic::latitude_deg>},
@@ -180,7 +181,7 @@ constexpr auto kFields = std::to_array<FilterField>({
     {"status", "ok, note, warning or error", ValueKind::name,
      [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.status); },
      status_name},
-    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, nullptr, row_rule,
+    {"rule", "the violated rule: E-LENGTH, E-*, ...", ValueKind::text, nullptr, row_rule,
      [](const FilterSubject& s) -> Text {
        if (s.row.rule.empty()) return std::nullopt;
        return std::string(s.row.rule);
@@ -204,7 +205,7 @@ std::string filter_fields_text() {
   for (const FilterField& field : kFields)
     fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
   return text +
-         "Also each field of any PDU type by its name in --full, or by the end of that name, as\n"
+         "Each field of a PDU type is named as in --full, or by the end of that name, such as\n"
          "frequency, munition_type.kind or beams[0].beam_function; --fields TYPE lists them.";
 }
 

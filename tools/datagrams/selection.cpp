@@ -61,15 +61,15 @@ void SelectionOptions::declare_filter(CommandLine& line) {
   line.option("--where", where,
               "only datagrams with a PDU that matches, for example 'kind == platform and side == "
               "opposing'; `reckon inspect --help` lists the fields");
-  line.flag("--lenient", lenient,
-            "read a PDU whose length field is 0 as the rest of its datagram; what is written or "
-            "sent stays as it is");
+  line.flag(
+      "--lenient", lenient,
+      "read a PDU whose length field is 0 as the rest of its datagram; output stays unchanged");
 }
 
 void declare_lenient(CommandLine& line, bool& lenient) {
   line.flag("--lenient", lenient,
-            "take a length field of 0 as the rest of the datagram; keep and note what stands "
-            "behind the last PDU or its last field");
+            "read a length field of 0 as the rest of the datagram; keep and note octets after the "
+            "last PDU or its last field");
 }
 
 CaptureSelection::CaptureSelection(const SelectionOptions& options)

@@ -13,7 +13,7 @@ namespace reckon::tools {
 
 void add_log_flag(CommandLine& line, std::string& path) {
   line.option("--log", path,
-              "appends each notice to this file: time in UTC, severity, id, peer, sentence");
+              "append each notice to this file: time in UTC, severity, id, peer, sentence");
 }
 
 NoticeLog::NoticeLog(const std::string& path, const Console& console)

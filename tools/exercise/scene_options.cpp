@@ -24,7 +24,7 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
   line.offer("--iface", kInterfaces);
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
   line.flag("--even-if-slow", options.even_if_slow,
-            "run a scene whose servo steps take longer here than their period");
+            "run the scene even if servo steps exceed their period on this host");
 }
 
 namespace {

@@ -32,8 +32,8 @@ std::optional<std::uint16_t> port_of(std::string_view text) {
 
 void add_metrics_flag(CommandLine& line, std::string& typed) {
   line.option("--metrics", typed,
-              "answer GET /metrics here in OpenMetrics, for Prometheus and its like: "
-              "127.0.0.1:9464, or a port of this host alone");
+              "serve GET /metrics in OpenMetrics, as for Prometheus, at this address "
+              "(127.0.0.1:9464) or port of loopback");
 }
 
 std::optional<MetricsAddress> metrics_address(const std::string& typed) {

@@ -18,9 +18,8 @@ namespace {
 
 constexpr std::string_view kCutSummary =
     "Writes a part of a capture as a new one.\n\n"
-    "Whole datagrams are taken, frame for frame and octet for octet; frames without UDP are left\n"
-    "out. Words of one kind widen the choice, words of different kinds narrow it. A name that "
-    "ends\n"
+    "It copies whole datagrams, frame by frame and unchanged; it omits frames without UDP.\n"
+    "Options of one kind are alternatives; a datagram must match each kind. A name that ends\n"
     "in .zst is compressed. With --audio it writes a 16-bit WAV file with the sound of one radio\n"
     "instead: its Signal PDUs in mu-law or linear PCM, placed by capture time.";
 constexpr std::string_view kCutExamples =
@@ -108,8 +107,7 @@ int run_cut(Arguments arguments, const Console& console) {
   line.word("IN", options.in, true, "pcap or pcapng file, also compressed; - is stdin");
   line.word("OUT", options.out.path, false, "the pcapng file to write");
   line.option("--audio", options.audio,
-              "instead of OUT: write the sound of one radio, the only one that is selected, to "
-              "this WAV file");
+              "instead of OUT: write the sound of the one selected radio to this WAV file");
   line.option("--to", options.selection.to,
               "stop this long after the first datagram, for example 2min");
   options.selection.declare(line);

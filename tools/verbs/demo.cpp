@@ -48,8 +48,7 @@ struct DemoOptions {
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, DemoOptions& options) {
-  CommandLine line("demo",
-                   "Two peers on loopback multicast whose hands touch; prints what it cost.",
+  CommandLine line("demo", "Two peers on loopback multicast whose hands touch; prints the costs.",
                    "reckon demo\n"
                    "reckon demo --for 60s --json\n"
                    "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
@@ -59,15 +58,16 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.word("SCENE", options.scene.scene, false,
             fmt::format("scene file; default: {} as installed", kDefaultScene));
   line.option("--peers", options.asked_peers,
-              "how many peers, 1 to 64; 2, or the one of a scene with bodies");
-  line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
+              "number of peers, 1 to 64; default: 2, or in a scene with bodies the peers that have "
+              "a device");
+  line.option("--for", options.duration, "stop after this time, e.g. 10s");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
   add_trace_options(line, options.traces);
   line.flag("--simulated-time", options.simulated_time,
-            "no sockets and no waiting: simulated network, as fast as the machine goes");
+            "simulated network without sockets, as fast as possible");
   line.flag("--no-transfer", options.no_transfer,
-            "give no energy on demand: shows that one hand then cannot push another");
+            "transfer no energy on demand: one hand then cannot push another");
   line.flag("--json", options.json, "one JSON object on the last line");
   add_view_switch(line, options.view);
   add_log_flag(line, options.log);

@@ -7,11 +7,11 @@
 namespace reckon::tools {
 
 void add_trace_options(CommandLine& line, TraceFiles& files) {
-  line.option("--trace", files.servo, "write every servo step of every device to this CSV file");
+  line.option("--trace", files.servo, "write each servo step of each device to this CSV file");
   line.option("--trace-bodies", files.bodies,
-              "write every step of every body that is awake to this CSV file");
+              "write each step of each awake body to this CSV file");
   line.option("--trace-loop", files.loop,
-              "write every stage of every pass of the model loops to this CSV file");
+              "write each stage of each pass of the model loops to this CSV file");
 }
 
 DemoTraces::DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise) {

@@ -185,7 +185,7 @@ int run_doctor(Arguments arguments, const Console& console) {
               "interface name, address or index (default: the scene's, else by score)");
   line.offer("--iface", kInterfaces);
   line.option("--groups", options.groups,
-              "number of multicast groups joined at the same time (default: that of the scene)");
+              "number of multicast groups joined at the same time (default: as in the scene)");
   line.flag("--ipv6", options.ipv6, "check IPv6 instead of IPv4");
   line.flag("--sealed", options.sealed,
             "check the port of a sealed exercise, one above (default: if the scene has a key)");

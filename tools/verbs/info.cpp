@@ -13,10 +13,8 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kInfoSummary =
-    "Summarises a capture: times, datagrams, PDUs by type, senders, groups, entities, "
-    "damage.\n\n"
-    "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 where something in "
-    "it is damaged.";
+    "Summarises a capture: times, datagrams, PDUs by type, senders, groups, entities, damage.\n\n"
+    "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 if it is damaged.";
 constexpr std::string_view kInfoExamples =
     "reckon info exercise.pcapng\n"
     "reckon info exercise.pcapng --json | jq '.types[]'";

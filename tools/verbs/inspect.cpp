@@ -44,17 +44,17 @@ constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 constexpr std::string_view kInspectSummary =
     "Shows every PDU of every datagram, from a capture or live.\n\n"
     "SOURCE is one of\n"
-    "  FILE                pcap or pcapng, plain or by zstd, gzip, bzip2, xz, lz4\n"
+    "  FILE                pcap or pcapng, plain or compressed (zstd, gzip, bzip2, xz, lz4)\n"
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
-    "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
+    "  udp://GROUP[:PORT]  a live group, such as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
     "  udp://ADDRESS       live broadcast (10.9.9.255, 255.255.255.255) or unicast (an address of\n"
     "                      this host); 0.0.0.0: both, on every address\n"
     "  SCENE.toml          the live groups of a scene\n"
     "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
-    "Without one: 239.192.1.0:3000 and the 256 groups behind it, live. Live groups are heard on\n"
-    "every interface; a datagram that comes over two of them is counted once.\n"
-    "SOURCE and VIEW come in either order.";
+    "Default: 239.192.1.0:3000 and the 256 groups after it, live. Live groups are received on\n"
+    "every interface; a datagram that arrives on two of them is counted once.\n"
+    "SOURCE and VIEW may be in either order.";
 constexpr std::string_view kInspectExamples =
     "reckon inspect capture.pcapng\n"
     "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
@@ -332,7 +332,7 @@ int run_inspect(Arguments arguments, const Console& console) {
       fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
                   kInspectSummary, filter_fields_text());
   CommandLine line("inspect", summary, kInspectExamples);
-  line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
+  line.word("SOURCE", options.source.source, false, "source of the datagrams, see above");
   std::string views, meanings;
   for (const InspectViewKind& kind : inspect_views()) {
     views.append(kind.name).append(" ");
@@ -340,14 +340,14 @@ int run_inspect(Arguments arguments, const Console& console) {
   }
   line.word("VIEW", options.view, false, meanings);
   line.offer("VIEW", views);
-  line.flag("--tree", options.tree, "every field of every PDU, one a line");
-  line.flag("--json", options.json, "one JSON object a line");
+  line.flag("--tree", options.tree, "every field of every PDU, one per line");
+  line.flag("--json", options.json, "one JSON object per line");
   line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
-  line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
+  line.flag("--csv", options.csv, views_with_csv() + ": one table with a header row");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
               "stats: only this table, with all rows");
   line.flag("--follow", options.source.follow,
-            "wait for more at the end of a capture file; top: write the table each second");
+            "wait for new data at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, for example 'entity.id == 1:*:* and kind == platform'");
   std::string fields;
@@ -355,9 +355,9 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.offer("--where", fields);
   line.option("--fields", options.fields, "list the fields of this PDU type for --where, and exit");
   line.option("--from", options.from,
-              "recordings: only from here on, as 90s since the first datagram, 14:03:20 (UTC) or "
+              "recordings: start here: 90s after the first datagram, 14:03:20 (UTC) or "
               "2026-11-26T14:03:20Z");
-  line.option("--to", options.to, "recordings: only before this, written in the same way");
+  line.option("--to", options.to, "recordings: stop before this, in the same format");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
   line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
   declare_lenient(line, options.lenient);
@@ -365,12 +365,12 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--count", options.count, "stop after this many PDUs");
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: every one, lo too)");
+              "for groups: interface name, address or index (default: all, including lo)");
   line.offer("--iface", kInterfaces);
   line.option("--key", options.key,
               "key file: reads sealed datagrams; groups are then one port above");
   line.option("--pool", options.source.pool,
-              "groups to join behind the base group (default: 256; 0 for udp://)");
+              "groups to join after the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;
   check_combination(options, console);
   if (options.rules) return print(rules_text(options), console);

@@ -99,10 +99,9 @@ int run_key(Arguments arguments, const Console& console) {
   line.option("--group", options.group, "new: name of the group, for display");
   line.choice("--suite", options.suite,
               {std::string(kFastest), "aes-256-gcm", "xchacha20-poly1305"},
-              "new: how it is sealed; aes-256-gcm needs AES instructions in the CPU of each member "
-              "(default: fastest of this CPU)");
-  line.option("--from", options.from,
-              "next: when it begins, UTC, for example 2026-12-01T06:00:00Z");
+              "new: cipher suite; aes-256-gcm needs AES instructions in the CPU of each member "
+              "(default: fastest on this CPU)");
+  line.option("--from", options.from, "next: start time in UTC, for example 2026-12-01T06:00:00Z");
   if (const auto status = line.parse(arguments, console)) return *status;
   if (options.action.empty()) throw UsageError("name an action: reckon key new, next or show");
   if (options.file.empty())

@@ -57,40 +57,40 @@ std::string marking_of_host() {
 constexpr std::uint64_t kMostApplications = 65534;
 
 std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOptions& options) {
-  CommandLine line("peer",
-                   "One peer on a LAN: its entities, and simulated hands as the scene says.",
-                   "reckon peer scenes/two_hands.toml --iface eth0\n"
-                   "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
-                   "reckon peer scenes/two_hands.toml --for 60s --json\n"
-                   "reckon peer scenes/two_hands.toml --iface eth0 --view\n"
-                   "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
-  line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
+  CommandLine line(
+      "peer", "One peer on a LAN: its entities and simulated hands, as the scene defines them.",
+      "reckon peer scenes/two_hands.toml --iface eth0\n"
+      "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
+      "reckon peer scenes/two_hands.toml --for 60s --json\n"
+      "reckon peer scenes/two_hands.toml --iface eth0 --view\n"
+      "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
+  line.word("SCENE", options.scene.scene, true, "scene file, the same for all peers");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
   line.option("--name", options.name,
               "marking of the hand, at most 11 characters; default: the name of this host");
   line.option("--operator", options.operator_number,
-              "which peer of the scene this is, from 1: its devices, entities and operator; "
-              "default: the first that no other peer is");
-  line.option(
-      "--application", options.application,
-      "second number of the entity IDs, 1 to 65534, in a scene with 'interop'; default: the "
-      "first that no program of this host has");
-  line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
+              "number of this peer in the scene, from 1: selects its devices, entities and "
+              "operator; default: the first free one");
+  line.option("--application", options.application,
+              "application number of the entity IDs, 1 to 65534, in a scene with 'interop'; "
+              "default: the first that no program of this host uses");
+  line.option("--for", options.duration, "stop after this time, e.g. 10s");
   line.option("--to", options.to,
-              "where there is no multicast: to whom each datagram goes, e.g. "
-              "10.0.0.7,host-b:3001; all peers the same list; goes before the scene's 'peers'");
-  line.option("--follow", options.follow,
-              "beacons whose cells are listened to, e.g. gate,ferry; instead of the scene's "
-              "'follow'");
+              "without multicast: hosts that receive each datagram, e.g. 10.0.0.7,host-b:3001; the "
+              "same list for all peers; overrides the scene's 'peers'");
+  line.option(
+      "--follow", options.follow,
+      "beacons whose cells this peer joins, e.g. gate,ferry; overrides the scene's 'follow'");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
-            "a JSON line for each remote entity that appears or goes, and for each notice");
+            "a JSON line for each remote entity that appears or disappears, and for each notice");
   line.flag("--felt", options.felt,
-            "a JSON line ten times a second: what each hand feels of others");
-  line.option("--balance", options.balance,
-              "a JSON line so often, e.g. 10s, and at the end: what became of each datagram, by "
-              "sender and group; with --operator, unless the scene has one peer");
+            "a JSON line ten times a second: what each hand feels from others");
+  line.option(
+      "--balance", options.balance,
+      "a JSON line at this interval, e.g. 10s, and at the end: counts of received, lost and "
+      "refused datagrams by sender and group; needs --operator, unless the scene has one peer");
   add_view_switch(line, options.view);
   add_metrics_flag(line, options.metrics);
   add_log_flag(line, options.log);

@@ -37,14 +37,14 @@ constexpr nanoseconds kRecordPatience = std::chrono::milliseconds(100);
 constexpr std::string_view kRecordSummary =
     "Writes live datagrams to a pcapng file, with times in nanoseconds.\n\n"
     "SOURCE is udp://GROUP[:PORT], a broadcast address (udp://10.9.9.255, udp://255.255.255.255),\n"
-    "an address of this host, udp://0.0.0.0 for all of both, SCENE.toml (the groups of a scene) "
-    "or\n"
+    "an address of this host, udp://0.0.0.0 for both, SCENE.toml (the groups of a scene) or\n"
     "iface:NAME (all UDP of an interface, needs CAP_NET_RAW).\n"
-    "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed. Every\n"
-    "interface is heard; a datagram that comes over two of them is recorded once.\n"
-    "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
-    "A FILE that ends in .zst is compressed. What is sealed is kept sealed; a filter sees into it\n"
-    "with --key alone.";
+    "Default: 239.192.1.0:3000 and the 256 groups after it; needs no privileges. Every interface\n"
+    "is received; a datagram that arrives on two of them is recorded once.\n"
+    "Ctrl-C ends it. If it is killed or the disk is full, the file stays readable.\n"
+    "A FILE that ends in .zst is compressed. Sealed datagrams stay sealed; a filter needs --key "
+    "to\n"
+    "read them.";
 constexpr std::string_view kRecordExamples =
     "reckon record exercise.pcapng\n"
     "reckon record exercise.pcapng --for 10min --iface eth0\n"
@@ -313,25 +313,24 @@ int run_record(Arguments arguments, const Console& console) {
   line.word("SOURCE", options.source.source, false, "what to record, see above");
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: every one, lo too)");
+              "for groups: interface name, address or index (default: all, including lo)");
   line.offer("--iface", kInterfaces);
   line.option("--pool", options.source.pool,
-              "groups to join behind the base group (default: 256; 0 for udp://)");
+              "groups to join after the base group (default: 256; 0 for udp://)");
   line.option("--rotate-size", options.rotate_size,
               "begin the next file, FILE_00002, at this size, for example 100MB");
   line.option("--rotate-time", options.writer.rotate_after,
               "begin the next file after this time, for example 1h");
   line.option("--rotate-total", options.rotate_total,
-              "remove the oldest files of this recording when all together would exceed this, for "
-              "example 100GB");
+              "remove the oldest files of this recording if their total size would exceed this, "
+              "for example 100GB");
   line.flag("--compress", options.writer.compress,
             "compress with zstd, as for a FILE that ends in .zst");
   options.selection.declare_filter(line);
   line.option("--key", options.key,
-              "key file: the filter and the counts read what is sealed; groups are then one port "
-              "above");
+              "key file: filter and counts read sealed datagrams; groups are then one port above");
   add_metrics_flag(line, options.metrics);
-  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
+  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object per line");
   line.flag("--force", options.writer.overwrite, "overwrite FILE");
   if (const auto status = line.parse(arguments, console)) return *status;
   options.source.sealed = !options.key.empty();

@@ -14,13 +14,13 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kSummary =
-    "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
-    "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there, in IP fragments where they are above its MTU. FILE is pcap or pcapng, also\n"
-    "compressed. What is sealed goes out as it is, and members refuse it as a recording;\n"
-    "with --key it goes out plain, to the port below. At the end it tells the speed that it kept.\n"
-    "On a terminal, keys: space pauses and goes on, left and right leap by 10 s, + and - double\n"
-    "and halve the speed, q ends.";
+    "Sends the datagrams of a capture again, at their recorded times.\n\n"
+    "Programs of this host that joined their groups receive them; with --iface also the network\n"
+    "of that interface, in IP fragments above its MTU. FILE is pcap or pcapng, also compressed.\n"
+    "Sealed datagrams are sent unchanged, and members refuse them as replays; with --key they are\n"
+    "sent plain, to the port below. At the end it prints the speed that it reached.\n"
+    "Keys on a terminal: space pauses and resumes, left and right skip 10 s, + and - double and\n"
+    "halve the speed, q quits.";
 constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng\n"
     "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
@@ -77,22 +77,22 @@ std::optional<int> parse_replay(Arguments arguments, const Console& console,
                                 ReplayOptions& options) {
   CommandLine line("replay", kSummary, kExamples);
   line.word("FILE", options.file, true, "the capture; - is stdin");
-  line.option("--to", options.to,
-              "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
-              "where it was sent); or stop this long after the first datagram, for example 2min");
+  line.option(
+      "--to", options.to,
+      "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: the "
+      "recorded destinations); or stop this long after the first datagram, for example 2min");
   line.option("--iface", options.interface,
               "interface to send on (default: lo, which reaches only this host; for a broadcast "
-              "address, the "
-              "one it belongs to); 'recorded': the one that the capture names");
+              "address, its interface); 'recorded': the interface named in the capture");
   line.offer("--iface", kInterfaces);
-  line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
+  line.option("--rate", options.rate, "speed: 2 is twice as fast, 0 as fast as possible");
   line.option("--loop", options.loop, "repeat this many times; 0: until Ctrl-C");
   options.selection.declare(line);
-  line.option("--key", options.key, "key file: what is sealed is sent plain, to the port below");
+  line.option("--key", options.key, "key file: sends sealed datagrams plain, to the port below");
   line.flag("--rewrite-time", options.rewrite_time,
-            "set the PDUs' timestamps to the time of sending");
+            "set the timestamps of PDUs to their send time");
   options.map.declare(line);
-  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
+  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object per line");
   if (const auto status = line.parse(arguments, console)) return status;
   check(options);
   settle_destination(options);

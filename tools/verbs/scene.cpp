@@ -165,8 +165,8 @@ int run_scene(Arguments arguments, const Console& console) {
                    "reckon scene new > my_scene.toml\nreckon scene keys");
   line.choice("ACTION", action, {"check", "explain", "new", "keys"},
               "check: report problems with place and remedy; explain: the stages of each servo "
-              "step, what is left out, what each peer does; new: print a scene file to start from; "
-              "keys: list all keys");
+              "step, used and unused, and the work of each peer; new: print a scene file to start "
+              "from; keys: list all keys");
   line.words("FILE", files, false, "scene files");
   line.flag("--json", json, "one JSON object per line");
   if (const auto status = line.parse(arguments, console)) return *status;

@@ -39,10 +39,9 @@ constexpr std::size_t kCaptureRoom = std::size_t{1} << 30;
 
 constexpr std::string_view kSummary =
     "Shows the world in a browser page, live or from a capture.\n\n"
-    "SOURCE is what `reckon inspect` takes: a capture, a scene, udp://ADDRESS[:PORT], iface:NAME;\n"
-    "without one the default groups, live, on every interface. With --save nothing is served: the "
-    "page and the last\n"
-    "minute of a capture become one HTML file, which plays from disk anywhere.";
+    "SOURCE is as for `reckon inspect`: a capture, a scene, udp://ADDRESS[:PORT], iface:NAME;\n"
+    "default: the default groups, live, on every interface. --save serves nothing: it writes the\n"
+    "page and the last minute of a capture to one HTML file, which plays from disk.";
 
 struct ViewOptions {
   SourceChoice source;
@@ -62,21 +61,20 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
                    "reckon view scenes/two_hands.toml --iface eth0\n"
                    "reckon view udp://239.192.1.0:3000 --port 9000\n"
                    "reckon view --listen 0.0.0.0 --for 1h");
-  line.word("SOURCE", options.source.source, false, "where the datagrams come from");
+  line.word("SOURCE", options.source.source, false, "source of the datagrams");
   add_view_flags(line, options.view);
   line.option("--for", options.duration,
-              "end by itself after this time, as in 10s; with --save: how much of the end of a "
-              "capture is saved (default: 1min), and how long a live source is listened to");
-  line.option("--save", options.save,
-              "write one HTML file that plays, in the place of a page that is served");
+              "stop after this time, for example 10s; with --save: length of the saved end of a "
+              "capture (default: 1min), or time to receive from a live source");
+  line.option("--save", options.save, "write one HTML file that plays, instead of serving a page");
   line.flag("--force", options.overwrite, "overwrite the file of --save");
   declare_lenient(line, options.lenient);
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: every one, lo too)");
+              "for groups: interface name, address or index (default: all, including lo)");
   line.offer("--iface", kInterfaces);
-  line.option("--key", options.key, "key file: reads what is sealed");
+  line.option("--key", options.key, "key file: reads sealed datagrams");
   line.option("--pool", options.source.pool,
-              "groups to join behind the base group (default: 256; 0 for udp://)");
+              "groups to join after the base group (default: 256; 0 for udp://)");
   add_metrics_flag(line, options.metrics);
   return line.parse(arguments, console);
 }

@@ -15,13 +15,12 @@ namespace {
 
 void add_common_flags(CommandLine& line, ViewFlags& flags) {
   line.option("--listen", flags.listen,
-              "address of this host that the page is served at (default: 127.0.0.1, this host "
-              "alone; 0.0.0.0: all)");
+              "address to serve the page on (default: 127.0.0.1, only this host; 0.0.0.0: all)");
   line.option("--tls", flags.tls,
-              "serve the page by https with this certificate and its key, both in PEM", "CERT KEY");
+              "serve the page over HTTPS with this certificate and its key (PEM)", "CERT KEY");
   line.flag("--behind-tunnel", flags.behind_tunnel,
-            "with a key: --listen without --tls, since a VPN or an SSH tunnel alone reaches that "
-            "address");
+            "with a key: permit --listen without --tls, because only a VPN or SSH tunnel reaches "
+            "that address");
   line.flag("--open", flags.open, "open the page in the browser of this host");
 }
 
@@ -39,8 +38,7 @@ void add_view_flags(CommandLine& line, ViewFlags& flags) {
 
 void add_view_switch(CommandLine& line, ViewSwitch& typed) {
   line.flag("--view", typed.view,
-            "serve a page for the browser, at this port of this host (--view=9000; default: 8642 "
-            "or the next free)");
+            "serve a browser page on this port (--view=9000; default: 8642 or the next free)");
   add_common_flags(line, typed.page);
 }
 

@@ -23,10 +23,9 @@ namespace reckon::bench {
 namespace {
 
 constexpr std::string_view kSummary =
-    "Makes the figures of the thesis' chapters 3 to 5 anew: each experiment as CSV and SVG, each "
-    "drawing as SVG, all on one page, with the number that the thesis prints beside ours and why "
-    "they differ.\n\n"
-    "NAME is the number of a figure; without one all are made. Files that are there are replaced.";
+    "Recomputes the figures of chapters 3 to 5 of the thesis: each experiment as CSV and SVG, each "
+    "drawing as SVG, and one page with printed and computed numbers and why they differ.\n\n"
+    "NAME is the number of a figure (default: all). Existing files are replaced.";
 constexpr std::string_view kExamples =
     "reckon figures\n"
     "reckon figures 3.5 4.3 --out pictures\n"
@@ -270,10 +269,10 @@ class FiguresStudy final : public Study {
   std::vector<Flag> flags() override {
     std::string all;
     for (const FigureKind& kind : figure_kinds()) all.append(kind.name).append(" ");
-    return {{"NAME", &shared_.files, "numbers of figures, as 3.5", all},
-            {"--out", &folder_, "folder for the files, made where it is not there"},
-            {"--list", &is_list_, "say which figures there are and make none"},
-            {"--json", &shared_.json, "one object a figure"}};
+    return {{"NAME", &shared_.files, "numbers of figures, such as 3.5", all},
+            {"--out", &folder_, "folder for the files, created if it does not exist"},
+            {"--list", &is_list_, "list the figures, and compute none"},
+            {"--json", &shared_.json, "one JSON object per figure"}};
   }
 
   StudyOutput run(const StudyCall& call) override {

@@ -246,11 +246,12 @@ std::string latency_text(const LatencyOptions& options, const Latencies& found) 
                                      {"touch, servo to servo", &found.touch},
                                      {"one servo step to the next", &found.servo_steps}};
   return fmt::format(
-      "{}On {}, two peers in one process, in turn for {:.0f} s. A servo sees news at its next "
-      "step: 0 to 1 ms of a touch are that wait.\n{} touches did not show in time; the peers took "
-      "{:.1f} % of a core each{}\n",
+      "{}On {}, two peers in one process, in turn for {:.0f} s. A servo applies updates at its "
+      "next step: 0 to 1 ms of a touch are this wait.\n"
+      "{} touches did not arrive in time; each peer used {:.1f} % of a core{}\n",
       table_of(rows, row_fields), options.iface, pdu::to_seconds(options.length), found.missed,
-      100 * found.cpu_of_peer(), found.real_time ? "" : "; no real-time right, see reckon doctor");
+      100 * found.cpu_of_peer(),
+      found.real_time ? "" : "; no real-time privilege, see reckon doctor");
 }
 
 std::string latency_json(const LatencyOptions& options, const Latencies& found) {
@@ -287,11 +288,10 @@ class LatencyStudy final : public Study {
  public:
   std::vector<Flag> flags() override {
     return {
-        {"--iface", &options_.iface, "latency: interface that is used (lo)",
-         std::string(tools::kInterfaces)},
-        {"--key", &options_.key, "latency: key file, of a touch that is sealed"},
+        {"--iface", &options_.iface, "latency: interface (lo)", std::string(tools::kInterfaces)},
+        {"--key", &options_.key, "latency: key file; seals the touch"},
         {"--contact-groups", &options_.touch_tier,
-         "latency: the touch goes by a group of its own, as [[aoim.tier]] to = \"touch\" has it"}};
+         "latency: send the touch to a group of its own, as with [[aoim.tier]] to = \"touch\""}};
   }
 
   StudyOutput run(const StudyCall& call) override {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Protocol of `bench scale --whole hosts`: a host sends one JSON object a line and receives one
+// Protocol of `bench scale --whole hosts`: a host sends one JSON object per line and receives one
 // word a line.
 #pragma once
 

@@ -188,14 +188,14 @@ std::vector<Flag> StabilityWords::flags() {
     names.push_back(parameter.name);
   for (const CouplingMode mode : kCouplingModes) known.push_back(name_of(mode));
   return {{"--sweep", &sweeps,
-           fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once an axis; all else stays as FILE "
-                       "has it; names: {}",
+           fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once per axis; other values are as "
+                       "in FILE; names: {}",
                        fmt::join(names, ", "))},
           {"--coupling", &modes,
-           fmt::format("stability: modes between commas, or all (the default): {}",
+           fmt::format("stability: modes separated by commas, or all (the default): {}",
                        fmt::join(known, ", "))},
           {"--no-gate", &no_gate,
-           "stability: the mode reckon without its energy port, told wherever it shows"},
+           "stability: the mode reckon without its energy port; all results are marked"},
           {"--hand", &hand, "stability: recorded trace that the hand follows"},
           {"--peak", &peak, "stability: force above which peaks are counted (10 N)"}};
 }

@@ -24,12 +24,12 @@ namespace reckon::bench {
 namespace {
 
 constexpr std::string_view kSummary =
-    "Says which model and threshold of dead reckoning suit recorded motion: the curve of bandwidth "
+    "Finds the model and threshold of dead reckoning for recorded motion: the curve of bandwidth "
     "against error, its knee, and lines for a scene file.\n\n"
-    "FILE is a CSV table with a header (t_s, id, x_m y_m z_m or lat_deg lon_deg, and rates where "
-    "it has them) or a capture. Errors are those that a peer shows at the samples' times. Exit "
-    "status 1 where no setting reaches --error or --budget, for a damaged capture, and where hands "
-    "never touched.";
+    "FILE is a CSV table with a header (t_s, id, x_m y_m z_m or lat_deg lon_deg, and optional "
+    "rates) or a capture. Errors are those of the shown pose at the samples' times. Exit status 1 "
+    "if no setting reaches --error or --budget, if the capture is damaged, or if hands never "
+    "touched.";
 constexpr std::string_view kExamples =
     "reckon tune tracks.csv\n"
     "reckon tune tracks.csv --error 0.5m --plot curve.svg\n"
@@ -273,31 +273,32 @@ class TuneStudy final : public Study {
          "CSV table of motion or capture; with --force a CSV table of a force, or a scene file "
          "(default: two_hands.toml)"},
         {"--error", &w.error, kMotion,
-         "the cheapest setting whose p99 error is within this, as in 0.5m"},
+         "find the cheapest setting with at most this p99 error, such as 0.5m"},
         {"--budget", &w.budget, kMotion,
-         "the most accurate setting within this: 10kB/s, or packets a second as in 40"},
-        {"--models", &w.models, kMotion, "which to try, as in auto,rvw; default: all that differ"},
+         "find the most accurate setting within this: 10kB/s, or packets per second, such as 40"},
+        {"--models", &w.models, kMotion,
+         "models to try, such as auto,rvw; default: all that differ"},
         {"--thresholds", &w.thresholds, kMotion,
-         "which to try, as in 0.1m,0.5m,1m; default: 1-2-5 from a hundredth to ten times the "
-         "median way between samples, or in 0.1s"},
+         "thresholds to try, such as 0.1m,0.5m,1m; default: 1-2-5 from 0.01 to 10 times the median "
+         "distance between samples, or in 0.1s"},
         {"--angle", &w.angle, kMotion,
-         "threshold of orientation; default 3deg where the file tells orientations, else none"},
-        {"--heartbeat", &w.heartbeat, kMotion, "an update at least so often, default 5s"},
+         "threshold of orientation; default 3deg if the file has orientations, else none"},
+        {"--heartbeat", &w.heartbeat, kMotion, "longest time between two updates, default 5s"},
         {"--delay", &w.delay, kNetworked,
          "mean delay of the network, default none; with --force and a scene too"},
         {"--jitter", &w.jitter, kNetworked,
-         "delays differ by up to this share of --delay, as in 40%"},
-        {"--loss", &w.loss, kNetworked, "share of updates that are lost, as in 10%"},
+         "variation of the delay, as a share of --delay, such as 40%"},
+        {"--loss", &w.loss, kNetworked, "share of lost updates, such as 10%"},
         {"--seed", &w.seed, kNetworked, "of delay and loss (1; with --force the scene's)"},
         {"--plot", &w.plot, kMotion, "write the curve to this SVG file"},
-        {"--all", &w.all, kMotion, "every row of the table, model by model, not only the front"},
-        {"--force", &w.force, "a force: by the deadband without a model, or contacts of a scene"},
-        {"--columns", &w.columns, kSignal, "with --force: one to three columns, as in fx_N,fy_N"},
-        {"--floor", &w.floor, kSignal,
-         "with --force: differences below are never sent, default 50mN"},
+        {"--all", &w.all, kMotion,
+         "print every row of the table, model by model, not only the front"},
+        {"--force", &w.force, "tune a recorded force with a deadband, or the contacts of a scene"},
+        {"--columns", &w.columns, kSignal, "with --force: one to three columns, such as fx_N,fy_N"},
+        {"--floor", &w.floor, kSignal, "with --force: least difference that is sent, default 50mN"},
         {"--for", &w.length, kContact,
-         "with --force and a scene: how long the hands move, default 60s"},
-        {"--json", &w.json, "one JSON object a line for each setting, then the recommendation"},
+         "with --force and a scene: duration of the motion, default 60s"},
+        {"--json", &w.json, "one JSON object per line for each setting, then the recommendation"},
         {"--csv", &w.as_csv, "the table as CSV"},
     };
   }

@@ -27,11 +27,10 @@ namespace {
 using peer::format_quantity;
 
 constexpr std::string_view kSummary =
-    "Says which stiffness and damping of a wall a device can show, sampled and with its delay: the "
-    "border of passivity by theory, and measured, sample by sample with held forces.\n\n"
-    "SCENE is a scene file, whose [[device]] tables say damping, rate, delay and largest stiffness "
-    "(the mass stands in none: --mass); flags go before what it says. Without one: 0.1 kg, 1 N "
-    "s/m, 1 kHz, no delay.";
+    "Computes the stiffness and damping of a wall that a sampled device with delay can render: the "
+    "passivity limit by theory, and measured in simulation with held forces.\n\n"
+    "SCENE is a scene file with damping, rate, delay and largest stiffness of each [[device]] (it "
+    "has no mass: --mass); flags override it. Default: 0.1 kg, 1 N s/m, 1 kHz, no delay.";
 constexpr std::string_view kExamples =
     "reckon zwidth\n"
     "reckon zwidth --damping 2 --rate 4kHz --delay 1ms --report zwidth.html\n"
@@ -47,16 +46,14 @@ constexpr std::string_view kPageStyle = "section>svg{display:block;width:100%;ma
 
 constexpr std::array<std::array<std::string_view, 2>, 7> kMeanings{{
     {"DAMPING", "of the wall, B [N s/m]; all others [N/m]"},
-    {"(3.8)",
-     "2 (b - |B|)/T: right without delay ((3.7), from which it is said to follow, lost its K in "
-     "print)"},
-    {"PASSIVE TO", "(3.5) with the delay, solved for the spring"},
-    {"ENERGY FROM", "measured: a stiffer one gives energy to a hand that moves it to and fro"},
-    {"OFF", "of what is measured from PASSIVE TO"},
-    {"SWINGS FROM", "measured: the handle, held by nobody, swings ever wider"},
+    {"(3.8)", "2 (b - |B|)/T: correct without delay (the printed (3.7), its source, lacks K)"},
+    {"PASSIVE TO", "(3.5) with the delay, solved for the stiffness"},
+    {"ENERGY FROM", "measured: a stiffer wall gives energy to a hand that moves back and forth"},
+    {"OFF", "deviation of the measurement from PASSIVE TO"},
+    {"SWINGS FROM", "measured: from here the free handle oscillates with growing amplitude"},
     {"SHOWN TO",
-     "what the servo lets a wall of a scene have, the rest kept for hands and as margin; dampers "
-     "above 3/8 of the device's cost no more of it"},
+     "limit of the servo for walls of a scene; the rest is for hands and margin; dampers above 3/8 "
+     "of the device's reduce it no further"},
 }};
 
 struct ZWidthReport {
@@ -188,19 +185,19 @@ class ZWidthStudy final : public Study {
 
   std::vector<Flag> flags() override {
     return {
-        {"SCENE", &scene_, "scene file whose device is looked at"},
+        {"SCENE", &scene_, "scene file with the device"},
         {"--device", &device_, "which device of SCENE, from 1, peer by peer (1)"},
-        {"--mass", &mass_, "of the handle and what moves with it (100g)"},
+        {"--mass", &mass_, "moving mass of the device at the handle (100g)"},
         {"--damping", &damping_, "of the device itself (1 N s/m)"},
         {"--rate", &rate_, "of the servo (1kHz)"},
         {"--delay", &shared_.delay,
-         "until a force is at the handle; whole periods, rounded up (0s)"},
+         "delay until a force acts at the handle; whole periods, rounded up (0s)"},
         {"--walls", &walls_,
-         "dampings of the wall, as 0..0.5/11 or 0,0.2,0.4 N s/m (21, up to the device's)"},
+         "dampings of the wall, such as 0..0.5/11 or 0,0.2,0.4 N s/m (21, up to the device's)"},
         {"--csv", &shared_.csv, "write all figures to this file"},
         {"--svg", &shared_.plot, "write the picture to this file"},
         {"--report", &shared_.report, "write one HTML page with picture and table"},
-        {"--json", &shared_.json, "one JSON object for each damping"},
+        {"--json", &shared_.json, "one JSON object per damping"},
     };
   }
 

@@ -167,7 +167,7 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
            {"force == friendly", 1, "forces are newtons; the force ID of an entity is 'side'"},
            {"entity.force == 1", 1, "the force ID of an entity is 'entity.side'"},
            {"rule == E-LENGHT", 9, "did you mean 'E-LENGTH'?"},
-           {"rule == W-SIDE", 9, "it is rule that the octets break"},
+           {"rule == W-SIDE", 9, "it is the violated rule"},
            {"entity_type.kind == platfrom", 21, "did you mean 'platform'?"},
            {"munition_type.domain == anti-amor", 25, "did you mean 'anti_armor'?"},
            {"country == germny", 12, "did you mean 'germany'?"},

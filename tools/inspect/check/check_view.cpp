@@ -306,7 +306,7 @@ void CheckView::summary(const InspectTally& tally, std::string& out) const {
 namespace view {
 
 InspectViewKind check() {
-  return {"check", "what is wrong and how to mend it", true,
+  return {"check", "errors with remedies", true,
           [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
             return std::make_unique<CheckView>(options.format(), console.colour);
           }};

@@ -56,7 +56,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
   line.option("--within", options.within,
               "arrivals farther apart than this count as different (default: none does)");
   line.option("--step", options.step, "time between the instants of poses and forces");
-  line.flag("--json", options.json, "one JSON object a line");
+  line.flag("--json", options.json, "one JSON object per line");
   line.flag("--csv", options.csv, "one table: what, key, a, b, difference");
   if (const auto status = line.parse(arguments, console)) return status;
   if (options.json && options.csv) throw UsageError("take --csv or --json");

@@ -101,12 +101,12 @@ void TopView::write(const TrafficRates::Rates& rates, std::string& out) const {
 namespace view {
 
 InspectViewKind top() {
-  return {"top",
-          "one line an entity: rate, why it was sent, how far it jumped (the default, live on a "
-          "terminal)",
-          true, [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
-            return std::make_unique<TopView>(options, console);
-          }};
+  return {
+      "top",
+      "one line per entity: rate, reason and jump of its updates (the default, live on a terminal)",
+      true, [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
+        return std::make_unique<TopView>(options, console);
+      }};
 }
 
 }  // namespace view

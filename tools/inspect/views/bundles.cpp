@@ -134,7 +134,7 @@ void BundlesView::csv(const peer::SourceDatagram& datagram, std::string& out) co
 namespace view {
 
 InspectViewKind bundles() {
-  return {"bundles", "one line a datagram", true,
+  return {"bundles", "one line per datagram", true,
           [](const InspectOptions& options, const Console&) -> std::unique_ptr<View> {
             return std::make_unique<BundlesView>(options.format());
           }};

@@ -75,7 +75,7 @@ class EmissionsView final : public View {
 namespace view {
 
 InspectViewKind emissions() {
-  return {"emissions", "who emits what, since when: emitters with their beams, IFF, radios", false,
+  return {"emissions", "active emitters with their beams, IFF, radios, and since when", false,
           [](const InspectOptions& options, const Console&) -> std::unique_ptr<View> {
             return std::make_unique<EmissionsView>(options.json);
           }};

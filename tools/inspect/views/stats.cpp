@@ -258,7 +258,7 @@ void StatsView::csv_table(std::string_view by, std::string& out) const {
 namespace view {
 
 InspectViewKind stats() {
-  return {"stats", "how much of what by whom", true,
+  return {"stats", "counts by PDU type, sender, group and entity", true,
           [](const InspectOptions& options, const Console&) -> std::unique_ptr<View> {
             return std::make_unique<StatsView>(options.format(), options.by);
           }};

@@ -42,7 +42,7 @@ class TailView final : public View {
 namespace view {
 
 InspectViewKind tail() {
-  return {"tail", "one line a PDU (the default for files, pipes and --json)", false,
+  return {"tail", "one line per PDU (the default for files, pipes and --json)", false,
           [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
             return std::make_unique<TailView>(options, console.colour);
           }};
