@@ -95,7 +95,7 @@ struct Federate::Participation {
     if (registered || (hand && or_hand)) return;
     throw std::logic_error(
         "object " + std::to_string(object.number) +
-        (hand ? " is a hand, which its device moves" : " is not registered, or was deleted"));
+        (hand ? " is a hand and follows its device" : " is not registered, or was deleted"));
   }
 
   // Sends the requests of this thread to the loop, unless it still processes the last ones.
@@ -208,12 +208,13 @@ ObjectHandle Federate::register_object(const EntityDescription& description,
                   [&](const EntityClass& entities) { return entities.contains(description.type); });
   if (!published)
     throw std::logic_error("entity type " + written(description.type) +
-                           " is not published: call publish(EntityClass{type}) before");
+                           " is not published: call publish(EntityClass{type}) first");
   check_marking(description.marking);
   const auto number = s.numbers.take();
   if (!number)
-    throw std::length_error("a federate owns " + std::to_string(kMostOwned) +
-                            " entities at most: join another one, with another application");
+    throw std::length_error(
+        "a federate owns " + std::to_string(kMostOwned) +
+        " entities at most: join another federate with another application number");
   s.alive.resize(std::max(s.alive.size(), std::size_t{*number} + 1));
   s.alive[*number] = true;
   s.wishes().registered.push_back({*number, description});
@@ -278,7 +279,7 @@ void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
   const auto& published = participation_->published_interactions;
   if (std::find(published.begin(), published.end(), type) == published.end())
     throw std::logic_error("PDU type " + std::to_string(static_cast<int>(type)) +
-                           " is not published: call publish<pdu::Type>() before");
+                           " is not published: call publish<pdu::Type>() first");
   Wishes& wishes = participation_->wishes();
   std::optional<aoim::Position> at;
   if (place) at = to_position(*place);

@@ -87,11 +87,12 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene->network;
   if (network.key.empty()) {
     if (network.touch_rule().wants_key())
-      throw std::invalid_argument("'touch' of the scene is members, which only a key can prove");
+      throw std::invalid_argument("'touch' of the scene is members, which requires a key");
     return link;
   }
   if (network.interop)
-    throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
+    throw std::invalid_argument(
+        "'interop' needs plain DIS, and a key seals it: remove one of them");
   network.group = sealed_group(network.group);
   SealedLinkOptions sealing;
   sealing.key = load_group_key(network.key);

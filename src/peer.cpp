@@ -75,8 +75,8 @@ std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
       scene.objects, [](const auto& object) { return object.carried || object.matter.mass > 0; });
   if (moving > static_cast<long>(kMostSharedBodies)) {
     throw std::invalid_argument("the scene moves " + std::to_string(moving) +
-                                " objects, and peers share at most " +
-                                std::to_string(kMostSharedBodies) + ": take the mass of some out");
+                                " objects, and the limit is " + std::to_string(kMostSharedBodies) +
+                                ": remove the mass of some");
   }
   if (devices.empty()) return nullptr;
   return haptics::make_bodies(haptics::EffectPlan(scene), scene, std::move(mover));

@@ -79,7 +79,7 @@ bool ArchiveDecompressor::open() {
     return false;
   }
   if (archive_filter_count(archive_.get()) > 2) {  // the method, and the file
-    error_ = fmt::format("it is compressed by {} more than once; decompress it first", method_);
+    error_ = fmt::format("it is compressed more than once by {}; decompress it first", method_);
     return false;
   }
   const int result = archive_read_next_header(archive_.get(), &entry);
@@ -90,7 +90,7 @@ bool ArchiveDecompressor::open() {
 
 void ArchiveDecompressor::fail() {
   const char* reason = archive_error_string(archive_.get());
-  error_ = fmt::format("what {} compressed is damaged: {}", method_,
+  error_ = fmt::format("its {} data is damaged: {}", method_,
                        reason != nullptr ? reason : "no reason is known");
 }
 

@@ -46,7 +46,7 @@ int create(const std::string& path, bool overwrite) {
   if (std::error_code none; std::filesystem::is_directory(path, none))
     throw CaptureWriteError(path + " is a folder; name a file in it");
   if (error == EEXIST)
-    throw CaptureWriteError(path + " exists; take another name, or --force to overwrite it");
+    throw CaptureWriteError(path + " exists; choose another name, or --force to overwrite it");
   throw CaptureWriteError(
       fmt::format("{} cannot be written: {}; choose another place", path, std::strerror(error)));
 }
@@ -90,7 +90,7 @@ bool CaptureOutput::remove() const {
     return false;
   if (::unlink(path_.c_str()) == 0) return true;
   throw CaptureWriteError(
-      fmt::format("{} cannot be removed: {}; all files together would exceed their bound", path_,
+      fmt::format("{} cannot be removed: {}; the total size would exceed its limit", path_,
                   std::strerror(errno)));
 }
 

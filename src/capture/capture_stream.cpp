@@ -90,10 +90,10 @@ std::string CaptureStream::problem() const {
   if (!zstd_) return {};
   const std::uint64_t whole = zstd_->frames();
   if (!zstd_->error().empty())
-    return fmt::format("its zstd frame {} is damaged: {}; {} before it are whole", whole + 1,
+    return fmt::format("its zstd frame {} is damaged: {}; {} before it are intact", whole + 1,
                        zstd_->error(), whole);
   if (at_end_ && zstd_->inside_frame())
-    return fmt::format("it ends within a zstd frame: {} of {} are whole", whole, whole + 1);
+    return fmt::format("it ends within a zstd frame: {} of {} are intact", whole, whole + 1);
   return {};
 }
 

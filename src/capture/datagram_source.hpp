@@ -106,13 +106,14 @@ struct SourceReport {
     visit("frames_skipped", "frames without UDP", skipped);
     visit("frames_malformed", "of these, frames with broken IP or UDP headers", malformed);
     visit("kernel_drops", "datagrams lost because the receive buffer was full", dropped);
-    visit("copies_in", "copies of datagrams that came over several interfaces, left out", copies);
+    visit("copies_in", "ignored copies of datagrams that arrived on several interfaces", copies);
     visit("fragments_in", "IP fragments", fragments.frames);
-    visit("fragmented_datagrams_in", "datagrams put together from fragments", fragments.whole);
-    visit("fragmented_datagrams_lost", "datagrams given up, because fragments are missing",
+    visit("fragmented_datagrams_in", "datagrams reassembled from fragments", fragments.whole);
+    visit("fragmented_datagrams_lost", "datagrams dropped because fragments are missing",
           fragments.lost);
     visit("fragmented_datagrams_refused",
-          "datagrams refused, because fragments contradict each other", fragments.overlapping);
+          "datagrams refused because fragments overlap with different octets",
+          fragments.overlapping);
   }
 };
 

@@ -96,13 +96,13 @@ void set_udp_filter(pcap_t* handle) {
 
 std::string interface_problem(const std::string& name, int status, const std::string& reason) {
   if (status == PCAP_ERROR_NO_SUCH_DEVICE)
-    return name + ": there is no such interface; `ip link` lists the names";
+    return name + ": no such interface; `ip link` lists them";
   if (status == PCAP_ERROR_PERM_DENIED)
     return name +
            ": capturing is not allowed; run as root, or setcap cap_net_raw+ep on the program";
   if (status == PCAP_ERROR_IFACE_NOT_UP)
     return name + ": the interface is down; ip link set " + name + " up";
-  return name + ": " + reason + "; take another interface, `ip link` lists them";
+  return name + ": " + reason + "; choose another interface; `ip link` lists them";
 }
 
 /// Whether the file begins as pcapng; consumes nothing.
@@ -152,7 +152,7 @@ std::optional<LinkLayer> link_layer_of(int link_type) noexcept {
 std::string unread_link_type(int link_type) {
   const char* known = pcap_datalink_val_to_name(link_type);
   return "link type " + std::to_string(link_type) + " (" + (known != nullptr ? known : "unknown") +
-         ") is not read here; capture on an Ethernet, loopback or 'any' interface";
+         ") is not supported; capture on an Ethernet, loopback or 'any' interface";
 }
 
 bool step_back(std::FILE* file, off_t position) {

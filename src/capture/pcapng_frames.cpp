@@ -169,7 +169,7 @@ bool PcapngFrames::read_into_buffer(std::size_t count) {
 FrameEvent PcapngFrames::at_end(off_t begin, std::size_t held, std::size_t wanted) {
   if (grows_ && step_back(file_.get(), begin)) return FrameEvent::nothing_yet;
   if (held == 0) return FrameEvent::end;
-  fail(fmt::format("truncated: {} of {} octets of a block are there", held, wanted));
+  fail(fmt::format("truncated: only {} of {} octets of a block", held, wanted));
   return FrameEvent::damaged;
 }
 
@@ -178,7 +178,8 @@ bool PcapngFrames::read_byte_order() {
   const auto magic = number<std::uint32_t>(buffer_, 8);
   is_swapped_ = magic != kByteOrderMagic;
   if (is_swapped_ && number<std::uint32_t>(buffer_, 8) != kByteOrderMagic)
-    return fail(fmt::format("a section header without the byte-order magic, but {:#010x}", magic));
+    return fail(
+        fmt::format("a section header with {:#010x} instead of the byte-order magic", magic));
   interfaces_.clear();
   return true;
 }
@@ -214,7 +215,7 @@ bool PcapngFrames::take_description(const Block& block) {
   if (block.type == kInterfaceDescription) return take_interface(block.body);
   if (block.type != kSectionHeader) return true;
   const auto version = number<std::uint16_t>(block.body, 4);
-  return version == 1 || fail(fmt::format("pcapng of version {} is not read here", version));
+  return version == 1 || fail(fmt::format("pcapng version {} is not supported", version));
 }
 
 bool PcapngFrames::take_interface(std::span<const std::byte> body) {
@@ -264,7 +265,7 @@ bool PcapngFrames::take_packet(const Block& block, CapturedFrame& out) {
   if (block.type == kObsoletePacket) id = number<std::uint16_t>(body, 0);
   if (id >= interfaces_.size())
     return fail(
-        fmt::format("a packet of interface {}, of {} that are described", id, interfaces_.size()));
+        fmt::format("a packet of interface {}, but {} are described", id, interfaces_.size()));
   const Interface& interface = interfaces_[id];
   std::size_t held = 0;
   if (is_simple) {

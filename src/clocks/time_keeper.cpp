@@ -13,8 +13,9 @@ using std::chrono::nanoseconds;
 TimeKeeper::TimeKeeper(std::uint32_t epoch, std::uint8_t exercise, Counters& counters)
     : epoch_(epoch),
       exercise_(exercise),
-      clock_leaps_(counters.make("clock_leaps", "leaps of this host's clock, not followed")),
-      exchanges_(counters.make("time_exchanges", "answers that tell of a peer's clock")),
+      clock_leaps_(
+          counters.make("clock_leaps", "jumps of this host's clock that were not followed")),
+      exchanges_(counters.make("time_exchanges", "answers with a peer's clock")),
       exchanges_refused_(
           counters.make("time_exchanges_refused", "such answers with impossible times")) {}
 

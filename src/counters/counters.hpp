@@ -37,12 +37,12 @@ struct CounterGroup {
 
 /// Arrived datagrams that were not taken. A datagram counts in one of these counters.
 inline constexpr CounterGroup kRefusedDatagrams{"datagrams_refused", "cause",
-                                                "datagrams that arrived and were not taken"};
+                                                "datagrams that arrived and were not accepted"};
 /// Shares of `updates_out`.
 inline constexpr CounterGroup kUpdatesByReason{"updates_sent_by_reason", "reason",
-                                               "own updates sent, by what made them due"};
+                                               "own updates sent, by reason"};
 inline constexpr CounterGroup kUpdatesByTier{"updates_sent_by_tier", "tier",
-                                             "own updates sent, by who they are for"};
+                                             "own updates sent, by recipient tier"};
 
 /// One counter as a reader sees it. The texts live as long as the counters.
 struct CounterReading {

@@ -22,8 +22,8 @@ AoimWatch::AoimWatch(const SceneFile& scene, Counters& counters)
     : scene_(scene),
       updates_refused_(counters.make(
           "updates_refused", "own PDUs that could not be queued: too long, broken, or no room")),
-      peers_not_joined_(counters.make("peers_not_joined",
-                                      "announcements of peers for whom the table has no room")),
+      peers_not_joined_(
+          counters.make("peers_not_joined", "announcements of peers beyond the table's size")),
       entities_outside_(counters.make("entities_outside",
                                       "updates of entities outside the radius of interest")) {}
 
@@ -43,12 +43,11 @@ void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::Subscription
 void AoimWatch::report_cap(const aoim::SubscriptionChange& change) noexcept {
   const Turn turn = capped_.turn(change.uncovered > 0, now_);
   if (turn == Turn::begins) {
-    report(
-        NoticeKind::groups_capped,
-        "{} groups within the radius are not joined: [aoim] groups = {} is reached; all is heard "
-        "within {:.3g} m of {:.3g} m only",
-        change.uncovered, scene_.aoim.groups, change.covered_share * scene_.aoim.radius,
-        scene_.aoim.radius);
+    report(NoticeKind::groups_capped,
+           "{} groups within the radius are not joined, because [aoim] groups = {} is reached: "
+           "reception is complete only within {:.3g} m of {:.3g} m",
+           change.uncovered, scene_.aoim.groups, change.covered_share * scene_.aoim.radius,
+           scene_.aoim.radius);
   }
   if (turn == Turn::ends)
     end(NoticeKind::groups_capped, "all groups within the radius are joined again");
@@ -60,11 +59,10 @@ void AoimWatch::report_full(const aoim::Presence& presence) noexcept {
   peers_not_joined_.set(count);
   if (turn == Turn::begins) {
     report(NoticeKind::peers_full,
-           "{} peers are known and there is room for no more: others are not joined",
+           "the table of peers is full with {}: further peers are not joined",
            presence.peers().size());
   }
-  if (turn == Turn::ends)
-    end(NoticeKind::peers_full, "no peer is left out for want of room any more");
+  if (turn == Turn::ends) end(NoticeKind::peers_full, "the table of peers has room again");
 }
 
 void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept {
@@ -73,7 +71,7 @@ void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept
   given_up_before_ = count;
   if (turn == Turn::begins) {
     report(NoticeKind::numberings_full,
-           "more than {} senders in groups are heard: lost datagrams are not all counted",
+           "more than {} senders in groups are received: lost datagrams are not all counted",
            sequences.size());
   }
   if (turn == Turn::ends) end(NoticeKind::numberings_full, "all lost datagrams are counted again");
@@ -101,16 +99,14 @@ void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (inside || !outside || all_outside_reported_) return;
   all_outside_reported_ = true;
   if (scene_.network.interop) {
-    report(
-        NoticeKind::nothing_near,
-        "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
-        "{:.4g} m; raise it to see them",
-        nearest, scene_.aoim.radius);
+    report(NoticeKind::nothing_near,
+           "entities are received but none is shown: the nearest is {:.4g} m away and [aoim] "
+           "radius is {:.4g} m; raise it to show them",
+           nearest, scene_.aoim.radius);
   } else {
     report(
         NoticeKind::nothing_near,
-        "{} other peers are there and nothing of theirs is within [aoim] radius = {:.4g} m; raise "
-        "it to see farther",
+        "{} other peers have no entity within [aoim] radius = {:.4g} m; raise it to receive more",
         peers, scene_.aoim.radius);
   }
 }

@@ -49,7 +49,7 @@ void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& bef
   } else if (!listens && before.reported) {
     before.reported = false;
     static_cast<void>(
-        out.push(make_notice(NoticeKind::beacon, "beacon {} is nowhere", before.name)));
+        out.push(make_notice(NoticeKind::beacon, "beacon {} is in no cell", before.name)));
   }
 }
 
@@ -65,11 +65,10 @@ void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseco
       one.reported = false;
     } else if (now - one.ours >= kDisputed && !one.reported) {
       one.reported = true;
-      static_cast<void>(out.push(
-          make_notice(NoticeKind::beacon_disputed,
-                      "beacon {} is another peer's, in cell {},{}: who follows it goes there, give "
-                      "one of the two another name",
-                      one.name, row->column, row->row)));
+      static_cast<void>(out.push(make_notice(NoticeKind::beacon_disputed,
+                                             "another peer carries beacon {}, in cell {},{}, and "
+                                             "followers join that cell: rename one of the two",
+                                             one.name, row->column, row->row)));
     }
   }
 }

@@ -45,11 +45,10 @@ void BudgetKeeper::ask_for_less(const RemoteEntities& remote, aoim::AreaOfIntere
   aoim.set_stretch(budget.stretch);
   const NoticeCondition::Turn turn = stretched_.turn(budget.stretch > 1.0, now);
   if (turn == NoticeCondition::Turn::begins) {
-    static_cast<void>(out.push(make_notice(
-        NoticeKind::stretched,
-        "entities in range would send more than {:.4g} B/s: distances count {:.3g} times as long "
-        "([aoim] budget)",
-        budget_, budget.stretch)));
+    static_cast<void>(out.push(make_notice(NoticeKind::stretched,
+                                           "entities in range would send more than {:.4g} B/s: "
+                                           "distances are multiplied by {:.3g} ([aoim] budget)",
+                                           budget_, budget.stretch)));
   } else if (turn == NoticeCondition::Turn::ends) {
     static_cast<void>(
         out.push(make_end(NoticeKind::stretched, "all entities in range fit the budget again")));
@@ -62,19 +61,18 @@ void BudgetKeeper::report_reach(Nanoseconds now, haptics::SpscRing<Notice>& out)
   if (unmet_.turn(limit_.is_unmet(), now) == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(
         make_notice(NoticeKind::budget_unmet,
-                    "[aoim] budget of {:.4g} B/s cannot be met: {:.4g} B/s are heard from the "
-                    "cells of our own entities and what our hands can reach, all others are left",
+                    "[aoim] budget of {:.4g} B/s cannot be met: the cells of our own entities and "
+                    "those that our hands can reach send {:.4g} B/s; all others were left",
                     budget_, limit_.heard())));
   }
   const bool settled = limit_.is_cut() ? limit_.is_met() : true;
   if (!settled) return;
   const NoticeCondition::Turn turn = cut_.turn(limit_.is_cut(), now);
   if (turn == NoticeCondition::Turn::begins) {
-    static_cast<void>(out.push(make_notice(
-        NoticeKind::budget_cut,
-        "cells farther than {:.3g} m are left: {:.4g} B/s were heard, {:.4g} B/s are now ([aoim] "
-        "budget of {:.4g} B/s)",
-        limit_.cut(), most_heard_, limit_.heard(), budget_)));
+    static_cast<void>(out.push(make_notice(NoticeKind::budget_cut,
+                                           "left cells farther than {:.3g} m: received {:.4g} B/s "
+                                           "before, {:.4g} B/s now ([aoim] budget of {:.4g} B/s)",
+                                           limit_.cut(), most_heard_, limit_.heard(), budget_)));
   } else if (turn == NoticeCondition::Turn::ends) {
     static_cast<void>(
         out.push(make_end(NoticeKind::budget_cut, "all cells in range fit the budget again")));

@@ -19,14 +19,14 @@ struct Fault {
 
 constexpr Fault kFaults[]{
     {[](const GuardReport& report) { return report.not_finite.load() > 0; },
-     "the effect {} of {} answers with what is no number: that counts as nothing"},
+     "the effect {} of {} returns values that are not finite: they count as 0"},
     {[](const GuardReport& report) { return report.too_strong.load() > 0; },
-     "the effect {} of {} gives forces above 100 N: they are cut to that"},
+     "the effect {} of {} gives forces above 100 N: they are limited to 100 N"},
     {[](const GuardReport& report) { return report.not_booked.load(); },
-     "the spring of the effect {} of {} is no function of depth or place with the energy and the "
-     "stiffness that it states: it is held for each sample and felt as far as energy is there"},
+     "the spring of the effect {} of {} does not match its stated energy and stiffness: its force "
+     "is held for each sample and limited to the available energy"},
     {[](const GuardReport& report) { return report.switched_off.load(); },
-     "the effect {} of {} is switched off: it took up to {:.1f} ms of a servo step"},
+     "the effect {} of {} is switched off, because it took up to {:.1f} ms of a servo step"},
 };
 static_assert(haptics::CallGuard::kMostForce == 100.0, "as the sentence says");
 

@@ -50,10 +50,9 @@ class LeaderName {
 LeaderWatch::LeaderWatch(Counters& counters, bool on) {
   view_.on = on;
   if (!on) return;
-  changes_ = &counters.make("leader_changes", "times that a cell or the scene got another leader");
+  changes_ = &counters.make("leader_changes", "changes of the leader of a cell or the scene");
   led_ = &counters.make_level("cells_led", "cells that this peer leads");
-  map_version_ =
-      &counters.make_level("group_map_version", "version of the map of groups that is in use");
+  map_version_ = &counters.make_level("group_map_version", "version of the map of groups in use");
   relayed_in_ =
       &counters.make("states_relayed_in", "states that leaders relayed to this peer as a newcomer");
   parts_out_ =

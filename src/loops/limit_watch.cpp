@@ -13,11 +13,12 @@ namespace reckon::peer {
 LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
     : capacity_(capacity),
       most_unfelt_(counters.make_level(
-          "hands_unfelt", "most bodies near a hand at once that were not felt, for want of room")),
-      table_full_{counters.make("table_full", "entities without room in the state table")},
+          "hands_unfelt",
+          "most bodies near a hand at once that were not felt, because the servo was full")),
+      table_full_{counters.make("table_full", "entities refused because the state table was full")},
       write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},
-      read_waits_{
-          counters.make("read_waits", "times that reading waited for a model loop that lags")},
+      read_waits_{counters.make("read_waits",
+                                "times that the read loop waited for a model loop that lags")},
       models_refused_{counters.make("models_refused", "force models with impossible values")},
       sealed_{counters.make("sealed_unread_in", "sealed datagrams received without a key")} {}
 
@@ -41,36 +42,36 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
   most_unfelt_.set(std::max<std::uint64_t>(most_unfelt_.value(), unfelt));
   const Turn crowds = unfelt_.turn(unfelt > 0, now);
   if (crowds == Turn::begins)
-    static_cast<void>(out.push(make_notice(
-        NoticeKind::crowded,
-        "more is near a hand than the {} bodies that a servo takes, most of it from {}: what goes "
-        "beyond a host's share is not felt",
-        haptics::kMaxRemoteHands, AddressText(crowder).view())));
+    static_cast<void>(
+        out.push(make_notice(NoticeKind::crowded,
+                             "more than the {} bodies of a servo are near a hand, most of them "
+                             "from {}: bodies beyond a host's share are not felt",
+                             haptics::kMaxRemoteHands, AddressText(crowder).view())));
   if (crowds == Turn::ends)
     static_cast<void>(
-        out.push(make_end(NoticeKind::crowded, "all that is near a hand is felt again")));
+        out.push(make_end(NoticeKind::crowded, "all bodies near a hand are felt again")));
   report(NoticeKind::table_full, table_full_.turn(now),
          "the table of remote entities is full with {} rows: further ones are not shown",
-         "all entities heard have room in the table again", capacity_);
+         "the table of remote entities has room again", capacity_);
   report(NoticeKind::write_full, write_overflow_.turn(now),
-         "the ring towards the network is full: updates are dropped",
-         "the ring towards the network has room again", 0);
+         "the ring to the network is full: updates are dropped",
+         "the ring to the network has room again", 0);
   report(NoticeKind::read_waits, read_waits_.turn(now),
-         "the ring from the network is full: what comes waits in the kernel's buffer",
+         "the ring from the network is full: datagrams wait in the kernel's buffer",
          "the ring from the network has room again", 0);
   report(NoticeKind::sealed, sealed_.turn(now),
-         "sealed exercise on this group: give [network] key, or --key FILE",
-         "no sealed datagram has been heard since", 0);
+         "the exercise of this group is sealed: set [network] key, or --key FILE",
+         "no sealed datagram was received since", 0);
   const Turn refuses = models_refused_.turn(now);
   if (refuses == Turn::begins)
-    static_cast<void>(out.push(make_notice(
-        NoticeKind::model_refused,
-        "the force model of {}:{}:{} is refused, its values are impossible: it is felt as before, "
-        "until that expires",
-        refused.site, refused.application, refused.entity)));
+    static_cast<void>(
+        out.push(make_notice(NoticeKind::model_refused,
+                             "the force model of {}:{}:{} has impossible values and is refused: "
+                             "its last valid model applies until it expires",
+                             refused.site, refused.application, refused.entity)));
   if (refuses == Turn::ends)
     static_cast<void>(
-        out.push(make_end(NoticeKind::model_refused, "no force model has been refused since")));
+        out.push(make_end(NoticeKind::model_refused, "no force model was refused since")));
 }
 
 }  // namespace reckon::peer

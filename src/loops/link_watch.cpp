@@ -35,7 +35,8 @@ LinkWatch::LinkWatch(Link& link, const GroupAddress& base, std::size_t longest_b
     : link_(link),
       longest_bundle_(longest_bundle),
       base_unjoined_(counters.make("base_unjoined", "1 while the base group is not joined")),
-      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
+      groups_unjoined_(
+          counters.make("groups_unjoined", "of these, groups that are still not joined")) {
   base.text().copy(base_.data(), base_.size() - 1);
 }
 
@@ -62,22 +63,20 @@ void LinkWatch::report_payload() noexcept {
   const std::size_t asked = std::exchange(longest_bundle_, 0), most = link_.max_payload();
   if (most > 0 && asked > most)
     report(NoticeKind::payload_cut,
-           "bundles are of at most {} octets, for the MTU takes no more: [network.bundle] max = {}",
-           most, asked);
+           "bundles are limited to {} octets by the MTU: [network.bundle] max = {}", most, asked);
 }
 
 void LinkWatch::report_base(bool is_deaf) noexcept {
   const Turn turn = deaf_.turn(is_deaf, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    report(
-        NoticeKind::base_unjoined,
-        "DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
-        "each second",
-        base_.data(), reason.what, reason.separator, reason.remedy);
+    report(NoticeKind::base_unjoined,
+           "DEAF: no peer is received, because the base group {} cannot be joined: {}{}{}; retries "
+           "each second",
+           base_.data(), reason.what, reason.separator, reason.remedy);
   }
   if (turn == Turn::ends)
-    end(NoticeKind::base_unjoined, "the base group {} is joined: peers can be heard", base_.data());
+    end(NoticeKind::base_unjoined, "the base group {} is joined: peers are received", base_.data());
 }
 
 // Confirmed in the next call: the two counts are written one after the other, and the base group
@@ -88,11 +87,11 @@ void LinkWatch::report_groups(std::uint64_t count) noexcept {
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
     report(NoticeKind::groups_unjoined,
-           "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
-           "each second",
+           "{} groups cannot be joined, and their datagrams are not received: {}{}{}; retries each "
+           "second",
            count, reason.what, reason.separator, reason.remedy);
   }
-  if (turn == Turn::ends) end(NoticeKind::groups_unjoined, "all groups could be joined");
+  if (turn == Turn::ends) end(NoticeKind::groups_unjoined, "all groups are joined");
 }
 
 // Whether all sends fail is known only after the call that finds the first failure, because that
@@ -115,26 +114,28 @@ void LinkWatch::report_sends() noexcept {
   }
   if (turn == Turn::ends) refusal_.reset();
   if (turn == Turn::ends)
-    end(NoticeKind::send_fails, "sending works again; {} datagrams were refused", at_.send_errors);
+    end(NoticeKind::send_fails, "sending works again; the kernel refused {} datagrams",
+        at_.send_errors);
   const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
   if (held == Turn::begins) {
     report(NoticeKind::held_back,
-           "the interface takes less than is sent: states that would wait for more than 50 ms are "
-           "left out; wider thresholds in [dead_reckoning] need less");
+           "the interface is slower than the traffic: states that would wait for more than 50 ms "
+           "are not sent; larger thresholds in [dead_reckoning] send less");
   }
   if (held == Turn::ends)
-    end(NoticeKind::held_back, "the interface takes all again; {} were left out", at_.held_back);
+    end(NoticeKind::held_back, "the interface sends everything again; {} were not sent",
+        at_.held_back);
 }
 
 void LinkWatch::report_drops() noexcept {
   const Turn turn = dropped_.turn(at_.kernel_drops > before_.kernel_drops, now_);
   if (turn == Turn::begins) {
     report(NoticeKind::kernel_drops,
-           "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
-           "net.core.rmem_max=33554432");
+           "the kernel drops datagrams, because its receive buffer is full: end other load, or "
+           "sysctl -w net.core.rmem_max=33554432");
   }
   if (turn == Turn::ends)
-    end(NoticeKind::kernel_drops, "the kernel drops no more; {} datagrams were lost",
+    end(NoticeKind::kernel_drops, "the kernel drops no datagrams any more; {} were lost",
         at_.kernel_drops);
 }
 

@@ -28,11 +28,12 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
       urgent_(urgent),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
-      waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
+      waits_(counters.make("read_waits",
+                           "times that the read loop waited for a model loop that lags")),
       too_long_(counters.make_in(kRefusedDatagrams, "too_long", "too_long_in",
-                                 "datagrams longer than any peer sends, dropped")),
+                                 "dropped datagrams that are longer than any of a peer")),
       muted_in_(counters.make_in(kRefusedDatagrams, "flood", "muted_in",
-                                 "datagrams of flooding senders, dropped unread")),
+                                 "datagrams of flooding senders, dropped without reading")),
       refused_{nullptr,
                &counters.make_in(kRefusedDatagrams, "version", "refused_version_in",
                                  "datagrams whose first octet is not a DIS version"),
@@ -45,10 +46,12 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
                &counters.make_in(kRefusedDatagrams, "no_length", "refused_no_length_in",
                                  "datagrams that begin with a PDU whose length field is 0")},
       join_errors_(counters.make("join_errors", "groups that could not be joined")),
-      groups_unjoined_(counters.make_level("groups_unjoined", "of these, how many still are not")),
+      groups_unjoined_(
+          counters.make_level("groups_unjoined", "of these, groups that are still not joined")),
       base_unjoined_(counters.make_level("base_unjoined", "1 while the base group is not joined")),
-      stale_(counters.make_in(kRefusedDatagrams, "stale", "stale_datagrams",
-                              "datagrams read more than 1 s after they had arrived, dropped")) {
+      stale_(counters.make_in(
+          kRefusedDatagrams, "stale", "stale_datagrams",
+          "datagrams dropped because they were read more than 1 s after arrival")) {
   unjoined_.reserve(aoim::kMaximumPool + 1);
   if (lenient) mended_.reserve(pdu::kMaxPduSize);
 }

@@ -16,21 +16,20 @@ Notice sentence_of_addresses(const aoim::PresenceEvent& event) noexcept {
   const AddressText source(event.source), other(event.other);
   if (event.kind == aoim::PresenceEventKind::disputed && event.source == aoim::SourceAddress{})
     return make_notice(NoticeKind::claimed_twice,
-                       "{}:{}, which is this peer, is claimed by another at {}, too", peer.site,
+                       "the number of this peer, {}:{}, is also claimed by {}", peer.site,
                        peer.application, other.view());
   if (event.kind == aoim::PresenceEventKind::disputed)
-    return make_notice(NoticeKind::claimed_twice,
-                       "peer {}:{} at {} is claimed by another at {}, too", peer.site,
-                       peer.application, source.view(), other.view());
+    return make_notice(NoticeKind::claimed_twice, "peer {}:{} at {} is also claimed by {}",
+                       peer.site, peer.application, source.view(), other.view());
   if (event.kind == aoim::PresenceEventKind::moved)
-    return make_notice(NoticeKind::moved, "peer {}:{} is at {} now, no more at {}", peer.site,
+    return make_notice(NoticeKind::moved, "peer {}:{} moved to {} from {}", peer.site,
                        peer.application, source.view(), other.view());
   if (event.kind == aoim::PresenceEventKind::impostor)
     return make_notice(NoticeKind::impostor,
-                       "{} speaks in the name of peer {}:{}, which is at {}: not believed",
+                       "{} is ignored: it uses the identity of peer {}:{}, which is at {}",
                        other.view(), peer.site, peer.application, source.view());
   return make_notice(NoticeKind::crowd,
-                     "{} speaks for more peers than one host may: the rest are not believed",
+                     "{} announces more peers than one host may: the excess is ignored",
                      source.view());
 }
 
@@ -41,7 +40,7 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
       return make_notice(NoticeKind::joined, "peer {}:{} '{}' joined", peer.site, peer.application,
                          event.announced.name_view());
     case aoim::PresenceEventKind::restarted:
-      return make_notice(NoticeKind::started_anew, "peer {}:{} started anew", peer.site,
+      return make_notice(NoticeKind::started_anew, "peer {}:{} restarted", peer.site,
                          peer.application);
     case aoim::PresenceEventKind::departed:
       return make_notice(NoticeKind::left, "peer {}:{} left", peer.site, peer.application);
@@ -62,17 +61,18 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
     case aoim::PresenceEventKind::crowd:
       return sentence_of_addresses(event);
     case aoim::PresenceEventKind::quiet:
-      return make_notice(NoticeKind::quiet, "peer {}:{} has not been heard for 2.5 s", peer.site,
+      return make_notice(NoticeKind::quiet, "peer {}:{} was silent for 2.5 s", peer.site,
                          peer.application);
     case aoim::PresenceEventKind::unheard:
       return make_notice(NoticeKind::unheard,
-                         "peer {}:{} does not hear this one: see `reckon doctor` on both hosts",
+                         "peer {}:{} does not receive this one: see `reckon doctor` on both hosts",
                          peer.site, peer.application);
     case aoim::PresenceEventKind::heard_again:
-      return make_notice(NoticeKind::heard_again, "peer {}:{} and this one hear each other again",
-                         peer.site, peer.application);
+      return make_notice(NoticeKind::heard_again,
+                         "peer {}:{} and this one receive each other again", peer.site,
+                         peer.application);
     case aoim::PresenceEventKind::slept:
-      return make_notice(NoticeKind::slept, "this peer slept for {:.1f} s",
+      return make_notice(NoticeKind::slept, "this peer was suspended for {:.1f} s",
                          pdu::to_seconds(event.slept));
     case aoim::PresenceEventKind::settled:
     case aoim::PresenceEventKind::heard_late:
@@ -89,11 +89,11 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
 Notice notice_of(const MutedSender& sender) noexcept {
   const AddressText who(source_of(sender.who));
   if (sender.muted)
-    return make_notice(NoticeKind::muted,
-                       "{} sends too many datagrams: they are dropped unread until it sends fewer "
-                       "than {} a second",
-                       who.view(), 10 * SenderBudget::kCalm);
-  return make_end(NoticeKind::muted, "{} is read again: {} of its datagrams were dropped",
+    return make_notice(
+        NoticeKind::muted,
+        "{} sends too many datagrams: they are dropped until it sends fewer than {} a second",
+        who.view(), 10 * SenderBudget::kCalm);
+  return make_end(NoticeKind::muted, "datagrams of {} are accepted again: {} were dropped",
                   who.view(), sender.dropped);
 }
 
@@ -108,7 +108,7 @@ Notice notice_of(const RefusedSender& sender, bool interop) noexcept {
       return make_notice(kKind, "{}: {} datagram{} refused: exercise {}, see exercise in the scene",
                          who.view(), sender.count, plural, sender.octet);
     case Refusal::version:
-      return make_notice(kKind, "{}: {} datagram{} refused: first octet {} is no version of DIS",
+      return make_notice(kKind, "{}: {} datagram{} refused: first octet {} is not a DIS version",
                          who.view(), sender.count, plural, sender.octet);
     case Refusal::no_length:
       return make_notice(kKind,

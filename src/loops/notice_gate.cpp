@@ -91,10 +91,10 @@ void NoticeGate::look(nanoseconds now, haptics::SpscRing<Notice>& out) noexcept 
     Host& host = hosts_[i];
     if (host.left_out == 0 || !take_line(host.strangers, kAtOnce, now)) continue;
     const AddressText address({host.address, 0});
-    static_cast<void>(out.push(
-        make_notice(NoticeKind::left_out,
-                    "{} more lines about strangers at {} are left out, the last: {}", host.left_out,
-                    i + 1 < kHosts ? address.view() : "other addresses", host.latest.text.data())));
+    static_cast<void>(out.push(make_notice(
+        NoticeKind::left_out, "omitted {} more lines about unknown senders at {}, the last: {}",
+        host.left_out, i + 1 < kHosts ? address.view() : "other addresses",
+        host.latest.text.data())));
     host.left_out = 0;
   }
 }

@@ -17,7 +17,7 @@ void RefusalWatch::note_order(const pdu::EntityId& originator, std::string_view 
                               const aoim::SourceAddress& from, Nanoseconds now) noexcept {
   if (orders_.turn(true, now) != NoticeCondition::Turn::begins) return;
   report(make_notice(NoticeKind::order_refused,
-                     "{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
+                     "refused the order of {}:{}:{} at {} to {}: see allow_management in the scene",
                      originator.site, originator.application, originator.entity,
                      AddressText(from).view(), order),
          from, now);
@@ -29,11 +29,11 @@ void RefusalWatch::report_dispute(const Dispute& dispute, const aoim::PeerId& ow
   const auto [site, application] = dispute.name;
   report(dispute.name == own
              ? make_notice(NoticeKind::name_disputed,
-                           "somebody at {} speaks in our name, {}:{} (refused); to plain DIS "
-                           "programs both are one: give one another application",
+                           "refused: {} sends entities of this peer, {}:{}; plain DIS programs "
+                           "cannot tell them apart: give one another application number",
                            speaker.view(), site, application)
              : make_notice(NoticeKind::name_disputed,
-                           "{}:{} at {}: somebody at {} speaks in its name (refused)", site,
+                           "{}:{} at {}: refused entities under this number from {}", site,
                            application, owner.view(), speaker.view()),
          dispute.speaker, now);
 }
@@ -50,33 +50,34 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
   }
   if (bodies_.begins(remote.disputed_bodies(), now)) {
     const Untouchable& last = remote.last_disputed_body();
-    report(make_notice(NoticeKind::body_disputed,
-                       "{}:{}:{} at {} is a body of the scene, but not of its first peer: refused",
-                       last.id.site, last.id.application, last.id.entity,
-                       AddressText(last.from).view()),
-           last.from, now);
+    report(
+        make_notice(
+            NoticeKind::body_disputed,
+            "refused {}:{}:{} at {}: it is a body of the scene, and only its first peer owns those",
+            last.id.site, last.id.application, last.id.entity, AddressText(last.from).view()),
+        last.from, now);
   }
   if (inside_.begins(remote.beginnings().held_back(), now)) {
     const pdu::EntityId id = remote.beginnings().last_held_back();
     const RemoteEntity* row = remote.find(id);
     const aoim::SourceAddress from = row == nullptr ? aoim::SourceAddress() : remote.owner(*row);
     report(make_notice(NoticeKind::inside_hand,
-                       "{}:{}:{} at {} appeared inside a hand: not felt until it was outside",
+                       "{}:{}:{} at {} appeared inside a hand: it is not felt until it has left it",
                        id.site, id.application, id.entity, AddressText(from).view()),
            from, now);
   }
   if (evicted_.begins(remote.evicted(), now)) {
     const aoim::SourceAddress& by = remote.last_evicted();
     report(make_notice(NoticeKind::rows_evicted,
-                       "somebody at {} fills the table of entities: his rows make room for others'",
+                       "{} fills the table of entities: its rows make room for other hosts",
                        AddressText(by).view()),
            by, now);
   }
   if (strangers_.begins(remote.strangers_refused(), now)) {
     const aoim::SourceAddress& by = remote.last_stranger();
     report(make_notice(NoticeKind::strangers_full,
-                       "somebody at {} fills what [network] strangers_memory gives plain DIS "
-                       "programs: his further entities are not shown",
+                       "{} fills [network] strangers_memory of plain DIS programs: its further "
+                       "entities are not shown",
                        AddressText(by).view()),
            by, now);
   }
@@ -86,7 +87,7 @@ void RefusalWatch::look(const BodyOwner& bodies, Nanoseconds now) noexcept {
   const auto& rival = bodies.rival();
   if (rivals_.turn(rival.has_value(), now) != NoticeCondition::Turn::begins || !rival) return;
   report(make_notice(NoticeKind::first_peer_disputed,
-                     "{}:{} at {} claims to be the scene's first peer: its bodies stay with {}:{}",
+                     "{}:{} at {} claims to be the scene's first peer: the bodies stay with {}:{}",
                      rival->name.site, rival->name.application, AddressText(rival->from).view(),
                      rival->owner.site, rival->owner.application),
          rival->from, now);
@@ -113,7 +114,7 @@ void RefusalWatch::look(const SilenceWatch& silence, Nanoseconds now) noexcept {
   const Untouchable& last = silence.last_faded();
   report(
       make_notice(NoticeKind::body_silent,
-                  "{}:{}:{} at {} is silent for 0.5 s in contact: not felt until it speaks",
+                  "{}:{}:{} at {} was silent for 0.5 s in contact: it is not felt until it sends",
                   last.id.site, last.id.application, last.id.entity, AddressText(last.from).view()),
       last.from, now);
 }

@@ -14,7 +14,7 @@ using std::chrono::nanoseconds;
 SilenceWatch::SilenceWatch(Counters& counters)
     : doubted_(
           counters.make("peers_doubted", "times that the entities of a silent peer were stopped")),
-      faded_(counters.make("silent_in_contact", "bodies that faded out for want of updates")) {
+      faded_(counters.make("silent_in_contact", "bodies that faded out without updates")) {
   doubts_.reserve(aoim::PresenceConfig{}.capacity);
 }
 
@@ -113,7 +113,7 @@ void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& loo
   look.remote.believe_peer(doubt.epoch, doubt.since, look.now);
   if (doubt.reported) {
     static_cast<void>(look.out.push(
-        make_end(NoticeKind::hands_silent, "peer {}:{} is heard again after {:.1f} s",
+        make_end(NoticeKind::hands_silent, "peer {}:{} is received again after {:.1f} s",
                  peer.id().site, peer.id().application, pdu::to_seconds(look.now - doubt.heard))));
   }
   doubts_.erase(doubts_.begin() + (&doubt - doubts_.data()));
@@ -123,7 +123,7 @@ void SilenceWatch::report(const aoim::Peer& peer, Doubt& doubt, const Look& look
   if (doubt.reported) return;
   doubt.reported = true;
   static_cast<void>(look.out.push(make_notice(
-      NoticeKind::hands_silent, "peer {}:{} is silent for {:.2g} s: its hands are no longer felt",
+      NoticeKind::hands_silent, "peer {}:{} was silent for {:.2g} s: its hands are no longer felt",
       peer.id().site, peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));
 }
 

@@ -77,7 +77,7 @@ static_assert(std::ranges::all_of(kWords<Recipients>,
                                   [](const auto& word) {
                                     return row_of(word.value) != std::end(kRows);
                                   }),
-              "all kinds of recipients have a row");
+              "each recipient tier has a row");
 
 // Calls visit(RecipientsRow) for each tier with its own groups, in the order of the groups: urgent
 // tiers come last.

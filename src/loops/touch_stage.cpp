@@ -28,20 +28,19 @@ void report_softened(std::string_view marking, const DeviceStiffness& device,
         notices.push(make_notice(NoticeKind::softened, format, marking, shown, asked)));
   };
   if (device.hand_asked > device.hands)
-    report("hand '{}' is {:.6g} N/m to others, of {:.6g} asked: its device holds no more",
+    report("hand '{}' shows others {:.6g} N/m instead of {:.6g}: the limit of its device",
            device.hands, device.hand_asked);
   if (device.softens_hand() && device.hand_limit() < device.hands)
-    report("hand '{}' feels hands of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+    report("hand '{}' feels hands at {:.6g} N/m instead of {:.6g}: the limit of its device",
            device.hand_shown(), device.hand_asked);
   if (!device.softens_hand() && std::isfinite(device.straight_from()))
-    report(
-        "hand '{}' feels hands harden up to {:.6g} N/m, {:.3g} mm deep: its device holds no more",
-        device.hand_limit(), 1e3 * device.straight_from());
+    report("hand '{}' feels hands harden up to {:.6g} N/m, {:.3g} mm deep: the limit of its device",
+           device.hand_limit(), 1e3 * device.straight_from());
   if (device.softens_walls())
-    report("hand '{}' feels walls of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+    report("hand '{}' feels walls at {:.6g} N/m instead of {:.6g}: the limit of its device",
            device.walls_shown(), device.walls_asked);
   if (device.softens_regions())
-    report("hand '{}' feels regions of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+    report("hand '{}' feels regions at {:.6g} N/m instead of {:.6g}: the limit of its device",
            device.regions_shown(), device.regions_asked);
 }
 

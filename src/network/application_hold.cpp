@@ -17,7 +17,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr const char* kNoSocket = "cannot make the socket that holds an application number";
+constexpr const char* kNoSocket = "cannot create the socket that reserves an application number";
 
 // Connections of programs that want to know the holder of a number. They stay in the queue, because
 // the socket is never accepted from.
@@ -69,23 +69,24 @@ ApplicationHold::ApplicationHold(const ApplicationScope& scope, std::optional<st
   if (wanted) {
     if (*wanted == 0 || *wanted > kMost)
       throw std::invalid_argument(
-          fmt::format("application {} is none of an ID: they are 1 to {}", *wanted, kMost));
+          fmt::format("application {} is not valid: choose 1 to {}", *wanted, kMost));
     if (hold(scope, *wanted)) return;
     throw std::runtime_error(fmt::format(
-        "application {0} of site {1} is taken on this host by {2}, and two programs with one ID "
-        "are one entity to others: name another application, or none for the next free one",
+        "application {0} of site {1} is used on this host by {2}, and other programs cannot tell "
+        "two with one ID apart: choose another application, or none for the next free one",
         *wanted, scope.site, holder_of(scope, *wanted)));
   }
   for (std::uint16_t number = 1; number <= kMost; ++number) {
     if (!hold(scope, number)) continue;
     if (number > 1)
-      report_ = fmt::format("this is application {} of site {}: 1 is taken on this host by {}",
-                            number, scope.site, holder_of(scope, 1));
+      report_ =
+          fmt::format("this is application {} of site {}, because 1 is used on this host by {}",
+                      number, scope.site, holder_of(scope, 1));
     return;
   }
   throw std::runtime_error(
-      fmt::format("all {} applications of site {} are taken on this host: name another site", kMost,
-                  scope.site));
+      fmt::format("all {} applications of site {} are used on this host: choose another site",
+                  kMost, scope.site));
 }
 
 // False if another socket has it.

@@ -170,7 +170,7 @@ Finding probe_multicast_route(const NetworkInterface& interface, const GroupAddr
       ipv6 ? "-6 route add multicast ff00::/8 dev " : "route add 239.0.0.0/8 dev ";
   return {FindingLevel::note,
           where + ": " + std::strerror(error) +
-              "; Reckon names its interface and needs none, other programs may",
+              "; Reckon sets its interface and needs none; other programs may",
           "ip " + net + interface.name + (ipv6 ? " table local" : "")};
 }
 
@@ -178,7 +178,7 @@ Finding probe_memberships() {
   const auto value = read_number("/proc/sys/net/ipv4/igmp_max_memberships");
   if (!value) return {FindingLevel::note, "igmp_max_memberships cannot be read", {}};
   const std::string what = "igmp_max_memberships = " + std::to_string(*value) +
-                           " groups a socket; Reckon takes one socket a group";
+                           " groups per socket; Reckon uses one socket per group";
   if (*value >= 1) return ok(what);
   return {FindingLevel::problem, what, "sysctl -w net.ipv4.igmp_max_memberships=20"};
 }
@@ -190,7 +190,7 @@ Finding probe_receive_buffer(std::size_t asked) {
                            std::to_string(asked);
   if (static_cast<std::size_t>(*value) >= asked) return ok(what);
   const std::string remedy = "sysctl -w net.core.rmem_max=" + std::to_string(asked);
-  if (geteuid() == 0) return {FindingLevel::note, what + "; as root Reckon passes it", remedy};
+  if (geteuid() == 0) return {FindingLevel::note, what + "; as root, Reckon exceeds it", remedy};
   return {FindingLevel::warning, what + ": datagrams are lost when a thread stalls", remedy};
 }
 
@@ -205,13 +205,14 @@ Finding probe_offload(const NetworkInterface& interface, const GroupAddress& gro
     const SentBatch sent = link.send_batch(run);
     const UdpOffload used = link.offload();
     const std::string what =
-        where + (used.segments ? "cut by the kernel (UDP_SEGMENT)" : "each is sent by itself") +
-        ", " + (used.coalesces ? "taken whole (UDP_GRO)" : "each is taken by itself");
+        where +
+        (used.segments ? "segmented by the kernel (UDP_SEGMENT)" : "each is sent separately") +
+        ", " + (used.coalesces ? "taken whole (UDP_GRO)" : "each is received separately");
     if (sent.datagrams < run.size()) return {FindingLevel::note, where + "cannot be sent", {}};
     if (used.segments && used.coalesces) return ok(what);
     const std::string why =
         used.refusal == 0 ? "" : "; UDP_SEGMENT: " + std::generic_category().message(used.refusal);
-    return {FindingLevel::note, what + why + "; bulk costs 2 to 9 times as much",
+    return {FindingLevel::note, what + why + "; bulk traffic costs 2 to 9 times as much",
             used.refusal == EIO ? "ethtool -K " + interface.name + " tx on" : ""};
   } catch (const std::exception& failure) {
     return {FindingLevel::problem, where + failure.what(), {}};
@@ -225,7 +226,8 @@ Finding probe_reverse_path_filter(const NetworkInterface& interface) {
   const long value = std::max(all, own);  // the kernel uses this one
   const std::string what = "rp_filter of " + interface.name + " = " + std::to_string(value);
   if (value == 0) return ok(what);
-  return {FindingLevel::note, what + ": peers in a subnet without a route from here are not heard",
+  return {FindingLevel::note,
+          what + ": peers in a subnet without a route from here are not received",
           "sysctl -w net.ipv4.conf.all.rp_filter=0 net.ipv4.conf." + interface.name +
               ".rp_filter=0, or give the peers addresses of one subnet"};
 }
@@ -237,7 +239,7 @@ Finding probe_mtu(const NetworkInterface& interface, std::size_t longest_bundle)
     const bool fits_default = interface.mtu >= kDefaultPayload + kIpv6AndUdp;
     const std::string bundle = std::to_string(longest_bundle);
     return {fits_default ? FindingLevel::warning : FindingLevel::problem,
-            what + ": bundles of " + bundle + " octets do not fit, and are sent shorter",
+            what + ": bundles of " + bundle + " octets do not fit; shorter ones are sent",
             "ip link set " + interface.name + " mtu " +
                 std::to_string(std::max(needed, kUsualMtu)) +
                 ", or a smaller [network.bundle] max"};
@@ -252,7 +254,8 @@ Finding probe_mtu(const NetworkInterface& interface, std::size_t longest_bundle)
 
 Finding probe_interface_kind(const NetworkInterface& interface) {
   if (interface.loopback) {
-    return {FindingLevel::note, interface.name + " is loopback: only peers of this host are heard",
+    return {FindingLevel::note,
+            interface.name + " is loopback: only peers of this host are received",
             "choose another with --iface"};
   }
   if (interface.wireless) {
@@ -278,7 +281,7 @@ Finding probe_real_time() {
   if (result == 0) return ok("SCHED_FIFO is permitted");
   return {FindingLevel::warning,
           std::string("SCHED_FIFO: ") + std::strerror(result) +
-              "; the servo is late whenever another program runs",
+              "; the servo is late while other programs run",
           "setcap cap_sys_nice+ep on the program, or 'rtprio 50' in /etc/security/limits.conf"};
 }
 
@@ -350,7 +353,7 @@ Finding probe_peers(const NetworkInterface& interface, const std::vector<NamedPe
         is_in = true;
       } else if (!link.send(peer, {})) {
         return {FindingLevel::problem,
-                what + ": nothing can be sent to " + peer.text() + ": " +
+                what + ": cannot send to " + peer.text() + ": " +
                     std::generic_category().message(link.statistics().last_send_error),
                 remedy};
       }

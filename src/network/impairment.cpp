@@ -27,7 +27,7 @@ std::uint64_t draw(std::uint64_t key, std::uint64_t purpose) noexcept {
 bool is_share(double value) noexcept { return value >= 0.0 && value <= 1.0; }
 
 std::string no_share(const char* name, double value) {
-  return fmt::format("{} = {:.6g} is no share; write 0 to 1, or 0% to 100%", name, value);
+  return fmt::format("{} = {:.6g} is not a share; write 0 to 1, or 0% to 100%", name, value);
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ std::string ImpairmentLaw::problem() const {
     return no_share("duplicate", duplicate);
   }
   if (!(burst_loss >= 0.0 && burst_loss < 1.0)) {
-    return fmt::format("burst_loss = {:.6g} is no share; write 0 to below 1, or 0% to below 100%",
-                       burst_loss);
+    return fmt::format(
+        "burst_loss = {:.6g} is not a share; write 0 to below 1, or 0% to below 100%", burst_loss);
   }
   if (!(burst_length >= 1.0 && burst_length <= kMostBurstLength)) {
     return "burst_length = " + std::to_string(burst_length) + " is not from 1 to 10000 datagrams";

@@ -134,7 +134,8 @@ InterfaceChoice choose_requested(std::span<const NetworkInterface> candidates,
     if (!matches(interface, requested)) continue;
     if (!interface.up || !interface.address(ipv6)) {
       throw std::runtime_error("interface " + describe(interface, ipv6) +
-                               "bring it up with an address, or take another of:\n" +
+                               "bring it up with an address, or choose another of:\n"
+                               "" +
                                describe_all(candidates, ipv6));
     }
     return {interface, "interface " + interface.name + ", as asked for" +

@@ -26,7 +26,7 @@ LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(optio
 }
 
 void LanLink::change_law(const ImpairmentLaw& law) {
-  if (!impaired_) throw std::logic_error("this link's law does not change: see `changes`");
+  if (!impaired_) throw std::logic_error("this link's impairment does not change: see `changes`");
   impaired_->change_law(law);
 }
 
@@ -34,7 +34,7 @@ std::vector<std::string> LanLink::report() const {
   std::vector<std::string> sentences{udp_.choice().explanation};
   if (fan_out_) {
     sentences.push_back("to no group: each datagram goes to " + std::to_string(fan_out_->peers()) +
-                        " others of the list; we are heard at " + udp_.local_endpoint().text());
+                        " others of the list; our address is " + udp_.local_endpoint().text());
   }
   sentences.insert(sentences.end(), udp_.warnings().begin(), udp_.warnings().end());
   return sentences;

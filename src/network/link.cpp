@@ -74,27 +74,29 @@ constexpr std::array kJoinRemedies{
     Remedy{std::errc::not_enough_memory,
            "too little socket memory: sysctl -w net.core.optmem_max=131072, or join fewer groups"},
     Remedy{std::errc::no_such_device,
-           "the interface does not do multicast: choose another with --iface"},
+           "the interface has no multicast: choose another with --iface"},
     Remedy{std::errc::network_unreachable,
-           "the interface does not do multicast: choose another with --iface"},
+           "the interface has no multicast: choose another with --iface"},
     Remedy{std::errc::address_in_use,
-           "another program holds the port without sharing it: stop it or take another port"},
+           "another program uses the port exclusively: stop it or choose another port"},
     Remedy{std::errc::address_not_available,
-           "it is no broadcast address of the interface: see ip addr, or take 255.255.255.255"},
+           "it is not a broadcast address of the interface: see ip addr, or use 255.255.255.255"},
     Remedy{std::errc::value_too_large,
            "the link has no room for another group: raise its max_groups"},
-    Remedy{std::errc::invalid_argument, "it is no multicast group of the link's address family"},
+    Remedy{std::errc::invalid_argument, "it is not a multicast group of the link's address family"},
 };
 constexpr std::array kSendRemedies{
     Remedy{std::errc::operation_not_permitted, "a firewall refuses it: nft list ruleset"},
-    Remedy{std::errc::permission_denied, "a firewall or a right refuses it: nft list ruleset"},
+    Remedy{std::errc::permission_denied,
+           "a firewall or a missing privilege refuses it: nft list ruleset"},
     Remedy{std::errc::network_unreachable, "is the interface up? see reckon doctor"},
     Remedy{std::errc::network_down, "is the interface up? see reckon doctor"},
     Remedy{std::errc::no_such_device, "is the interface still there? see reckon doctor"},
-    Remedy{std::errc::invalid_argument, "has the interface still its address? see reckon doctor"},
-    Remedy{std::errc::no_buffer_space, "the interface takes less than is sent"},
-    Remedy{std::errc::resource_unavailable_try_again, "the interface takes less than is sent"},
-    Remedy{std::errc::message_size, "longer than the MTU: a smaller payload in the scene"},
+    Remedy{std::errc::invalid_argument,
+           "does the interface still have its address? see reckon doctor"},
+    Remedy{std::errc::no_buffer_space, "the interface is slower than the traffic"},
+    Remedy{std::errc::resource_unavailable_try_again, "the interface is slower than the traffic"},
+    Remedy{std::errc::message_size, "longer than the MTU: set a smaller payload in the scene"},
 };
 
 }  // namespace
@@ -163,7 +165,7 @@ GroupPool::GroupPool(const GroupAddress& base, std::size_t size) : base_(base), 
   if (may_be_broadcast(base) && base.port != 0) return;
   if (!base.is_multicast() || base.port == 0) {
     throw std::invalid_argument("base group " + base.text() +
-                                " is no multicast group with a port; take one of 239.0.0.0/8 or "
+                                " is not a multicast group with a port; use one of 239.0.0.0/8 or "
                                 "ff15::/16, such as 239.192.1.0:3000");
   }
   const std::uint32_t last_of_range = base.is_v6 ? 0xffffffffu : 0xefffffffu;

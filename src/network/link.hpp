@@ -192,8 +192,8 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("send_errors", "datagrams refused by the kernel for any reason", send_errors);
   visit("too_big", "of these, datagrams above the MTU", too_big);
   visit("send_calls", "system calls that sent", send_calls);
-  visit("held_back", "datagrams not sent, because they would have waited too long for the wire",
-        held_back);
+  visit("held_back",
+        "datagrams not sent, because they would have waited too long for the interface", held_back);
   visit("received", "datagrams received", received);
   visit("received_bytes", "octets of UDP payload received", received_bytes);
   visit("own", "own datagrams looped back, not delivered", own);
@@ -203,10 +203,11 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("joins", "groups joined", joins);
   visit("leaves", "groups left", leaves);
   visit("join_errors", "groups that could not be joined", join_errors);
-  visit("interface_losses", "times that the interface was gone, down or bare", interface_losses);
+  visit("interface_losses", "times that the interface was missing, down or without an address",
+        interface_losses);
   visit("recoveries", "times that all groups were joined again", recoveries);
-  visit("lost_by_law", "datagrams lost by the impairment as configured", lost_by_law);
-  visit("duplicated_by_law", "datagrams doubled by the impairment as configured",
+  visit("lost_by_law", "datagrams lost by the configured impairment", lost_by_law);
+  visit("duplicated_by_law", "datagrams duplicated by the configured impairment",
         duplicated_by_law);
   visit("queue_overflows", "datagrams dropped because the queue of the impairment was full",
         queue_overflows);

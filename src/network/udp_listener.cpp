@@ -17,7 +17,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 UdpMulticastOptions receiving(const UdpListenerOptions& asked) {
-  if (asked.places.empty()) throw std::invalid_argument("no group to listen to was given");
+  if (asked.places.empty()) throw std::invalid_argument("no group was given");
   UdpMulticastOptions out;
   out.ipv6 = asked.places.front().is_v6;
   out.receive_buffer = std::size_t{4} << 20;  // a listener's screen may block it for long
@@ -61,12 +61,12 @@ std::string refusal(const std::error_code& error, const IpEndpoint& place, bool 
   std::string text = "cannot listen to " + place.text() + ": ";
   if (error == std::errc::address_not_available)
     return text +
-           "it is no group, and neither an address nor a broadcast address of this host; see ip "
-           "addr, or take 0.0.0.0 for all of them";
+           "it is not a group, an address or a broadcast address of this host; see ip addr, or use "
+           "0.0.0.0 for all addresses";
   if (error == std::errc::address_in_use && !is_broadcast)
     return text +
-           "another program of this host has it, and what is sent there goes to one program only: "
-           "stop that one, or listen to iface:NAME (needs CAP_NET_RAW)";
+           "another program of this host uses it, and only one program receives its datagrams: "
+           "stop that program, or use iface:NAME (needs CAP_NET_RAW)";
   text += error.message();
   const std::string_view remedy = join_remedy(error);
   return remedy.empty() ? text : text.append("; ").append(remedy);
@@ -163,7 +163,7 @@ std::error_code UdpListener::join(UdpSlot& slot, std::span<const NetworkInterfac
     }
     last = error;
     const std::string_view remedy = join_remedy(error);
-    warn("not all groups are heard on " + interface.name + ": " + error.message() +
+    warn("not all groups are received on " + interface.name + ": " + error.message() +
          (remedy.empty() ? "" : "; ") + std::string(remedy));
   }
   return any ? std::error_code() : last;
@@ -257,7 +257,7 @@ void UdpListener::wait(nanoseconds timeout) {
     try {
       listen();
     } catch (const std::exception& failure) {
-      warn(std::string("the interfaces of this host cannot be examined: ") + failure.what());
+      warn(std::string("the interfaces of this host cannot be listed: ") + failure.what());
     }
   }
   if (receiver_.has_arrived()) return;

@@ -119,13 +119,13 @@ void UdpMulticast::Sockets::warn() {
   if (options.offload && (sender.segment_refusal() != 0 || !table.coalesces())) {
     warnings.push_back(std::string("this kernel does not ") +
                        (sender.segment_refusal() != 0
-                            ? "cut runs of datagrams (UDP_SEGMENT, since Linux 4.18)"
-                            : "hand over runs of datagrams as one (UDP_GRO, since Linux 5.0)") +
-                       ": each takes a way of its own, at some 2 to 9 times the cost");
+                            ? "segment datagrams (UDP_SEGMENT, since Linux 4.18)"
+                            : "coalesce datagrams (UDP_GRO, since Linux 5.0)") +
+                       ": each is processed separately, at 2 to 9 times the cost");
   }
   if (!choice.interface.multicast && !choice.interface.loopback) {
     warnings.push_back("interface " + choice.interface.name +
-                       " says it has no multicast; choose another with --iface, or ip link set " +
+                       " has no multicast; choose another with --iface, or ip link set " +
                        choice.interface.name + " multicast on");
   }
 }

@@ -39,7 +39,7 @@ void UdpRecovery::recover() noexcept {
       look_at_host(now);
       join_missing();
       if (std::exchange(hindered_, false)) {
-        report("interface " + used_.name + " can be looked at again");
+        report("interface " + used_.name + " can be read again");
       }
     }
     if (!away_) look_for_echo(now);
@@ -55,8 +55,8 @@ void UdpRecovery::report_offload() {
   const int why = link_.sender.segment_refusal();
   if (why == 0 || refusal_reported_) return;
   refusal_reported_ = true;
-  report("the kernel does not cut runs of datagrams on " + used_.name + " (UDP_SEGMENT: " +
-         std::generic_category().message(why) + "); each is sent by itself from now on");
+  report("the kernel does not segment datagrams on " + used_.name + " (UDP_SEGMENT: " +
+         std::generic_category().message(why) + "); each is sent separately from now on");
 }
 
 // Once, until the host was examined successfully. Without an allocation, because memory may be
@@ -64,11 +64,10 @@ void UdpRecovery::report_offload() {
 void UdpRecovery::report_hindrance(const char* what) noexcept {
   if (std::exchange(hindered_, true)) return;
   std::array<char, sizeof(LinkEvent::text)> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "interface %s cannot be looked at: %s; tried again every 0.5 s. For open files raise "
-      "ulimit -n",
-      used_.name.c_str(), what);
+  std::snprintf(text.data(), text.size(),
+                "cannot read the state of interface %s: %s; retries every 0.5 s. For open files "
+                "raise ulimit -n",
+                used_.name.c_str(), what);
   report(text.data());
 }
 
@@ -91,7 +90,7 @@ void UdpRecovery::lose(const InterfaceStanding& standing, nanoseconds now) {
   away_since_ = now;
   link_.counts.interface_losses.add();
   report("interface " + used_.name + ' ' + std::string(standing.why_not) +
-         ": nothing is sent or heard until that is mended; see ip link and ip addr");
+         ": nothing is sent or received until this is fixed; see ip link and ip addr");
 }
 
 // The interface can be used: as before, or with another index or address.
@@ -120,8 +119,8 @@ void UdpRecovery::follow(const NetworkInterface& found) {
   std::string sentence =
       "interface " + used_.name + (name == used_.name ? "" : " in place of " + name);
   sentence += is_other ? ", now index " + std::to_string(used_.index) + " with " +
-                             link_.local.value().address_text() + ", carries us again"
-                       : " carries us again";
+                             link_.local.value().address_text() + ", works again"
+                       : " works again";
   if (link_.local.value().port != port) {
     sentence += "; port " + std::to_string(port) + " is taken, ours is " +
                 std::to_string(link_.local.value().port) + " now";
@@ -158,10 +157,10 @@ void UdpRecovery::look_for_echo(nanoseconds now) {
   if (turn == EchoWatch::Turn::none) return;
   const std::string group = link_.echo.group().text();
   if (turn == EchoWatch::Turn::heard)
-    return report("own datagrams come back from " + group + " again");
+    return report("own datagrams return from " + group + " again");
   link_.sockets.rejoin();
-  report("own datagrams do not come back from " + group + " on " + used_.name +
-         ", so others are not heard either: does a firewall drop them? nft list ruleset; " +
+  report("own datagrams do not return from " + group + " on " + used_.name +
+         ", so others are not received either: does a firewall drop them? nft list ruleset; " +
          groups_text() + "; without multicast: reckon peer --to ADDRESSES");
 }
 

@@ -24,7 +24,7 @@ udp::socket open_unicast_or_throw(asio::io_context& context, const UdpSocketOpti
   udp::socket socket = open_sender(context, options, local, error);
   if (!error) return socket;
   throw std::system_error(error, "cannot open the sending socket on " + local.text() +
-                                     " (take another --port or --iface)");
+                                     " (choose another --port or --iface)");
 }
 
 }  // namespace

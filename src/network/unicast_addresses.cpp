@@ -34,7 +34,7 @@ std::vector<IpEndpoint> resolve_peers(const std::vector<NamedPeer>& peers, std::
     endpoint.port = peer.port != 0 ? peer.port : port;
     if (endpoint.is_multicast() || endpoint.is_broadcast() || endpoint.is_unspecified()) {
       throw std::runtime_error("peers: '" + peer.host +
-                               "' is the address of no single host; 'group' takes groups");
+                               "' is not the address of a single host; groups go into 'group'");
     }
     if (std::find(found.begin(), found.end(), endpoint) == found.end()) found.push_back(endpoint);
   }

@@ -17,15 +17,15 @@ std::string_view trimmed(std::string_view text) {
 
 [[noreturn]] void refuse_peer(std::string_view item, std::string_view why) {
   throw std::invalid_argument("'" + std::string(item) + "' " + std::string(why) +
-                              "; write addresses or names, commas between, each with a port where "
-                              "it is another: \"10.0.0.7, host-b:3001, [2001:db8::7]:3001\"");
+                              "; write addresses or names separated by commas, each with its port "
+                              "if it differs: \"10.0.0.7, host-b:3001, [2001:db8::7]:3001\"");
 }
 
 std::uint16_t port_of(std::string_view item, std::string_view text) {
   unsigned port = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), port);
   if (read.ec != std::errc() || read.ptr != text.data() + text.size() || port < 1 || port > 65535)
-    refuse_peer(item, "has a port that is not from 1 to 65535");
+    refuse_peer(item, "has a port outside 1 to 65535");
   return static_cast<std::uint16_t>(port);
 }
 
@@ -34,7 +34,7 @@ std::uint16_t port_of(std::string_view item, std::string_view text) {
 NamedPeer parse_peer(std::string_view text) {
   const std::string_view item = trimmed(text);
   if (item.empty()) refuse_peer(item, "names nobody");
-  if (item.find(' ') != std::string_view::npos) refuse_peer(item, "has a blank in it");
+  if (item.find(' ') != std::string_view::npos) refuse_peer(item, "contains a blank");
   if (item.front() == '[') {
     const auto end = item.find(']');
     const bool has_port = end != std::string_view::npos && item.substr(end + 1).starts_with(':');
@@ -42,11 +42,11 @@ NamedPeer parse_peer(std::string_view text) {
     const bool is_ipv6 =
         host.find(':') != host.rfind(':') && host.find('[') == std::string_view::npos;
     if (end == std::string_view::npos || (!has_port && end + 1 != item.size()) || !is_ipv6)
-      refuse_peer(item, "is no address in brackets");
+      refuse_peer(item, "is not an address in brackets");
     return {std::string(host), has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
   }
   if (item.find_first_of("[]") != std::string_view::npos)
-    refuse_peer(item, "has a bracket that is none around an address");
+    refuse_peer(item, "has a bracket that does not enclose an address");
   const auto colon = item.find(':');
   const bool many = colon != item.rfind(':');  // IPv6 without brackets
   if (colon == std::string_view::npos || many) return {std::string(item), 0};
@@ -62,7 +62,7 @@ std::string NamedPeer::text() const {
 
 void check_number(const std::vector<NamedPeer>& peers) {
   if (peers.size() > kMostUnicastPeers)
-    refuse_peer(peers.back().host, "is one of more than 256: a relay or multicast serves so many");
+    refuse_peer(peers.back().host, "is one of more than 256: use a relay or multicast for so many");
 }
 
 std::vector<NamedPeer> parse_peers(std::string_view list) {

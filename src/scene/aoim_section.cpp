@@ -34,15 +34,15 @@ void check_pool(TomlReader& file, const SceneFile& scene) {
   const std::string_view which = has_touch_tier(aoim.tiers) ? "to = \"touch\"" : "own_group";
   const std::size_t most = aoim::kMaximumPool / (aoim.all_groups() / aoim.pool);
   if (aoim.pool == 1)
-    file.problem_at("aoim.pool",
-                    fmt::format("'{}' has a group for each cell, and a 'pool' of 1 has no cells: "
-                                "take 4 to {}",
-                                which, most));
+    file.problem_at(
+        "aoim.pool",
+        fmt::format(
+            "'{}' needs a group for each cell, and a 'pool' of 1 has no cells: write 4 to {}",
+            which, most));
   if (aoim.pool > most)
     file.problem_at(
         "aoim.pool",
-        fmt::format("'{}' needs as many groups again as the 'pool': take one of 4 to {}", which,
-                    most));
+        fmt::format("'{}' needs twice the groups of the 'pool': write 4 to {}", which, most));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Section<OccluderConfig> occluder_section() {
             const Eigen::Vector3d from = box.from.cwiseMin(box.to), to = box.from.cwiseMax(box.to);
             box = {from, to};
             if ((to - from).minCoeff() > 0) return;
-            table.problem("to", "'to' is no farther than 'from' on one axis: a box has a volume");
+            table.problem("to", "'to' is not beyond 'from' on one axis: give the box a volume");
           }};
 }
 
@@ -85,8 +85,7 @@ void check_awareness(TomlReader& table, AwarenessConfig& config) {
       std::string names;
       for (unsigned k = 0; k < kKinds; ++k)
         names += fmt::format("{}{}", k > 0 ? ", " : "", pdu::name(static_cast<pdu::EntityKind>(k)));
-      return table.problem("kinds",
-                           fmt::format("'kinds' has \"{}\"; it wants some of {}", word, names));
+      return table.problem("kinds", fmt::format("'kinds' has \"{}\"; use some of {}", word, names));
     }
     config.kinds_wanted |= 1U << kind;
     at = comma + 1;

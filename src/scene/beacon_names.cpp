@@ -30,18 +30,18 @@ std::vector<std::string> beacon_names(std::string_view list) {
     name.erase(0, name.find_first_not_of(' '));
     name.erase(name.find_last_not_of(' ') + 1);
     if (!is_beacon_name(name)) {
-      throw std::invalid_argument(fmt::format(
-          "\"{}\" is no name of a beacon: take 1 to {} letters, digits, '-', '_' or '.'", name,
-          kLongestBeacon));
+      throw std::invalid_argument(
+          fmt::format("\"{}\" is not a beacon name: use 1 to {} letters, digits, '-', '_' or '.'",
+                      name, kLongestBeacon));
     }
     if (std::find(names.begin(), names.end(), name) != names.end())
-      throw std::invalid_argument(fmt::format("\"{}\" is there twice: keep one", name));
+      throw std::invalid_argument(fmt::format("\"{}\" occurs twice: keep one", name));
     names.push_back(std::move(name));
     at = comma + 1;
   }
   if (names.size() > kMostFollowed) {
     throw std::invalid_argument(
-        fmt::format("{} beacons are more than {}: leave some out", names.size(), kMostFollowed));
+        fmt::format("{} beacons are more than {}: remove some", names.size(), kMostFollowed));
   }
   return names;
 }

@@ -40,7 +40,7 @@ Section<QuadTreeConfig> quad_tree_section() {
         (void)only_one(table, {"density", "leaves"}, "where the square is divided");
         if (table.has("density")) table.require("reach");
         if (!table.has("density") && table.has("reach"))
-          table.problem("reach", "'reach' belongs to a sample: name its 'density', or take it out");
+          table.problem("reach", "'reach' needs 'density': add it, or remove 'reach'");
       }};
 }
 
@@ -62,9 +62,10 @@ Section<LocaleConfig> locale_section() {
             table.require("name");
             table.require("size");
             if (locale.name.find(',') != std::string::npos)
-              table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
+              table.problem("name",
+                            "'name' has a comma, which separates names in 'neighbours': remove it");
             if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
-              table.problem("size", "'size' is 0 along x or y: a locale has an area");
+              table.problem("size", "'size' is 0 along x or y: give the locale an area");
           }};
 }
 
@@ -78,9 +79,11 @@ std::vector<aoim::CellId> named_cells(TomlReader& table, const std::string& leav
       cells.push_back(*cell);
       continue;
     }
-    table.problem("quadtree", fmt::format("'leaves' has \"{}\"; it wants up to 15 quarters 0 to 3, "
-                                          "as in \"0 1 2 30\"",
-                                          word));
+    table.problem(
+        "quadtree",
+        fmt::format(
+            "'leaves' has \"{}\"; write up to 15 quarters 0 to 3 each, such as \"0 1 2 30\"",
+            word));
     break;
   }
   return cells;
@@ -91,10 +94,11 @@ void divide(TomlReader& table, AoimConfig& config) {
   QuadTreeConfig& tree = config.quad_tree;
   const bool limited = !config.hand_out && tree.most > config.pool;
   if (limited)
-    return table.problem("quadtree",
-                         fmt::format("'most' is {} cells, each with a group of its own, "
-                                     "and 'pool' is {}: raise it, or set 'hand_out'",
-                                     tree.most, config.pool));
+    return table.problem(
+        "quadtree",
+        fmt::format(
+            "'most' is {} cells with one group each, and 'pool' is {}: raise it, or set 'hand_out'",
+            tree.most, config.pool));
   try {
     tree.cells = tree.density.empty() ? named_cells(table, tree.leaves)
                                       : divided_by(config, read_density(tree.density, tree.reach));
@@ -109,9 +113,9 @@ void lay_out(TomlReader& table, const AoimConfig& config) {
   const std::size_t most = config.hand_out ? aoim::kMaximumPool : config.pool;
   if (config.locales.size() > most)
     return table.problem(
-        "locale", fmt::format("{} locales, each with a group of its own, and 'pool' is {}: raise "
-                              "it, or set 'hand_out'",
-                              config.locales.size(), config.pool));
+        "locale",
+        fmt::format("{} locales need one group each, and 'pool' is {}: raise it, or set 'hand_out'",
+                    config.locales.size(), config.pool));
   try {
     const aoim::CellPartition made = cells_of(config);
   } catch (const std::exception& error) {
@@ -127,8 +131,8 @@ bool check_scheme(TomlReader& table, const AoimConfig& config, aoim::CellScheme 
     table.problem("scheme", fmt::format("'scheme' is \"{}\": describe it in {}", word_of(scheme),
                                         section_name(fmt::format("aoim.{}", key))));
   if (!is_it && has_table)
-    table.problem(key, fmt::format("'{}' is of use with one scheme alone: write scheme = \"{}\"",
-                                   key, word_of(scheme)));
+    table.problem(key, fmt::format("'{}' applies to one scheme only: write scheme = \"{}\"", key,
+                                   word_of(scheme)));
   return is_it && has_table;
 }
 
@@ -149,7 +153,7 @@ void check_cells(TomlReader& table, AoimConfig& config) {
   const bool is_map = check_scheme(table, config, aoim::CellScheme::locales, "locale");
   if (!is_tree && !is_map) return;
   if (table.has("cell"))
-    table.problem("cell", "'cell' is the size of equal cells: take it out, or another 'scheme'");
+    table.problem("cell", "'cell' is the size of equal cells: remove it, or use another 'scheme'");
   if (is_tree && aoim::is_pool(config.pool)) divide(table, config);
   if (is_map) lay_out(table, config);
 }

@@ -17,7 +17,8 @@ std::size_t column_of(const CsvReader& csv, const std::filesystem::path& file, c
   std::optional<std::size_t> column = csv.find(name);
   if (!column) column = csv.find(of_a_track);
   if (column) return *column;
-  throw CsvError(fmt::format("{}:1:1: a sample of places has columns x_m and y_m", file.string()));
+  throw CsvError(
+      fmt::format("{}:1:1: a sample of positions needs columns x_m and y_m", file.string()));
 }
 
 }  // namespace
@@ -32,16 +33,17 @@ std::vector<aoim::Demand> read_density(const std::filesystem::path& file, double
   std::vector<std::size_t> at_once;
   while (csv.next()) {
     if (places.size() == kMostPlaces)
-      csv.fail(x, fmt::format("more than {} places; take fewer instants", kMostPlaces));
+      csv.fail(x, fmt::format("more than {} positions; use fewer instants", kMostPlaces));
     const double time = t ? csv.required(*t) : 0.0;
     const auto next = static_cast<std::uint32_t>(instants.size());
     const std::uint32_t instant = instants.try_emplace(time, next).first->second;
     at_once.resize(instants.size());
     if (++at_once[instant] > kMostAtOnce)
-      csv.fail(x, fmt::format("more than {} places at one instant; take fewer", kMostAtOnce));
+      csv.fail(x, fmt::format("more than {} positions at one instant; use fewer", kMostAtOnce));
     places.push_back({{csv.required(x), csv.required(y), 0.0}, reach, instant});
   }
-  if (places.empty()) throw CsvError(fmt::format("{}: no places after the header", file.string()));
+  if (places.empty())
+    throw CsvError(fmt::format("{}: no positions after the header", file.string()));
   return places;
 }
 

@@ -27,7 +27,8 @@ constexpr double kJitter = 1.1;  // a heartbeat is sent after at most this multi
 void check_force_model(TomlReader& table, TouchModel& model) {
   table.require("kind");
   if (model.normal.norm() < 1e-6) {
-    table.problem("normal", "'normal' has no direction: write it outwards, as [0, 0, -1] for up");
+    table.problem("normal",
+                  "'normal' has no direction: write the outward normal, such as [0, 0, -1] for up");
   } else {
     model.normal.normalize();
   }
@@ -66,7 +67,7 @@ void read_force_model(TomlReader& table, EntityConfig& entity) {
     entity.model = model;
   }
   if (table.has("power") && !table.has("force_model")) {
-    table.problem("power", "only what hands feel takes 'power'; this entity has no force_model");
+    table.problem("power", "'power' needs a force_model, and this entity has none");
   }
 }
 
@@ -79,7 +80,7 @@ void read_place(TomlReader& table, const deadreckon::LocalFrame& frame, EntityCo
   inside->require("longitude");
   section.read(*inside, place);
   if (table.has("position")) {
-    return table.problem("place", "the place is given twice, by position and place: keep one");
+    return table.problem("place", "the position is given twice, by position and place: keep one");
   }
   entity.position = frame.scene_from_world(
       deadreckon::geocentric_position(place.latitude, place.longitude, place.height));
@@ -112,7 +113,7 @@ void read_dead_reckoning(TomlReader& table, const DeadReckoningConfig& scene,
   const double needed = kJitter * pdu::to_seconds(entity.dead_reckoning.heartbeat);
   if (entity.model->validity >= needed) return;
   table.problem("force_model",
-                fmt::format("its force fades out {} after an update, and updates come every {}: "
+                fmt::format("its force fades out {} after an update, and the heartbeat is {}: "
                             "raise 'validity' to {} or lower the heartbeat",
                             format_quantity(entity.model->validity, "s"),
                             format_quantity(needed, "s"), format_quantity(needed, "s")));
@@ -123,7 +124,7 @@ void check_track(TomlReader& table, std::set<std::filesystem::path>& checked,
                  const EntityConfig& entity) {
   for (const char* key : {"speed", "repeat"}) {
     if (!table.has(key) || table.has("track")) continue;
-    table.problem(key, fmt::format("only a track takes '{}'; this entity has none", key));
+    table.problem(key, fmt::format("'{}' needs a track, and this entity has none", key));
   }
   if (entity.track.empty() || !checked.insert(entity.track).second) return;
   try {
@@ -179,18 +180,16 @@ void check_beacon(TomlReader& table, const SceneFile& scene, const EntityConfig&
   if (!table.has("beacon")) return;
   if (!is_beacon_name(entity.beacon)) {
     return table.problem(
-        "beacon", fmt::format("'beacon' is \"{}\"; it wants 1 to {} letters, digits, '-', '_', '.'",
+        "beacon", fmt::format("'beacon' is \"{}\"; use 1 to {} letters, digits, '-', '_', '.'",
                               entity.beacon, kLongestBeacon));
   }
   if (!scene.aoim.hand_out) {
     return table.problem(
         "beacon",
-        "'beacon' is announced with the groups that are handed out: set 'leaders' and "
-        "'hand_out' of [aoim], or take it out");
+        "'beacon' needs assigned groups: set 'leaders' and 'hand_out' of [aoim], or remove it");
   }
   if (!tags.insert(aoim::beacon_tag(entity.beacon)).second) {
-    table.problem("beacon", fmt::format("there is another beacon '{}': give it a name of its own",
-                                        entity.beacon));
+    table.problem("beacon", fmt::format("there is another beacon '{}': rename one", entity.beacon));
   }
 }
 

@@ -50,8 +50,8 @@ EntityTypeText by_number(std::string_view text) {
     if (error != std::errc() || end != number.data() + number.size() ||
         parts[part] > most_of(part)) {
       return {{},
-              fmt::format("its {} '{}' is no whole number from 0 to {}", kPartNames[part], number,
-                          most_of(part))};
+              fmt::format("its {} '{}' is not a whole number from 0 to {}", kPartNames[part],
+                          number, most_of(part))};
     }
     if (number.size() == text.size()) return {type_of(parts), {}};
     text.remove_prefix(number.size() + 1);
@@ -102,7 +102,7 @@ class WordSearch {
 
   /// Error message with the unreadable part and its likely meaning.
   [[nodiscard]] std::string error() const {
-    if (stuck_.empty()) return fmt::format("it says no {}", kPartNames[stuck_part_]);
+    if (stuck_.empty()) return fmt::format("it has no {}", kPartNames[stuck_part_]);
     const std::string hint = nearest();
     return fmt::format("'{}' is no {}{}{}", stuck_, kPartNames[stuck_part_],
                        stuck_part_ == kLeast ? " and no category" : "",

@@ -10,18 +10,18 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::string_view kBoth = "a time as in 5ms, or a share of the delay as in 40%";
+constexpr std::string_view kBoth = "a time, such as 5ms, or a share of the delay, such as 40%";
 
 JitterText share_of_delay(std::string_view text, std::chrono::nanoseconds delay,
                           std::string_view delay_example) {
   const Quantity share = parse_quantity(text, "");
   if (!share.good() || !(share.value >= 0 && share.value <= 1))
-    return {{}, fmt::format("'{}' is no share from 0% to 100%; write {}", text, kBoth)};
+    return {{}, fmt::format("'{}' is not a share from 0% to 100%; write {}", text, kBoth)};
   if (share.value > 0 && delay.count() == 0)
     return {{},
-            fmt::format("'{}' is a share of the delay, which is 0; write {} too, or a time as in "
-                        "5ms",
-                        text, delay_example)};
+            fmt::format(
+                "'{}' is a share of the delay, which is 0; write {} too, or a time, such as 5ms",
+                text, delay_example)};
   return {to_nanoseconds(share.value * pdu::to_seconds(delay)), {}};
 }
 
@@ -39,10 +39,10 @@ JitterText read_jitter(std::string_view text, std::chrono::nanoseconds delay,
   // A number alone could be a time or a share; only zero is unambiguous.
   const bool has_unit = text.find_first_of("smhnu") != text.npos;
   if (!time.good() || !(time.value >= 0) || (time.value > 0 && !has_unit))
-    return {{}, fmt::format("'{}' is no jitter; write {}", text, kBoth)};
+    return {{}, fmt::format("'{}' is not a jitter; write {}", text, kBoth)};
   const std::chrono::nanoseconds jitter = to_nanoseconds(time.value);
   if (jitter == std::chrono::nanoseconds::max())
-    return {{}, fmt::format("'{}' is longer than a jitter can be; write {}", text, kBoth)};
+    return {{}, fmt::format("'{}' exceeds the longest jitter; write {}", text, kBoth)};
   return {jitter, {}};
 }
 

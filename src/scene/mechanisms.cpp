@@ -154,14 +154,14 @@ void check_mechanisms(TomlReader& file, const SceneFile& scene) {
           continue;
         const auto giver = std::ranges::find_if(mechanisms(), gives);
         file.problem_at(path_of(one, scene),
-                        fmt::format("{} needs {}: set {} too, or take {} out", name_of(one),
+                        fmt::format("{} needs {}: set {} too, or remove {}", name_of(one),
                                     words_of(need), name_of(*giver), name_of(one)));
         continue;
       }
       for (const Mechanism& other : mechanisms()) {
         if (!is_on(other) || !has(other.takes, need)) continue;
         file.problem_at(path_of(one, scene),
-                        fmt::format("{} needs {}, which {} excludes: take one of the two out",
+                        fmt::format("{} needs {}, which {} excludes: remove one of the two",
                                     name_of(one), words_of(need), name_of(other)));
       }
     }

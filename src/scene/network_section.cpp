@@ -54,7 +54,7 @@ void check_management(TomlReader& table, NetworkConfig& config) {
     config.management = *rule;
   } else {
     table.problem("allow_management",
-                  fmt::format("'allow_management' is \"{}\"; it wants nobody, members, anyone, or "
+                  fmt::format("'allow_management' is \"{}\"; write nobody, members, anyone, or "
                               "site:application such as \"1:2, 40:1\"",
                               text));
   }
@@ -66,17 +66,17 @@ void check_touch(TomlReader& table, NetworkConfig& config) {
   if (!table.has("touch")) return;
   config.touch = TouchRule::parse(text);
   if (!config.touch)
-    return table.problem("touch", fmt::format("'touch' is \"{}\"; it wants scene, all, members, or "
+    return table.problem("touch", fmt::format("'touch' is \"{}\"; write scene, all, members, or "
                                               "site:application such as \"1:2, 40:1\"",
                                               text));
   if (config.touch->wants_peers() && config.interop)
     table.problem("touch",
-                  "no peer announces itself in an 'interop' exercise: set 'touch' to all, or name "
-                  "those who may as site:application");
+                  "peers do not announce themselves in an 'interop' exercise: set 'touch' to all, "
+                  "or list the permitted peers as site:application");
   else if (config.touch->wants_key() && !table.has("key"))
     table.problem("touch",
-                  "'touch' is \"members\", which only a key can prove: add 'key', or name those "
-                  "who may as site:application");
+                  "'touch' is \"members\", which requires a key: add 'key', or list the permitted "
+                  "peers as site:application");
 }
 
 void check_peers(TomlReader& table, NetworkConfig& config) {
@@ -111,19 +111,18 @@ void check_network(TomlReader& table, NetworkConfig& config) {
   const auto parsed = GroupAddress::parse(text, port);
   if (!parsed || !(parsed->is_multicast() || may_be_broadcast(*parsed))) {
     return table.problem("group",
-                         fmt::format("'group' is \"{}\"; it wants a multicast address such "
-                                     "as \"239.192.1.0\" or \"ff15::c0:100\", or "
-                                     "\"255.255.255.255\" or the subnet's broadcast address with "
-                                     "'interop'",
+                         fmt::format("'group' is \"{}\"; write a multicast address such as "
+                                     "\"239.192.1.0\" or \"ff15::c0:100\", or \"255.255.255.255\" "
+                                     "or the subnet's broadcast address with 'interop'",
                                      text));
   }
   if (!parsed->is_multicast() && !config.interop) {
     return table.problem("group",
                          "'group' is broadcast, which has no groups for cells: set 'interop', or "
-                         "take a multicast address");
+                         "write a multicast address");
   }
   if (parsed->port != port) {
-    return table.problem("group", "'group' has a port in it: write it as 'port'");
+    return table.problem("group", "'group' contains a port: write it as 'port'");
   }
   config.group = *parsed;
 }

@@ -26,21 +26,21 @@ void check_node(TomlReader& table, NodeConfig& node) {
     for (const char* key :
          {"kind", "shows", "turn_axis", "turn_rate", "swing", "swing_rate", "swing_phase"}) {
       if (table.has(key))
-        table.problem(key, fmt::format("'{}' is that of '{}', which this node is a copy of: take "
-                                       "the line out, or write it at a node above",
+        table.problem(key, fmt::format("'{}' comes from '{}', which this node copies: remove the "
+                                       "line, or write it at a parent node",
                                        key, node.use));
     }
     return;
   }
   const bool swings = !node.motion.swing.isZero(0.0);
   if (swings && node.motion.swing_rate == 0.0)
-    table.problem("swing", "a node that swings needs 'swing_rate' above 0");
+    table.problem("swing", "'swing' needs a 'swing_rate' above 0");
   for (const char* key : {"swing_rate", "swing_phase"}) {
     if (table.has(key) && !swings)
-      table.problem(key, fmt::format("only a node that swings takes '{}': give it 'swing'", key));
+      table.problem(key, fmt::format("'{}' needs 'swing': add it", key));
   }
   if (table.has("turn_axis") && node.motion.turn_rate == 0.0)
-    table.problem("turn_axis", "a node that turns needs 'turn_rate', which is not 0");
+    table.problem("turn_axis", "'turn_axis' needs a 'turn_rate' other than 0");
 }
 
 /// Objects below a time function are carried by it. Bodies move by forces, so they cannot be
@@ -54,12 +54,11 @@ void carry_moved(TomlReader& file, SceneFile& out) {
     if (!(object.matter.mass > 0) && !is_plane) continue;
     file.problem_at(
         fmt::format("object[{}].node", hung.table),
-        is_plane
-            ? fmt::format("'{}' is a plane, which cannot move: give a box, or hang it elsewhere",
-                          object.name)
-            : fmt::format("'{}' is a body (mass), which forces move, and a time function moves "
-                          "what it hangs on: take one of them out",
-                          object.name));
+        is_plane ? fmt::format("'{}' is a plane, which cannot move: use a box, or another node",
+                               object.name)
+                 : fmt::format("'{}' is a body (mass), which forces move, and a function of time "
+                               "moves its node: remove one of them",
+                               object.name));
   }
 }
 

@@ -38,17 +38,17 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
                  "the shape");
   for (const char* key : {"scale_to", "centre"}) {
     if (!table.has(key) || table.has("mesh")) continue;
-    table.problem(key, fmt::format("only a mesh takes '{}'; this object has none", key));
+    table.problem(key, fmt::format("'{}' needs a mesh, and this object has none", key));
   }
   if (table.has("patch") && !table.has("mesh") && !table.has("heights"))
-    table.problem("patch", "only 'mesh' and 'heights' take 'patch'; this object has neither");
+    table.problem("patch", "'patch' needs 'mesh' or 'heights', and this object has neither");
   const auto* box = std::get_if<haptics::BoxShape>(&shape);
   if (box != nullptr && box->size.minCoeff() <= 0) {
-    table.problem("box", "'box' has an edge that is not longer than 0 m");
+    table.problem("box", "'box' has an edge that is not above 0 m");
   }
   const auto* plane = std::get_if<haptics::PlaneShape>(&shape);
   if (plane != nullptr && plane->normal.norm() < 1e-6) {
-    table.problem("plane", "'plane' has no direction: write its outward normal, as [0, 0, 1]");
+    table.problem("plane", "'plane' has no direction: write its outward normal, such as [0, 0, 1]");
   }
 }
 
@@ -56,14 +56,14 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
 void check_body(TomlReader& table, const haptics::SceneObject& object) {
   const bool is_body = object.matter.mass > 0;
   if (table.has("grab") && !is_body)
-    table.problem("grab", "only a body sticks to a hand: add a mass, or take it out");
+    table.problem("grab", "only a body sticks to a hand: add a mass, or remove it");
   if (table.has("grab") && !(object.grab.stiffness > 0))
-    table.problem("grab", "holds nothing without a stiffness: add stiffness = \"200 N/m\"");
+    table.problem("grab", "needs a stiffness to hold: add stiffness = \"200 N/m\"");
   if (!is_body) return;
   if (std::holds_alternative<haptics::PlaneShape>(object.shape))
-    table.problem("mass", "a plane has no end, and cannot move: give a box, or take the mass out");
+    table.problem("mass", "a plane is infinite and cannot move: use a box, or remove the mass");
   if (table.has("patch"))
-    table.problem("patch", "a body is the same all over: take patch out, or the mass");
+    table.problem("patch", "a body has the same surface everywhere: remove patch or the mass");
 }
 
 void check_object(TomlReader& table, haptics::SceneObject& object) {

@@ -39,24 +39,25 @@ void check_region(TomlReader& table, SceneRegion& region) {
   if (region.shape) {
     const auto* box = std::get_if<haptics::BoxShape>(&*region.shape);
     if (box != nullptr && box->size.minCoeff() <= 0)
-      table.problem("box", "'box' has an edge that is not longer than 0 m");
+      table.problem("box", "'box' has an edge that is not above 0 m");
     const auto* plane = std::get_if<haptics::PlaneShape>(&*region.shape);
     if (plane != nullptr && plane->normal.norm() < 1e-6)
-      table.problem("plane", "'plane' has no direction: write its outward normal, as [0, 0, 1]");
+      table.problem("plane",
+                    "'plane' has no direction: write its outward normal, such as [0, 0, 1]");
   }
   region.pose.orientation = read_orientation(table);
   read_effects(table, region.effects);
   read_custom_effects<haptics::GuardedRegionEffect>(table, region.name, region.custom_effects);
   if (!shaped && table.has("border"))
-    table.problem("border", "what is everywhere has no border: give the region a shape");
+    table.problem("border", "a region without a shape has no border: give it a shape");
   if (!declares_any(region)) {
     std::vector<std::string_view> keys;
     haptics::for_each_region_effect(
         [&]<class Effect>(std::type_identity<Effect>) { keys.push_back(Effect::kKey); });
     for (const auto& effect : table.custom_effects())
       if (effect->section() == "region") keys.push_back(effect->key());
-    table.problem("name", fmt::format("nothing acts in this region: give it one of {}",
-                                      fmt::join(keys, ", ")));
+    table.problem(
+        "name", fmt::format("this region has no effect: give it one of {}", fmt::join(keys, ", ")));
   }
 }
 
@@ -69,8 +70,7 @@ void read_regions(TomlReader& file, SceneFile& out) {
     SceneRegion& region = out.scene.regions.emplace_back();
     section.read(table, region);
     if (!region.name.empty() && !names.insert(region.name).second) {
-      table.problem("name", fmt::format("there is another region '{}': give it a name of its own",
-                                        region.name));
+      table.problem("name", fmt::format("there is another region '{}': rename one", region.name));
     }
   }
 }

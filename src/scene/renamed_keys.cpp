@@ -57,13 +57,13 @@ std::string instead(std::string_view old, std::string_view where, std::string ro
   return fmt::format("{}: {}:\n{}", old, where, rows);
 }
 
-constexpr std::string_view kBehind = "take the line out and write, behind the other keys of [aoim]";
-constexpr std::string_view kTakeOut = "take the line out";
+constexpr std::string_view kBehind = "remove the line and write, after the other keys of [aoim]";
+constexpr std::string_view kTakeOut = "remove the line";
 
 std::string of_channels(const toml::table& aoim) {
   if (aoim.contains("channel") || !is_on(aoim, "channels"))
-    return fmt::format("'channels' is what rows of [[aoim.tier]] say: {}", kTakeOut);
-  return instead("'channels' is rows of [[aoim.tier]] now", kBehind,
+    return fmt::format("'channels' was replaced by rows of [[aoim.tier]]: {}", kTakeOut);
+  return instead("'channels' is now rows of [[aoim.tier]]", kBehind,
                  tiers_text(distance_tiers(aoim::default_channels(), is_on(aoim, "near_groups"))));
 }
 
@@ -72,17 +72,17 @@ std::string of_channel(const toml::table& aoim) {
 }
 
 std::string of_contact_groups(const toml::table& aoim) {
-  constexpr std::string_view kNow = "'contact_groups' is a tier now";
+  constexpr std::string_view kNow = "'contact_groups' is now a tier";
   if (!is_on(aoim, "contact_groups")) return fmt::format("{}: {}", kNow, kTakeOut);
   return instead(kNow, fmt::format("{}, before any other [[aoim.tier]]", kBehind),
                  tiers_text({{Recipients::touch, {}, false}}));
 }
 
 std::string of_near_groups(const toml::table& aoim) {
-  constexpr std::string_view kNow = "'near_groups' is a key of tiers now";
+  constexpr std::string_view kNow = "'near_groups' is now a key of tiers";
   if (!is_on(aoim, "near_groups")) return fmt::format("{}: {}", kNow, kTakeOut);
   return instead(kNow,
-                 "take the line out and write in each [[aoim.tier]] by distance that is neither "
+                 "remove the line and write in each [[aoim.tier]] by distance that is neither "
                  "'kept' nor the last",
                  "own_group = true");
 }

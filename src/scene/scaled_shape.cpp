@@ -67,15 +67,16 @@ std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& ob
   object.pose.position = pose.position;
   object.pose.orientation = pose.orientation;
   if (!(pose.position.cwiseAbs().maxCoeff() <= kFarthest))
-    return fmt::format(
-        "'{}' lies farther than 1000 km from the origin of S: bring its nodes nearer", object.name);
+    return fmt::format("'{}' is farther than 1000 km from the origin of S: move its nodes nearer",
+                       object.name);
   if (!(pose.scale >= 1e-3 && pose.scale <= 1e3))
-    return fmt::format("the scales above '{}' come to {:.3g}; let it be 0.001 to 1000", object.name,
-                       pose.scale);
+    return fmt::format(
+        "the scales of the parents of '{}' multiply to {:.3g}; the range is 0.001 to 1000",
+        object.name, pose.scale);
   if (scale_shape(object.shape, pose.scale)) return std::nullopt;
   return fmt::format(
-      "'{}' is a mesh in metres as drawn, and the scales above it come to {:.3g}: give it "
-      "'scale_to', or take the scales out",
+      "'{}' is a mesh without 'scale_to', and the scales of its parents multiply to {:.3g}: add "
+      "'scale_to', or remove the scales",
       object.name, pose.scale);
 }
 

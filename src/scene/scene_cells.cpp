@@ -24,7 +24,7 @@ std::uint16_t place_of(const std::vector<LocaleConfig>& locales, const std::stri
   const auto found = std::ranges::find(locales, name, &LocaleConfig::name);
   if (found == locales.end())
     throw std::invalid_argument(
-        fmt::format("'{}' names the neighbour '{}', and there is no such locale", of, name));
+        fmt::format("'{}' names the neighbour '{}', which does not exist", of, name));
   return static_cast<std::uint16_t>(found - locales.begin());
 }
 

@@ -62,8 +62,7 @@ void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
     }
     if (config.rule->name != Rule::kName && value != row.default_value) {
       table.problem(row.key,
-                    fmt::format("only the rule '{0}' takes '{1}': write rule = \"{0}\", or "
-                                "take '{1}' out",
+                    fmt::format("'{1}' needs the rule '{0}': write rule = \"{0}\", or remove '{1}'",
                                 Rule::kName, row.key));
     }
   }
@@ -102,8 +101,7 @@ void check_bodies(TomlReader& file, const SceneFile& scene) {
   const auto one = std::ranges::find_if(scene.devices, first);
   if (one == scene.devices.end()) {
     file.problem("object",
-                 "the bodies (mass) of a scene move under the hands of its first peer: give it a "
-                 "[[device]] of peer 1");
+                 "the first peer moves the bodies (mass) of a scene: add a [[device]] of peer 1");
     return;
   }
   const auto same = [&](const DeviceConfig& device) {
@@ -111,7 +109,7 @@ void check_bodies(TomlReader& file, const SceneFile& scene) {
   };
   if (!std::ranges::all_of(scene.devices, same)) {
     file.problem("device",
-                 "devices of different rates cannot push the same bodies: give them one rate");
+                 "devices of different rates cannot push the same bodies: give them the same rate");
   }
 }
 
@@ -126,8 +124,7 @@ void check_file(TomlReader& file, SceneFile& out) {
     section.read(table, object);
     table.read("node", hung_on.emplace_back());
     if (!object.name.empty() && !names.insert(object.name).second) {
-      table.problem("name", fmt::format("there is another object '{}': give it a name of its own",
-                                        object.name));
+      table.problem("name", fmt::format("there is another object '{}': rename one", object.name));
     }
   }
   hang_objects(file, hung_on, out);

@@ -88,8 +88,8 @@ void add_custom_effects(const haptics::CustomEffects& effects, Keys& keys) {
     });
     if (taken)
       throw std::invalid_argument(
-          fmt::format("the key '{}' of the effect {} is taken: give it another kKey", effect->key(),
-                      effect->name()));
+          fmt::format("the key '{}' of the effect {} is in use: give it another kKey",
+                      effect->key(), effect->name()));
     const std::string section(effect->section());
     keys.push_back(table(section, effect->key(),
                          fmt::format("the effect {}; costs {}", effect->name(), effect->cost())));

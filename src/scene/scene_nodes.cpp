@@ -108,14 +108,12 @@ class WrittenNodes {
     const NodeConfig& on = nodes_[*node];
     if (!on.use.empty())
       return problem(path_of_object(table),
-                     fmt::format("'{}' is a copy of '{}' and nothing else: hang the object on a "
-                                 "node beside it, or on '{}'",
+                     fmt::format("'{}' only copies '{}': use another node for the object, or '{}'",
                                  name, on.use, on.use));
     if (on.kind != NodeKind::group)
-      return problem(path_of_object(table),
-                     fmt::format("'{}' chooses one of its nodes: hang the object on a node that "
-                                 "hangs on it",
-                                 name));
+      return problem(
+          path_of_object(table),
+          fmt::format("'{}' chooses one of its children: use one of them for the object", name));
     objects_[*node].push_back(table);
   }
 
@@ -138,8 +136,8 @@ class WrittenNodes {
     if (!find(one.use)) return problem(path_of_node(node, "use"), unknown(one.use));
     for (const std::size_t child : children_[node])
       problem(path_of_node(child, "parent"),
-              fmt::format("'{}' is a copy of '{}' and nothing else: hang '{}' on a node beside it",
-                          one.name, one.use, nodes_[child].name));
+              fmt::format("'{}' only copies '{}': give '{}' another parent", one.name, one.use,
+                          nodes_[child].name));
   }
 
   /// A node that contains a copy of itself, at any depth, would be infinite.
@@ -204,8 +202,7 @@ class WrittenNodes {
   void report_no_end(std::size_t node, std::size_t held, const std::vector<std::size_t>& from) {
     while (nodes_[node].use != nodes_[held].name) held = std::exchange(node, from[node]);
     problem(path_of_node(node, "use"),
-            fmt::format("'{}' is to be a copy of '{}', which holds it: a copy of itself would have "
-                        "no end. Name another",
+            fmt::format("'{}' copies its own ancestor '{}', which would not end: name another",
                         nodes_[node].name, nodes_[held].name));
   }
 
@@ -297,11 +294,12 @@ class Expansion {
     if (!is_full_) return true;
     problems_.push_back(
         {place.use ? path_of_node(*place.use, "use") : std::move(path),
-         too_deep ? fmt::format("more than {} nodes would hang on each other: hang some higher",
-                                kMostLevels)
-                  : fmt::format("the scene would have more than {} nodes and objects, copies "
-                                "counted: copy less",
-                                kMostNodes)});
+         too_deep
+             ? fmt::format("nodes are nested more than {} deep: give some a higher parent",
+                           kMostLevels)
+             : fmt::format(
+                   "the scene has more than {} nodes and objects, including copies: copy fewer",
+                   kMostNodes)});
     return false;
   }
 
@@ -316,8 +314,7 @@ class Expansion {
       if ((leaf ? object_names : names).insert(nodes[i].name).second) continue;
       problems_.push_back(
           {use ? path_of_node(*use, "use") : path_of_node(node, "name"),
-           fmt::format("there would be two {} '{}', one of them in a copy: give the other another "
-                       "name",
+           fmt::format("there are two {} '{}', one of them in a copy: rename the other",
                        leaf ? "objects" : "nodes", nodes[i].name)});
     }
   }

@@ -121,15 +121,15 @@ Section<haptics::HeightsShape> heights_section() {
 void check_solid(TomlReader& table, const haptics::SceneObject& object) {
   const bool has_parts = std::holds_alternative<haptics::CsgShape>(object.shape);
   if (table.has("part") && !has_parts) {
-    table.problem("part", "a solid needs a part: write [[object.part]] for each");
+    table.problem("part", "a solid needs parts: write [[object.part]] for each");
   }
   std::visit(
       [&]<class S>(const S& shape) {
         if constexpr (std::is_same_v<S, haptics::CsgShape>) {
           if (shape.parts.front().operation != haptics::CsgOperation::add) {
             return table.problem("part",
-                                 "the first part has nothing before it: let it be added, "
-                                 "and the 'operation' be that of a later one");
+                                 "the first part has no previous part: remove its 'operation', and "
+                                 "write it in a later part");
           }
           try_solid(table, key_of<S>(), shape);
         } else if constexpr (std::is_constructible_v<haptics::ImplicitSolid, S>) {

@@ -57,8 +57,8 @@ std::vector<aoim::Channel> channels_of(const Tiers& tiers) {
 }
 
 std::string own_group_refusal(const Tiers& tiers, std::size_t place) {
-  if (place + 1 == tiers.size()) return "the last tier goes by the group of the cell";
-  if (tiers[place].channel.kept) return "a tier that is 'kept' goes by the group of the next one";
+  if (place + 1 == tiers.size()) return "the last tier uses the group of the cell";
+  if (tiers[place].channel.kept) return "a tier that is 'kept' uses the group of the next one";
   return {};
 }
 

@@ -34,9 +34,10 @@ void check_tier(TomlReader& table, TierConfig& tier) {
   for (const Row<TierConfig>& row : tier_section().rows) {
     const std::string& key = row.key().key;
     if (key != kTo && table.has(key))
-      table.problem(key, fmt::format("'{}' is of a tier by distance: with to = \"touch\" goes no "
-                                     "other key; take it out",
-                                     key));
+      table.problem(
+          key,
+          fmt::format("'{}' is for tiers by distance; to = \"touch\" takes no other key: remove it",
+                      key));
   }
 }
 
@@ -48,7 +49,7 @@ void check_touch(TomlReader& aoim, const Tiers& tiers) {
       aoim.problem_at(place_of(i, kTo), "there is a tier with to = \"touch\" already: keep one");
     else if (i > 0)
       aoim.problem_at(place_of(i, kTo),
-                      "the tier with to = \"touch\" is the inmost: move it before all others");
+                      "the tier with to = \"touch\" is the nearest: move it before all others");
     had_one = true;
   }
 }
@@ -83,18 +84,18 @@ void check_own_groups(TomlReader& aoim, const Tiers& tiers) {
     if (!why.empty()) {
       if (tiers[i].own_group)
         aoim.problem_at(place_of(i, "own_group"),
-                        fmt::format("'own_group': {}: take it out here", why));
+                        fmt::format("'own_group': {}: remove it here", why));
       continue;
     }
     if (!tiers[i].own_group)
-      aoim.problem_at(place_of(i, "own_group"),
-                      "'own_group' holds for all tiers by distance that are neither 'kept' nor the "
-                      "last, or for none: write own_group = true here too, or take it out of the "
-                      "others");
+      aoim.problem_at(
+          place_of(i, "own_group"),
+          "'own_group' applies to all tiers by distance that are neither 'kept' nor the last, or "
+          "to none: write own_group = true here too, or remove it from the others");
     if (is_nearest && tiers[i].channel.coarser > 1.0)
-      aoim.problem_at(place_of(i, "coarser"),
-                      "'own_group' needs the thresholds of the scene in the nearest tier: a "
-                      "'coarser' of 1");
+      aoim.problem_at(
+          place_of(i, "coarser"),
+          "'own_group' needs the thresholds of the scene in the nearest tier: write coarser = 1");
     is_nearest = false;
   }
 }

@@ -88,16 +88,15 @@ class BoundsCheck {
 
   void deepen() {
     if (++level_ > kMostTomlLevels)
-      refuse(
-          fmt::format("more than {} tables and arrays within each other, where each part of a "
-                      "dotted key counts; nest less",
-                      kMostTomlLevels));
+      refuse(fmt::format(
+          "more than {} nested tables and arrays (each part of a dotted key counts); nest fewer",
+          kMostTomlLevels));
     count_value();
   }
 
   void count_value() {
     if (++values_ > kMostTomlValues)
-      refuse(fmt::format("more than {} keys and values; take fewer", kMostTomlValues));
+      refuse(fmt::format("more than {} keys and values; use fewer", kMostTomlValues));
   }
 
   // Skips a string with one or three quotes. A single-line string ends with its line at the latest.
@@ -149,7 +148,7 @@ class BoundsCheck {
 void check_text_bounds(std::string_view text, const std::string& file) {
   if (text.size() > kMostTomlOctets)
     throw SceneFileError(
-        file, {{0, 0, fmt::format("more than {} MiB of text; take less", kMostTomlOctets >> 20)}});
+        file, {{0, 0, fmt::format("more than {} MiB of text; use less", kMostTomlOctets >> 20)}});
   BoundsCheck(text, file).run();
 }
 

@@ -84,7 +84,7 @@ void throw_problems(const std::string& file, std::vector<SceneProblem> problems)
   });
   if (problems.size() == kMostProblems)
     problems.push_back({problems.back().line, problems.back().column,
-                        "mend these first: what is wrong beyond them was not looked for"});
+                        "fix these first; further problems were not checked"});
   throw SceneFileError(file, std::move(problems));
 }
 
@@ -128,7 +128,7 @@ void TomlReader::refuse_unknown_keys() {
                                       section_name(section_), fmt::join(known, ", "))
                         : fmt::format("unknown key '{}' (did you mean '{}'?)", key.str(), nearest);
     if (section_ == "object" && node.is_table())
-      sentence += "; an effect of a program's own is known to that program alone";
+      sentence += "; a custom effect exists only in its own program";
     add(key.source(), std::move(sentence));
   }
 }
@@ -176,7 +176,7 @@ const SceneKey& TomlReader::spec(std::string_view key) const {
 
 void TomlReader::wrong_type(const toml::node& node, const SceneKey& spec) {
   add(node.source(),
-      fmt::format("'{}' is {}; it wants {}", spec.key, type_name(node), describe_kind(spec)));
+      fmt::format("'{}' is {}; it needs {}", spec.key, type_name(node), describe_kind(spec)));
 }
 
 std::optional<double> TomlReader::in_range(double value, const toml::node& node,
@@ -277,7 +277,7 @@ void TomlReader::read(std::string_view key, fs::path& target) {
   const std::string* said = text(key);
   if (said == nullptr) return;
   if (said->empty()) {
-    return problem(key, fmt::format("'{}' is empty; it wants a file's name", key));
+    return problem(key, fmt::format("'{}' is empty; write a file name", key));
   }
   const fs::path path = fs::absolute(folder_ / *said).lexically_normal();
   std::error_code error;
@@ -341,7 +341,7 @@ std::optional<std::string_view> TomlReader::choice(std::string_view key) {
   const auto nearest = nearest_word(*word, row.words);
   const std::string hint =
       nearest.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", nearest);
-  problem(key, fmt::format("'{}' is \"{}\"{}; it wants {}", key, *word, hint, describe_kind(row)));
+  problem(key, fmt::format("'{}' is \"{}\"{}; it needs {}", key, *word, hint, describe_kind(row)));
   return std::nullopt;
 }
 

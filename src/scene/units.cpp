@@ -133,7 +133,7 @@ Quantity parse_quantity(std::string_view text, std::string_view si_unit) {
   if (name.empty()) return {number, {}};
   const Unit* unit = find_unit(name, si_unit);
   if (unit == nullptr && si_unit.empty()) {
-    return {0.0, fmt::format("unit '{}' where a plain number is wanted", name)};
+    return {0.0, fmt::format("unit '{}', but a number without a unit is needed", name)};
   }
   if (unit == nullptr) {
     return {0.0,

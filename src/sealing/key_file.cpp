@@ -74,7 +74,7 @@ class KeyReader {
     } else {
       fail("a line begins with group, suite or epoch");
     }
-    if (!next_word(line).empty()) fail("there is more on the line than belongs there");
+    if (!next_word(line).empty()) fail("the line has extra text at its end");
   }
 
   [[nodiscard]] GroupKey finish() {
@@ -93,22 +93,22 @@ class KeyReader {
 
   void read_group(std::string_view& line) {
     const std::string_view name = next_word(line);
-    if (!is_name(name)) fail("'group' wants a name of 1 to 32 letters, digits, '-', '_' and '.'");
-    if (!key_.group.empty()) fail("a second 'group': one file is one group");
+    if (!is_name(name)) fail("'group' needs a name of 1 to 32 letters, digits, '-', '_' and '.'");
+    if (!key_.group.empty()) fail("a second 'group': a file has one group");
     key_.group = name;
   }
 
   void read_suite(std::string_view& line) {
     const auto suite = suite_of(next_word(line));
-    if (!suite) fail("'suite' wants aes-256-gcm or xchacha20-poly1305");
-    if (has_suite_) fail("a second 'suite': one file is one suite");
+    if (!suite) fail("'suite' needs aes-256-gcm or xchacha20-poly1305");
+    if (has_suite_) fail("a second 'suite': a file has one suite");
     key_.suite = *suite;
     has_suite_ = true;
   }
 
   void read_epoch(std::string_view& line) {
     if (key_.epochs.size() == GroupKey::kMostEpochs)
-      fail("more than 64 epochs: take out those that are over");
+      fail("more than 64 epochs: remove the expired ones");
     GroupEpoch epoch;
     const auto number = number_of<std::uint16_t>(next_word(line));
     if (!number) fail("'epoch' wants a number, 0 to 65535");
@@ -120,7 +120,7 @@ class KeyReader {
       word = next_word(line);
     }
     if (word != "secret" || !read_secret(next_word(line), epoch.secret))
-      fail("'secret' wants 64 hexadecimal digits");
+      fail("'secret' needs 64 hexadecimal digits");
     check_order(epoch);
     key_.epochs.push_back(epoch);
   }
@@ -128,10 +128,10 @@ class KeyReader {
   void check_order(const GroupEpoch& epoch) const {
     if (key_.epochs.empty()) return;
     const GroupEpoch& before = key_.epochs.back();
-    if (epoch.number <= before.number) fail("numbers of epochs have to grow from line to line");
-    if (!epoch.from) fail("an epoch that follows another wants 'from TIME'");
+    if (epoch.number <= before.number) fail("numbers of epochs must increase from line to line");
+    if (!epoch.from) fail("each epoch after the first needs 'from TIME'");
     if (before.from && *epoch.from <= *before.from)
-      fail("times of epochs have to grow from line to line");
+      fail("times of epochs must increase from line to line");
   }
 
   const std::string& file_;
@@ -208,8 +208,9 @@ GroupKey parse_group_key(std::string_view text, const std::string& file) {
 
 std::string group_key_text(const GroupKey& key) {
   std::string text = fmt::format(
-      "# Key of a sealed exercise. Whoever can read this file takes part: hand it on by a safe way "
-      "only.\ngroup {}\nsuite {}\n",
+      "# Key of a sealed exercise. It admits anyone who reads it: transfer it only by a secure "
+      "channel.\n"
+      "group {}\nsuite {}\n",
       key.group, word_of_suite(key.suite));
   for (const GroupEpoch& epoch : key.epochs) {
     text += fmt::format("epoch {} ", epoch.number);

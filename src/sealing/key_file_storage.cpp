@@ -91,30 +91,29 @@ bool write_whole(const File& file, std::string_view text) {
 void check_owner_alone(const std::filesystem::path& path, int file) {
   struct stat state {};
   if (::fstat(file, &state) != 0 || !S_ISREG(state.st_mode))
-    fail(path, "is no file; name one with a key in it");
+    fail(path, "is not a file; name a key file");
   if (state.st_uid != ::geteuid())
-    fail(path,
-         fmt::format("belongs to another user (uid {}), who can read and change it: copy it to "
-                     "a file of your own with `install -m 600`",
-                     state.st_uid));
+    fail(path, fmt::format("belongs to another user (uid {}), who can read and change it: copy it "
+                           "to your own file with `install -m 600`",
+                           state.st_uid));
   if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    fail(path, fmt::format("others than its owner may read it (mode {:04o}): chmod 600 {}",
+    fail(path, fmt::format("is readable by other users (mode {:04o}): chmod 600 {}",
                            state.st_mode & 07777, path.string()));
 }
 
 GroupKey load_group_key(const std::filesystem::path& path) {
   const File file(path, O_RDONLY | O_NONBLOCK);
   if (!file.is_open())
-    fail(path, errno == ENOENT ? "there is no such key file; `reckon key new FILE` makes one"
+    fail(path, errno == ENOENT ? "does not exist; `reckon key new FILE` creates a key file"
                                : fmt::format("cannot be read: {}", std::strerror(errno)));
   check_owner_alone(path, file.number());
   keep_out_of_core_dumps();
   SecretText text;
-  if (!text.read(file)) fail(path, "cannot be read, or is longer than a key file is");
+  if (!text.read(file)) fail(path, "cannot be read, or is too long for a key file");
   GroupKey key = parse_group_key(text.view(), path.string());
   if (!can_seal(key.suite))
     fail(path,
-         "this CPU has no AES instructions; make a key for all members with `reckon key new "
+         "this CPU has no AES instructions; create a key for all members with `reckon key new "
          "--suite xchacha20-poly1305`");
   return key;
 }
@@ -123,8 +122,8 @@ void save_group_key(const GroupKey& key, const std::filesystem::path& path, bool
   const std::filesystem::path written = replace ? path.string() + ".new" : path.string();
   File file(written, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open())
-    fail(written, errno == EEXIST ? "is there already and is left as it is; name another file"
-                                  : fmt::format("cannot be made: {}", std::strerror(errno)));
+    fail(written, errno == EEXIST ? "already exists and is unchanged; name another file"
+                                  : fmt::format("cannot be created: {}", std::strerror(errno)));
   std::string text = group_key_text(key);
   const bool good = write_whole(file, text) && file.close() &&
                     (!replace || ::rename(written.c_str(), path.c_str()) == 0);

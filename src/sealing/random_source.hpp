@@ -23,8 +23,7 @@ using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 class RandomSourceError : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override {
-    return "the system's random source fails, and without it nothing can be sealed; see "
-           "getrandom(2)";
+    return "the system's random source fails, so nothing can be sealed; see getrandom(2)";
   }
 };
 

@@ -43,24 +43,24 @@ struct Counts {
                  &c.make_in(kRefusedDatagrams, "unknown_epoch", "sealed_unknown_epoch_in",
                             "of an epoch that the key file lacks, refused"),
                  &c.make_in(kRefusedDatagrams, "old_epoch", "sealed_old_epoch_in",
-                            "of an epoch that is over, refused"),
+                            "of an expired epoch, refused"),
                  &c.make_in(kRefusedDatagrams, "own_sealed", "sealed_own_in",
-                            "own sealed datagrams that came back, refused"),
+                            "own sealed datagrams that returned, refused"),
                  &c.make_in(kRefusedDatagrams, "no_stream", "sealed_no_stream_in",
-                            "of a stream that nobody sends, refused"),
+                            "of a stream without a sender, refused"),
                  &c.make_in(kRefusedDatagrams, "replayed", "sealed_replayed_in",
-                            "sealed datagrams that had come before, refused"),
+                            "repeated sealed datagrams, refused"),
                  &c.make_in(kRefusedDatagrams, "forged", "sealed_forged_in",
                             "sealed datagrams with a wrong tag, or of another group, refused"),
                  &c.make_in(kRefusedDatagrams, "outdated", "sealed_outdated_in",
                             "sealed before their group was joined, or not within the last second, "
                             "refused")},
-        held(c.make("sealed_held_in", "held until their sender has answered")),
+        held(c.make("sealed_held_in", "held until their sender answered")),
         held_lost(c.make_in(kRefusedDatagrams, "unanswered", "sealed_held_lost",
-                            "of senders that have not answered, dropped")),
+                            "of senders that did not answer, dropped")),
         hellos_in(c.make("sealed_hellos_in", "greetings of other sealed links")),
         hellos_out(c.make("sealed_hellos_out", "own greetings")),
-        trusted(c.make("sealed_trusted", "senders that have answered")),
+        trusted(c.make("sealed_trusted", "senders that answered")),
         exhausted(c.make("sealed_exhausted_out", "not sent: the stream is at its end")) {}
 
   std::array<Counter*, 10> verdicts;  // in the order of SealedVerdict
@@ -82,7 +82,7 @@ bool envelope_number(std::span<const std::byte> octets, DatagramEvent& out) noex
 GroupAddress sealed_group(GroupAddress base) {
   if (base.port == std::numeric_limits<std::uint16_t>::max())
     throw std::invalid_argument(
-        "a sealed exercise takes the port above 'port', and there is none above 65535: take 65534");
+        "a sealed exercise uses the port above 'port', and there is none above 65535: write 65534");
   ++base.port;
   return base;
 }

@@ -63,7 +63,7 @@ const crypto_aead_aes256gcm_state* gcm_state(const std::byte* state) noexcept {
 }  // namespace
 
 void prepare_sealing() {
-  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be made ready");
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialized");
 }
 
 bool can_seal(SealingSuite suite) {

@@ -28,15 +28,16 @@ std::string SealingNews::text() const {
           source.text());
     case Kind::unknown_epoch:
       return fmt::format(
-          "datagrams from {} are of epoch {}, which the key file lacks: get its newest copy",
+          "datagrams from {} have epoch {}, which the key file lacks: copy its newest version",
           source.text(), epoch);
     case Kind::plain:
       return fmt::format("datagrams from {} are not sealed: refused", source.text());
     case Kind::unanswered:
       break;
   }
-  return fmt::format("{}:{} at {} does not answer: a recording, or it does not hear us; not shown",
-                     sealer.site, sealer.application, source.text());
+  return fmt::format(
+      "{}:{} at {} does not answer and is not shown: it is a replay, or it does not receive us",
+      sealer.site, sealer.application, source.text());
 }
 
 bool SealingWatch::Lasting::turn(nanoseconds now, nanoseconds span) noexcept {

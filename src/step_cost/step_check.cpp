@@ -33,9 +33,10 @@ std::string too_dear_sentence(const DearestStep& step, std::chrono::nanoseconds 
                            milliseconds_text(costs[i]));
     if (static_cast<std::size_t>(std::ranges::count(dearest, ',')) + 1 == kNamedStages) break;
   }
-  return fmt::format("a servo step that touches {} takes {} of this host and has {} (dearest: {})",
-                     step.object, milliseconds_text(step.seconds),
-                     milliseconds_text(pdu::to_seconds(period)), dearest);
+  return fmt::format(
+      "a servo step that touches {} takes {} on this host, and its period is {} (costliest: {})",
+      step.object, milliseconds_text(step.seconds), milliseconds_text(pdu::to_seconds(period)),
+      dearest);
 }
 
 std::optional<StepTooDear> find_step_too_dear(const haptics::Scene& scene,

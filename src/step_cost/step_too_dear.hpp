@@ -16,7 +16,7 @@ class StepTooDear : public std::runtime_error {
  public:
   StepTooDear(const std::string& finding, double step, std::chrono::nanoseconds period)
       : std::runtime_error(finding +
-                           "; leave out the dearest, or set FederateOptions::even_if_slow"),
+                           "; remove the costliest, or set FederateOptions::even_if_slow"),
         finding_(finding),
         step_(step),
         period_(period) {}

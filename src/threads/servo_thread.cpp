@@ -63,7 +63,7 @@ std::size_t ServoThread::add(Servo servo) {
                                  [](const Seat& s) { return s.state.load() == State::free; });
   if (seat == seats_.end()) {
     throw std::runtime_error(fmt::format(
-        "a servo thread serves {} servos at most: make another ServoThread", kMostServos));
+        "a servo thread serves at most {} servos: create another ServoThread", kMostServos));
   }
   const auto number = static_cast<std::size_t>(seat - seats_.begin());
   seat->servo = std::move(servo);
@@ -85,15 +85,15 @@ void ServoThread::remove(std::size_t number) noexcept {
 }
 
 std::string ServoThread::describe() const {
-  if (!options_.real_time) return "SCHED_OTHER as asked for, wakes when a step is due";
+  if (!options_.real_time) return "SCHED_OTHER as requested, wakes when a step is due";
   const std::string_view remedy =
-      gave_way_ ? ": it left ordinary threads no time; use fewer devices or a lower rate" : "";
+      gave_way_ ? ": it starved other threads; use fewer devices or a lower rate" : "";
   if (gave_way_ && !real_time_) return fmt::format("gave SCHED_FIFO up{}", remedy);
-  if (!real_time_) return "no real-time right (see reckon doctor), wakes when a step is due";
+  if (!real_time_) return "no real-time privilege (see reckon doctor), wakes when a step is due";
   const auto early = std::chrono::duration_cast<microseconds>(spin_.load()).count();
   if (early == 0)
     return fmt::format("SCHED_FIFO {}, wakes when a step is due{}", kPriority, remedy);
-  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins near what can be felt{}",
+  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins near touchable objects{}",
                      kPriority, early,
                      AwakeProcessors::is_allowed() ? "; processors stay awake then" : "");
 }

@@ -62,9 +62,10 @@ bool CsvReader::next() {
       charge_row();
       return true;
     }
-    fail(cells_.size() - 1,
-         fmt::format("{} cells where the header has {}; give every row as many, empty ones too",
-                     cells_.size(), columns_.size()));
+    fail(
+        cells_.size() - 1,
+        fmt::format("{} cells, but the header has {}; give every row as many, including empty ones",
+                    cells_.size(), columns_.size()));
   }
   return false;
 }
@@ -130,7 +131,7 @@ int CsvReader::letter() {
 
 void CsvReader::keep(int octet) {
   if (row_.size() >= kLongestRow)
-    throw CsvError(fmt::format("{}:{}: the row is longer than {} octets; this is no CSV table",
+    throw CsvError(fmt::format("{}:{}: the row is longer than {} octets; this is not a CSV table",
                                name_, row_line_, kLongestRow));
   row_ += static_cast<char>(octet);
 }
@@ -139,8 +140,7 @@ void CsvReader::read_quoted() {
   for (;;) {
     const int octet = letter();
     if (octet == kEnd)
-      throw CsvError(
-          fmt::format("{}:{}: a quote is opened here and never closed", name_, row_line_));
+      throw CsvError(fmt::format("{}:{}: a quote opens here and is not closed", name_, row_line_));
     if (octet == '"' && peek() != '"') return;
     if (octet == '"') (void)letter();
     if (octet == '\n') {
@@ -164,7 +164,7 @@ void CsvReader::read_cell(int& stop) {
     keep(stop);
   cell.end = row_.size();
   if (cells_.size() == kMostColumns)
-    throw CsvError(fmt::format("{}:{}: more than {} columns; this is no table of tracks", name_,
+    throw CsvError(fmt::format("{}:{}: more than {} columns; this is not a table of tracks", name_,
                                row_line_, kMostColumns));
   cells_.push_back(cell);
 }

@@ -37,18 +37,18 @@ void require(bool good, const char* what) {
 
 void check(const TrackSamples& samples) {
   const auto& times = samples.times;
-  require(!times.empty(), "it needs one sample at least");
+  require(!times.empty(), "it needs at least one sample");
   require(samples.positions.size() == times.size(), "it needs as many positions as times");
   require(samples.orientations.empty() || samples.orientations.size() == times.size(),
           "it needs as many orientations as times, or none");
   for (std::size_t i = 0; i < times.size(); ++i) {
     require(std::isfinite(times[i]), "a time is not finite");
     require(i == 0 || times[i] - times[i - 1] >= TrackSamples::kLeastStep,
-            "times must grow by 1 us at least");
+            "times must increase by at least 1 us");
     require((samples.positions[i].array().abs() <= TrackSamples::kFarthest).all(),
             "a position is more than 1000 km from the origin");
     require(samples.orientations.empty() || std::abs(samples.orientations[i].norm() - 1.0) < 1e-6,
-            "an orientation is no unit quaternion");
+            "an orientation is not a unit quaternion");
   }
 }
 

@@ -26,7 +26,7 @@ MotionColumns::MotionColumns(const CsvReader& csv)
 double MotionColumns::time() {
   const double now = csv_.required(time_);
   if (last_ && !(now > *last_)) {
-    csv_.fail(time_, fmt::format("t_s does not grow: {} after {}", now, *last_));
+    csv_.fail(time_, fmt::format("t_s does not increase: {} after {}", now, *last_));
   }
   last_ = now;
   return now;

@@ -69,7 +69,7 @@ TrackSamples read_track_samples(const std::filesystem::path& file) {
   while (csv.next()) {
     const double time = motion.time();
     if (!samples.times.empty() && time - samples.times.back() < TrackSamples::kLeastStep) {
-      csv.fail(motion.time_column(), "t_s grows by less than 1 us; leave one of the rows out");
+      csv.fail(motion.time_column(), "t_s increases by less than 1 us; remove one of the rows");
     }
     samples.times.push_back(time);
     samples.positions.push_back(motion.position());

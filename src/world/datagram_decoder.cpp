@@ -17,20 +17,19 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters,
                                  pdu::CompressedForm form, std::size_t capacity)
     : exercise_(exercise),
       restorer_(form, capacity),
-      pdus_(counters.make("pdus_in", "PDUs received, good ones")),
-      malformed_(counters.make("malformed_in", "PDUs refused because their octets are damaged")),
+      pdus_(counters.make("pdus_in", "valid PDUs received")),
+      malformed_(counters.make("malformed_in", "damaged PDUs, refused")),
       foreign_(counters.make("other_exercise_in", "PDUs of another exercise, dropped")),
-      unknown_(counters.make("unused_in", "PDUs of types not used here, stepped over")),
-      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")),
-      restored_(counters.make("compressed_in", "Entity States that came compressed")),
-      keys_awaited_(counters.make(
-          "keys_awaited", "compressed states that lean on a key which did not arrive, dropped")),
+      unknown_(counters.make("unused_in", "PDUs of unused types, skipped")),
+      overflow_(counters.make("too_many_in", "updates beyond the limit of one datagram")),
+      restored_(counters.make("compressed_in", "compressed Entity States received")),
+      keys_awaited_(counters.make("keys_awaited",
+                                  "compressed states whose key state did not arrive, dropped")),
       keys_of_others_(counters.make(
-          "keys_of_others",
-          "compressed states of entities that are not their sender's, which has no keys of them")),
+          "keys_of_others", "compressed states of entities that their sender does not own")),
       overtaken_(counters.make(
           "overtaken_in",
-          "states that waited until a newer one of their entity had come, left out")) {}
+          "states that were replaced by a newer one of their entity before they were processed")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
                                                  const pdu::SimulationAddress& own,

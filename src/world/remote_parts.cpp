@@ -41,8 +41,8 @@ RemoteParts::RemoteParts(const deadreckon::ConvergenceSettings& settings, Counte
     : settings_(settings),
       places_(kEntities),
       free_(kEntities),
-      refused_(counters.make("parts_refused", "records of articulated parts with nonsense")),
-      full_(counters.make("parts_full", "updates whose articulated parts found no room")) {
+      refused_(counters.make("parts_refused", "invalid records of articulated parts")),
+      full_(counters.make("parts_full", "updates whose articulated parts exceed the limit")) {
   std::iota(free_.rbegin(), free_.rend(), std::uint16_t{0});
 }
 

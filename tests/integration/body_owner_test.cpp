@@ -144,7 +144,7 @@ TEST(BodyOwner, IsTheFirstPeerOfTheScene) {
   EXPECT_EQ(exercise.cube_at(), 0.0);
   EXPECT_GT(exercise.count("bodies_disputed"), 0u);
   EXPECT_THAT(exercise.notices(kSecond),
-              Contains(HasSubstr("is a body of the scene, but not of its first peer: refused")));
+              Contains(HasSubstr("it is a body of the scene, and only its first peer owns those")));
   exercise.start(kFirst, 1);
   EXPECT_EQ(exercise.run(3000), 0.0);
   EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);

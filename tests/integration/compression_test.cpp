@@ -334,7 +334,7 @@ TEST_P(CompressedExercise, ForgedStatesNeitherMoveNorHideIt) {
       const bool needs_key = GetParam() != CompressedForm::compact;
       if (lie == Liar::Lie::leaning && !needs_key) continue;  // there are no dependent states
       EXPECT_GE(country.count(1, "disputed_in"), 15U);
-      EXPECT_TRUE(country.is_told(1, "speaks in its name (refused)"));
+      EXPECT_TRUE(country.is_told(1, "refused entities under this number"));
     }
   }
 }

@@ -165,7 +165,7 @@ TEST_P(CrowdingSeeds, KeepsTheContactAndReportsTheGuests) {
   EXPECT_GT(world_.count(0, "hands_unfelt"), 0u);
   EXPECT_THAT(
       world_.notices(0),
-      Contains(HasSubstr("most of it from " + world_.network().link(2).local_endpoint().text())));
+      Contains(HasSubstr("most of them from " + world_.network().link(2).local_endpoint().text())));
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, CrowdingSeeds, testing::Range(1u, tries(9u, 21u)));
 

@@ -75,8 +75,8 @@ class Forgery : public testing::Test {
   void expect_refused_and_told() {
     EXPECT_GE(world_.count(0, "disputed_in"), 9U);
     EXPECT_THAT(world_.notices(0),
-                Contains(AllOf(StartsWith("1:2 at " + endpoint(1) + ": somebody at " + endpoint(2)),
-                               HasSubstr("speaks in its name"))));
+                Contains("1:2 at " + endpoint(1) + ": refused entities under this number from " +
+                         endpoint(2)));
   }
 
   peer::SceneFile scene_;
@@ -162,7 +162,7 @@ TEST_F(Forgery, OfAnOrderIsRefusedAndReported) {
   EXPECT_FALSE(world_.view(0).frozen);
   EXPECT_EQ(world_.count(0, "orders_refused"), 4U);
   EXPECT_THAT(world_.notices(0),
-              Contains(HasSubstr("9:9:0 at " + endpoint(2) + " orders to freeze")));
+              Contains(HasSubstr("9:9:0 at " + endpoint(2) + " to freeze")));
 }
 
 TEST_F(Forgery, OfAPermittedPeersOrderIsRefused) {
@@ -229,9 +229,10 @@ TEST_F(InteropForgery, UnderOurIdIsReportedWithTheRemedy) {
     say_from(2, state_of(0));
     world_.run(50);
   }
-  EXPECT_THAT(world_.notices(0), Contains(AllOf(StartsWith("somebody at " + endpoint(2) +
-                                                           " speaks in our name, 1:1 (refused)"),
-                                                HasSubstr("give one another application"))));
+  EXPECT_THAT(
+      world_.notices(0),
+      Contains(AllOf(StartsWith("refused: " + endpoint(2) + " sends entities of this peer, 1:1;"),
+                     HasSubstr("give one another application"))));
   EXPECT_GE(world_.count(0, "disputed_in"), 9U);
   EXPECT_EQ(world_.peer(0).own_id(), (pdu::EntityId{1, 1, 1})) << "an ID was changed unasked";
 }

@@ -72,8 +72,8 @@ def attack(setup, seed):
         gone = [event["id"] for event in alice.events("gone")]
         bob.interrupt()
         alice.interrupt()
-    moved = [text for text in told if " now, no more at " in text]
-    wrong = [text for text in told if text.startswith(Testbed.address(BOB)) and "speaks in the name" in text]
+    moved = [text for text in told if " moved to " in text]
+    wrong = [text for text in told if text.startswith(Testbed.address(BOB)) and "uses the identity" in text]
     right = [text for text in told if text.startswith(Testbed.address(MALLORY))]
     print(f"| {seed} | {loss} % | {1e3 * delay:g} ms | {count} | {len(moved)} | {'; '.join(right) or 'nothing'} |", flush=True)
     return moved + wrong + gone + ([] if right else ["the relay was not reported"])

@@ -94,7 +94,7 @@ TEST_P(ForgedInteractions, AreRefusedAndReported) {
   pdu::Fire fire;
   fire.firing_entity_id = truck_;
   expect_refused(fire);
-  EXPECT_TRUE(is_told("somebody at " + endpoint(kStranger) + " speaks in its name (refused)"));
+  EXPECT_TRUE(is_told("refused entities under this number from " + endpoint(kStranger)));
   pdu::Detonation detonation;
   detonation.source_entity_id = truck_;
   expect_refused(detonation);
@@ -122,7 +122,7 @@ TEST_P(ForgedInteractions, InTheReceiversNameAreRefusedAndReported) {
   pdu::Fire fire;
   fire.firing_entity_id = {1, 1, 1};
   expect_refused(fire);
-  EXPECT_TRUE(is_told("somebody at " + endpoint(kStranger) + " speaks in our name, 1:1 (refused)"));
+  EXPECT_TRUE(is_told("refused: " + endpoint(kStranger) + " sends entities of this peer, 1:1;"));
 }
 
 TEST_P(ForgedInteractions, AreDistinguishedFromTheOwners) {

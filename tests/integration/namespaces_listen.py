@@ -136,7 +136,7 @@ def broadcast(setup):
             sender.sendto(pdu(number), (SUBNET, PORT))
         check(recorder.wait() == 0 and "20 datagrams" in recorder.error_text(), recorder.error_text())
         taken = bed.run(1, [str(setup.reckon), "inspect", f"udp://{Testbed.address(2)}"])
-        check(taken.wait() == 3 and "neither an address" in taken.error_text(), taken.error_text())
+        check(taken.wait() == 3 and "an address or a broadcast address" in taken.error_text(), taken.error_text())
 
 
 def broadcast_peers(setup):

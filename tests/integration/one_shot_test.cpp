@@ -160,7 +160,7 @@ TEST(OneShot, IsFeltForHalfASecond) {
     EXPECT_LE(pressed, 550u + static_cast<std::size_t>(kPicture.count()));
     const auto told = guest.world().notices(0);
     EXPECT_THAT(told, Contains(HasSubstr("900:1 at " + guest.endpoint(1) + " presses a hand")));
-    EXPECT_THAT(told, Contains(HasSubstr("is silent for 0.5 s in contact")));
+    EXPECT_THAT(told, Contains(HasSubstr("was silent for 0.5 s in contact")));
   }
 }
 

@@ -82,13 +82,13 @@ def peers(reckon, scene):
 
     third = start(*run, "1s")
     text = third.communicate(timeout=20)[1]
-    told = re.search(r"this is application 3 of site \d+: 1 is taken on this host by process (\d+) \(reckon-peer\)", text)
+    told = re.search(r"this is application 3 of site \d+, because 1 is used on this host by process (\d+) \(reckon-peer\)", text)
     check(told and int(told[1]) in (first.pid, second.pid), f"the third does not say what it is:\n{text}")
 
     refused = start(*run, "1s", "--application", "2")
     _, text = refused.communicate(timeout=20)
     check(refused.returncode == 3, f"a number that is taken: exit status {refused.returncode}")
-    check("application 2 of site" in text and "is taken on this host by process" in text, f"it says:\n{text}")
+    check("application 2 of site" in text and "is used on this host by process" in text, f"it says:\n{text}")
     named = start(*run, "3s", "--application", "9")
     check(9 in {i[1] for i in judge.senders(applications={9})}, "a number that was given is not kept")
     check("this is application" not in named.communicate(timeout=20)[1], "a number that was given is told as news")

@@ -94,7 +94,7 @@ class Scenes(unittest.TestCase):
                 run = reckon.run_scene(scene, 3.0, peers=1, effects=honey.effects())
                 forces.append(numpy.abs(run.force[run.time - run.time[0] > 1.0, 0]).max())
             self.assertGreater(forces[1], forces[0] + 0.3)
-            with self.assertRaisesRegex(reckon.SceneError, "unknown key 'honey'.*known to that program alone"):
+            with self.assertRaisesRegex(reckon.SceneError, "unknown key 'honey'.*exists only in its own program"):
                 reckon.run_scene(scene, 1.0)
             with self.assertRaisesRegex(TypeError, "a capsule reckon.CustomEffects"):
                 reckon.run_scene(scene, 1.0, effects="honey")

@@ -81,7 +81,7 @@ const Mistake kMistakes[] = {
     {{"peer", "/no/file.toml"}, "/no/file.toml: there is no such file", "name a scene file"},
     {{"scene", "keys", "more"}, "'more' is a word too many", "write reckon scene keys"},
     {{"demo", "--for", "10"}, "--for: '10'", "as in 10s"},
-    {{"demo", "--impair", "loss=200%"}, "loss = 2 is no share", "0% to 100%"},
+    {{"demo", "--impair", "loss=200%"}, "loss = 2 is not a share", "0% to 100%"},
     {{"inspect", "a.pcap", "--by", "type"}, "--by belongs to the view stats", "SOURCE stats --by"},
     {{"inspect", "a.pcap", "stats", "--csv", "--json"}, "two forms", "leave one out"},
     {{"doctor", "extra"}, "extra: there is no such file", "name a scene file"},

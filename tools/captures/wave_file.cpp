@@ -33,7 +33,7 @@ static_assert(std::endian::native == std::endian::little, "files of this format 
 WaveFile::WaveFile(const std::string& path, bool overwrite, std::uint32_t rate)
     : path_(path), rate_(rate), file_(std::fopen(path.c_str(), overwrite ? "wb" : "wbx")) {
   if (!file_ && errno == EEXIST)
-    throw UsageError(path_ + " exists; take another name, or --force to overwrite it");
+    throw UsageError(path_ + " exists; choose another name, or --force to overwrite it");
   if (!file_) throw UsageError(path_ + " cannot be written; name a file in a folder of yours");
   write_header();
 }

@@ -41,7 +41,8 @@ constexpr Words kWords[] = {
     {NoticeKind::quiet, "have not been heard for 2.5 s", "has not heard {} for 2.5 s"},
     {NoticeKind::unheard, "do not hear this one: see `reckon doctor` on all hosts",
      "is not heard by {}: see `reckon doctor` on all hosts"},
-    {NoticeKind::heard_again, "and this one hear each other again", "and {} hear each other again"},
+    {NoticeKind::heard_again, "and this one receive each other again",
+     "and {} receive each other again"},
 };
 
 bool has_words(NoticeKind kind) {

@@ -174,7 +174,7 @@ void check_save(const ViewOptions& options) {
   const bool is_there = std::filesystem::exists(options.save, none);
   if (is_there && !options.overwrite)
     throw UsageError(
-        fmt::format("{} exists; take another name, or --force to overwrite it", options.save));
+        fmt::format("{} exists; choose another name, or --force to overwrite it", options.save));
   check_writable(options.save);
   if (!is_there) std::filesystem::remove(options.save, none);
 }

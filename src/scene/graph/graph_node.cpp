@@ -41,8 +41,7 @@ class GraphCheck {
       if (nodes_[node].kind == NodeKind::content) {
         leaves_.emplace(name, node);
       } else if (!places_.emplace(name, node).second) {
-        add(node, "name",
-            fmt::format("there is another node '{}': give it a name of its own", name));
+        add(node, "name", fmt::format("there is another node '{}': rename one", name));
       }
     }
   }
@@ -63,10 +62,9 @@ class GraphCheck {
       } else {
         add(node, "parent",
             leaves_.contains(*parent)
-                ? fmt::format("'{}' hangs on '{}', which is a leaf: name a node", name, *parent)
-                : fmt::format(
-                      "'{}' hangs on '{}', which is no node of this graph: name one that is", name,
-                      *parent));
+                ? fmt::format("the parent of '{}', '{}', is a leaf: name a node", name, *parent)
+                : fmt::format("the parent of '{}', '{}', is not in this graph: name a node of it",
+                              name, *parent));
       }
     }
   }
@@ -93,17 +91,18 @@ class GraphCheck {
       way += fmt::format(" on '{}'", nodes_[node].name);
     way += node == start ? fmt::format(" on '{}'", nodes_[start].name) : " and so on";
     add(start, "parent",
-        fmt::format("a node hangs on itself, {}: give one of them another parent", way));
+        fmt::format("a node is its own ancestor, {}: give one of them another parent", way));
   }
 
   void check_pose(std::size_t node) {
     const GraphNode& one = nodes_[node];
     if (!(one.pose.scale > 0.0) || !std::isfinite(one.pose.scale))
-      add(node, "scale", fmt::format("the scale of '{}' is not above 0: give it one", one.name));
+      add(node, "scale",
+          fmt::format("the scale of '{}' is not above 0: write one above 0", one.name));
     if (!one.pose.position.allFinite())
       add(node, "position", fmt::format("the position of '{}' is not finite", one.name));
     if (!(one.pose.orientation.norm() > 1e-6) || !one.pose.orientation.coeffs().allFinite())
-      add(node, "orientation", fmt::format("the orientation of '{}' is none", one.name));
+      add(node, "orientation", fmt::format("the orientation of '{}' is not a rotation", one.name));
     if (const auto fault = one.motion ? fault_of(*one.motion) : std::nullopt)
       add(node, "motion", fmt::format("'{}': {}", one.name, *fault));
   }
@@ -119,13 +118,13 @@ class GraphCheck {
   void check_switch(std::size_t node, const std::vector<std::size_t>& children) {
     const GraphNode& one = nodes_[node];
     if (one.kind != NodeKind::switch_ && !one.shows.empty())
-      return add(
-          node, "shows",
-          fmt::format("'{}' is no switch: only a switch has a child that it shows", one.name));
+      return add(node, "shows",
+                 fmt::format("'{}' is not a switch, and only a switch shows one of its children",
+                             one.name));
     const auto named = [&](std::size_t child) { return nodes_[child].name == one.shows; };
     if (one.shows.empty() || std::ranges::any_of(children, named)) return;
     add(node, "shows",
-        fmt::format("'{}' shows '{}', which is no child of it: name a child", one.name, one.shows));
+        fmt::format("'{}' shows '{}', which is not its child: name a child", one.name, one.shows));
   }
 
   void check_levels(std::size_t node, const std::vector<std::size_t>& children) {
@@ -136,12 +135,12 @@ class GraphCheck {
       if (!levels && std::isfinite(farthest)) {
         add(child, "farthest",
             fmt::format(
-                "'{}' hangs on no level of detail: only what does is shown up to a distance",
+                "'{}' is not a child of a level of detail, and only those have a greatest distance",
                 nodes_[child].name));
       } else if (levels && !(farthest > before)) {
         add(child, "farthest",
-            fmt::format("'{}' is never shown: a level before it reaches as far. Let each reach "
-                        "farther, and only the last one any distance",
+            fmt::format("'{}' is never shown, because a level before it reaches as far: let each "
+                        "reach farther, and only the last be unbounded",
                         nodes_[child].name));
       }
       before = farthest;

@@ -19,8 +19,8 @@ std::optional<std::string> fault_of(const NodeMotion& motion) {
                       std::isfinite(motion.swing_phase);
   if (!finite) return "its motion is not finite";
   if (motion.turn_rate != 0.0 && motion.turn_axis.norm() < 1e-6)
-    return "it turns about an axis without a direction: write one, as [0, 0, 1]";
-  if (motion.swing_rate < 0.0) return "it swings at a rate below 0 Hz: turn the swing round";
+    return "its axis of rotation has no direction: write one, such as [0, 0, 1]";
+  if (motion.swing_rate < 0.0) return "its swing rate is below 0 Hz: negate the swing instead";
   return std::nullopt;
 }
 

@@ -120,7 +120,7 @@ TEST(CouplingSimulation, RefusesParametersOutOfRangeByName) {
   };
   CouplingRun run;
   run.network.loss = 1.5;
-  EXPECT_NE(complaint(run).find("loss = 1.5 is no share"), std::string::npos);
+  EXPECT_NE(complaint(run).find("loss = 1.5 is not a share"), std::string::npos);
   run = {};
   run.update_hz = 2000;
   EXPECT_NE(complaint(run).find("update rate"), std::string::npos);

@@ -37,7 +37,7 @@ def port_held(setup):
         holder = bed.socket(1, socket.AF_INET, socket.SOCK_DGRAM)
         holder.bind(("0.0.0.0", PORT))
         alice, bob = bed.peer(1, setup.scene, "ALICE", 1), bed.peer(2, setup.scene, "BOB", 2)
-        wait_told(alice, "DEAF: .*another program holds the port", 5)
+        wait_told(alice, "DEAF: .*another program uses the port", 5)
         time.sleep(4)
         check(len(told(alice, "DEAF")) == 1, "told more than once")
         check(not alice.events("appeared"), "heard without a group")
@@ -45,7 +45,7 @@ def port_held(setup):
         holder.close()
         heard = alice.wait_event("appeared", 6, "BOB", freed)
         check(heard, f"never heard: {alice.error_text()}")
-        wait_told(alice, "is joined: peers can be heard", 6, freed)
+        wait_told(alice, "is joined: peers are received", 6, freed)
         alice.report()
         bob.report()
         check(heard[0] - freed < 3, f"heard after {heard[0] - freed:.2f} s")
@@ -81,7 +81,7 @@ def narrow_wire(setup):
             # JSON, because the text prints "6Kb" for some numbers of octets and "6100b" for others.
             queue = json.loads(bed.system(1, "tc -s -j qdisc show dev e0"))
             waits.append(8 * sum(stage["backlog"] for stage in queue) / 1e6)
-        lines = told(alice, "takes less than is sent")
+        lines = told(alice, "is slower than the traffic")
         report = alice.report()
         held = report["link"]["held_back"]
         check(held > 0 and len(lines) == 1, f"{held} held back, told {lines}; at most {max(waits):.3f} s wait")
@@ -118,7 +118,7 @@ def arrivals_dropped(setup):
         alice, _ = pair(bed, setup)
         begun = alice.seconds()
         bed.firewall(1, "input", f"udp dport {PORT} drop")
-        silent = wait_told(alice, "do not come back", 7, begun) - begun
+        silent = wait_told(alice, "do not return", 7, begun) - begun
         doctor = bed.run(1, [setup.reckon, "doctor", str(setup.scene), "--iface", "e0"])
         status = doctor.wait(20)
         found = [text for _, text in doctor.lines if "not back" in text]

@@ -90,7 +90,7 @@ TEST(ArchivedCapture, ErrorsOfDamagedFilesNameTheMethod) {
     expect_beginning(cut.datagrams, written);
     EXPECT_GT(cut.datagrams.size(), 500U) << method;
     EXPECT_LT(cut.datagrams.size(), written.size()) << method;
-    EXPECT_THAT(cut.report.problem, HasSubstr("(what " + method + " compressed is damaged: "));
+    EXPECT_THAT(cut.report.problem, HasSubstr("(its " + method + " data is damaged: "));
   }
 }
 
@@ -103,8 +103,9 @@ TEST(ArchivedCapture, IsRefusedWhereItHoldsNoCapture) {
     EXPECT_THAT(refusal(folder.file("text")),
                 HasSubstr("text, decompressed: unknown file format; give a pcap or pcapng file"));
     compress(folder.file("text"), folder.file("twice"), method);
-    EXPECT_THAT(refusal(folder.file("twice")), HasSubstr("it is compressed by " + method +
-                                                         " more than once; decompress it first"));
+    EXPECT_THAT(
+        refusal(folder.file("twice")),
+        HasSubstr("it is compressed more than once by \" + method + \"; decompress it first"));
     std::vector<char> octets = octets_of(folder.file("text"));
     std::ofstream(folder.file("head"), std::ios::binary).write(octets.data(), 7);
     EXPECT_THAT(refusal(folder.file("head")), HasSubstr("give a pcap or pcapng file"));

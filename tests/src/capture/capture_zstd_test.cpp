@@ -118,7 +118,7 @@ TEST(CompressedCapture, GivesItsGoodPartWhereverItIsTruncated) {
     const ReadBack read = read_all(path);
     expect_beginning(read.datagrams, written);
     EXPECT_GE(read.datagrams.size(), most) << size;
-    EXPECT_THAT(read.report.problem, HasSubstr("it ends within a zstd frame: 0 of 1 are whole"));
+    EXPECT_THAT(read.report.problem, HasSubstr("it ends within a zstd frame: 0 of 1 are intact"));
     most = std::max(most, read.datagrams.size());
   }
   EXPECT_EQ(most, written.size());
@@ -201,7 +201,7 @@ TEST(CompressedCapture, ErrorNamesTheDamagedFrame) {
   write_octets(folder.file("b.zst"), octets, octets.size());
   const ReadBack read = read_all(folder.file("b.zst"));
   EXPECT_THAT(read.report.problem, HasSubstr("its zstd frame 2 is damaged"));
-  EXPECT_THAT(read.report.problem, HasSubstr("1 before it are whole"));
+  EXPECT_THAT(read.report.problem, HasSubstr("1 before it are intact"));
   EXPECT_GT(read.datagrams.size(), 500U);
 }
 

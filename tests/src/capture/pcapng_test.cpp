@@ -167,7 +167,7 @@ TEST(Pcapng, ReportsDamageAndKeepsTheFramesBefore) {
          f.octets() = f.octets() + f.number(9U) + f.number(16U) + Bytes(4, 0) + f.number(20U);
        }},
       {"without the byte-order magic", [](PcapngFile& f) { f.block(0x0a0d0d0a, Bytes(16, 3)); }},
-      {"pcapng of version 2 is not read",
+      {"pcapng version 2 is not supported",
        [](PcapngFile& f) {
          f.block(0x0a0d0d0a, f.number(0x1a2b3c4dU) + f.number<std::uint16_t>(2) + Bytes(10, 0));
        }},

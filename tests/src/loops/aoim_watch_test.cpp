@@ -94,7 +94,7 @@ TEST_F(AoimWatchTest, ReportsPeersWithoutRoom) {
   EXPECT_EQ(count("peers_not_joined"), 3u);
   announce(1027);
   EXPECT_THAT(run(seconds(2)), IsEmpty());
-  EXPECT_THAT(run(seconds(2)), ElementsAre(HasSubstr("no peer is left out")));
+  EXPECT_THAT(run(seconds(2)), ElementsAre(HasSubstr("the table of peers has room again")));
 }
 
 TEST_F(AoimWatchTest, ReportsAnInteropExerciseOutOfRangeOnce) {
@@ -137,7 +137,7 @@ TEST_F(AoimWatchTest, ReportsOnceThatNoPeerIsNear) {
   EXPECT_THAT(run(seconds(9)), IsEmpty());
   run(seconds(2));  // no peer was present when the first interval began
   announce(2);
-  EXPECT_THAT(run(seconds(65)), ElementsAre(HasSubstr("2 other peers are there")));
+  EXPECT_THAT(run(seconds(65)), ElementsAre(HasSubstr("2 other peers have no entity within")));
   announce(2);
   EXPECT_THAT(run(seconds(120)), IsEmpty()) << "told already";
   begin({});

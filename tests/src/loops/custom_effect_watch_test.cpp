@@ -36,15 +36,16 @@ TEST_F(CustomEffectWatchTest, IsSilentForAGoodEffect) { EXPECT_THAT(look(), IsEm
 
 TEST_F(CustomEffectWatchTest, ReportsEachFaultOnceByName) {
   report_->not_finite = 3;
-  EXPECT_THAT(look(),
-              ElementsAre(HasSubstr("the effect honey of table answers with what is no number")));
+  EXPECT_THAT(
+      look(),
+      ElementsAre(HasSubstr("the effect honey of table returns values that are not finite")));
   report_->not_finite = 9;
   report_->too_strong = 1;
   report_->not_booked = true;
   EXPECT_THAT(look(), ElementsAre(HasSubstr("above 100 N"), HasSubstr("held for each sample")));
   report_->slowest = 2'140'000;
   report_->switched_off = true;
-  EXPECT_THAT(look(), ElementsAre(HasSubstr("switched off: it took up to 2.1 ms")));
+  EXPECT_THAT(look(), ElementsAre(HasSubstr("switched off, because it took up to 2.1 ms")));
   EXPECT_THAT(look(), IsEmpty());
 }
 

@@ -17,7 +17,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr aoim::SourceAddress kCrowder{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, 9}, 5555};
+constexpr aoim::SourceAddress kCrowder{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, 9},
+                                       5555};
 
 class LimitWatchTest : public testing::Test {
  protected:
@@ -39,9 +40,9 @@ class LimitWatchTest : public testing::Test {
 TEST_F(LimitWatchTest, IsSilentWhileNothingIsLeftOut) { EXPECT_THAT(run(seconds(60)), IsEmpty()); }
 
 TEST_F(LimitWatchTest, ReportsUnfeltHandsOnceAndTheirEndOnce) {
-  EXPECT_THAT(
-      run(seconds(20), 3),
-      ElementsAre(HasSubstr("32 bodies that a servo takes, most of it from 10.0.0.9:5555")));
+  EXPECT_THAT(run(seconds(20), 3),
+              ElementsAre(HasSubstr(
+                  "32 bodies of a servo are near a hand, most of them from 10.0.0.9:5555")));
   EXPECT_THAT(run(seconds(1), 1), IsEmpty());
   EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the maximum
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("felt again")));
@@ -50,22 +51,23 @@ TEST_F(LimitWatchTest, ReportsUnfeltHandsOnceAndTheirEndOnce) {
 TEST_F(LimitWatchTest, ReportsAFullTableAndFullRings) {
   counters_.make("table_full", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("full with 1234 rows")));
-  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("room in the table again")));
+  EXPECT_THAT(run(seconds(4)),
+              ElementsAre(HasSubstr("the table of remote entities has room again")));
   counters_.make("write_overflow", "").add();
   counters_.make("read_waits", "").add();
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("towards the network is full"),
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("the ring to the network is full"),
                                            HasSubstr("from the network is full")));
 }
 
 TEST_F(LimitWatchTest, ReportsAMissingKey) {
   counters_.make("sealed_unread_in", "").add();
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("give [network] key")));
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("set [network] key")));
 }
 
 TEST_F(LimitWatchTest, ReportsARefusedForceModelAndItsEnd) {
   counters_.make("models_refused", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("force model of 7:8:9 is refused")));
-  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("no force model has been refused since")));
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("no force model was refused since")));
 }
 
 }  // namespace

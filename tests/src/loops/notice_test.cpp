@@ -29,22 +29,22 @@ TEST(Notice, NamesBothAddressesOfAnImpostor) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::impostor);
   event.source = source_of(*IpEndpoint::parse("10.77.0.2:4000"));
   event.other = source_of(*IpEndpoint::parse("[fd00::9]:5000"));
-  EXPECT_STREQ(notice_of(event).text.data(),
-               "[fd00::9]:5000 speaks in the name of peer 7:2, which is at 10.77.0.2:4000: not "
-               "believed");
+  EXPECT_STREQ(
+      notice_of(event).text.data(),
+      "[fd00::9]:5000 is ignored: it uses the identity of peer 7:2, which is at 10.77.0.2:4000");
 }
 
 TEST(Notice, ReportsADisputeOverItsOwnId) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::disputed);
   event.other = source_of(*IpEndpoint::parse("10.77.0.3:4001"));
   EXPECT_STREQ(notice_of(event).text.data(),
-               "7:2, which is this peer, is claimed by another at 10.77.0.3:4001, too");
+               "the number of this peer, 7:2, is also claimed by 10.77.0.3:4001");
 }
 
 TEST(Notice, ReportsHowLongThePeerSlept) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::slept);
   event.slept = std::chrono::milliseconds(5049);
-  EXPECT_STREQ(notice_of(event).text.data(), "this peer slept for 5.0 s");
+  EXPECT_STREQ(notice_of(event).text.data(), "this peer was suspended for 5.0 s");
 }
 
 bool is_printable(std::string_view text) {

@@ -30,8 +30,8 @@ TEST(TouchStage, ReportsWallsAndRegionsThatAreSoftened) {
   device.regions = 100;
   EXPECT_THAT(
       softened(device),
-      ElementsAre("hand 'HAND1' feels walls of 300 N/m, of 800 asked: its device holds no more",
-                  "hand 'HAND1' feels regions of 100 N/m, of 150 asked: its device holds no more"));
+      ElementsAre("hand 'HAND1' feels walls at 300 N/m instead of 800: the limit of its device",
+                  "hand 'HAND1' feels regions at 100 N/m instead of 150: the limit of its device"));
 }
 
 }  // namespace

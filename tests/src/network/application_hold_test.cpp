@@ -54,7 +54,7 @@ TEST(ApplicationHold, RefusesATakenNumberAndNamesItsHolder) {
   const ApplicationHold holder(scope(), 7);
   EXPECT_EQ(holder.report(), "");
   EXPECT_THAT(refusal(scope(), 7), AllOf(HasSubstr("application 7 of site"),
-                                         HasSubstr("is taken on this host by process "),
+                                         HasSubstr("is used on this host by process "),
                                          HasSubstr("name another application")));
   const ApplicationHold next(scope(), {});
   EXPECT_EQ(next.number(), 1);

@@ -49,9 +49,9 @@ TEST(UnicastPeers, AreWrittenAsTheyAreRead) {
 TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
   EXPECT_THAT(refusal("10.0.0.7,,a"), HasSubstr("names nobody"));
   EXPECT_THAT(refusal("10.0.0.7,:3000"), HasSubstr("':3000' names nobody"));
-  EXPECT_THAT(refusal("[[::]"), HasSubstr("is no address in brackets"));
+  EXPECT_THAT(refusal("[[::]"), HasSubstr("is not an address in brackets"));
   EXPECT_THAT(refusal("host]:3001"), HasSubstr("bracket"));
-  EXPECT_THAT(refusal("a:0"), HasSubstr("'a:0' has a port that is not from 1 to 65535"));
+  EXPECT_THAT(refusal("a:0"), HasSubstr("'a:0' has a port outside 1 to 65535"));
   EXPECT_THAT(refusal("a:70000"), HasSubstr("'a:70000'"));
   EXPECT_THAT(refusal("a:b"), HasSubstr("'a:b'"));
   EXPECT_THAT(refusal("[::1"), HasSubstr("brackets"));
@@ -85,8 +85,8 @@ TEST(UnicastPeers, ThatAreNoHostAreNamed) {
   EXPECT_THAT(why("no-such-host.invalid", false),
               HasSubstr("'no-such-host.invalid' has no IPv4 address"));
   EXPECT_THAT(why("127.0.0.1", true), HasSubstr("'127.0.0.1' has no IPv6 address"));
-  EXPECT_THAT(why("239.192.1.0", false), HasSubstr("address of no single host"));
-  EXPECT_THAT(why("255.255.255.255", false), HasSubstr("address of no single host"));
+  EXPECT_THAT(why("239.192.1.0", false), HasSubstr("not the address of a single host"));
+  EXPECT_THAT(why("255.255.255.255", false), HasSubstr("not the address of a single host"));
 }
 
 // Three hosts of one unicast list. Nothing joins on the network below, so it carries no multicast.

@@ -76,7 +76,7 @@ TEST(HostLimits, FindAProgramThatHoldsThePort) {
     const Finding held = probe_multicast(interface_named("lo"), kGroup);
     close(holder);
     EXPECT_EQ(held.level, FindingLevel::problem);
-    EXPECT_NE(held.what.find("another program holds the port"), std::string::npos) << held.what;
+    EXPECT_NE(held.what.find("another program uses the port"), std::string::npos) << held.what;
     GroupAddress elsewhere = kGroup;
     elsewhere.port = 3001;
     EXPECT_EQ(probe_up_to_five_times(interface_named("lo"), elsewhere).level, FindingLevel::ok);
@@ -199,7 +199,7 @@ TEST(HostLimits, RefuseMoreGroupsThanFilesCanBeOpen) {
 TEST(HostLimits, ReportWhetherTheKernelHandlesRuns) {
   const Finding finding = probe_offload(interface_named("lo"), kGroup);
   EXPECT_EQ(finding.level, FindingLevel::ok) << finding.what;
-  EXPECT_NE(finding.what.find("cut by the kernel (UDP_SEGMENT)"), std::string::npos);
+  EXPECT_NE(finding.what.find("segmented by the kernel (UDP_SEGMENT)"), std::string::npos);
   EXPECT_NE(finding.what.find("taken whole (UDP_GRO)"), std::string::npos);
 }
 

@@ -120,7 +120,7 @@ TEST_F(ListenerOnLo, TakesNoUnicastFromAnotherProgram) {
     UdpListener listener({"", {place("127.0.0.1")}}, clock_);
     ADD_FAILURE() << "it listens";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("goes to one program only"));
+    EXPECT_THAT(error.what(), HasSubstr("only one program receives its datagrams"));
   }
   UdpListener listener({"lo", {place("0.0.0.0")}}, clock_);
   ASSERT_FALSE(listener.warnings().empty());
@@ -143,7 +143,7 @@ TEST_F(ListenerOnLo, RefusesAnAddressOfAnotherHost) {
     UdpListener listener({"", {place("198.51.100.1")}}, clock_);
     ADD_FAILURE() << "it listens";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("neither an address nor a broadcast address"));
+    EXPECT_THAT(error.what(), HasSubstr("an address or a broadcast address of this host"));
   }
   UdpListener listener({"", {place("198.51.100.1"), place("127.0.0.1")}, true}, clock_);
   sender_.send(place("127.0.0.1"), "heard");

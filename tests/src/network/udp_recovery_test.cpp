@@ -115,11 +115,11 @@ TEST(UdpRecovery, ReportsTheStateOfTheInterface) {
     ASSERT_TRUE(test::run("ip link set b0 down"));
     EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 has no carrier")));
     ASSERT_TRUE(test::run("ip link set b0 up"));
-    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("carries us again")));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("works again")));
     ASSERT_TRUE(test::run("ip link set a0 down"));
     EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 is down")));
     ASSERT_TRUE(test::run("ip link set a0 up"));
-    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("carries us again")));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("works again")));
     ASSERT_TRUE(test::run("ip addr flush dev a0"));
     EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 has no IPv4 address")));
   });
@@ -147,10 +147,10 @@ TEST(UdpRecovery, ReportsAMissingDescriptorOnce) {
     const auto told = told_in_a_second(link);  // more than two tries
     EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
     ASSERT_EQ(told.size(), 1u) << testing::PrintToString(told);
-    EXPECT_THAT(told[0], HasSubstr("a0 cannot be looked at"));
+    EXPECT_THAT(told[0], HasSubstr("cannot read the state of interface a0"));
     EXPECT_THAT(told[0], HasSubstr("ulimit -n"));
 
-    EXPECT_THAT(recover(link, until_told(2)), Contains(HasSubstr("a0 can be looked at again")));
+    EXPECT_THAT(recover(link, until_told(2)), Contains(HasSubstr("a0 can be read again")));
     EXPECT_EQ(link.local_endpoint().address_text(), "10.66.0.9");
     EXPECT_TRUE(hears_itself(link));
   });

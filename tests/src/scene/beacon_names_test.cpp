@@ -48,11 +48,11 @@ TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
               HasSubstr("x.toml:3:10: 'follow' needs a map of groups: set "
                         "'hand_out' too"));
   EXPECT_THAT(test::refusal("[[entity]]\nbeacon = \"gate\"\n"),
-              HasSubstr("x.toml:2:10: 'beacon' is announced with the groups that are handed out"));
+              HasSubstr("x.toml:2:10: 'beacon' needs assigned groups"));
   EXPECT_THAT(test::refusal(kHandsOut + "follow = \"the gate\"\n"),
-              HasSubstr("'follow': \"the gate\" is no name of a beacon"));
+              HasSubstr("'follow': \"the gate\" is not a beacon name"));
   EXPECT_THAT(test::refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),
-              HasSubstr("'beacon' is \"\"; it wants 1 to 31 letters"));
+              HasSubstr("'beacon' is \"\"; use 1 to 31 letters"));
   EXPECT_THAT(
       test::refusal(kHandsOut + "[[entity]]\nbeacon = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n"),
       HasSubstr("there is another beacon 'gate'"));

@@ -40,7 +40,7 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
 TEST(BodyKeys, RefuseAPlaneWithMass) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
-              HasSubstr("a plane has no end, and cannot move"));
+              HasSubstr("a plane is infinite and cannot move"));
 }
 
 TEST(BodyKeys, GiveSolidsAMass) {
@@ -70,17 +70,17 @@ TEST(BodyKeys, GiveTheGrabSpringsOfObjectsAndHands) {
   EXPECT_THAT(refusal(cube("grab = {stiffness = \"200 N/m\"}\n") + kHand),
               HasSubstr("only a body sticks to a hand"));
   EXPECT_THAT(refusal(cube("mass = \"50 g\"\ngrab = {most = \"2 N\"}\n") + kHand),
-              HasSubstr("holds nothing without a stiffness"));
+              HasSubstr("needs a stiffness to hold"));
 }
 
 TEST(BodyKeys, NeedDevicesOfPeerOneAtOneRate) {
   const std::string body = cube("mass = \"50 g\"\n");
-  EXPECT_THAT(refusal(body), HasSubstr("give it a [[device]] of peer 1"));
+  EXPECT_THAT(refusal(body), HasSubstr("add a [[device]] of peer 1"));
   EXPECT_THAT(refusal(body + "[[operator]]\npassive = true\n[[device]]\npeer = 2\noperator = 1\n"),
-              HasSubstr("give it a [[device]] of peer 1"));
+              HasSubstr("add a [[device]] of peer 1"));
   EXPECT_EQ(refusal(body + kHand + "[[device]]\npeer = 2\noperator = 1\nrate = \"2 kHz\"\n"), "");
   EXPECT_THAT(refusal(body + kHand + "[[device]]\npeer = 1\noperator = 1\nrate = \"2 kHz\"\n"),
-              HasSubstr("give them one rate"));
+              HasSubstr("give them the same rate"));
   EXPECT_EQ(refusal(body + kHand), "");
 }
 

@@ -144,12 +144,12 @@ TEST(CellsSection, RefusesSamplesThatCannotBeRead) {
                          folder.file(""));
   };
   EXPECT_THAT(refusal("a,b\n1,2\n"), HasSubstr("x_m and y_m"));
-  EXPECT_THAT(refusal("x_m,y_m\n"), HasSubstr("no places"));
+  EXPECT_THAT(refusal("x_m,y_m\n"), HasSubstr("no positions"));
   EXPECT_THAT(refusal("x_m,y_m\n1,nan\n"), HasSubstr("town.csv:2"));
   EXPECT_EQ(refusal("px_m,py_m\n1,2\n"), "");
   std::string many = "x_m,y_m\n", often = "t_s,x_m,y_m\n";
   for (int i = 0; i <= 10'000; ++i) many += "1,2\n";
-  EXPECT_THAT(refusal(many.c_str()), HasSubstr("more than 10000 places at one instant"));
+  EXPECT_THAT(refusal(many.c_str()), HasSubstr("more than 10000 positions at one instant"));
   for (int i = 0; i <= 50'000; ++i) often += std::to_string(i / 100) + ",1,2\n";
   EXPECT_THAT(refusal(often.c_str()), HasSubstr("more than 50000 places;"));
 }

@@ -82,7 +82,7 @@ TEST(CustomEffectKeys, RefuseBadValuesWithPlaceAndRemedy) {
               HasSubstr("x.toml:4:22: 'strength'"));
   EXPECT_THAT(refusal("honey = { strenght = 1 }\n", effects), HasSubstr("did you mean 'strength'"));
   EXPECT_THAT(refusal("honey = { strength = \"1 m\" }\n", effects), HasSubstr("'strength'"));
-  EXPECT_THAT(refusal("honey = 3\n", effects), HasSubstr("it wants table"));
+  EXPECT_THAT(refusal("honey = 3\n", effects), HasSubstr("it needs table"));
   EXPECT_THAT(refusal("honey = { strength = 9, speed = 0.05 }\n", effects),
               HasSubstr("x.toml:4:9: so much strength needs more speed"));
 }
@@ -90,7 +90,7 @@ TEST(CustomEffectKeys, RefuseBadValuesWithPlaceAndRemedy) {
 TEST(CustomEffectKeys, AnEffectThatTheProgramLacksIsNamed) {
   const std::string sentence = test::refusal(table("honey = { strength = 2 }\n"));
   EXPECT_THAT(sentence, HasSubstr("x.toml:4:1: unknown key 'honey'"));
-  EXPECT_THAT(sentence, HasSubstr("an effect of a program's own is known to that program alone"));
+  EXPECT_THAT(sentence, HasSubstr("a custom effect exists only in its own program"));
   EXPECT_THAT(refusal("resin = {}\n", haptics::custom_effects<Own<1>>()), HasSubstr("'resin'"));
 }
 

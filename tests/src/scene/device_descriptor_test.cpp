@@ -105,7 +105,7 @@ TEST(DeviceDescriptor, RefusesBadKeysWithPlaceAndRemedy) {
       {std::string(kThree) + "friction = -1\n", "mine.toml:6:12:", "it must be"},
       {std::string(kThree) + "work_space = { from = \"1 0 0 mm\", to = \"0 1 1 mm\" }\n",
        "mine.toml:6:14:", "beyond 'from'"},
-      {"name = 3\n", "mine.toml:1:8:", "it wants text"},
+      {"name = 3\n", "mine.toml:1:8:", "it needs text"},
       {"name = \"\"\nmax_force = 1\ndamping = 1\nresolution = 0\ndelay = 0\n",
        "mine.toml:1:8:", "is empty"},
       {"name = \"x\n", "mine.toml:1:", ""},
@@ -242,7 +242,7 @@ TEST_F(DescribedDeviceSection, BadDescriptorIsReportedWithBothPlaces) {
               AllOf(HasSubstr("x.toml:2:14: 'descriptor': "), HasSubstr("bad.toml:6:8: ")));
   EXPECT_THAT(refusal("descriptor = \"none\"\n"),
               AllOf(HasSubstr("x.toml:2:14: "), HasSubstr("looked for")));
-  EXPECT_THAT(refusal("descriptor = 3\n"), HasSubstr("it wants text"));
+  EXPECT_THAT(refusal("descriptor = 3\n"), HasSubstr("it needs text"));
 }
 
 TEST_F(DescribedDeviceSection, FalconTakesDampingAndDelayOfItsDescriptor) {

@@ -232,7 +232,7 @@ TEST(DeviceSection, RefusesInconsistentKeys) {
       {"marking = \"TWELVE CHARS\"\n", "at most 11 fit"},
       {"heading = 0\norientation = [0, 0, 0]\n", "x.toml:3:15: it is turned twice"},
       {"peer = 65\n", "it must be 1 to 64"},
-      {"kind = \"mouse\"\n", "it wants one of simulated pointer"},
+      {"kind = \"mouse\"\n", "it needs one of simulated pointer"},
       {"kind = \"pointer\"\nreach = 0\n", "x.toml:3:9: 'reach' is 0 m; it must be 1 mm to 10 m"},
       {"reach = 0.1\n", "x.toml:2:9: only a pointer has a reach: add kind = \"pointer\""},
   };

@@ -146,7 +146,7 @@ TEST(EntitySection, ConvertsGeodeticPlacesByTheScenesOrigin) {
   EXPECT_NEAR(entity.position.x(), 0, 1e-6);
   EXPECT_NEAR(entity.position.z(), -0.00097, 1e-4);
   EXPECT_EQ(refusal("[[entity]]\nposition = [0, 0, 0]\n" + place),
-            "x.toml:3:9: the place is given twice, by position and place: keep one");
+            "x.toml:3:9: the position is given twice, by position and place: keep one");
   EXPECT_THAT(refusal("[[entity]]\n" + place),
               HasSubstr("x.toml:2:9: 'place' is 51"));  // 5115 km from latitude and longitude 0
   EXPECT_THAT(refusal("[[entity]]\nplace = { latitude = 0 }\n"),
@@ -239,11 +239,11 @@ TEST(EntitySection, RefusesInconsistentKeys) {
       {"peer = 65\n", "it must be 1 to 64"},
       {"type = \"Platform Lnad\"\n",
        "x.toml:2:8: 'type' is \"Platform Lnad\": 'Lnad' is no domain"},
-      {"type = 1\n", "x.toml:2:8: 'type' is a number; it wants text"},
+      {"type = 1\n", "x.toml:2:8: 'type' is a number; it needs text"},
       {"type = \"\"\n", "it is empty"},
-      {"speed = 2\n", "x.toml:2:9: only a track takes 'speed'"},
-      {"repeat = false\n", "only a track takes 'repeat'"},
-      {"power = 1\n", "only what hands feel takes 'power'"},
+      {"speed = 2\n", "x.toml:2:9: 'speed' needs a track"},
+      {"repeat = false\n", "'repeat' needs a track"},
+      {"power = 1\n", "'power' needs a force_model"},
       {"force_model = { radius = 1 }\n", "[entity.force_model] needs 'kind'"},
       {"force_model = { kind = \"spere\" }\n", "did you mean \"sphere\"?"},
       {"force_model = { kind = \"sphere\", radius = 0 }\n", "'radius' is 0 m; it must be"},
@@ -252,8 +252,8 @@ TEST(EntitySection, RefusesInconsistentKeys) {
       {"force_model = { kind = \"sphere\", static_friction = 0.1, kinetic_friction = 0.2 }\n",
        "'kinetic_friction' (0.2) is above 'static_friction' (0.1): lower it"},
       {"force_model = { kind = \"sphere\" }\ndead_reckoning = { heartbeat = \"20 s\" }\n",
-       "its force fades out 12 s after an update, and updates come every 22 s: raise 'validity'"},
-      {"force_model = 3\n", "it wants table"},
+       "its force fades out 12 s after an update, and the heartbeat is 22 s: raise 'validity'"},
+      {"force_model = 3\n", "it needs table"},
   };
   for (const auto& [lines, words] : cases) {
     EXPECT_THAT(refusal("[[entity]]\n" + lines), HasSubstr(words)) << lines;

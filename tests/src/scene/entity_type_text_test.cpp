@@ -34,15 +34,14 @@ TEST(EntityTypeText, ApiReadsItOrThrows) {
     ADD_FAILURE() << "took a country that there is not";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "type \"1.1.65536\": its country '65536' is no whole number from 0 "
-                 "to 65535");
+                 "type \"1.1.65536\": its country '65536' is not a whole number from 0 to 65535");
   }
 }
 
 TEST(EntityTypeText, RefusesNumbersThatDoNotFit) {
   EXPECT_EQ(parse_entity_type("1.256").error, "its domain '256' is no whole number from 0 to 255");
   EXPECT_EQ(parse_entity_type("1.1.65536").error,
-            "its country '65536' is no whole number from 0 to 65535");
+            "its country '65536' is not a whole number from 0 to 65535");
   EXPECT_THAT(parse_entity_type("1.1.").error, HasSubstr("its country ''"));
   EXPECT_THAT(parse_entity_type("1.-1").error, HasSubstr("its domain '-1'"));
   EXPECT_THAT(parse_entity_type("1.1 .2").error, HasSubstr("its domain '1 '"));

@@ -34,7 +34,7 @@ TEST(JitterText, TakesTimesBeyondTheDelay) { EXPECT_EQ(read("3s", 80ms).jitter, 
 TEST(JitterText, NeedsADelayForAShareAboveZero) {
   EXPECT_THAT(read("40%", 0ns).error,
               AllOf(HasSubstr("'40%' is a share of the delay, which is 0"),
-                    HasSubstr("write --delay 80ms too"), HasSubstr("as in 5ms")));
+                    HasSubstr("write --delay 80ms too"), HasSubstr("such as 5ms")));
   EXPECT_TRUE(read("0%", 0ns).good());
   EXPECT_EQ(read("5ms", 0ns).jitter, 5ms);
 }
@@ -68,10 +68,10 @@ TEST(JitterText, SceneFilesRefuseItAtItsPlace) {
   const auto error = [](const std::string& keys) { return refusal("[impairment]\n" + keys); };
   EXPECT_THAT(error("jitter = \"40%\"\n"),
               HasSubstr("x.toml:2:10: 'jitter': '40%' is a share of the delay, which is 0; write "
-                        "delay = \"80 ms\" too, or a time as in 5ms"));
+                        "delay = \"80 ms\" too, or a time, such as 5ms"));
   EXPECT_THAT(error("delay = 1\njitter = \"5 m\"\n"),
-              HasSubstr("'jitter': '5 m' is no jitter; write a time as in 5ms, or a share of the "
-                        "delay as in 40%"));
+              HasSubstr("'jitter': '5 m' is not a jitter; write a time, such as 5ms, or a share of "
+                        "the delay, such as 40%"));
   EXPECT_THAT(error("jitter = \"11 s\"\n"), HasSubstr("'jitter' is 11 s; it must be"));
   const std::string of_delay = error("delay = \"soon\"\njitter = \"40%\"\n");
   EXPECT_THAT(of_delay, HasSubstr("'delay'"));

@@ -48,7 +48,7 @@ TEST(ManagementRule, RefusesInvalidPeerLists) {
     ADD_FAILURE() << "taken";
   } catch (const SceneFileError& error) {
     EXPECT_THAT(error.what(), HasSubstr("x:2:"));
-    EXPECT_THAT(error.what(), HasSubstr("it wants nobody, members, anyone"));
+    EXPECT_THAT(error.what(), HasSubstr("write nobody, members, anyone"));
   }
 }
 

@@ -31,8 +31,8 @@ TEST(Mechanisms, AreSwitchedOnByKeysThatExist) {
 TEST(Mechanisms, AreReportedAtTheirKeyWithTheRemedy) {
   EXPECT_THAT(
       test::refusal("[network]\ninterop = true\n[aoim]\nradius = \"50 m\"\nleaders = true\n"),
-      HasSubstr("x.toml:5:11: 'leaders' needs experimental PDUs, which "
-                "'interop' excludes: take one of the two out"));
+      HasSubstr("x.toml:5:11: 'leaders' needs experimental PDUs, which 'interop' excludes: remove "
+                "one of the two"));
   EXPECT_THAT(
       test::refusal("[aoim]\nhand_out = true\n"),
       HasSubstr("x.toml:2:12: 'hand_out' needs leaders of cells: set 'leaders' too, or take "
@@ -45,8 +45,8 @@ TEST(Mechanisms, TiersAreReportedAtTheirRow) {
       "[[aoim.tier]]\nfarthest = 9\nactive = 9\noctets = 144\nown_group = true\n"
       "[[aoim.tier]]\nactive = 9\noctets = 144\n";
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nhand_out = true\n" + tiers),
-              HasSubstr("x.toml:4:1: 'tier' with to = \"touch\" needs fixed groups for each "
-                        "cell, which 'hand_out' excludes: take one of the two out\n"
+              HasSubstr("x.toml:4:1: 'tier' with to = \"touch\" needs fixed groups for each cell, "
+                        "which 'hand_out' excludes: remove one of the two\n"
                         "x.toml:6:1: 'tier' with own_group = true needs fixed groups"));
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\n" + tiers),
               HasSubstr("'leaders' needs complete Entity States, which 'tier' "

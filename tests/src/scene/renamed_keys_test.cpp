@@ -67,8 +67,8 @@ TEST(RenamedKeys, AreRefusedAtTheirPlace) {
 TEST(RenamedKeys, OfChannelsGiveTheUsualRows) {
   const std::string said = refusal("[aoim]\nchannels = true\nradius = 5\n");
   EXPECT_EQ(said,
-            "x.toml:2:1: 'channels' is rows of [[aoim.tier]] now: take the line out and write, "
-            "behind the other keys of [aoim]:\n" +
+            "x.toml:2:1: 'channels' is now rows of [[aoim.tier]]: remove the line and write, after "
+            "the other keys of [aoim]:\n" +
                 kUsualRows);
   EXPECT_EQ(parse_scene_file(pasted(said), "x").hash,
             parse_scene_file("[aoim]\n" + test::kDistanceTiers, "x").hash);
@@ -84,8 +84,9 @@ TEST(RenamedKeys, ChannelRowsMapToTheSameTiers) {
       "[[aoim.tier]]\nfarthest = \"3 m\"\nbody = \"full\"\nactive = 9\noctets = 144\n{}"
       "[[aoim.tier]]\nactive = 9\noctets = 144";
   const std::string plain = refusal("[aoim]\nchannels = true\n" + rows);
-  EXPECT_THAT(plain, HasSubstr("x.toml:2:1: 'channels' is what rows of [[aoim.tier]] say: take the "
-                               "line out"));
+  EXPECT_THAT(
+      plain,
+      HasSubstr("x.toml:2:1: 'channels' was replaced by rows of [[aoim.tier]]: remove the line"));
   EXPECT_THAT(plain, HasSubstr("'channel' is 'tier' now: write in place of all its rows:"));
   EXPECT_EQ(pasted(plain), fmt::format(fmt::runtime(expected), ""));
   const std::string near = refusal("[aoim]\nchannels = true\nnear_groups = true\n" + rows);
@@ -95,10 +96,10 @@ TEST(RenamedKeys, ChannelRowsMapToTheSameTiers) {
 
 TEST(RenamedKeys, OfGroupsGiveARowAndAKey) {
   EXPECT_EQ(refusal("[aoim]\ncontact_groups = true\n"),
-            "x.toml:2:1: 'contact_groups' is a tier now: take the line out and write, behind the "
+            "x.toml:2:1: 'contact_groups' is now a tier: remove the line and write, after the "
             "other keys of [aoim], before any other [[aoim.tier]]:\n[[aoim.tier]]\nto = \"touch\"");
   EXPECT_EQ(refusal("[aoim]\nnear_groups = true\n"),
-            "x.toml:2:1: 'near_groups' is a key of tiers now: take the line out and write in each "
+            "x.toml:2:1: 'near_groups' is now a key of tiers: remove the line and write in each "
             "[[aoim.tier]] by distance that is neither 'kept' nor the last:\nown_group = true");
   const std::string both = pasted(refusal("[aoim]\nnear_groups = true\nchannels = true\n"));
   EXPECT_EQ(parse_scene_file(both, "x").hash,
@@ -107,7 +108,7 @@ TEST(RenamedKeys, OfGroupsGiveARowAndAKey) {
 
 TEST(RenamedKeys, ThatAreOffAreTakenOut) {
   EXPECT_EQ(refusal("[aoim]\ncontact_groups = false\n"),
-            "x.toml:2:1: 'contact_groups' is a tier now: take the line out");
+            "x.toml:2:1: 'contact_groups' is now a tier: remove the line");
 }
 
 }  // namespace

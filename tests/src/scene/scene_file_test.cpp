@@ -189,9 +189,9 @@ TEST(SceneFile, ReportsAllProblemsInFileOrder) {
   const std::string told = refusal(text);
   EXPECT_EQ(std::ranges::count(told, '\n'), 3) << told;
   EXPECT_THAT(told, HasSubstr("x.toml:2:6: 'k1': unit 'm' does not fit here: write one of N/m"));
-  EXPECT_THAT(told, HasSubstr("x.toml:3:10: 'radius' is true or false; it wants number [m]"));
+  EXPECT_THAT(told, HasSubstr("x.toml:3:10: 'radius' is true or false; it needs number [m]"));
   EXPECT_THAT(told, HasSubstr("x.toml:5:8: 'port' is 70000; it must be 1 to 65535"));
-  EXPECT_THAT(told, HasSubstr("x.toml:6:7: 'ttl' is a number; it wants whole number"));
+  EXPECT_THAT(told, HasSubstr("x.toml:6:7: 'ttl' is a number; it needs whole number"));
   EXPECT_LT(told.find("k1"), told.find("radius"));
 }
 
@@ -206,19 +206,19 @@ TEST(SceneFile, RefusesInconsistentKeys) {
       {"[[object]]\nsphere = 1\n", "[[object]] needs 'name'"},
       {object(""), "the shape is missing"},
       {object("sphere = 1\nbox = [1, 1, 1]\n"), "the shape is given twice"},
-      {object("box = [1, 0, 1]\n"), "not longer than 0 m"},
-      {object("box = [1, 1]\n"), "it wants three numbers"},
-      {object("box = \"1 1 m\"\n"), "'box' is a text; it wants three numbers [m]"},
+      {object("box = [1, 0, 1]\n"), "not above 0 m"},
+      {object("box = [1, 1]\n"), "it needs three numbers"},
+      {object("box = \"1 1 m\"\n"), "'box' is a text; it needs three numbers [m]"},
       {object("plane = [0, 0, 0]\n"), "no direction"},
-      {object("sphere = 1\nscale_to = 1\n"), "only a mesh takes 'scale_to'"},
+      {object("sphere = 1\nscale_to = 1\n"), "'scale_to' needs a mesh"},
       {object("mesh = \"no_such.obj\"\n"), "cannot read"},
       {object("mesh = \"/dev/null\"\n"), "cannot read"},
       {object("mesh = \"\"\n"), "is empty"},
       {object("sphere = 1\nfriction = { static = 0.1, kinetic = 0.2 }\n"),
        "x.toml:4:12: friction: kinetic"},
       {object("sphere = 1\n") + object("sphere = 2\n"), "another object 'a'"},
-      {"object = 3\n", "it wants tables"},
-      {region(""), "nothing acts in this region: give it one of viscosity, "},
+      {"object = 3\n", "it needs tables"},
+      {region(""), "this region has no effect: give it one of viscosity, "},
       {region("border = {}\n"), "no border"},
       {region("sphere = 1\nbox = [1, 1, 1]\nborder = {}\n"), "the shape is given twice"},
       {region("magnet = {range = \"2 m\"}\n"), "'range' is "},
@@ -238,13 +238,13 @@ TEST(SceneFile, RefusesInconsistentKeys) {
        "a sealed exercise cannot be 'lenient'"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
       {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
-      {"[network]\npeers = \"10.0.0.2\"\n", "it wants texts, any number"},
-      {"[network]\npeers = [\"10.0.0.2\", 3]\n", "it wants texts, any number"},
+      {"[network]\npeers = \"10.0.0.2\"\n", "it needs texts, any number"},
+      {"[network]\npeers = [\"10.0.0.2\", 3]\n", "it needs texts, any number"},
       {"[network]\npeers = [\"10.0.0.2\",\n \"a:0\"]\n",
-       "x.toml:3:2: 'peers': 'a:0' has a port that is not from 1 to 65535"},
+       "x.toml:3:2: 'peers': 'a:0' has a port outside 1 to 65535"},
       {"[network]\npeers = [\"\"]\n", "names nobody"},
       {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
-      {"[impairment]\noutage = 3\n", "it wants tables"},
+      {"[impairment]\noutage = 3\n", "it needs tables"},
   };
   for (const auto& [text, words] : cases) EXPECT_THAT(refusal(text), HasSubstr(words)) << text;
 }
@@ -298,7 +298,7 @@ TEST_F(SceneFolder, ReadsPicturesAndHashesTheirContent) {
   };
   EXPECT_THAT(refused(", width = 0"), HasSubstr("'width' is 0 m"));
   EXPECT_THAT(refused("", "sphere = 1\n"), HasSubstr("the shape is given twice"));
-  EXPECT_THAT(refused("", "scale_to = 1\n"), HasSubstr("only a mesh takes 'scale_to'"));
+  EXPECT_THAT(refused("", "scale_to = 1\n"), HasSubstr("'scale_to' needs a mesh"));
   write("land.pgm", picture.substr(0, picture.size() - 1));
   EXPECT_THAT(refused(""), HasSubstr("s.toml:3:20: "));
   EXPECT_THAT(refused(""), HasSubstr("land.pgm: ends early: its pixels need 16 octets"));

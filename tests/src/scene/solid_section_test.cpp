@@ -86,8 +86,8 @@ TEST(SolidSection, RefusesInvalidSolidsAtTheirPlace) {
   EXPECT_THAT(refusal(object + "cylinder = {radius = \"4 mm\"}\n"), HasSubstr("needs 'height'"));
   EXPECT_THAT(refusal(object + "ellipsoid = \"10 -2 3 mm\"\n"), HasSubstr("x.toml:3:"));
   EXPECT_THAT(refusal(object + "part = [{operation = \"subtract\", sphere = \"1 cm\"}]\n"),
-              HasSubstr("the first part has nothing before it"));
-  EXPECT_THAT(refusal(object + "part = []\n"), HasSubstr("a solid needs a part"));
+              HasSubstr("the first part has no previous part"));
+  EXPECT_THAT(refusal(object + "part = []\n"), HasSubstr("a solid needs parts"));
   EXPECT_THAT(refusal(object + "part = [{}]\n"), HasSubstr("its shape is missing"));
   EXPECT_THAT(refusal(object + "sphere = \"1 cm\"\npart = [{sphere = \"1 cm\"}]\n"),
               HasSubstr("is given twice, by sphere and part"));

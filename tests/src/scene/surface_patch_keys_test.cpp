@@ -67,7 +67,7 @@ TEST_F(PatchKeys, RefuseBadValuesWithPlaceAndRemedy) {
                            "x.toml");
     FAIL();
   } catch (const SceneFileError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("only 'mesh' and 'heights' take 'patch'"));
+    EXPECT_THAT(error.what(), HasSubstr("'patch' needs 'mesh' or 'heights'"));
   }
 }
 

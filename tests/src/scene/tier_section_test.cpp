@@ -98,30 +98,30 @@ TEST(TierSection, OnlyTiersWithOwnGroupsEnterTheHash) {
 TEST(TierSection, HasOneTouchRowFirstWithoutOtherKeys) {
   EXPECT_THAT(refusal(kTouchRow + kRow), IsEmpty());
   EXPECT_THAT(refusal(kRow + kTouchRow),
-              HasSubstr("x.toml:5:6: the tier with to = \"touch\" is the inmost: move it before"));
+              HasSubstr("x.toml:5:6: the tier with to = \"touch\" is the nearest: move it before"));
   EXPECT_THAT(refusal(kTouchRow + kTouchRow),
               HasSubstr("x.toml:4:6: there is a tier with to = \"touch\" already: keep one"));
   for (const char* key : {"farthest = 1", "active = 1", "octets = 1", "own_group = false"})
     EXPECT_THAT(refusal(kTouchRow + key + "\n"),
-                HasSubstr("with to = \"touch\" goes no other key; take it out"))
+                HasSubstr("to = \"touch\" takes no other key: remove it"))
         << key;
 }
 
 TEST(TierSection, RefusesImpossibleOwnGroupsWithTheReason) {
   EXPECT_THAT(refusal(row_to("9", kOwnGroup) + kRow), IsEmpty());
   EXPECT_THAT(refusal(kRow + kOwnGroup),
-              HasSubstr("x.toml:4:13: 'own_group': the last tier goes by the group of the cell"));
+              HasSubstr("x.toml:4:13: 'own_group': the last tier uses the group of the cell"));
   EXPECT_THAT(refusal(row_to("9", "kept = true\n" + kOwnGroup) + kRow),
-              HasSubstr("x.toml:6:13: 'own_group': a tier that is 'kept' goes by the group of the "
-                        "next one: take it out here"));
+              HasSubstr("x.toml:6:13: 'own_group': a tier that is 'kept' uses the group of the "
+                        "next one: remove it here"));
 }
 
 TEST(TierSection, RefusesGroupsThatOnlySomeRowsHave) {
   const std::string two = row_to("8", kOwnGroup) + row_to("9");
   EXPECT_THAT(refusal(two + kOwnGroup + kRow), IsEmpty());
   EXPECT_THAT(refusal(two + kRow),
-              HasSubstr("x.toml:6:1: 'own_group' holds for all tiers by distance that are neither "
-                        "'kept' nor the last, or for none: write own_group = true here too, or"));
+              HasSubstr("x.toml:6:1: 'own_group' applies to all tiers by distance that are neither "
+                        "'kept' nor the last, or to none: write own_group = true here too, or"));
   EXPECT_THAT(refusal(row_to("1", "kept = true\n") + two + kOwnGroup + kRow), IsEmpty());
 }
 
@@ -130,7 +130,7 @@ TEST(TierSection, NearestOwnGroupNeedsTheScenesThresholds) {
   EXPECT_THAT(refusal(row_to("9", coarse) + kRow + coarse), IsEmpty());
   EXPECT_THAT(refusal(row_to("9", kOwnGroup + coarse) + kRow + coarse),
               HasSubstr("x.toml:6:11: 'own_group' needs the thresholds of the scene in the nearest "
-                        "tier: a 'coarser' of 1"));
+                        "tier: write coarser = 1"));
 }
 
 TEST(TierSection, RefusesRowsOutOfOrderAtTheirPlace) {

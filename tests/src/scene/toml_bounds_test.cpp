@@ -86,7 +86,7 @@ TEST(TomlBounds, LimitTablesAndProblems) {
   for (std::size_t i = 0; i < 2 * kMostProblems; ++i) wrong += "[[entity]]\npeer = true\n";
   const std::string said = refusal(wrong);
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), kMostProblems);
-  EXPECT_THAT(said, HasSubstr("mend these first"));
+  EXPECT_THAT(said, HasSubstr("fix these first"));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(TouchRule, AdmitsAllByDefaultInAnInteropExercise) {
   EXPECT_EQ(rule_of("interop = true\n").text(), "all");
   EXPECT_TRUE(rule_of("interop = true\n").allows({1, 2}, false));
   EXPECT_THAT(touch_problem("interop = true\ntouch = \"scene\"\n"),
-              HasSubstr("no peer announces itself in an 'interop' exercise"));
+              HasSubstr("peers do not announce themselves in an 'interop' exercise"));
 }
 
 TEST(TouchRule, BindsNamesToLivingPeersAlone) {
@@ -66,13 +66,13 @@ TEST(TouchRule, IsAListOrTextInAScene) {
   EXPECT_EQ(of("touch = [\"1:2\", \"40:1\"]\n"), "1:2, 40:1");
   EXPECT_EQ(of("touch = \"1:2\"\n"), "1:2");
   EXPECT_EQ(of("touch = \"all\"\n"), "all");
-  EXPECT_THAT(touch_problem("touch = \"friends\"\n"), HasSubstr("it wants scene, all, members, or"));
-  EXPECT_THAT(touch_problem("touch = []\n"), HasSubstr("it wants scene, all, members, or"));
+  EXPECT_THAT(touch_problem("touch = \"friends\"\n"), HasSubstr("write scene, all, members, or"));
+  EXPECT_THAT(touch_problem("touch = []\n"), HasSubstr("write scene, all, members, or"));
   EXPECT_THAT(touch_problem("touch = 7\n"), HasSubstr("x:2:"));
 }
 
 TEST(TouchRule, WantsAKeyForMembers) {
-  EXPECT_THAT(touch_problem("touch = \"members\"\n"), HasSubstr("which only a key can prove"));
+  EXPECT_THAT(touch_problem("touch = \"members\"\n"), HasSubstr("which requires a key"));
   EXPECT_THAT(touch_problem("touch = \"members\"\nkey = \"x.key\"\n"),
               Not(HasSubstr("'touch'")));  // the only fault is the missing file
 }

@@ -53,18 +53,18 @@ TEST(KeyFile, FaultsNamePlaceAndRemedyButNoSecret) {
       {"", "g.key: has no line 'group NAME'"},
       {"group g\n" + good, "has no line 'suite"},
       {head, "has no line 'epoch"},
-      {head + "epoch 1 secret " + kDigits + "a\n", "g.key:3: 'secret' wants 64"},
-      {head + "epoch 1 secret " + std::string(64, 'g') + "\n", "g.key:3: 'secret' wants 64"},
+      {head + "epoch 1 secret " + kDigits + "a\n", "g.key:3: 'secret' needs 64"},
+      {head + "epoch 1 secret " + std::string(64, 'g') + "\n", "g.key:3: 'secret' needs 64"},
       {head + "epoch x secret " + kDigits + "\n", "g.key:3: 'epoch' wants a number"},
       {head + "epoch 70000 secret " + kDigits + "\n", "g.key:3: 'epoch' wants a number"},
-      {head + good + good, "g.key:4: numbers of epochs have to grow"},
-      {head + good + "epoch 2 secret " + kDigits + "\n", "g.key:4: an epoch that follows"},
+      {head + good + good, "g.key:4: numbers of epochs must increase"},
+      {head + good + "epoch 2 secret " + kDigits + "\n", "g.key:4: each epoch after the first"},
       {head + "epoch 1 from 2026-13-01T00:00:00Z secret " + kDigits, "g.key:3: 'from' needs"},
       {head + "epoch 1 from tomorrow secret " + kDigits, "g.key:3: 'from' needs"},
       {head + good + "suite aes-256-gcm\n", "g.key:4: a second 'suite'"},
-      {"suite rot13\n", "g.key:1: 'suite' wants"},
+      {"suite rot13\n", "g.key:1: 'suite' needs"},
       {"group a b\n", "g.key:1: there is more"},
-      {"group " + std::string(33, 'x'), "g.key:1: 'group' wants"},
+      {"group " + std::string(33, 'x'), "g.key:1: 'group' needs"},
       {head + kDigits + "\n", "g.key:3: a line begins with"},
   };
   for (const auto& [text, sentence] : cases) {
@@ -148,7 +148,7 @@ TEST_F(KeyFileOnDisk, NamesFilesThatAreNoKeyFile) {
   std::filesystem::remove(path());
   std::ofstream(path()) << std::string(20000, '#');
   ASSERT_EQ(::chmod(path().c_str(), 0600), 0);
-  EXPECT_THAT(refusal(), HasSubstr("longer than a key file"));
+  EXPECT_THAT(refusal(), HasSubstr("too long for a key file"));
 }
 
 TEST(RandomSource, ThatFailsMakesNoKeyAndNoBoot) {

@@ -265,7 +265,8 @@ TEST(SealedLink, ReportsAnEpochMissingInItsFile) {
     renewed.say(1);
     run(network, 100ms, old, renewed);
   }
-  EXPECT_THAT(old.sealed.take_news(), Contains(HasSubstr("of epoch 2, which the key file lacks")));
+  EXPECT_THAT(old.sealed.take_news(),
+              Contains(HasSubstr("have epoch 2, which the key file lacks")));
 }
 
 TEST(SealedLink, GoesOnThroughAChangeOfEpoch) {

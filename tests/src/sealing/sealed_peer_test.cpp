@@ -180,7 +180,7 @@ TEST_F(SealedPeer, ReportsASealedExerciseWithoutTheKey) {
     for (; peer.peer().notices().front() != nullptr; peer.peer().notices().pop())
       told += peer.peer().notices().front()->text.data();
   }
-  EXPECT_THAT(told, testing::HasSubstr("give [network] key"));
+  EXPECT_THAT(told, testing::HasSubstr("set [network] key"));
   EXPECT_GT(peer.peer().counters().find("sealed_unread_in")->value(), 1000U);
   EXPECT_EQ(peer.peer().counters().find("malformed_in")->value(), 0U);
 }

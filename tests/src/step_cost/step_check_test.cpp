@@ -29,8 +29,8 @@ TEST(StepTooDear, NamesTheThreeDearestStagesOfTheObject) {
       {"skin", "stone", "", ""},    {"contact", "ball", "", ""}};
   const std::vector<double> costs = {2e-3, -1.0, 1e-4, 3e-4, 2e-5, 9e-3};
   EXPECT_EQ(too_dear_sentence({2.45e-3, "stone"}, 1ms, stages, costs),
-            "a servo step that touches stone takes 2.4 ms of this host and has 1 ms (dearest: "
-            "contact 2 ms, relief 0.3 ms, texture 0.1 ms)");
+            "a servo step that touches stone takes 2.4 ms on this host, and its period is 1 ms "
+            "(costliest: contact 2 ms, relief 0.3 ms, texture 0.1 ms)");
 }
 
 class SlowScene : public testing::Test {

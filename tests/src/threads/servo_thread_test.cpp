@@ -167,7 +167,7 @@ TEST(ServoThread, GivesThePriorityUpWhereOrdinaryThreadsStarve) {
   }
   const auto first = std::find_if(threads.begin(), threads.end(), gave_up);
   ASSERT_NE(first, threads.end());
-  EXPECT_NE((*first)->describe().find("gave SCHED_FIFO up: it left ordinary threads no time"),
+  EXPECT_NE((*first)->describe().find("gave SCHED_FIFO up: it starved other threads"),
             std::string::npos);
   const int before = steps;
   while (steps < before + 10) std::this_thread::yield();  // they are still served
@@ -209,14 +209,14 @@ TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
 TEST(ServoThread, DescribesItsScheduling) {
   const ServoThread plain(kClock, {.real_time = false});
   EXPECT_FALSE(plain.real_time());
-  EXPECT_EQ(plain.describe(), "SCHED_OTHER as asked for, wakes when a step is due");
+  EXPECT_EQ(plain.describe(), "SCHED_OTHER as requested, wakes when a step is due");
   const ServoThread thread(kClock);
-  std::string granted = "SCHED_FIFO 50, wakes 100 us early and spins near what can be felt";
+  std::string granted = "SCHED_FIFO 50, wakes 100 us early and spins near touchable objects";
   if (AwakeProcessors::is_allowed()) granted += "; processors stay awake then";
   EXPECT_EQ(thread.describe(),
             thread.real_time()
                 ? granted
-                : "no real-time right (see reckon doctor), wakes when a step is due");
+                : "no real-time privilege (see reckon doctor), wakes when a step is due");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(DemoWalls, AreReportedInNoticesSummaryAndJson) {
   scene.close();
   const auto text = test::run_reckon({"demo", path, "--simulated-time", "--for", "2s"});
   EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_THAT(text.err, HasSubstr("more is near a hand than the 32 bodies that a servo takes"));
+  EXPECT_THAT(text.err, HasSubstr("more than the 32 bodies of a servo are near a hand"));
   EXPECT_THAT(text.out, HasSubstr("bodies near a hand were not felt"));
   const auto json = test::run_reckon({"demo", path, "--simulated-time", "--for", "2s", "--json"});
   // The number is greater for a moment, while nearer posts appear and farther ones are still in the

@@ -91,7 +91,7 @@ TEST(Info, ReportsATruncatedCompressedRecording) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
   const json info = info_of(path, 1);
   EXPECT_EQ(info["datagrams"], 10);
-  EXPECT_THAT(info["problem"].get<std::string>(), HasSubstr("0 of 1 are whole"));
+  EXPECT_THAT(info["problem"].get<std::string>(), HasSubstr("0 of 1 are intact"));
 }
 
 TEST(Info, RefusesOtherSources) {

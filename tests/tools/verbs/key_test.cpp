@@ -67,7 +67,7 @@ TEST_F(KeyVerb, AddsTheSecretOfALaterTime) {
               HasSubstr("epoch  2  from 2090-01-01T00:00:00Z"));
   const ProgramResult before = run_reckon({"key", "next", key(), "--from", "2089-01-01T00:00:00Z"});
   EXPECT_EQ(before.status, 2);
-  EXPECT_THAT(before.err, HasSubstr("have to grow"));
+  EXPECT_THAT(before.err, HasSubstr("must increase"));
 }
 
 TEST_F(KeyVerb, RefusesANextEpochInThePast) {

@@ -187,7 +187,7 @@ TEST(Record, LeavesAReadableCompressedFileWhenKilled) {
   const json info = info_of(folder.file("a.pcapng.zst"), 1);
   EXPECT_EQ(info["datagrams"], 30);
   EXPECT_THAT(info["problem"].get<std::string>(),
-              HasSubstr("it ends within a zstd frame: 0 of 1 are whole"));
+              HasSubstr("it ends within a zstd frame: 0 of 1 are intact"));
   EXPECT_THAT(info["problem"].get<std::string>(), HasSubstr("the 30 frames before that are good"));
 }
 

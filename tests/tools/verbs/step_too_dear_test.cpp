@@ -28,7 +28,7 @@ TEST(StepTooDear, IsRefusedWithDearestStagesAndTheSwitch) {
   EXPECT_EQ(demo.status, 3);
   EXPECT_TRUE(demo.out.empty());
   EXPECT_THAT(demo.err, HasSubstr("a servo step that touches cone takes "));
-  EXPECT_THAT(demo.err, HasSubstr("of this host and has 0.1 ms (dearest: contact "));
+  EXPECT_THAT(demo.err, HasSubstr("on this host, and its period is 0.1 ms (costliest: contact "));
   EXPECT_THAT(demo.err, HasSubstr("or run it all the same with --even-if-slow"));
   const auto peer = run_reckon({"peer", scene, "--iface", "lo", "--for", "10ms"});
   EXPECT_EQ(peer.status, 3);

@@ -305,12 +305,13 @@ TEST(SceneGraph, HasOneRootAndNoStrangers) {
   EXPECT_EQ(refusal_of({node("a", {}), node("b", {})}),
             "'b' is a second root beside 'a': give it a parent");
   EXPECT_EQ(refusal_of({node("a", {}), node("b", "z")}),
-            "'b' hangs on 'z', which is no node of this graph: name one that is");
+            "the parent of 'b', 'z', is not in this graph: name a node of it");
 }
 
 TEST(SceneGraph, HasNoCircle) {
-  EXPECT_EQ(refusal_of({node("a", {}), node("b", "d"), node("c", "b"), node("d", "c")}),
-            "a node hangs on itself, 'b' on 'd' on 'c' on 'b': give one of them another parent");
+  EXPECT_EQ(
+      refusal_of({node("a", {}), node("b", "d"), node("c", "b"), node("d", "c")}),
+      "a node is its own ancestor, 'b' on 'd' on 'c' on 'b': give one of them another parent");
   EXPECT_THAT(refusal_of({node("a", "a")}), HasSubstr("'a' on 'a'"));
   const auto faults = faults_of(std::vector<GraphNode>{
       node("a", {}), node("b", "c"), node("c", "b"), node("d", "c"), node("e", "e")});
@@ -346,8 +347,9 @@ TEST(SceneGraph, RefusesInvalidNodes) {
                 all[0].kind = NodeKind::switch_;
                 all[0].shows = "z";
               }),
-              HasSubstr("no child of it"));
-  EXPECT_THAT(with([](auto& all) { all[1].farthest = 2; }), HasSubstr("on no level of detail"));
+              HasSubstr("not its child"));
+  EXPECT_THAT(with([](auto& all) { all[1].farthest = 2; }),
+              HasSubstr("not a child of a level of detail"));
   EXPECT_THAT(with([](auto& all) { all[0].kind = NodeKind::level_of_detail; }),
               HasSubstr("'c' is never shown"));
 }
