@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // One row for each key of a section: its name, the member that it fills, unit, range and sentence.
-// The default is the struct's initial value. Private to the scene reader.
+// The default is the struct's initial value. Templates only bind a member to its row; the rest of
+// the code handles values by address. Private to the scene reader.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,10 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
-#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
 
@@ -32,52 +31,54 @@ struct Written {
   std::string text;
 };
 
-inline Written written(double value, std::string_view unit) {
-  return {KeyKind::number, format_quantity(value, unit)};
-}
-
-inline Written written(std::chrono::nanoseconds value, std::string_view unit) {
-  return written(pdu::to_seconds(value), unit);
-}
-
+[[nodiscard]] Written written(double value, std::string_view unit);
+[[nodiscard]] Written written(std::chrono::nanoseconds value, std::string_view unit);
 /// A whole number with a unit is a quantity.
-template <std::integral T>
-Written written(T value, std::string_view unit) {
-  if (!unit.empty()) return written(static_cast<double>(value), unit);
-  return {KeyKind::integer, fmt::format("{}", value)};
-}
-
-inline Written written(bool value, std::string_view) {
-  return {KeyKind::boolean, value ? "true" : "false"};
-}
-
+[[nodiscard]] Written written_whole(double value, const std::string& digits, std::string_view unit);
+[[nodiscard]] Written written(bool value, std::string_view unit);
 /// None: the sentence states the effect of absence.
-inline Written written(const std::optional<bool>& value, std::string_view) {
-  return {KeyKind::boolean, !value ? "" : *value ? "true" : "false"};
-}
-
-inline Written written(const std::string& value, std::string_view) {
-  return {KeyKind::text, value};
-}
-
+[[nodiscard]] Written written(const std::optional<bool>& value, std::string_view unit);
+[[nodiscard]] Written written(const std::string& value, std::string_view unit);
 /// None is the only possible default.
-inline Written written(const std::vector<std::string>&, std::string_view) {
-  return {KeyKind::texts, ""};
-}
+[[nodiscard]] Written written(const std::vector<std::string>& value, std::string_view unit);
+[[nodiscard]] Written written(const std::filesystem::path& value, std::string_view unit);
+[[nodiscard]] Written written(const Eigen::Vector3d& value, std::string_view unit);
 
-inline Written written(const std::filesystem::path& value, std::string_view) {
-  return {KeyKind::text, value.string()};
-}
-
-inline Written written(const Eigen::Vector3d& value, std::string_view) {
-  const Eigen::Vector3d v = value + Eigen::Vector3d::Zero();  // -0 is 0
-  return {KeyKind::point, fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x(), v.y(), v.z())};
+template <std::integral T>
+requires(!std::same_as<T, bool>) Written written(T value, std::string_view unit) {
+  return written_whole(static_cast<double>(value), std::to_string(value), unit);
 }
 
 template <HasWords T>
 Written written(const T& value, std::string_view) {
   return {KeyKind::choice, std::string(word_of(value))};
 }
+
+/// How values of one type are read from a file and written to one.
+struct ValueType {
+  std::size_t size, alignment;  ///< [octets]
+  Written (*write)(const void* value, std::string_view unit);
+  void (*read)(TomlReader& table, std::string_view key, void* value);  ///< null: not from one key
+  std::vector<std::string_view> (*words)();                            ///< null: it has none
+};
+
+template <class T>
+constexpr ValueType value_type() {
+  ValueType type{sizeof(T), alignof(T),
+                 [](const void* value, std::string_view unit) {
+                   return written(*static_cast<const T*>(value), unit);
+                 },
+                 nullptr, nullptr};
+  if constexpr (requires(TomlReader & table, T & value) { table.read("", value); })
+    type.read = [](TomlReader& table, std::string_view key, void* value) {
+      table.read(key, *static_cast<T*>(value));
+    };
+  if constexpr (HasWords<T>) type.words = words_of<T>;
+  return type;
+}
+
+template <class T>
+inline constexpr ValueType kValueType = value_type<T>();
 
 /// Range of a number.
 struct Range {
@@ -96,11 +97,33 @@ constexpr Range declared(std::string_view unit, double least, double most) {
   return {unit, least, most, false};
 }
 
+/// The value of `whole` at a pointer to a member, or by a function.
+template <class Get, class S>
+constexpr decltype(auto) value_in(const Get& get, S& whole) {
+  if constexpr (std::is_member_object_pointer_v<Get>)
+    return (whole.*get);
+  else
+    return get(whole);
+}
+
 /// A member of a member.
 template <class Outer, class Inner>
-constexpr auto in(Outer outer, Inner inner) {
-  return [=](auto& of) -> auto& { return std::invoke(inner, std::invoke(outer, of)); };
+struct MemberPath {
+  Outer outer;
+  Inner inner;
+  constexpr auto& operator()(auto& of) const { return value_in(inner, value_in(outer, of)); }
+};
+
+template <class Outer, class Inner>
+constexpr MemberPath<Outer, Inner> in(Outer outer, Inner inner) {
+  return {outer, inner};
 }
+
+/// Whether a `get` finds its value at the same place in each struct.
+template <class Get>
+inline constexpr bool kIsFixed = std::is_member_object_pointer_v<Get>;
+template <class Outer, class Inner>
+inline constexpr bool kIsFixed<MemberPath<Outer, Inner>> = kIsFixed<Outer>&& kIsFixed<Inner>;
 
 /// Offset of a member in its struct [octets].
 struct MemberPlace {
@@ -109,7 +132,7 @@ struct MemberPlace {
 
 /// Result of `get` for an S: a reference is filled, a value is not.
 template <class S, class Get>
-using Got = std::invoke_result_t<const Get&, S&>;
+using Got = decltype(value_in(std::declval<const Get&>(), std::declval<S&>()));
 template <class S, class Get>
 using ValueOf = std::remove_cvref_t<Got<S, Get>>;
 
@@ -123,162 +146,219 @@ inline constexpr bool kIsVector = false;
 template <class T>
 inline constexpr bool kIsVector<std::vector<T>> = true;
 
+/// An S with its initial values.
 template <class S>
-struct Section;
+const S& initial() {
+  static const S whole{};
+  return whole;
+}
+
+/// Finds a value in its struct: at an offset, or by a small function object.
+class Finder {
+ public:
+  /// Finds nothing.
+  Finder() = default;
+  Finder(const void* whole, const void* value)
+      : Finder(static_cast<std::size_t>(static_cast<const std::byte*>(value) -
+                                        static_cast<const std::byte*>(whole)),
+               [](const std::byte* offset, void* in) -> void* {
+                 return static_cast<std::byte*>(in) +
+                        *std::launder(reinterpret_cast<const std::size_t*>(offset));
+               }) {}
+  /// @param find calls the copy of `get` that it receives
+  template <class Get>
+  Finder(const Get& get, void* (*find)(const std::byte* get, void* whole)) : find_(find) {
+    static_assert(sizeof(Get) <= kRoom && std::is_trivially_copyable_v<Get>);
+    ::new (get_.data()) Get(get);
+  }
+
+  [[nodiscard]] explicit operator bool() const { return find_ != nullptr; }
+  [[nodiscard]] void* operator()(void* whole) const { return find_(get_.data(), whole); }
+
+ private:
+  static constexpr std::size_t kRoom = 16;
+  alignas(std::max_align_t) std::array<std::byte, kRoom> get_{};
+  void* (*find_)(const std::byte* get, void* whole) = nullptr;
+};
+
+class KeySection;
+template <class S>
+class Section;
+
+/// A key of a section, for a struct whose type only Row<S> knows.
+class KeyRow {
+ public:
+  KeyRow(const KeyRow&);
+  KeyRow(KeyRow&&) noexcept;
+  KeyRow& operator=(const KeyRow&);
+  KeyRow& operator=(KeyRow&&) noexcept;
+  ~KeyRow();
+
+  /// The same key without a default, if its sentence or its section states the effect of absence.
+  [[nodiscard]] KeyRow without_default() const;
+
+  /// Leaves `whole` unchanged if the key is absent or invalid; an invalid one becomes a problem.
+  void read(TomlReader& table, void* whole) const;
+
+  [[nodiscard]] const SceneKey& key() const { return key_; }
+  /// The keys of its table; their section names begin with this key.
+  [[nodiscard]] std::vector<SceneKey> inside() const;
+  /// The members of the struct that the key, or the keys of its table, fill.
+  [[nodiscard]] std::vector<MemberPlace> places() const;
+
+ protected:
+  KeyRow(std::string_view key, std::string_view sentence);
+  /// @param standard the default, a value of `type`
+  void define(const ValueType& type, const Range& range, const void* standard);
+  /// @param append adds an element to a vector of tables; null: the value is a table itself
+  void define(const KeySection& inside, bool many, void* (*append)(void* many));
+  /// Fills the value that `finder` finds; `value` is that of `whole`.
+  void fill(const Finder& finder, const void* whole, const void* value, std::size_t size,
+            std::size_t alignment);
+  void share_of(std::string_view key) { key_.share_of = key; }
+
+ private:
+  SceneKey key_;
+  const ValueType* type_ = nullptr;
+  std::shared_ptr<const KeySection> inside_;
+  void* (*append_)(void* many) = nullptr;
+  Finder finder_;
+  MemberPlace place_{};
+};
 
 /// A key of a section whose values fill an S. `get` is a pointer to a member, or a function of an
 /// S& that returns a reference to the value to fill. If it returns a value, this only defines type
 /// and default: the section's check reads such a key, because it depends on others.
 template <class S>
-class Row {
+class Row : public KeyRow {
  public:
-  /// A number or a point.
+  /// A number, a point, or one of the words of its type or a whole number for a value without one.
   template <class Get>
-  requires Measured<ValueOf<S, Get>> Row(std::string_view key, Get get, const Range& range,
-                                         std::string_view sentence) {
-    set(key, get, range, sentence);
+  Row(std::string_view key, const Get& get, const Range& range, std::string_view sentence)
+      : KeyRow(key, sentence) {
+    static_assert(Measured<ValueOf<S, Get>> || HasWords<ValueOf<S, Get>>);
+    bind(get, range);
   }
 
   /// A text, a boolean, or one of the words of its type.
   template <class Get>
-  requires(!Measured<ValueOf<S, Get>>)
-      Row(std::string_view key, Get get, std::string_view sentence) {
-    set(key, get, within("", 0, 0), sentence);
-    if constexpr (HasWords<ValueOf<S, Get>>) key_.words = words_of<ValueOf<S, Get>>();
-  }
-
-  /// One of the words of its type, or a whole number for a value without a word.
-  template <class Get>
-  requires HasWords<ValueOf<S, Get>> Row(std::string_view key, Get get, const Range& range,
-                                         std::string_view sentence) {
-    set(key, get, range, sentence);
-    key_.words = words_of<ValueOf<S, Get>>();
+  Row(std::string_view key, const Get& get, std::string_view sentence) : KeyRow(key, sentence) {
+    static_assert(!Measured<ValueOf<S, Get>>, "a number needs a range");
+    bind(get, within("", 0, 0));
   }
 
   /// A table with the keys `inside`; if `get` gives a vector, any number of tables.
   template <class Get, class Inner>
-  Row(std::string_view key, Get get, const Section<Inner>& inside, std::string_view sentence)
-      : inside_(inside.keys(std::string(key))) {
-    constexpr bool kMany = kIsVector<ValueOf<S, Get>>;
-    key_.key = key;
-    key_.kind = kMany ? KeyKind::tables : KeyKind::table;
-    key_.sentence = sentence;
-    if constexpr (kFills<Get> && kMany) {
-      S whole{};
-      places_ = {place(std::invoke(get, whole), whole)};
-      read_ = [key = key_.key, get, inside](TomlReader& table, S& out) {
-        for (TomlReader& one : table.tables(key)) {
-          inside.read(one, std::invoke(get, out).emplace_back());
-        }
-      };
-    } else if constexpr (kFills<Get>) {
-      S whole{};
-      const std::size_t offset = place(std::invoke(get, whole), whole).offset;
-      places_ = inside.places();
-      for (MemberPlace& member : places_) member.offset += offset;
-      read_ = [key = key_.key, get, inside](TomlReader& table, S& out) {
-        if (auto one = table.table(key)) inside.read(*one, std::invoke(get, out));
-      };
-    }
-  }
-
-  /// The same key without a default, if its sentence or its section states the effect of absence.
-  [[nodiscard]] Row without_default() const {
-    Row row = *this;
-    row.key_.standard.clear();
-    return row;
+  Row(std::string_view key, const Get& get, const Section<Inner>& inside, std::string_view sentence)
+      : KeyRow(key, sentence) {
+    using Value = ValueOf<S, Get>;
+    if constexpr (kIsVector<Value>)
+      define(inside, true, [](void* many) -> void* {
+        return &static_cast<std::vector<Inner>*>(many)->emplace_back();
+      });
+    else
+      define(inside, false, nullptr);
+    if constexpr (kFills<Get>) fill_by(get, [](const void*) {});
   }
 
   /// The same key, which also accepts a percentage of another one, a time of the same section.
   [[nodiscard]] Row or_share_of(std::string_view key) const {
     Row row = *this;
-    row.key_.share_of = key;
+    row.share_of(key);
     return row;
   }
-
-  /// Leaves `out` unchanged if the key is absent or invalid; an invalid one becomes a problem.
-  void read(TomlReader& table, S& out) const {
-    if (read_ && table.has(key_.key)) read_(table, out);
-  }
-
-  [[nodiscard]] const SceneKey& key() const { return key_; }
-  /// The keys of its table; their section names begin with this key.
-  [[nodiscard]] const std::vector<SceneKey>& inside() const { return inside_; }
-  /// The members of an S that the key, or the keys of its table, fill.
-  [[nodiscard]] const std::vector<MemberPlace>& places() const { return places_; }
 
  private:
   template <class Get>
   static constexpr bool kFills = std::is_lvalue_reference_v<Got<S, Get>>;
 
   template <class Get>
-  void set(std::string_view key, Get get, const Range& range, std::string_view sentence) {
-    S silent{};
-    const Written standard = written(ValueOf<S, Get>(std::invoke(get, silent)), range.unit);
-    key_.key = key;
-    key_.kind = standard.kind;
-    key_.unit = range.unit;
-    key_.least = range.least;
-    key_.most = range.most;
-    if (range.has_default) key_.standard = standard.text;
-    key_.sentence = sentence;
+  void bind(const Get& get, const Range& range) {
+    using Value = ValueOf<S, Get>;
+    const auto define_by = [&](const void* standard) {
+      define(kValueType<Value>, range, standard);
+    };
     if constexpr (kFills<Get>) {
-      places_ = {place(std::invoke(get, silent), silent)};
-      read_ = [key = key_.key, get](TomlReader& table, S& out) {
-        table.read(key, std::invoke(get, out));
-      };
+      fill_by(get, define_by);
+    } else {
+      const Value standard = get(initial<S>());
+      define_by(&standard);
     }
   }
 
-  template <class T>
-  static MemberPlace place(const T& member, const S& whole) {
-    const auto* begin = reinterpret_cast<const std::byte*>(&whole);
-    const auto* at = reinterpret_cast<const std::byte*>(&member);
-    return {static_cast<std::size_t>(at - begin), sizeof(T), alignof(T)};
+  /// @param use receives the default value
+  template <class Get, class Use>
+  void fill_by(const Get& get, const Use& use) {
+    using Value = ValueOf<S, Get>;
+    if constexpr (kIsFixed<Get>) {
+      const S& whole = initial<S>();
+      const void* const value = &value_in(get, whole);
+      fill(Finder(&whole, value), &whole, value, sizeof(Value), alignof(Value));
+      use(value);
+    } else {
+      S whole{};  // `get` may change it, as one that selects a shape does
+      const void* const value = &get(whole);
+      const auto find = [](const std::byte* octets, void* of) -> void* {
+        return &(*std::launder(reinterpret_cast<const Get*>(octets)))(*static_cast<S*>(of));
+      };
+      fill(Finder(get, find), &whole, value, sizeof(Value), alignof(Value));
+      use(value);
+    }
   }
+};
 
-  SceneKey key_;
-  std::vector<SceneKey> inside_;
-  std::vector<MemberPlace> places_;
-  std::function<void(TomlReader&, S&)> read_;
+/// The keys of one kind of table, for a struct whose type only Section<S> knows.
+class KeySection {
+ public:
+  std::vector<KeyRow> rows;
+
+  /// Reads the keys, then calls the check.
+  void read(TomlReader& table, void* whole) const;
+  /// The keys of the section `name`, then the keys of its tables.
+  [[nodiscard]] std::vector<SceneKey> keys(const std::string& name) const;
+  /// The members of the struct that its keys fill, between entries of size 0 for the begin and the
+  /// end of the struct.
+  [[nodiscard]] std::vector<MemberPlace> places() const;
+
+ protected:
+  using Check = void (*)();  ///< of the type that `call` knows
+  using AddMore = void (*)(std::vector<SceneKey>& keys);
+  KeySection(std::size_t size, std::size_t alignment, Check check,
+             void (*call)(Check, TomlReader&, void*), AddMore add_more)
+      : size_(size), alignment_(alignment), check_(check), call_(call), add_more_(add_more) {}
+
+ private:
+  std::size_t size_, alignment_;  // [octets] of the struct
+  Check check_;
+  void (*call_)(Check check, TomlReader& table, void* whole);
+  AddMore add_more_;
 };
 
 /// The keys of one kind of table.
 template <class S>
-struct Section {
-  std::vector<Row<S>> rows;
-  /// Checks beyond single rows, called after all were read; may be null.
-  void (*check)(TomlReader& table, S& out) = nullptr;
-  /// Adds keys of a separate list; may be null.
-  void (*add_more)(std::vector<SceneKey>& keys) = nullptr;
-
-  void read(TomlReader& table, S& out) const {
-    for (const Row<S>& row : rows) row.read(table, out);
-    if (check != nullptr) check(table, out);
+class Section : public KeySection {
+ public:
+  /// @param check beyond single rows, called after all were read; may be null
+  /// @param add_more adds keys of a separate list; may be null
+  Section(std::initializer_list<Row<S>> list, void (*check)(TomlReader& table, S& out) = nullptr,
+          AddMore add_more = nullptr)
+      : KeySection(
+            sizeof(S), alignof(S), reinterpret_cast<Check>(check),
+            [](Check erased, TomlReader& table, void* whole) {
+              reinterpret_cast<void (*)(TomlReader&, S&)>(erased)(table, *static_cast<S*>(whole));
+            },
+            add_more) {
+    add(list);
   }
 
-  /// The keys of the section `name`, then the keys of its tables.
-  [[nodiscard]] std::vector<SceneKey> keys(const std::string& name) const {
-    std::vector<SceneKey> keys;
-    const auto add = [&](SceneKey key) {
-      key.section = name + (name.empty() || key.section.empty() ? "" : ".") + key.section;
-      keys.push_back(std::move(key));
-    };
-    for (const Row<S>& row : rows) add(row.key());
-    if (add_more != nullptr) add_more(keys);
-    for (const Row<S>& row : rows) std::ranges::for_each(row.inside(), add);
-    return keys;
+  /// Adds rows behind its own.
+  template <class Rows = std::initializer_list<Row<S>>>
+  Section& add(const Rows& more) {
+    for (const Row<S>& row : more) rows.push_back(row);
+    return *this;
   }
 
-  /// The members of an S that its keys fill, between entries of size 0 for the begin and the end of
-  /// S.
-  [[nodiscard]] std::vector<MemberPlace> places() const {
-    std::vector<MemberPlace> places = {{0, 0, alignof(S)}, {sizeof(S), 0, alignof(S)}};
-    for (const Row<S>& row : rows) {
-      places.insert(places.end(), row.places().begin(), row.places().end());
-    }
-    return places;
-  }
+  void read(TomlReader& table, S& out) const { KeySection::read(table, &out); }
 };
 
 }  // namespace reckon::peer

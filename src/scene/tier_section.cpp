@@ -31,7 +31,7 @@ void check_tier(TomlReader& table, TierConfig& tier) {
     table.require("octets");
     return;
   }
-  for (const Row<TierConfig>& row : tier_section().rows) {
+  for (const KeyRow& row : tier_section().rows) {
     const std::string& key = row.key().key;
     if (key != kTo && table.has(key))
       table.problem(
