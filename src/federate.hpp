@@ -22,7 +22,7 @@
 #include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/remote_object.hpp"
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
 #include "reckon/peer/world/removal.hpp"

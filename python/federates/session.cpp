@@ -7,7 +7,7 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::python {

@@ -9,7 +9,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/loops/tier_foci.hpp"
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reckon/peer/loops/notice_text.hpp"
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
 
 namespace reckon::peer {
 

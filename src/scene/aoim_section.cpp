@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
 #include "reckon/peer/scene/mechanisms.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 

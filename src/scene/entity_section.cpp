@@ -13,9 +13,9 @@
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::peer {
 

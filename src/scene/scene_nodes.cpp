@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/peer/scene/scaled_shape.hpp"
 
 namespace reckon::peer {

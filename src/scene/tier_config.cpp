@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
-#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -16,8 +16,8 @@
 #include "reckon/haptics/input_files/input_file.hpp"
 #include "reckon/haptics/input_files/load_progress.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/jitter_text.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/jitter_text.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/peer/scene/renamed_keys.hpp"
 #include "reckon/peer/scene/toml_bounds.hpp"
 

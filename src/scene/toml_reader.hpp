@@ -18,10 +18,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
-#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
 

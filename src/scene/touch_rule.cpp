@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reckon/peer/scene/simulation_names.hpp"
+#include "reckon/peer/notation/simulation_names.hpp"
 
 namespace reckon::peer {
 

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
 

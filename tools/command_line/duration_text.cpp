@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "reckon/peer/scene/jitter_text.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/jitter_text.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/version.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 

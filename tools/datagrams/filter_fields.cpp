@@ -16,7 +16,7 @@
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/datagrams/first_location.hpp"
 #include "reckon/tools/datagrams/foreign.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 
 namespace reckon::tools {
 

@@ -9,7 +9,7 @@
 
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 
 namespace reckon::tools {
 namespace {

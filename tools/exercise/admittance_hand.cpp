@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::tools {
 

@@ -7,9 +7,9 @@
 #include <exception>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_extent.hpp"
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 #include "reckon/tools/exercise/felt_device.hpp"
 

@@ -15,7 +15,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"

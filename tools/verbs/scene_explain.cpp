@@ -15,7 +15,7 @@
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/regions/region_types.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/step_cost/stage_costs.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/terminal/json_text.hpp"

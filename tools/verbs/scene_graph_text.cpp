@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {

@@ -10,10 +10,10 @@
 #include <span>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/peer.hpp"
-#include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
 #include "reckon/tools/verbs/scene_cells_text.hpp"
 #include "reckon/tools/verbs/scene_groups_text.hpp"

@@ -10,7 +10,7 @@
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::bench {
 namespace {

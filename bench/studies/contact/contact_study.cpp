@@ -10,7 +10,7 @@
 
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "reckon/bench/studies/figures/figure_list.hpp"
 #include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/bench/studies/frame/study.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/plots/svg_elements.hpp"
 #include "reckon/tools/terminal/text_table.hpp"

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/exercise.hpp"

@@ -13,8 +13,8 @@
 
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
 namespace reckon::bench {

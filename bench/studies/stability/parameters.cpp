@@ -9,8 +9,8 @@
 
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {

@@ -9,8 +9,8 @@
 #include <charconv>
 #include <string>
 
-#include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {

@@ -11,7 +11,7 @@
 #include "reckon/bench/studies/contact/contact_run.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::bench {
 namespace {

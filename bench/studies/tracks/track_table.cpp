@@ -11,7 +11,7 @@
 #include "reckon/bench/studies/tracks/track_builder.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/terminal/text_table.hpp"

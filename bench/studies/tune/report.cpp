@@ -13,7 +13,7 @@
 
 #include "reckon/bench/plots/log_plot.hpp"
 #include "reckon/bench/studies/frame/fields.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {

@@ -11,7 +11,7 @@
 #include "reckon/bench/linear_systems/golden_section.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -16,8 +16,8 @@
 #include "reckon/bench/studies/zwidth/study.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {

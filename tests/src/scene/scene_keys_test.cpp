@@ -17,7 +17,7 @@
 #include <type_traits>
 
 #include "reckon/haptics/effects/effect_types.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/places.hpp"

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "reckon/peer/federation/entity_class.hpp"
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 
 namespace reckon::tools {
 namespace {

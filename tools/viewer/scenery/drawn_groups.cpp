@@ -8,7 +8,7 @@
 
 #include "reckon/aoim/leader/beacon_book.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/notation/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 

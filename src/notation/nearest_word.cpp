@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 
 #include <algorithm>
 #include <cstddef>

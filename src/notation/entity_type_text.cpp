@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "reckon/pdu/codec/siso_names.hpp"
 #include "reckon/pdu/codec/text_sink.hpp"
 #include "reckon/pdu/print.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 
 namespace reckon::peer {
 namespace {

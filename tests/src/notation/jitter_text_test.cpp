@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/jitter_text.hpp"
+#include "reckon/peer/notation/jitter_text.hpp"
 
 #include <gmock/gmock.h>
 

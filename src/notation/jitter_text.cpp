@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/jitter_text.hpp"
+#include "reckon/peer/notation/jitter_text.hpp"
 
 #include <fmt/format.h>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/notation/units.hpp"
 
 namespace reckon::peer {
 namespace {
