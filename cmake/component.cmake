@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# reckon_component(name PUBLIC .. HEADERS .. SOURCES .. ALONE .. APART .. COLD .. WARM .. DEPENDS .. PRIVATE ..): one folder = one library = one
+# reckon_component(name PUBLIC .. HEADERS .. SOURCES .. ALONE .. APART .. COLD .. DEPENDS .. PRIVATE ..): one folder = one library = one
 # namespace. HEADERS and SOURCES may stand once for each room of the folder. Installed are the headers directly in the folder, the
 # PUBLIC ones of its rooms, and what these include.
 
@@ -72,29 +72,18 @@ function(reckon_precompile target)
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# reckon_unite(target SOURCES .. ALONE .. APART .. COLD .. WARM ..): sixteen files of a folder at a time become one translation unit. What
+# reckon_unite(target SOURCES .. ALONE .. APART .. COLD ..): sixteen files of a folder at a time become one translation unit. What
 # is left over of folders is compiled with what is left over of the next, up to twenty files.
 # APART: "FILE FILE .." "FILE FILE .." ..: files with a name of their own (in an unnamed namespace) that a neighbour has
 # too, each list one unit. ALONE: those with definitions from CMake, or too long for company. Where the compiler says that
 # two names collide, rename one, or name its file here; a file of tests gets a namespace that has its name.
 # COLD: rooms and files that run at a start, for a person or for a page. They need no more than -O1, which takes half the
 # time to compile, and twice as many share what they include. A list of APART is as cold as its first file.
-# WARM: rooms in a cold one that are not cold.
 # Without RECKON_UNITE each compiles by itself, which shows includes that are missing.
 function(reckon_unite target)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;APART;COLD;WARM" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;APART;COLD" ${ARGN})
   set(sources ${ARG_SOURCES})
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
-  set(warm_sources)
-  foreach(warm ${ARG_WARM})
-    set(files ${sources})
-    list(FILTER files INCLUDE REGEX "^${warm}/")
-    if(NOT files)
-      message(FATAL_ERROR "${target}: WARM names what SOURCES does not: ${warm}")
-    endif()
-    list(REMOVE_ITEM sources ${files})
-    list(APPEND warm_sources ${files})
-  endforeach()
   set(cold_sources)
   foreach(cold ${ARG_COLD})
     string(REPLACE "." "\\." pattern ${cold})
@@ -107,7 +96,6 @@ function(reckon_unite target)
     list(REMOVE_ITEM sources ${files})
     list(APPEND cold_sources ${files})
   endforeach()
-  list(APPEND sources ${warm_sources})
   if(NOT RECKON_UNITE)
     return()
   endif()
@@ -213,14 +201,14 @@ function(reckon_united_unit target unit)
 endfunction()
 
 function(reckon_component name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;HEADERS;SOURCES;ALONE;APART;COLD;WARM;DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;HEADERS;SOURCES;ALONE;APART;COLD;DEPENDS;PRIVATE" ${ARGN})
   set(target reckon_${name})
   if(NOT ARG_SOURCES)
     list(APPEND ARG_SOURCES ${PROJECT_SOURCE_DIR}/cmake/empty.cpp)
   endif()
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(reckon::${name} ALIAS ${target})
-  reckon_unite(${target} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE} APART ${ARG_APART} COLD ${ARG_COLD} WARM ${ARG_WARM})
+  reckon_unite(${target} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE} APART ${ARG_APART} COLD ${ARG_COLD})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON LINKER_LANGUAGE CXX)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PRIVATE ${ARG_HEADERS})

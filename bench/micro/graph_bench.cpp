@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/peer/scene/graph/graph_bounds.hpp"
-#include "reckon/peer/scene/graph/scene_graph.hpp"
+#include "reckon/peer/scene_graph/graph_bounds.hpp"
+#include "reckon/peer/scene_graph/scene_graph.hpp"
 #include "reckon/tests/src/support/random_graph.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/scene_graph/scene_nodes.hpp"
 
 namespace reckon::peer {
 namespace {

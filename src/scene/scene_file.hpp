@@ -13,7 +13,7 @@
 
 #include "reckon/haptics/scene/scene.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
-#include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/scene_graph/scene_nodes.hpp"
 
 namespace reckon::peer {
 

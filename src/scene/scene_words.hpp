@@ -13,8 +13,8 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
-#include "reckon/peer/scene/graph/graph_node.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/scene_graph/graph_node.hpp"
 
 namespace reckon::peer {
 

@@ -16,7 +16,7 @@
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/pdu/codec/records.hpp"
-#include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/scene_graph/scene_nodes.hpp"
 #include "reckon/peer/world/arrival.hpp"
 #include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"

@@ -31,7 +31,7 @@ Figure drawing_family() {
   d.arrow({{380, 130}, right.left()}, "");
   d.text(380, 120, "siblings");
   return drawn(std::move(d), "Parent, child and sibling in a scene graph.",
-               "src/scene/graph: of each node its parent and the end of its subtree; the first "
+               "src/scene_graph: of each node its parent and the end of its subtree; the first "
                "child stands right behind its parent (docs/scene_graph.md).");
 }
 
@@ -57,7 +57,7 @@ Figure drawing_traversal() {
   return drawn(
       std::move(d),
       "Traversal from top to bottom, left to right; the numbers show the order, once a frame.",
-      "src/scene/graph: nodes are kept in this order, and GraphWalk modifies a state on the way; "
+      "src/scene_graph: nodes are kept in this order, and GraphWalk modifies a state on the way; "
       "the tree is an example of ours.");
 }
 

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/scene_graph/scene_nodes.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
 namespace reckon::peer {

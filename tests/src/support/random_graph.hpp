@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/peer/scene/graph/graph_node.hpp"
+#include "reckon/peer/scene_graph/graph_node.hpp"
 
 namespace reckon::test {
 

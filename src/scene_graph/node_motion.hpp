@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "reckon/peer/scene/graph/node_pose.hpp"
+#include "reckon/peer/scene_graph/node_pose.hpp"
 
 namespace reckon::peer {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The walk of thesis fig 5.2: its order, and the state that it modifies on the way.
-#include "reckon/peer/scene/graph/graph_walk.hpp"
+#include "reckon/peer/scene_graph/graph_walk.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/scene_graph/scene_nodes.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "reckon/peer/notation/nearest_word.hpp"
-#include "reckon/peer/scene/scaled_shape.hpp"
+#include "reckon/peer/scene_graph/scaled_shape.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/graph/graph_node.hpp"
+#include "reckon/peer/scene_graph/graph_node.hpp"
 
 #include <fmt/format.h>
 

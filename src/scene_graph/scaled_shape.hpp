@@ -7,7 +7,7 @@
 #include <string>
 
 #include "reckon/haptics/scene/scene.hpp"
-#include "reckon/peer/scene/graph/node_pose.hpp"
+#include "reckon/peer/scene_graph/node_pose.hpp"
 
 namespace reckon::peer {
 

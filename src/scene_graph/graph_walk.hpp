@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/peer/scene/graph/scene_graph.hpp"
+#include "reckon/peer/scene_graph/scene_graph.hpp"
 
 namespace reckon::peer {
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "reckon/peer/scene/graph/scene_graph.hpp"
+#include "reckon/peer/scene_graph/scene_graph.hpp"
 
 namespace reckon::peer {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Culling and picking against brute force over all nodes: corners of boxes, and surfaces of boxes
 // and balls, each in the axes of S.
-#include "reckon/peer/scene/graph/graph_bounds.hpp"
+#include "reckon/peer/scene_graph/graph_bounds.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

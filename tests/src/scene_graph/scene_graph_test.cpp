@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The scene graph: order, poses against an oracle, changes bit by bit, motion, refusals.
-#include "reckon/peer/scene/graph/scene_graph.hpp"
+#include "reckon/peer/scene_graph/scene_graph.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/scene/graph/node_motion.hpp"
-#include "reckon/peer/scene/graph/node_pose.hpp"
+#include "reckon/peer/scene_graph/node_motion.hpp"
+#include "reckon/peer/scene_graph/node_pose.hpp"
 
 namespace reckon::peer {
 

@@ -21,9 +21,9 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/scene/graph/graph_node.hpp"
-#include "reckon/peer/scene/graph/node_motion.hpp"
-#include "reckon/peer/scene/graph/node_pose.hpp"
+#include "reckon/peer/scene_graph/graph_node.hpp"
+#include "reckon/peer/scene_graph/node_motion.hpp"
+#include "reckon/peer/scene_graph/node_pose.hpp"
 
 namespace reckon::peer {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/scene/scene.hpp"
-#include "reckon/peer/scene/graph/scene_graph.hpp"
+#include "reckon/peer/scene_graph/scene_graph.hpp"
 
 namespace reckon::peer {
 
