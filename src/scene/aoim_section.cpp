@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "reckon/peer/notation/beacon_names.hpp"
-#include "reckon/peer/scene/mechanisms.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/settings/mechanisms.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -84,7 +84,8 @@ Section<AoimConfig> aoim_section() {
 }
 
 void check_aoim_of(TomlReader& file, const SceneFile& scene) {
-  check_mechanisms(file, scene);
+  for (const UnmetCondition& unmet : unmet_conditions({scene.aoim, scene.network}))
+    file.problem_at(unmet.path, unmet.sentence);
   check_pool(file, scene);
 }
 

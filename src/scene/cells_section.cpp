@@ -8,9 +8,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "reckon/peer/scene/density_file.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/tracks/density_file.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/peer/scene/tier_config.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/settings/tier_config.hpp"
 
 namespace reckon::peer {
 namespace {

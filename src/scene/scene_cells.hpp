@@ -7,7 +7,7 @@
 #include <span>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
 
 namespace reckon::peer {
 

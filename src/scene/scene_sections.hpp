@@ -62,6 +62,8 @@ void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
 /// @param aoim the table that contains them
 void check_tiers(TomlReader& aoim, const Tiers& tiers);
+/// The rows of [[aoim.tier]] with these tiers, each line with its end.
+[[nodiscard]] std::string tiers_text(const Tiers& tiers);
 /// Reports conflicts of [aoim] with other parts of the file.
 void check_aoim_of(TomlReader& file, const SceneFile& scene);
 

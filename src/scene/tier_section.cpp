@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -22,6 +23,30 @@ constexpr std::string_view kTo = "to";
 
 std::string place_of(std::size_t tier, std::string_view key = {}) {
   return fmt::format("tier[{}]{}{}", tier, key.empty() ? "" : ".", key);
+}
+
+std::string tier_text(const TierConfig& tier) {
+  std::string text = "[[aoim.tier]]\n";
+  const auto say = [&](std::string_view key, const std::string& value) {
+    text += fmt::format("{} = {}\n", key, value);
+  };
+  const auto quantity = [&](std::string_view key, double value, std::string_view unit) {
+    say(key, fmt::format("\"{}\"", format_quantity(value, unit)));
+  };
+  if (!is_by_distance(tier)) {
+    say("to", "\"touch\"");
+    return text;
+  }
+  const aoim::Channel& row = tier.channel;
+  if (std::isfinite(row.farthest)) quantity("farthest", row.farthest, "m");
+  if (row.body != aoim::Channel{}.body) say("body", fmt::format("\"{}\"", word_of(row.body)));
+  quantity("active", row.active_hz, "Hz");
+  quantity("passive", row.passive_hz, "Hz");
+  quantity("octets", row.octets, "B");
+  if (row.kept) say("kept", "true");
+  if (row.coarser != 1.0) say("coarser", fmt::format("{:.9g}", row.coarser));
+  if (tier.own_group) say("own_group", "true");
+  return text;
 }
 
 void check_tier(TomlReader& table, TierConfig& tier) {
@@ -136,6 +161,12 @@ void check_tiers(TomlReader& aoim, const Tiers& tiers) {
   check_touch(aoim, tiers);
   check_distances(aoim, tiers);
   check_own_groups(aoim, tiers);
+}
+
+std::string tiers_text(const Tiers& tiers) {
+  std::string text;
+  for (const TierConfig& tier : tiers) text += tier_text(tier);
+  return text;
 }
 
 }  // namespace reckon::peer

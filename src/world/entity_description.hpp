@@ -13,7 +13,7 @@
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/pdu/codec/records.hpp"
-#include "reckon/peer/scene/dead_reckoning_config.hpp"
+#include "reckon/peer/settings/dead_reckoning_config.hpp"
 
 namespace reckon::peer {
 

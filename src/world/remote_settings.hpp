@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
+#include "reckon/peer/settings/convergence_config.hpp"
+#include "reckon/peer/settings/network_config.hpp"
 #include "reckon/peer/world/near_search.hpp"
 
 namespace reckon::peer {

@@ -10,7 +10,7 @@
 
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
-#include "reckon/peer/scene/touch_rule.hpp"
+#include "reckon/peer/settings/touch_rule.hpp"
 
 namespace reckon::peer {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/entity_config.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 

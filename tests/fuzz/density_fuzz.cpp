@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "reckon/peer/scene/density_file.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
+#include "reckon/peer/tracks/density_file.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {

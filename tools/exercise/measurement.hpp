@@ -17,7 +17,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
 #include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 

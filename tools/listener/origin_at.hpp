@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/entity_config.hpp"
 
 namespace reckon::tools {
 

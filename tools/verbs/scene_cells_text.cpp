@@ -11,9 +11,9 @@
 
 #include "reckon/aoim/cells/over_delivery.hpp"
 #include "reckon/peer/notation/units.hpp"
-#include "reckon/peer/scene/density_file.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/tracks/density_file.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
 
 namespace reckon::tools {
 

@@ -12,7 +12,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/tools/viewer/view_stage.hpp"
 

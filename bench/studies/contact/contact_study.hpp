@@ -14,7 +14,6 @@
 #include "reckon/bench/studies/contact/contact_measures.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
 #include "reckon/peer/network/impairment.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
 
 namespace reckon::bench {
 

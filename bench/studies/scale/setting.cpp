@@ -11,8 +11,8 @@
 #include <set>
 #include <vector>
 
-#include "reckon/peer/scene/density_file.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/peer/tracks/density_file.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {

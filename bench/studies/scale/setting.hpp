@@ -16,7 +16,7 @@
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/network/impairment.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
 
 namespace reckon::bench {
 

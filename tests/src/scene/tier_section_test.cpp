@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
-#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/tier_rows.hpp"

@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "reckon/peer/network/link.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
+#include "reckon/peer/settings/network_config.hpp"
 
 namespace reckon::tools {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
 
 namespace reckon::tools {

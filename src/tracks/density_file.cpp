@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/density_file.hpp"
+#include "reckon/peer/tracks/density_file.hpp"
 
 #include <fmt/format.h>
 

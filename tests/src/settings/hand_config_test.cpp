@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,19 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of the conditions that the mechanisms of a peer need, remove and provide for one
-// another. Private to the scene reader.
+// another.
 #pragma once
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
+#include "reckon/peer/settings/network_config.hpp"
 
 namespace reckon::peer {
 
-class TomlReader;
+/// The settings that switch mechanisms on.
+struct Switches {
+  const AoimConfig& aoim;
+  const NetworkConfig& network;
+};
 
 /// A condition that a mechanism may need. The first conditions hold unless a mechanism removes
 /// them; the last ones hold if a mechanism provides them.
@@ -31,18 +37,24 @@ enum class Condition : unsigned char {
 /// A mechanism that a scene file can switch on.
 struct Mechanism {
   std::string_view table, key;  ///< the key that switches it on
-  bool (*is_on)(const SceneFile& scene);
+  bool (*is_on)(const Switches& settings);
   std::vector<Condition> needs, takes, gives;
   std::string_view value =
       {};  ///< its value with which the key switches it on, if others use the key too
   /// Index from 0 of the table under the key that switches it on; null if the key has no tables.
-  std::size_t (*row)(const SceneFile& scene) = nullptr;
+  std::size_t (*row)(const Switches& settings) = nullptr;
 };
 
 /// Each mechanism once.
 [[nodiscard]] std::span<const Mechanism> mechanisms();
 
-/// Reports, at the key of each active mechanism, its unsatisfied conditions with the remedy.
-void check_mechanisms(TomlReader& file, const SceneFile& scene);
+/// A condition that an active mechanism lacks.
+struct UnmetCondition {
+  std::string path;      ///< of the mechanism's key in a scene file, such as "aoim.tier[1]"
+  std::string sentence;  ///< with the remedy
+};
+
+/// The conditions that active mechanisms lack, in the order of the list.
+[[nodiscard]] std::vector<UnmetCondition> unmet_conditions(const Switches& settings);
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/mechanisms.hpp"
+#include "reckon/peer/settings/mechanisms.hpp"
 
 #include <gmock/gmock.h>
 

@@ -53,7 +53,4 @@ using Tiers = std::vector<TierConfig>;
 /// @param own_groups whether each tier that can have its own group has one
 [[nodiscard]] Tiers distance_tiers(std::span<const aoim::Channel> rows, bool own_groups = false);
 
-/// The rows of [[aoim.tier]] with these tiers, each line with its end.
-[[nodiscard]] std::string tiers_text(const Tiers& tiers);
-
 }  // namespace reckon::peer
