@@ -12,7 +12,7 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
-#include "reckon/peer/loops/wake_signal.hpp"
+#include "reckon/peer/threads/wake_signal.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/threads/real_time_priority.hpp"
 #include "reckon/peer/threads/servo_thread.hpp"

@@ -12,7 +12,6 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/send_counters.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/owned_entity.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 

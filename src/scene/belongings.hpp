@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/evdev/evdev_device.hpp"
-#include "reckon/haptics/polhem/polhem_kinematics.hpp"
-#include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
@@ -46,29 +43,5 @@ inline constexpr std::uint32_t kMostPeers = 64;
 
 /// Sets the device to its descriptor's values; values missing there are as for a simulated device.
 void describe(DeviceConfig& device, const DeviceDescriptor& descriptor);
-
-/// Which values of a device were measured on the real device.
-struct SaidOfDevice {
-  bool damping = false;
-  bool delay = false;
-  bool max_force = false;
-  bool resolution = false;
-  /// The damping holds in every pose; false: it was measured in the middle of the work space.
-  bool everywhere = false;
-};
-
-/// Sets the driver of a device, and the limits of the real device unless the file gives them.
-void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said);
-/// Known facts of the real device of a driver; null: not on USB or a serial port.
-[[nodiscard]] const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device);
-/// The link weights that the motors of a Polhem compensate.
-[[nodiscard]] haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device);
-/// Settings for the driver of a real device.
-[[nodiscard]] haptics::UsbSettings usb_settings_of(const DeviceConfig& device);
-
-/// The same for a Linux force feedback device.
-[[nodiscard]] haptics::EvdevSettings evdev_settings_of(const DeviceConfig& device);
-/// Why the device cannot be an event device, with the key to change: a sentence; empty: it can.
-[[nodiscard]] std::string evdev_fault_of(const DeviceConfig& device);
 
 }  // namespace reckon::peer

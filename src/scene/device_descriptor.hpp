@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/peer/drivers/device_config.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 
 namespace reckon::peer {
@@ -29,26 +30,15 @@ struct WorkSpaceCorners {
 };
 
 /// A file of devices/. docs/devices.md lists its keys.
-struct DeviceDescriptor {
+struct DeviceDescriptor : DeviceAbility {
+  DeviceDescriptor() { damping = 0.0; }
   std::string name;        ///< product name
   std::vector<UsbId> usb;  ///< USB IDs of the device; none: not on USB
   haptics::DeviceKind kind = haptics::DeviceKind::impedance;
-  int axes = 3;
-  double max_force = 10.0;            ///< [N]
-  double continuous_force = 0.0;      ///< [N], permanent limit of its motors; 0: max_force
-  double thermal_time = 20.0;         ///< [s], time constant of their warming
-  double damping = 0.0;               ///< [N s/m], guaranteed viscous friction
-  double joint_damping = 0.0;         ///< [N m s/rad], of each joint; 0: not given
-  double resolution = 0.0;            ///< [m]
   std::chrono::nanoseconds delay{0};  ///< until a force reaches the handle
-  double max_stiffness = 0.0;         ///< [N/m], 0: no own limit
-  double max_speed = 2.0;             ///< [m/s]
   double mass = 0.1;                  ///< [kg]
   double friction = 0.0;              ///< [N], dry
   WorkSpaceCorners work_space;        ///< [m]
-  double max_torque = 1.0;            ///< [N m], for 6 axes
-  double turn_damping = 0.01;         ///< [N m s/rad], for 6 axes
-  double turn_resolution = 0.0;       ///< [rad], for 6 axes
   double inertia = 1e-4;              ///< [kg m^2], for 6 axes
 };
 

@@ -10,11 +10,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -85,7 +87,7 @@ void check_admittance(TomlReader& table, const DeviceConfig& device) {
     }
     return;
   }
-  if (device.driver != DeviceDriver::simulated)
+  if (device.driver != nullptr)
     table.problem("virtual_mass",
                   "only a simulated device moves by itself: take it out, or driver");
   if (device.source == DeviceSource::pointer)
@@ -175,7 +177,7 @@ void check_motors(TomlReader& table, const DeviceConfig& device) {
                               "state less",
                               device.continuous_force, device.max_force));
   }
-  if (device.driver == DeviceDriver::evdev || device.admittance.mass > 0)
+  if ((device.driver != nullptr && device.driver->is_cooled) || device.admittance.mass > 0)
     table.problem("continuous_force",
                   "such a device looks after its motors itself: take the key out");
 }
@@ -216,7 +218,7 @@ Section<ProbeConfig> probe_section() {
 // Keys for its place and its driver.
 std::vector<Row<Device>> driver_rows() {
   const auto no_text = [](const Device&) { return std::string(); };
-  return {
+  std::vector<Row<Device>> rows{
       {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
       {"operator", &Device::operator_number, within("", 1, 65535),
        "which [[operator]] of the file holds it"},
@@ -224,41 +226,14 @@ std::vector<Row<Device>> driver_rows() {
        "who moves it: its operator; or a pointer, from where its operator, a passive one, "
        "holds "
        "it at first"},
-      {"driver", &Device::driver,
-       "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
-       "which a person holds; evdev, a wheel or stick with force feedback; or a plugin, a "
-       "driver of yours; in simulated time its operator stands in"},
+      driver_row(),
       {"descriptor", no_text,
        "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
        "before it: docs/devices.md"},
-      {"plugin", no_text,
-       "of a plugin: name of the driver's shared library, which is installed or given by "
-       "--plugin; what the device can do, it says itself"},
-      {"plugin_options", &Device::plugin_options, "of a plugin: options for its driver"},
-      {"firmware", &Device::firmware,
-       "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
-      {"port", &Device::port,
-       "of a serial board: its line, such as \"/dev/ttyACM0\", or better one of "
-       "/dev/serial/by-id"},
-      {"baud", &Device::baud, within("", 1'200, 12e6),
-       "of that line; a board that is on USB itself goes by none"},
-      {"upper_weight", &Device::upper_weight, within("N m", 0, 2),
-       "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
-       "motors while forces are shown, which costs damping"},
-      {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
-      {"event", &Device::event,
-       "of evdev: its path (/dev/input/event7, /dev/hidraw0), or a part of its name; absent: "
-       "the first that gives force feedback"},
-      {"event_axes", &Device::event_axes, within("", 1, 2),
-       "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
-      {"travel", &Device::travel, declared("m", 0.01, 10),
-       "of evdev: handle travel from one end of an axis to the other; no device reports it"},
-      {"full_force", &Device::full_force, declared("N", 0.1, 1e3),
-       "of evdev: force at the handle at the greatest level; no device reports it"},
-      {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
-       "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
-       "reports it"},
   };
+  for (const Driver* driver : drivers())
+    for (const DriverKey& key : driver->keys) rows.push_back(driver_key_row(key));
+  return rows;
 }
 
 // Keys for the motion of the handle and its position.
@@ -298,8 +273,9 @@ std::vector<Row<Device>> motor_rows() {
       {"damping", &Device::damping, within("N s/m", 0, 1e3),
        "its own friction that one is sure of; the stiffness that it can show grows with it"},
       {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),
-       "of a Falcon or a Polhem, in the place of `damping`: the friction of each joint that one is "
-       "sure of; the servo knows what it is at the handle, pose by pose; 0: not said"},
+       "of a device whose joints its driver knows, in the place of `damping`: the friction of each "
+       "joint that one is sure of; the servo knows what it is at the handle, pose by pose; 0: not "
+       "said"},
       {"axes", &Device::axes, within("", 3, 6),
        "3; or 6: it turns, and shows torque besides the force"},
       {"turn_damping", &Device::turn_damping, within("N m s/rad", 1e-5, 10),
@@ -329,13 +305,15 @@ std::vector<Row<Device>> servo_rows() {
       {"received_power", &Device::received_power, within("W", 1e-3, 100),
        "most that others put into its hand through their contacts, on average; what they give "
        "beyond it waits, and a liar throws the hand no harder"},
-      {"region_loan", &Device::region_loan, within("J", 0, 1),
+      {"region_loan", in(&Device::regions, &RegionEnergyConfig::loan), within("J", 0, 1),
        "most that is lent to springs, magnets, borders and constant forces of regions, all "
        "together and until it is back; 0: the hand's motion has to pay for them"},
-      {"oscillation_power", &Device::oscillation_power, within("W", 0, 10),
+      {"oscillation_power", in(&Device::regions, &RegionEnergyConfig::oscillation_power),
+       within("W", 0, 10),
        "most that oscillations of regions put into its hand, on average; beyond it they are "
        "weaker"},
-      {"oscillation_energy", &Device::oscillation_energy, within("J", 0, 1),
+      {"oscillation_energy", in(&Device::regions, &RegionEnergyConfig::oscillation_energy),
+       within("J", 0, 1),
        "most that oscillations of regions put in at once, beyond oscillation_power"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),
        "step of its position sensors, along each of its axes; 0: exact"},

@@ -56,6 +56,9 @@ KeyRow::KeyRow(std::string_view key, std::string_view sentence) {
   key_.sentence = sentence;
 }
 
+KeyRow::KeyRow(SceneKey key, std::function<void(TomlReader& table, void* whole)> read)
+    : key_(std::move(key)), read_(std::move(read)) {}
+
 void KeyRow::define(const ValueType& type, const Range& range, const void* standard) {
   type_ = &type;
   Written value = type.write(standard, range.unit);
@@ -87,6 +90,7 @@ KeyRow KeyRow::without_default() const {
 }
 
 void KeyRow::read(TomlReader& table, void* whole) const {
+  if (read_ != nullptr) return read_(table, whole);
   if (!finder_ || !table.has(key_.key)) return;
   if (inside_ == nullptr) {
     type_->read(table, key_.key, finder_(whole));

@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <new>
@@ -208,6 +209,7 @@ class KeyRow {
 
  protected:
   KeyRow(std::string_view key, std::string_view sentence);
+  KeyRow(SceneKey key, std::function<void(TomlReader& table, void* whole)> read);
   /// @param standard the default, a value of `type`
   void define(const ValueType& type, const Range& range, const void* standard);
   /// @param append adds an element to a vector of tables; null: the value is a table itself
@@ -224,6 +226,7 @@ class KeyRow {
   void* (*append_)(void* many) = nullptr;
   Finder finder_;
   MemberPlace place_{};
+  std::function<void(TomlReader& table, void* whole)> read_;  // null: by the members above
 };
 
 /// A key of a section whose values fill an S. `get` is a pointer to a member, or a function of an
@@ -260,6 +263,12 @@ class Row : public KeyRow {
       define(inside, false, nullptr);
     if constexpr (kFills<Get>) fill_by(get, [](const void*) {});
   }
+
+  /// A key that `read` reads, because its value is no member of an S.
+  Row(SceneKey key, std::function<void(TomlReader&, S&)> read)
+      : KeyRow(std::move(key), [read = std::move(read)](TomlReader& table, void* whole) {
+          read(table, *static_cast<S*>(whole));
+        }) {}
 
   /// The same key, which also accepts a percentage of another one, a time of the same section.
   [[nodiscard]] Row or_share_of(std::string_view key) const {

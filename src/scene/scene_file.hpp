@@ -12,8 +12,14 @@
 #include <vector>
 
 #include "reckon/haptics/scene/scene.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/drivers/device_config.hpp"
+#include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/scene_graph/scene_nodes.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
+#include "reckon/peer/settings/convergence_config.hpp"
+#include "reckon/peer/settings/entity_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
+#include "reckon/peer/settings/network_config.hpp"
 
 namespace reckon::peer {
 

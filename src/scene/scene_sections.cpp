@@ -141,8 +141,7 @@ Section<DeadReckoningConfig> dead_reckoning_section() {
            "the same for the contact force"},
           {"force_share", threshold(&Thresholds::weber), within("", 0, 1),
            "or this share of the force, if that is larger; people notice 0.07 to 0.1"},
-          {"rule", &Config::rule,
-           "meaning of `position`: " + meanings_of(deadreckon::kSendRules)},
+          {"rule", &Config::rule, "meaning of `position`: " + meanings_of(deadreckon::kSendRules)},
           {"acceleration", &Config::acceleration,
            "meaning of the acceleration in rvb: rate of the velocity's body components, or the "
            "acceleration itself in body axes; the same for all peers"},

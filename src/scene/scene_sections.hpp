@@ -14,6 +14,8 @@
 
 namespace reckon::peer {
 
+struct DriverKey;
+
 /// Initial values of an entity's force model: the defaults of [hand], without a kind.
 struct TouchModel : deadreckon::ForceModel {
   TouchModel() : ForceModel(to_force_model(HandModel{})) { kind = pdu::ForceModelKind::none; }
@@ -30,6 +32,10 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<EntityConfig> entity_section();
 [[nodiscard]] Section<TouchModel> force_model_section();
 [[nodiscard]] Section<DeviceConfig> device_section();
+/// The key `driver`.
+[[nodiscard]] Row<DeviceConfig> driver_row();
+/// A key of a driver, whose value is stored by its name.
+[[nodiscard]] Row<DeviceConfig> driver_key_row(const DriverKey& key);
 /// Tables with their own source files.
 [[nodiscard]] Section<AoimConfig> aoim_section();
 [[nodiscard]] Section<NetworkConfig> network_section();

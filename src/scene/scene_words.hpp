@@ -13,8 +13,15 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/drivers/device_config.hpp"
 #include "reckon/peer/scene_graph/graph_node.hpp"
+#include "reckon/peer/settings/aoim_config.hpp"
+#include "reckon/peer/settings/convergence_config.hpp"
+#include "reckon/peer/settings/dead_reckoning_config.hpp"
+#include "reckon/peer/settings/entity_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
+#include "reckon/peer/settings/network_config.hpp"
+#include "reckon/peer/settings/tier_config.hpp"
 
 namespace reckon::peer {
 
@@ -39,15 +46,6 @@ inline constexpr auto kWords<OperatorKind> =
 template <>
 inline constexpr auto kWords<DeviceSource> = std::to_array<Word<DeviceSource>>(
     {{"simulated", DeviceSource::simulated}, {"pointer", DeviceSource::pointer}});
-
-template <>
-inline constexpr auto kWords<DeviceDriver> =
-    std::to_array<Word<DeviceDriver>>({{"simulated", DeviceDriver::simulated},
-                                       {"falcon", DeviceDriver::falcon},
-                                       {"polhem", DeviceDriver::polhem},
-                                       {"serial", DeviceDriver::serial},
-                                       {"evdev", DeviceDriver::evdev},
-                                       {"plugin", DeviceDriver::plugin}});
 
 template <>
 inline constexpr auto kWords<haptics::DeviceKind> =

@@ -98,6 +98,9 @@ class TomlReader {
     if (const auto word = choice(key)) target = *value_of<T>(*word);
   }
 
+  /// One of the words of the key's list; nothing if it is absent or another (a problem).
+  [[nodiscard]] std::optional<std::string_view> choice(std::string_view key);
+
   /// Passes each text of the list under `key` to `take`; if that throws std::invalid_argument, the
   /// text becomes a problem at its place.
   void each_text(std::string_view key, const std::function<void(const std::string&)>& take);
@@ -124,8 +127,6 @@ class TomlReader {
   [[nodiscard]] bool takes_number(std::string_view key) const;
   /// The text of a key; null if it is absent or no text.
   [[nodiscard]] const std::string* text(std::string_view key);
-  /// One of the words of the key's list.
-  [[nodiscard]] std::optional<std::string_view> choice(std::string_view key);
   [[nodiscard]] TomlReader inside(const toml::table& table, std::string_view key);
   [[nodiscard]] std::optional<double> quantity(const toml::node& node, const SceneKey& spec);
   /// The value of a number given as text.

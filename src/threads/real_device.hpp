@@ -9,9 +9,6 @@
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
-#include "reckon/haptics/evdev/evdev_loop.hpp"
-#include "reckon/haptics/hid/hid_events.hpp"
-#include "reckon/haptics/serial/serial_loop.hpp"
 #include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 
@@ -48,15 +45,5 @@ class RealDevice {
                                                      const haptics::DeviceLimits& limits,
                                                      std::unique_ptr<haptics::UsbDriver> driver,
                                                      haptics::UsbLoopOptions options = {});
-/// A board on a serial port. @param limits see haptics::usb_limits()
-/// @throws std::system_error if no thread can be created
-[[nodiscard]] std::unique_ptr<RealDevice> serial_device(const Clock& clock,
-                                                        const haptics::DeviceLimits& limits,
-                                                        haptics::SerialPlace place);
-/// A Linux force feedback device. @param calls kernel calls @throws std::invalid_argument as
-/// haptics::evdev_limits(), std::system_error if no thread can be created
-[[nodiscard]] std::unique_ptr<RealDevice> evdev_device(
-    const Clock& clock, const haptics::EvdevSettings& settings,
-    std::unique_ptr<haptics::EventCalls> calls = haptics::force_feedback_calls());
 
 }  // namespace reckon::peer

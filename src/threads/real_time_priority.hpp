@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/loops/wake_signal.hpp"
+#include "reckon/peer/threads/wake_signal.hpp"
 
 namespace reckon::peer {
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "reckon/haptics/servo/servo_loop.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/drivers/device_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -191,6 +191,9 @@ class OwnedEntity {
   bool hold_back(std::chrono::nanoseconds time) noexcept;
   /// Has it not checked before `time`, unless it changes.
   void withhold(std::chrono::nanoseconds time) noexcept { withheld_until_ = time; }
+  [[nodiscard]] bool is_withheld(std::chrono::nanoseconds now) const noexcept {
+    return now < withheld_until_;
+  }
   /// Has it checked again at `time`, unless an update is sent before.
   void look_again(std::chrono::nanoseconds time) noexcept {
     held_until_ = std::min(held_until_, time);

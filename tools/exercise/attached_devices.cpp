@@ -5,17 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 
@@ -23,46 +21,31 @@ namespace reckon::tools {
 namespace {
 
 using haptics::UsbDeviceSeen;
+using peer::Driver;
 
 constexpr std::chrono::seconds kAskFor{2};
 
-// A kind of device with a driver.
-struct Kind {
-  std::string_view driver, product, use;
-  const haptics::UsbFacts& facts;
-  std::unique_ptr<haptics::UsbDriver> (*make)();
-};
-
-const std::array<Kind, 2>& kinds() {
-  static const std::array<Kind, 2> kAll{
-      Kind{"falcon", "Novint Falcon",
-           "3 axes, 8.9 N in a cube of 80 mm: reckon demo --device falcon", haptics::falcon_facts(),
-           []() -> std::unique_ptr<haptics::UsbDriver> {
-             return std::make_unique<haptics::FalconDriver>(haptics::FalconFirmware{});
-           }},
-      Kind{"polhem", "Polhem", "3 axes, 5 N in a cube of 100 mm: reckon demo --device polhem",
-           haptics::polhem_facts(), []() -> std::unique_ptr<haptics::UsbDriver> {
-             return std::make_unique<haptics::PolhemDriver>();
-           }}};
-  return kAll;
-}
+bool is_on_usb(const Driver& driver) { return driver.force != nullptr && driver.force->make; }
 
 // Null: no driver of ours is for it.
-const Kind* kind_of(const UsbDeviceSeen& device) {
-  const auto found = std::ranges::find_if(kinds(), [&](const Kind& kind) {
-    return device.vendor == kind.facts.vendor && device.product == kind.facts.product;
+const Driver* usb_driver_of(const UsbDeviceSeen& device) {
+  const auto found = std::ranges::find_if(peer::drivers(), [&](const Driver* driver) {
+    if (!is_on_usb(*driver)) return false;
+    const haptics::UsbFacts& facts = driver->force->facts();
+    return device.vendor == facts.vendor && device.product == facts.product;
   });
-  return found == kinds().end() ? nullptr : &*found;
+  return found == peer::drivers().end() ? nullptr : *found;
 }
 
-AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
+AttachedDevice attached(const Driver& driver, const UsbDeviceSeen& seen,
                         std::span<const UsbProblem> problems, bool has_rule) {
   AttachedDevice device;
-  device.driver = kind.driver;
-  device.name = fmt::format("{}, /dev/bus/usb/{:03}/{:03}", kind.product, seen.bus, seen.address);
-  device.use = kind.use;
+  device.driver = driver.name;
+  device.name =
+      fmt::format("{}, /dev/bus/usb/{:03}/{:03}", driver.force->product, seen.bus, seen.address);
+  device.use = driver.force->use;
   if (seen.is_open_to_us) {
-    const auto found = std::ranges::find(problems, kind.driver, &UsbProblem::driver);
+    const auto found = std::ranges::find(problems, driver.name, &UsbProblem::driver);
     if (found != problems.end()) device.problem = found->sentence;
   } else if (seen.is_denied) {
     device.problem = "this user may not open it";
@@ -78,13 +61,13 @@ AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
 }
 
 // Sets a device up without any force, within 2 s. @return why it shows none; empty: it can
-std::string problem_of(const Kind& kind) {
+std::string problem_of(const Driver& driver) {
   const peer::SteadyClock clock;
   haptics::UsbExchange exchange;
   haptics::UsbLoopOptions options;
   options.clock = [&clock] { return clock.now(); };
-  haptics::UsbLoop loop(exchange, kind.make(), std::move(options));
-  std::string last = fmt::format("{}: it sends no answer", kind.facts.name);
+  haptics::UsbLoop loop(exchange, driver.force->make({}), std::move(options));
+  std::string last = fmt::format("{}: it sends no answer", driver.force->facts().name);
   for (const auto end = clock.now() + kAskFor; clock.now() < end;) {
     loop.step(std::chrono::milliseconds(1));
     const auto stage = loop.stage();
@@ -95,33 +78,18 @@ std::string problem_of(const Kind& kind) {
   return last;
 }
 
-std::string rule_of(std::string_view subsystem, std::string_view attribute, const peer::UsbId& id) {
-  return fmt::format(
-      "SUBSYSTEM==\"{0}\", {1}{{idVendor}}==\"{2:04x}\", {1}{{idProduct}}==\"{3:04x}\", "
-      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n",
-      subsystem, attribute, id.vendor, id.product);
-}
-
 }  // namespace
 
-std::string udev_rule(const std::vector<peer::UsbId>& undriven) {
+std::string udev_rule() {
   std::string rule = "# Devices that Reckon drives, for whoever sits at this host.\n";
-  for (const Kind& kind : kinds())
-    rule += rule_of("usb", "ATTR", {kind.facts.vendor, kind.facts.product});
-  rule +=
-      "# Event devices that give force feedback.\n"
-      "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
-      "TAG+=\"uaccess\"\n";
-  if (!undriven.empty())
-    rule += "# Wheels and sticks whose force feedback the kernel leaves alone.\n";
-  for (const peer::UsbId& id : undriven) rule += rule_of("hidraw", "ATTRS", id);
+  for (const Driver* driver : peer::drivers()) {
+    if (is_on_usb(*driver)) {
+      const haptics::UsbFacts& facts = driver->force->facts();
+      rule += peer::udev_line("usb", "ATTR", facts.vendor, facts.product);
+    }
+    if (driver->udev != nullptr) rule += driver->udev();
+  }
   return rule;
-}
-
-std::string driver_names() {
-  std::string names;
-  for (const Kind& kind : kinds()) names += std::string(kind.driver) + ", ";
-  return names + "evdev";
 }
 
 UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, std::span<const UsbProblem> problems,
@@ -133,8 +101,8 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, std::span<const UsbPro
         "/dev/bus/usb of its host";
   }
   for (const UsbDeviceSeen& device : seen) {
-    if (const Kind* const kind = kind_of(device)) {
-      look.devices.push_back(attached(*kind, device, problems, has_rule));
+    if (const Driver* const driver = usb_driver_of(device)) {
+      look.devices.push_back(attached(*driver, device, problems, has_rule));
     } else {
       ++look.others;
     }
@@ -146,15 +114,15 @@ UsbLook look_at_usb(bool ask_them) {
   try {
     haptics::UsbContext context;
     const auto seen = haptics::usb_devices(
-        context, [](const UsbDeviceSeen& device) { return kind_of(device) != nullptr; });
+        context, [](const UsbDeviceSeen& device) { return usb_driver_of(device) != nullptr; });
     std::vector<UsbProblem> problems;
-    for (const Kind& kind : kinds()) {
+    for (const Driver* driver : peer::drivers()) {
       const bool is_here = std::ranges::any_of(seen, [&](const UsbDeviceSeen& device) {
-        return kind_of(device) == &kind && device.is_open_to_us;
+        return usb_driver_of(device) == driver && device.is_open_to_us;
       });
       if (!ask_them || !is_here) continue;
-      if (std::string problem = problem_of(kind); !problem.empty())
-        problems.push_back({kind.driver, std::move(problem)});
+      if (std::string problem = problem_of(*driver); !problem.empty())
+        problems.push_back({driver->name, std::move(problem)});
     }
     return judge_usb(seen, problems,
                      std::filesystem::exists(std::filesystem::path(kRuleFolder) / kRuleFile));
@@ -163,6 +131,13 @@ UsbLook look_at_usb(bool ask_them) {
     look.problem = error.what();
     return look;
   }
+}
+
+std::vector<AttachedDevice> look_beside_usb() {
+  std::vector<AttachedDevice> all;
+  for (const Driver* driver : peer::drivers())
+    if (driver->find != nullptr) std::ranges::move(driver->find(), std::back_inserter(all));
+  return all;
 }
 
 }  // namespace reckon::tools

@@ -9,18 +9,11 @@
 #include <vector>
 
 #include "reckon/haptics/usb/usb_list.hpp"
-#include "reckon/peer/scene/device_descriptor.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 
 namespace reckon::tools {
 
-/// An attached device with a driver.
-struct AttachedDevice {
-  std::string driver;   ///< as written after --device and in [[device]]
-  std::string name;     ///< product name and path of the device
-  std::string use;      ///< how to use it
-  std::string problem;  ///< why it cannot be used now; empty: it can
-  std::string remedy;   ///< for the problem
-};
+using peer::AttachedDevice;
 
 /// Result of a scan of USB.
 struct UsbLook {
@@ -29,15 +22,12 @@ struct UsbLook {
   std::vector<AttachedDevice> devices;
 };
 
-/// The udev rule that allows the user logged in at this host to open the devices.
-/// @param undriven see undriven_devices(): the rule names each device of this host by its IDs
-[[nodiscard]] std::string udev_rule(const std::vector<peer::UsbId>& undriven);
+/// The udev rule that allows the user logged in at this host to open the devices of all drivers.
+/// Devices that it has to name by their IDs are those of this host.
+[[nodiscard]] std::string udev_rule();
 /// Name of the rule's file in kRuleFolder.
 inline constexpr const char* kRuleFile = "70-reckon.rules";
 inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
-
-/// Names of all drivers, as written after --device.
-[[nodiscard]] std::string driver_names();
 
 /// Why a driver shows no forces on the device that it has opened.
 struct UsbProblem {
@@ -52,5 +42,7 @@ struct UsbProblem {
 /// Scans this host. @param ask_them sets up devices that can be opened, without any force, until
 /// they can show one, for 2 s each at most
 [[nodiscard]] UsbLook look_at_usb(bool ask_them);
+/// The attached devices that drivers find by themselves. Requests no force.
+[[nodiscard]] std::vector<AttachedDevice> look_beside_usb();
 
 }  // namespace reckon::tools

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
-#include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
@@ -22,13 +21,12 @@ class FeltDevice {
   FeltDevice& operator=(const FeltDevice&) = delete;
 
   [[nodiscard]] haptics::HapticDevice& get() noexcept {
-    if (evdev_) return *evdev_;
+    if (springs_) return *springs_;
     return *mapped_;
   }
 
  private:
-  haptics::EvdevExchange exchange_;
-  std::optional<haptics::EvdevDevice> evdev_;  // for a device that renders springs
+  std::shared_ptr<haptics::HapticDevice> springs_;  // a device that renders springs
   std::unique_ptr<haptics::HapticDevice> held_;
   std::optional<haptics::MappedDevice> mapped_;
 };

@@ -6,6 +6,7 @@
 
 #include <system_error>
 
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 
 namespace reckon::tools {
@@ -23,10 +24,13 @@ std::string clean(const fs::path& name) {
 
 std::vector<std::string> native_code_of(const peer::SceneFile& scene) {
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < scene.devices.size(); ++i)
-    if (scene.devices[i].driver == peer::DeviceDriver::plugin)
-      lines.push_back(fmt::format("runs native code: {} (driver plugin of device {})",
-                                  clean(scene.devices[i].plugin), i + 1));
+  for (std::size_t i = 0; i < scene.devices.size(); ++i) {
+    const peer::Driver* const driver = scene.devices[i].driver;
+    if (driver != nullptr && driver->native_code != nullptr)
+      lines.push_back(fmt::format("runs native code: {} (driver {} of device {})",
+                                  clean(driver->native_code(scene.devices[i])), driver->name,
+                                  i + 1));
+  }
   return lines;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The native code that a scene requests (driver = "plugin"), and the rules for loading it. A scene
-// is foreign data: it names a driver, and the user of this host gives its location.
+// The native code that a scene requests (a driver in a shared library), and the rules for loading
+// it. A scene is foreign data: it names a driver, and the user of this host gives its location.
 #pragma once
 
 #include <filesystem>

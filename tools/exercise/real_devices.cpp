@@ -3,9 +3,9 @@
 #include "reckon/tools/exercise/real_devices.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
@@ -13,14 +13,9 @@
 #include <system_error>
 #include <utility>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/plugin/plugin_device.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
-#include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -29,57 +24,53 @@ namespace reckon::tools {
 namespace {
 
 using peer::DeviceConfig;
-using peer::DeviceDriver;
+using peer::Driver;
+using peer::DriverKey;
 
 // Drivers that need no further argument.
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
-  for (const auto& word : peer::kWords<DeviceDriver>) {
-    if (word.value == DeviceDriver::falcon || word.value == DeviceDriver::polhem ||
-        word.value == DeviceDriver::evdev)
-      words.push_back(word.name);
-  }
+  for (const Driver* driver : peer::drivers())
+    if (driver->is_named) words.push_back(driver->name);
   return words;
 }
 
-bool is_serial(const std::string& device) {
-  return device.starts_with("/dev/") && !is_event_device(device);
+// "the line of a serial board (/dev/ttyACM0), .."
+std::string place_help() {
+  std::vector<std::string_view> places;
+  for (const Driver* driver : peer::drivers())
+    if (driver->place != nullptr) places.push_back(driver->place->help);
+  return fmt::format("{}", fmt::join(places, ", "));
 }
 
 bool is_descriptor(const std::string& device) {
-  return !is_serial(device) && device.ends_with(".toml");
+  return !device.starts_with("/dev/") && device.ends_with(".toml");
 }
 
-bool is_plugin(const std::string& device) {
-  return !device.starts_with("/dev/") && !is_descriptor(device) &&
-         (device.find('/') != std::string::npos || device.ends_with(".so"));
+// Null: the text is no place of a device.
+const Driver* driver_by_place(const std::string& device) {
+  for (const Driver* driver : peer::drivers())
+    if (driver->place != nullptr && driver->place->is(device)) return driver;
+  return nullptr;
 }
 
-// Parses PORT or PORT@BAUD.
-haptics::SerialPlace place_of(const std::string& device) {
-  const std::size_t at = device.rfind('@');
-  if (at == std::string::npos) return {device};
-  unsigned baud = 0;
-  const char* const end = device.data() + device.size();
-  const auto read = std::from_chars(device.data() + at + 1, end, baud);
-  if (read.ec != std::errc() || read.ptr != end || baud < 1'200 || baud > 12'000'000) {
-    throw UsageError(
-        fmt::format("--device: '{}' is no baud from 1200 to 12000000: write "
-                    "/dev/ttyACM0@115200, or leave it out",
-                    device.substr(at + 1)));
+void put_place(DeviceConfig& config, const Driver& driver, const std::string& device) {
+  if (driver.place == nullptr || !driver.place->is(device)) return;
+  try {
+    driver.place->put(config, device);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--device: {}", error.what()));
   }
-  return {device.substr(0, at), baud};
 }
 
 // The driver for one of these USB IDs.
-DeviceDriver driver_of(const peer::DeviceDescriptor& described, const std::string& file) {
-  DeviceConfig device;
+const Driver& driver_by_id(const peer::DeviceDescriptor& described, const std::string& file) {
   std::string known;
-  for (const DeviceDriver driver : {DeviceDriver::falcon, DeviceDriver::polhem}) {
-    device.driver = driver;
-    const haptics::UsbFacts& facts = *peer::usb_facts_of(device);
+  for (const Driver* driver : peer::drivers()) {
+    if (driver->force == nullptr || driver->force->make == nullptr) continue;
+    const haptics::UsbFacts& facts = driver->force->facts();
     const peer::UsbId id{facts.vendor, facts.product};
-    if (std::ranges::find(described.usb, id) != described.usb.end()) return driver;
+    if (std::ranges::find(described.usb, id) != described.usb.end()) return *driver;
     known += fmt::format("{}{} has {:04x}:{:04x}", known.empty() ? "" : ", ", facts.name, id.vendor,
                          id.product);
   }
@@ -97,14 +88,6 @@ peer::DeviceDescriptor described_by(const std::string& file) {
   }
 }
 
-DeviceDriver driver_of(const std::string& device) {
-  if (is_descriptor(device)) return driver_of(described_by(device), device);
-  if (is_event_device(device)) return DeviceDriver::evdev;
-  if (is_serial(device)) return DeviceDriver::serial;
-  if (is_plugin(device)) return DeviceDriver::plugin;
-  return *peer::value_of<DeviceDriver>(device);
-}
-
 // Adds the default devices of all peers to a scene that lists none.
 void say_devices(peer::SceneFile& scene, std::size_t peers) {
   if (!scene.devices.empty()) return;
@@ -114,81 +97,100 @@ void say_devices(peer::SceneFile& scene, std::size_t peers) {
   scene.devices = std::move(devices);
 }
 
-std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
-  if (device.driver == DeviceDriver::polhem)
-    return std::make_unique<haptics::PolhemDriver>(peer::polhem_weights_of(device));
-  haptics::FalconFirmware firmware;
-  if (!device.firmware.empty()) firmware = haptics::FalconFirmware::load(device.firmware.string());
-  return std::make_unique<haptics::FalconDriver>(std::move(firmware));
+// Calls use(driver, key) for each key with a flag.
+template <typename Use>
+void for_each_flag(Use&& use) {
+  for (const Driver* driver : peer::drivers())
+    for (const DriverKey& key : driver->keys)
+      if (!key.flag.empty()) use(*driver, key);
 }
 
-// The servo calls it directly; it has no thread of its own.
-class LoadedPlugin final : public peer::RealDevice {
- public:
-  LoadedPlugin(const std::filesystem::path& file, const std::string& options)
-      : device_(file, options) {}
-  [[nodiscard]] const std::string& name() const noexcept { return device_.name(); }
-  haptics::HapticDevice& device() noexcept override { return device_; }
-  std::vector<std::string> take_notices() override { return device_.take_notices(); }
-
- private:
-  haptics::PluginDevice device_;
-};
+// Calls use(driver, key, value) for each flag that the user gave.
+template <typename Use>
+void for_each_given(const DeviceChoice& choice, Use&& use) {
+  for_each_flag([&](const Driver& driver, const DriverKey& key) {
+    const auto given = choice.keys.find(key.key);
+    if (given != choice.keys.end() && !given->second.empty()) use(driver, key, given->second);
+  });
+}
 
 }  // namespace
 
-bool is_event_device(const std::string& device) {
-  return device.starts_with("/dev/input/") || device.starts_with("/dev/hidraw");
+const Driver& driver_of(const std::string& device) {
+  if (is_descriptor(device)) return driver_by_id(described_by(device), device);
+  if (const Driver* const driver = driver_by_place(device)) return *driver;
+  return *peer::find_driver(device);
+}
+
+void add_driver_flags(CommandLine& line, DeviceChoice& choice, std::string_view prefix) {
+  for_each_flag([&](const Driver&, const DriverKey& key) {
+    line.option(std::string(key.flag), choice.keys[key.key],
+                fmt::format("{}{}", prefix, key.flag_help));
+  });
+}
+
+std::vector<std::string_view> driver_flags_of(const DeviceChoice& choice) {
+  std::vector<std::string_view> flags;
+  for_each_given(choice, [&](const Driver&, const DriverKey& key, const std::string&) {
+    flags.push_back(key.flag);
+  });
+  return flags;
 }
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
-  line.option(
-      "--device", choice.device,
-      fmt::format(
-          "a real device, by its driver, in the place of the peer's first: {} (see "
-          "reckon devices), the line of a serial board (/dev/ttyACM0, or /dev/ttyUSB0@115200), a "
-          "wheel or stick (/dev/input/event7, /dev/hidraw0), its descriptor (MINE.toml), or the "
-          "file of a driver (DRIVER.so)",
-          fmt::join(driver_words(), ", ")));
-  line.option("--firmware", choice.firmware,
-              "file of the program that a Falcon runs, where it has lost it");
+  line.option("--device", choice.device,
+              fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
+                          "reckon devices), {}, or its descriptor (MINE.toml)",
+                          fmt::join(driver_words(), ", "), place_help()));
+  add_driver_flags(line, choice);
   line.option("--plugin", choice.plugins,
               "file of a driver that the scene may load by its name; may be given again");
 }
 
 std::vector<std::string> plugins_of(const DeviceChoice& choice) {
   std::vector<std::string> files = choice.plugins;
-  if (is_plugin(choice.device)) files.push_back(choice.device);
+  const Driver* const driver = driver_by_place(choice.device);
+  if (driver != nullptr && driver->native_code != nullptr) files.push_back(choice.device);
   return files;
 }
 
-void check_device_choice(const DeviceChoice& choice) {
-  const std::string& name = choice.device;
-  const std::vector<std::string_view> words = driver_words();
-  if (name == "serial")
-    throw UsageError("--device: a serial board goes by its line: --device /dev/ttyACM0");
-  if (is_serial(name)) static_cast<void>(place_of(name));
-  if (is_descriptor(name)) static_cast<void>(driver_of(name));
-  if (!name.empty() && !is_plugin(name) && !is_serial(name) && !is_descriptor(name) &&
-      !is_event_device(name) && std::ranges::find(words, name) == words.end()) {
-    const std::string_view nearest = peer::nearest_word(name, words);
-    const std::string meant =
-        nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
-    throw UsageError(fmt::format(
-        "--device: there is no driver '{}'{}; there are {} (see reckon devices), "
-        "lines of serial boards: /dev/ttyACM0, descriptors: mine.toml, and files of drivers: "
-        "./DRIVER.so",
-        name, meant, fmt::join(words, ", ")));
+namespace {
+
+void check_device(const std::string& device) {
+  if (is_descriptor(device)) return static_cast<void>(driver_of(device));
+  if (const Driver* const driver = driver_by_place(device)) {
+    DeviceConfig tried;
+    return put_place(tried, *driver, device);
   }
+  const Driver* const driver = peer::find_driver(device);
+  if (driver != nullptr && driver->is_named) return;
+  if (driver != nullptr)
+    throw UsageError(fmt::format("--device: a driver '{}' alone is not enough: write {}", device,
+                                 driver->place->help));
+  const std::vector<std::string_view> words = driver_words();
+  const std::string_view nearest = peer::nearest_word(device, words);
+  const std::string meant =
+      nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
+  throw UsageError(
+      fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), {}, and "
+                  "descriptors (mine.toml)",
+                  device, meant, fmt::join(words, ", "), place_help()));
+}
+
+}  // namespace
+
+void check_device_choice(const DeviceChoice& choice) {
+  if (!choice.device.empty()) check_device(choice.device);
   for (const std::string& file : choice.plugins)
     if (std::error_code none; !std::filesystem::is_regular_file(file, none))
       throw UsageError(fmt::format("--plugin: there is no file '{}'", file));
-  if (choice.firmware.empty()) return;
-  try {
-    static_cast<void>(haptics::FalconFirmware::load(choice.firmware));
-  } catch (const std::runtime_error& error) {
-    throw UsageError(fmt::format("--firmware: {}", error.what()));
-  }
+  for_each_given(choice, [&](const Driver&, const DriverKey& key, const std::string& file) {
+    try {
+      key.check_file(file);
+    } catch (const std::runtime_error& error) {
+      throw UsageError(fmt::format("{}: {}", key.flag, error.what()));
+    }
+  });
 }
 
 namespace {
@@ -204,31 +206,26 @@ void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
     first->source = peer::DeviceSource::simulated;
     first->admittance.mass = 0.0;
     // The scene's friction and delay are those simulated, and do not apply to a real device.
-    const DeviceDriver chosen = driver_of(choice.device);
-    if (chosen == DeviceDriver::plugin) first->plugin = std::filesystem::absolute(choice.device);
-    if (chosen == DeviceDriver::serial) {
-      const haptics::SerialPlace place = place_of(choice.device);
-      first->port = place.port;
-      first->baud = place.baud;
-    }
-    if (is_event_device(choice.device)) first->event = choice.device;
+    const Driver& chosen = driver_of(choice.device);
+    put_place(*first, chosen, choice.device);
     if (is_descriptor(choice.device)) {
       peer::describe(*first, described_by(choice.device));
       peer::use_driver(*first, chosen, {true, true, true, true, false});
-    } else if (first->driver != chosen) {
+    } else if (first->driver != &chosen) {
       peer::use_driver(*first, chosen, {});
     }
-    const std::string fault =
-        chosen == DeviceDriver::evdev ? peer::evdev_fault_of(*first) : std::string();
-    if (!fault.empty()) throw UsageError("--device evdev: " + fault);
+    const std::string fault = chosen.fault != nullptr ? chosen.fault(*first) : std::string();
+    if (!fault.empty()) throw UsageError(fmt::format("--device {}: {}", chosen.name, fault));
   }
-  if (choice.firmware.empty()) return;
-  const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {
-    return of_peer(device) && device.driver == DeviceDriver::falcon;
+  for_each_given(choice, [&](const Driver& driver, const DriverKey& key, const std::string& file) {
+    const auto device = std::ranges::find_if(scene.devices, [&](const DeviceConfig& one) {
+      return of_peer(one) && one.driver == &driver;
+    });
+    if (device == scene.devices.end())
+      throw UsageError(fmt::format("{}: no device of this peer takes one; add --device {}",
+                                   key.flag, driver.name));
+    device->driver_values[key.key] = std::filesystem::absolute(file);
   });
-  if (falcon == scene.devices.end())
-    throw UsageError("--firmware: no device of this peer takes one; add --device falcon");
-  falcon->firmware = std::filesystem::absolute(choice.firmware);
 }
 
 }  // namespace
@@ -238,10 +235,20 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
   choose_driver(choice, scene, number, peers);
   if (scene.operators.empty()) return;
   for (DeviceConfig& device : scene.devices) {
-    if (device.peer == number && device.driver != DeviceDriver::simulated && !device.is_placed)
+    if (device.peer == number && device.driver != nullptr && !device.is_placed)
       device.position = begin_of(scene, device.operator_number);
   }
 }
+
+namespace {
+
+// Empty: its driver finds it by its USB IDs, or by itself.
+std::string line_of(const DeviceConfig& device) {
+  const peer::ForceSide* const force = device.driver->force;
+  return force != nullptr && force->line != nullptr ? force->line(device) : std::string();
+}
+
+}  // namespace
 
 haptics::HapticDevice* RealDevices::as_mapped(haptics::HapticDevice& device,
                                               const DeviceConfig& config) {
@@ -253,72 +260,32 @@ haptics::HapticDevice* RealDevices::as_mapped(haptics::HapticDevice& device,
 void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
                           std::vector<peer::PeerDevice>& wired) {
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
+  const peer::DeviceOpening opening{
+      clock_, [this](const std::filesystem::path& name) { return trusted_plugin(name, trusted_); }};
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const DeviceConfig& device = devices[i];
-    if (device.driver == DeviceDriver::simulated) continue;
-    driven_.push_back({device.driver, device.port, open(device)});
+    if (device.driver == nullptr) continue;
+    check_free(device);
+    peer::OpenedDevice opened = peer::open_device(device, opening);
+    sentences_.push_back(std::move(opened.notice));
+    driven_.push_back({device.driver, line_of(device), std::move(opened.device)});
     haptics::HapticDevice& real = driven_.back().real->device();
     // A device that renders springs takes no force that could be mapped.
-    wired[i].device = device.driver == DeviceDriver::evdev ? &real : as_mapped(real, device);
+    wired[i].device = peer::renders_springs(device) ? &real : as_mapped(real, device);
   }
 }
 
-std::unique_ptr<peer::RealDevice> RealDevices::open(const DeviceConfig& config) {
-  if (config.driver == DeviceDriver::plugin) return open_plugin(config);
-  if (config.driver == DeviceDriver::evdev) return open_evdev(config);
-  return open_by_forces(config);
-}
-
-std::unique_ptr<peer::RealDevice> RealDevices::open_plugin(const DeviceConfig& config) {
-  const std::filesystem::path file = trusted_plugin(config.plugin, trusted_);
-  auto plugin = std::make_unique<LoadedPlugin>(file, config.plugin_options);
-  sentences_.push_back(fmt::format(
-      "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
-      plugin->name(), plugin->device().limits().damping, file.string()));
-  return plugin;
-}
-
-std::unique_ptr<peer::RealDevice> RealDevices::open_evdev(const DeviceConfig& config) {
-  const haptics::EvdevSettings settings = peer::evdev_settings_of(config);
-  auto device = peer::evdev_device(clock_, settings);
-  sentences_.push_back(
-      fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
-                  "later; what others "
-                  "have is felt along its axes, and pushes no hand that does not press",
-                  settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
-  return device;
-}
-
-// A device that takes forces and reports its position.
-std::unique_ptr<peer::RealDevice> RealDevices::open_by_forces(const DeviceConfig& config) {
-  const haptics::UsbFacts& facts = *peer::usb_facts_of(config);
-  const haptics::DeviceLimits limits = haptics::usb_limits(facts, peer::usb_settings_of(config));
-  const bool is_on_line = config.driver == DeviceDriver::serial;
-  check_free(config);
-  auto device = is_on_line ? peer::serial_device(clock_, limits, {config.port, config.baud})
-                           : peer::usb_device(clock_, limits, usb_driver_of(config));
-  sentences_.push_back(fmt::format(
-      "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
-      "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
-      "stiffer walls, and `reckon devices measure {}` finds them",
-      is_on_line ? config.port : facts.name, limits.damping,
-      limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
-      1e3 * limits.delay_samples * pdu::to_seconds(config.period),
-      is_on_line ? config.port : std::string(peer::word_of(config.driver))));
-  return device;
-}
-
 void RealDevices::check_free(const DeviceConfig& config) const {
-  const bool is_on_line = config.driver == DeviceDriver::serial;
-  const bool is_free = std::ranges::none_of(driven_, [&](const Driven& one) {
-    return one.driver == config.driver && (!is_on_line || one.port == config.port);
-  });
+  if (config.driver->force == nullptr) return;
+  const std::string line = line_of(config);
+  const bool is_free = std::ranges::none_of(
+      driven_, [&](const Driven& one) { return one.driver == config.driver && one.line == line; });
   if (is_free) return;
-  if (is_on_line)
-    throw std::runtime_error(fmt::format("two devices are on {}: a line has one", config.port));
+  if (!line.empty())
+    throw std::runtime_error(fmt::format("two devices are on {}: a line has one", line));
   throw std::runtime_error(
       fmt::format("one program drives one {}: start another peer for the second",
-                  peer::usb_facts_of(config)->name));
+                  config.driver->force->facts().name));
 }
 
 unsigned RealDevices::axes() const noexcept {

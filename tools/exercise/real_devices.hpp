@@ -4,14 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/threads/real_device.hpp"
@@ -19,30 +22,36 @@
 
 namespace reckon::tools {
 
-/// --device, --firmware and --plugin of a demo or a peer.
+/// --device, the flags of drivers and --plugin of a demo or a peer.
 struct DeviceChoice {
-  std::string device;    ///< name or file of a driver, serial port with @BAUD if not the
-                         ///< default, or path of an event device; empty: as in the scene
-  std::string firmware;  ///< file; empty: as in the scene
-  std::vector<std::string> plugins = {};  ///< files of --plugin
+  std::string device;  ///< name of a driver, place of a device or a descriptor; empty: as in the
+                       ///< scene
+  std::vector<std::string> plugins = {};              ///< files of --plugin
+  std::map<std::string_view, std::string> keys = {};  ///< of flags of drivers, by DriverKey::key;
+                                                      ///< empty: as in the scene
 };
 
 /// Driver files that the user named by --plugin or --device.
 [[nodiscard]] std::vector<std::string> plugins_of(const DeviceChoice& choice);
 
-/// Whether a --device is the path of a device that renders springs by itself.
-[[nodiscard]] bool is_event_device(const std::string& device);
+/// The driver of a --device that passed check_device_choice().
+[[nodiscard]] const peer::Driver& driver_of(const std::string& device);
 
+/// The flags of drivers. @param prefix of their help
+void add_driver_flags(CommandLine& line, DeviceChoice& choice, std::string_view prefix = "");
 void add_device_flags(CommandLine& line, DeviceChoice& choice);
 
-/// @throws UsageError for an unknown driver, with the nearest word, and for a file that is no
-/// firmware
+/// The flags of drivers that the user gave.
+[[nodiscard]] std::vector<std::string_view> driver_flags_of(const DeviceChoice& choice);
+
+/// @throws UsageError for an unknown driver, with the nearest word, and for a file of a flag that
+/// its driver cannot use
 void check_device_choice(const DeviceChoice& choice);
 
 /// Sets the chosen driver, if any, for the first device of peer `number`. Real devices of that peer
 /// without a position in the scene are placed at the start of their operators: within reach of the
-/// objects, and not inside of one. @throws UsageError for a peer without a device, and for
-/// --firmware without a device that takes it
+/// objects, and not inside of one. @throws UsageError for a peer without a device, and for a flag
+/// of a driver without a device that has it
 void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
                    std::size_t peers);
 
@@ -69,16 +78,11 @@ class RealDevices {
 
  private:
   struct Driven {
-    peer::DeviceDriver driver;
-    std::string port;  // of a serial board
+    const peer::Driver* driver;
+    std::string line;  // of a device on a line
     std::unique_ptr<peer::RealDevice> real;
   };
 
-  /// Opens a device and adds its notice to sentences_.
-  [[nodiscard]] std::unique_ptr<peer::RealDevice> open(const peer::DeviceConfig& config);
-  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_plugin(const peer::DeviceConfig& config);
-  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_evdev(const peer::DeviceConfig& config);
-  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_by_forces(const peer::DeviceConfig& config);
   /// @throws std::runtime_error if another device of this process already uses its place
   void check_free(const peer::DeviceConfig& config) const;
   /// The device, with the mapping from handle to hand if there is one.

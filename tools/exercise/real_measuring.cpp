@@ -44,17 +44,23 @@ constexpr milliseconds kSettling{3000};       // after Enter, for readings that 
 constexpr milliseconds kShutdownDrain{50};    // for a zero force to reach the device
 constexpr std::chrono::seconds kReadyWithin{60};  // until it is ready, if there is no terminal
 
+// Whether the maker of its devices alone knows their force.
+bool states_force(const peer::Driver& driver) {
+  return driver.force != nullptr && driver.force->assumed_force > 0;
+}
+
 void check_measurable(const RealMeasuring& wanted) {
   const std::string& name = wanted.choice.device;
-  if (name == "evdev" || is_event_device(name)) {
+  check_device_choice(wanted.choice);
+  const peer::Driver& driver = driver_of(name);
+  if (driver.springs != nullptr) {
     throw UsageError(fmt::format(
         "{}: it renders springs by itself and takes no force, so it cannot be pushed: measure "
         "'travel', 'full_force', 'full_stiffness' and 'max_stiffness' with a ruler and a spring "
         "balance (docs/devices.md)",
         name));
   }
-  check_device_choice(wanted.choice);
-  if (!wanted.max_force.empty() && !name.starts_with("/dev/")) {
+  if (!wanted.max_force.empty() && !states_force(driver)) {
     throw UsageError(
         "--max-force: what a serial board can hold; the limits of other devices are known to their "
         "drivers: leave it out");
@@ -70,7 +76,7 @@ class OpenedDevice {
         real_(plugins_of(wanted.choice)) {
     choose_device(wanted.choice, scene_, 1, 1);
     peer::DeviceConfig& config = scene_.devices.front();
-    if (config.driver == peer::DeviceDriver::serial) {
+    if (states_force(*config.driver)) {
       config.resolution = 1e-3;  // is measured: boards with any step are accepted
       if (!wanted.max_force.empty()) config.max_force = max_force_of(wanted.max_force);
     }

@@ -297,8 +297,9 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
     hands.wired.push_back({wired, config.marking, config.position, config.orientation,
                            config.period, config.continuous_force / config.scale,
                            config.thermal_time, config.max_force_rate, config.received_power,
-                           config.region_loan, config.oscillation_power, config.oscillation_energy,
-                           config.grab_button, config.stop_button, probes_of(config)});
+                           config.regions.loan, config.regions.oscillation_power,
+                           config.regions.oscillation_energy, config.grab_button,
+                           config.stop_button, probes_of(config)});
   }
   return hands;
 }

@@ -47,7 +47,7 @@ void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
   for (std::uint32_t peer = 1; peer <= peers; ++peer)
     std::ranges::copy(peer::devices_of(scene, peer), std::back_inserter(devices));
   for (DeviceConfig& device : devices)
-    if (device.driver == peer::DeviceDriver::simulated && !(device.admittance.mass > 0) &&
+    if (device.driver == nullptr && !(device.admittance.mass > 0) &&
         mapping_of(device).is_plain() && operator_of(scene, device.operator_number).damping > 0)
       device.source = DeviceSource::pointer;
   scene.devices = std::move(devices);

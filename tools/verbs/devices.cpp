@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +20,8 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/drivers/driver.hpp"
+#include "reckon/peer/drivers/serial_lines.hpp"
 #include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -25,10 +29,8 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
-#include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/exercise/real_measuring.hpp"
-#include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -36,8 +38,12 @@
 namespace reckon::tools {
 namespace {
 
+// A driver for examples.
+std::string_view example() { return peer::drivers().front()->name; }
+
 struct DevicesOptions {
-  std::string action, name, simulate, firmware, max_force;
+  std::string action, name, simulate, max_force;
+  DeviceChoice choice;  // the flags of drivers
   bool is_agreed = false;
   bool install_rule = false;
   std::string folder = kRuleFolder;
@@ -48,7 +54,7 @@ int install_rule(const DevicesOptions& options, const Console& console) {
   const auto file = std::filesystem::path(options.folder) / kRuleFile;
   errno = 0;
   std::ofstream out(file);
-  out << udev_rule(undriven_devices());
+  out << udev_rule();
   if (!out.flush()) {
     throw EnvironmentError(fmt::format("{}: {}; run it with sudo", file.string(),
                                        std::generic_category().message(errno)));
@@ -81,8 +87,8 @@ void print_device(std::FILE* out, const AttachedDevice& device) {
 
 int list_devices(const DevicesOptions& options, const Console& console) {
   UsbLook look = look_at_usb(true);
-  std::ranges::move(look_at_events(), std::back_inserter(look.devices));
-  const std::vector<AttachedDevice> lines = look_at_serial_lines();
+  std::ranges::move(look_beside_usb(), std::back_inserter(look.devices));
+  const std::vector<AttachedDevice> lines = peer::look_at_serial_lines();
   if (!look.problem.empty() && look.devices.empty() && lines.empty())
     throw EnvironmentError(look.problem + "; see reckon doctor");
   const auto print = [&](const AttachedDevice& device) {
@@ -91,17 +97,17 @@ int list_devices(const DevicesOptions& options, const Console& console) {
   std::ranges::for_each(look.devices, print);
   std::ranges::for_each(lines, print);
   fmt::print(console.err,
-             "{} that can be held, {} on USB, {} that a board may be on; drivers: {}, serial\n",
+             "{} that can be held, {} on USB, {} that a board may be on; drivers: {}\n",
              counted(look.devices.size(), "device"), counted(look.others, "other"),
-             counted(lines.size(), "serial line"), driver_names());
+             counted(lines.size(), "serial line"),
+             fmt::join(peer::driver_names() | std::views::drop(1), ", "));
   const auto has_problem = [](const AttachedDevice& device) { return !device.problem.empty(); };
   const bool any = std::ranges::any_of(look.devices, has_problem);
   const bool needs_rule = std::ranges::any_of(look.devices, [](const AttachedDevice& device) {
     return device.remedy.find("--install-rule") != std::string::npos;
   });
   if (needs_rule && !options.json)
-    fmt::print(console.err, "the rule that --install-rule writes:\n{}",
-               udev_rule(undriven_devices()));
+    fmt::print(console.err, "the rule that --install-rule writes:\n{}", udev_rule());
   return exit_status(any ? ExitCode::findings : ExitCode::good);
 }
 
@@ -225,11 +231,16 @@ std::string simulated_text(const DevicesOptions& options) {
   return descriptor_text(options.name, known, found);
 }
 
+DeviceChoice choice_of(const DevicesOptions& options) {
+  DeviceChoice choice = options.choice;
+  choice.device = options.name;
+  return choice;
+}
+
 int measure_device(const DevicesOptions& options, const Console& console) {
   const std::string text =
       options.simulate.empty()
-          ? measure_real({{options.name, options.firmware}, options.max_force, options.is_agreed},
-                         console)
+          ? measure_real({choice_of(options), options.max_force, options.is_agreed}, console)
           : simulated_text(options);
   // Checks that the output is a valid descriptor.
   static_cast<void>(peer::parse_device_descriptor(text, options.name));
@@ -244,23 +255,23 @@ int measure_device(const DevicesOptions& options, const Console& console) {
 void check_measure(const DevicesOptions& options) {
   const bool measures = options.action == "measure";
   if (!options.simulate.empty() && !measures)
-    throw UsageError(
-        "--simulate is what measure pushes: reckon devices measure mine --simulate "
-        "falcon");
-  for (const auto& [given, flag] :
-       {std::pair(options.is_agreed, "--yes"), std::pair(!options.firmware.empty(), "--firmware"),
-        std::pair(!options.max_force.empty(), "--max-force")}) {
-    if (!given) continue;
+    throw UsageError(fmt::format(
+        "--simulate is what measure pushes: reckon devices measure mine --simulate {}", example()));
+  std::vector<std::string_view> given = driver_flags_of(options.choice);
+  if (options.is_agreed) given.emplace_back("--yes");
+  if (!options.max_force.empty()) given.emplace_back("--max-force");
+  for (const std::string_view flag : given) {
     if (!measures)
-      throw UsageError(fmt::format("{}: of measure: reckon devices measure falcon", flag));
+      throw UsageError(fmt::format("{}: of measure: reckon devices measure {}", flag, example()));
     if (!options.simulate.empty())
       throw UsageError(fmt::format("{}: of a real device: leave it or --simulate out", flag));
   }
   if (!measures) return;
   if (options.name.empty())
     throw UsageError(
-        "measure needs a device: reckon devices measure falcon, or for a simulated one reckon "
-        "devices measure mine --simulate falcon");
+        fmt::format("measure needs a device: reckon devices measure {0}, or for a simulated one "
+                    "reckon devices measure mine --simulate {0}",
+                    example()));
   if (options.json) throw UsageError("--json: measure prints a descriptor; leave it out");
 }
 
@@ -273,8 +284,8 @@ void check_flags(const DevicesOptions& options) {
   if (options.action.empty()) return;
   constexpr std::array<std::string_view, 3> kActions{"describe", "keys", "measure"};
   if (std::ranges::find(kActions, options.action) == kActions.end())
-    throw UsageError(fmt::format("'{}': there is {}; as in reckon devices describe falcon",
-                                 options.action, fmt::join(kActions, ", ")));
+    throw UsageError(fmt::format("'{}': there is {}; as in reckon devices describe {}",
+                                 options.action, fmt::join(kActions, ", "), example()));
   if (options.action == "keys" && (options.json || !options.name.empty()))
     throw UsageError("keys prints one table, of all descriptors: leave the rest out");
   if (options.install_rule)
@@ -286,28 +297,28 @@ int run_devices(Arguments arguments, const Console& console) {
   CommandLine line("devices",
                    "Lists real devices that are attached, how they would be used, and what keeps "
                    "one from being used, with the remedy.",
-                   "reckon devices\n"
-                   "reckon devices describe\n"
-                   "reckon devices describe touch\n"
-                   "reckon devices measure falcon > mine.toml\n"
-                   "reckon devices measure /dev/ttyACM0 --max-force \"3 N\"\n"
-                   "reckon devices measure mine --simulate falcon\n"
-                   "sudo reckon devices --install-rule\n"
-                   "reckon demo --device falcon");
+                   fmt::format("reckon devices\n"
+                               "reckon devices describe\n"
+                               "reckon devices describe touch\n"
+                               "reckon devices measure {0} > mine.toml\n"
+                               "reckon devices measure /dev/ttyACM0 --max-force \"3 N\"\n"
+                               "reckon devices measure mine --simulate {0}\n"
+                               "sudo reckon devices --install-rule\n"
+                               "reckon demo --device {0}",
+                               example()));
   line.word("ACTION", options.action, false,
             "describe: what descriptors say, and the stiffness that follows; keys: what a "
             "descriptor may say; measure: find damping, friction and delay by small pushes, and "
             "print a descriptor: it asks first; absent: look for devices");
   line.word("NAME", options.name, false,
             "of describe: a descriptor's file, or the name of one that comes with Reckon; absent: "
-            "all of these. Of measure: a real device as --device of a demo has it (falcon, polhem, "
-            "./DRIVER.so, /dev/ttyACM0[@BAUD]), or with --simulate a name");
+            "all of these. Of measure: a real device as --device of a demo has it, or with "
+            "--simulate a name");
   line.option("--simulate", options.simulate,
               "of measure: push a simulated device of this descriptor, that nobody holds");
   line.flag("--yes", options.is_agreed,
             "of measure: the handle is free to move by 40 mm, begin without asking");
-  line.option("--firmware", options.firmware,
-              "of measure: file of the program that a Falcon runs, where it has lost it");
+  add_driver_flags(line, options.choice, "of measure: ");
   line.option(
       "--max-force", options.max_force,
       "of measure: what each axis of a serial board can hold, such as \"3 N\"; default: 1 N");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/peer/drivers/serial_lines.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
@@ -18,8 +19,6 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
-#include "reckon/tools/exercise/attached_events.hpp"
-#include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -146,7 +145,7 @@ void examine_usb(std::vector<peer::Finding>& findings) {
 
 // A serial port may have a haptic board, or any other device.
 void examine_serial_lines(std::vector<peer::Finding>& findings) {
-  for (const AttachedDevice& line : look_at_serial_lines()) {
+  for (const AttachedDevice& line : peer::look_at_serial_lines()) {
     findings.push_back({line.problem.empty() ? peer::FindingLevel::ok : peer::FindingLevel::note,
                         "serial line " + line.name + ": " +
                             (line.problem.empty() ? "it can be opened" : line.problem),
@@ -201,7 +200,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   findings.push_back(examine_waking());
   examine_usb(findings);
   examine_serial_lines(findings);
-  add_findings(look_at_events(), findings);
+  add_findings(look_beside_usb(), findings);
 
   for (const peer::Finding& finding : findings) {
     if (options.json)

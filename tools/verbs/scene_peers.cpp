@@ -44,16 +44,9 @@ std::string point(const Eigen::Vector3d& p) {
 // --- devices ---
 
 std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
-  if (const haptics::UsbFacts* const facts = peer::usb_facts_of(device))
-    return fmt::format("a person, by a {}", facts->name);
-  if (device.driver == peer::DeviceDriver::evdev)
-    return fmt::format("a person, by {} with force feedback",
-                       device.event.empty() ? "the first device" : device.event);
-  if (device.driver == peer::DeviceDriver::plugin)
-    return fmt::format(
-        "whoever {} drives it for, which says what it can do; the limits here are "
-        "those of a simulated one in its place",
-        device.plugin.filename().string());
+  if (const peer::Driver* const driver = device.driver)
+    return driver->holder != nullptr ? driver->holder(device)
+                                     : fmt::format("a person, by {}", driver->article);
   if (scene.operators.empty()) return "a hand that holds still";
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;
@@ -73,13 +66,12 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
 }
 
 std::string spring_limits_of(const peer::DeviceConfig& device) {
-  const haptics::EvdevSettings settings = peer::evdev_settings_of(device);
-  return fmt::format("{}, {}; {} over {}; a change is there {} late",
-                     peer::format_quantity(haptics::evdev_limits(settings).max_force, "N"),
-                     peer::format_quantity(settings.max_speed, "m/s"),
-                     settings.axes == 1 ? "an axis" : "two axes",
-                     peer::format_quantity(settings.scale.travel, "m"),
-                     about(pdu::to_seconds(settings.chain), "s"));
+  const haptics::DeviceLimits limits = device.driver->springs->felt(device)->limits();
+  return fmt::format(
+      "{}, {}; {} over {}; a change is there {} late", peer::format_quantity(limits.max_force, "N"),
+      peer::format_quantity(limits.max_speed, "m/s"), limits.axes == 1 ? "an axis" : "two axes",
+      peer::format_quantity(limits.workspace_max.x() - limits.workspace_min.x(), "m"),
+      about(pdu::to_seconds(device.driver->springs->change(device)), "s"));
 }
 
 std::string limits_of(const peer::DeviceConfig& device) {
@@ -118,9 +110,9 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   config.contact_radius = scene.hand.contact_radius;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   config.max_received_power = device.received_power;
-  config.region_loan = device.region_loan;
-  config.oscillation_power = device.oscillation_power;
-  config.oscillation_energy = device.oscillation_energy;
+  config.region_loan = device.regions.loan;
+  config.oscillation_power = device.regions.oscillation_power;
+  config.oscillation_energy = device.regions.oscillation_energy;
   config.grab = scene.hand.grab;
   config.probes = probes_of(device);
   return config;
@@ -129,9 +121,9 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
 /// Energy that regions may put into the hand.
 std::string sources_of(const peer::DeviceConfig& device) {
   return fmt::format("potentials are lent at most {}; oscillations put in at most {}, {} at once",
-                     peer::format_quantity(device.region_loan, "J"),
-                     peer::format_quantity(device.oscillation_power, "W"),
-                     peer::format_quantity(device.oscillation_energy, "J"));
+                     peer::format_quantity(device.regions.loan, "J"),
+                     peer::format_quantity(device.regions.oscillation_power, "W"),
+                     peer::format_quantity(device.regions.oscillation_energy, "J"));
 }
 
 /// Force rate limit of the device, and the requested rate if it is higher.
@@ -222,7 +214,7 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
       hand.get(), std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
       haptics::make_bodies(plan, scene.scene,
                            std::make_shared<peer::BodyMover>(plan, scene.nodes)));
-  if (device.driver == peer::DeviceDriver::evdev) {
+  if (peer::renders_springs(device)) {
     return {{"held by", holder_of(scene, device)},
             {"stands at", point(device.position)},
             {"limits", spring_limits_of(device)},

@@ -18,6 +18,7 @@
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/drivers/serial.hpp"
 #include "reckon/peer/threads/real_device.hpp"
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/far_end.hpp"

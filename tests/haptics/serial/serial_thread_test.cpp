@@ -14,7 +14,7 @@
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/threads/real_device.hpp"
+#include "reckon/peer/drivers/serial.hpp"
 #include "reckon/tests/haptics/support/far_end.hpp"
 #include "reckon/tests/haptics/support/serial_board.hpp"
 

@@ -58,9 +58,9 @@ delay = "1 ms"
   EXPECT_EQ(device.max_speed, 0.5);
   EXPECT_EQ(device.max_force_rate, 200);
   EXPECT_EQ(device.received_power, 0.4);
-  EXPECT_EQ(device.region_loan, 0.05);
-  EXPECT_EQ(device.oscillation_power, 0.03);
-  EXPECT_EQ(device.oscillation_energy, 0.005);
+  EXPECT_EQ(device.regions.loan, 0.05);
+  EXPECT_EQ(device.regions.oscillation_power, 0.03);
+  EXPECT_EQ(device.regions.oscillation_energy, 0.005);
   EXPECT_NEAR(device.resolution, 2e-5, 1e-18);
   EXPECT_EQ(device.period, microseconds(250));
   EXPECT_EQ(device.delay_samples, 4);
@@ -169,9 +169,9 @@ TEST(DeviceSection, HasTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.max_speed, standard.max_speed);
   EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
   EXPECT_EQ(silent.received_power, standard.received_power);
-  EXPECT_EQ(silent.region_loan, standard.region_loan);
-  EXPECT_EQ(silent.oscillation_power, standard.oscillation_power);
-  EXPECT_EQ(silent.oscillation_energy, standard.oscillation_energy);
+  EXPECT_EQ(silent.regions.loan, standard.regions.loan);
+  EXPECT_EQ(silent.regions.oscillation_power, standard.regions.oscillation_power);
+  EXPECT_EQ(silent.regions.oscillation_energy, standard.regions.oscillation_energy);
   EXPECT_EQ(silent.resolution, standard.resolution);
   EXPECT_EQ(silent.axes, standard.axes);
   EXPECT_EQ(silent.turn_damping, standard.turn_damping);
@@ -181,9 +181,7 @@ TEST(DeviceSection, HasTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
   EXPECT_EQ(silent.source, standard.source);
   EXPECT_EQ(silent.driver, standard.driver);
-  EXPECT_EQ(silent.firmware, standard.firmware);
-  EXPECT_EQ(silent.upper_weight, standard.upper_weight);
-  EXPECT_EQ(silent.fore_weight, standard.fore_weight);
+  EXPECT_TRUE(silent.driver_values.empty());
   EXPECT_EQ(silent.reach, standard.reach);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());
 }

@@ -17,7 +17,7 @@
 #include "reckon/peer/scene_graph/scene_nodes.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::node_section_test {
 namespace {
 
 using test::refusal;
@@ -325,4 +325,4 @@ TEST(NodeSection, OfASceneWithoutThemChangeNothing) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::node_section_test

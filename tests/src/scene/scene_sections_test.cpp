@@ -102,12 +102,13 @@ TEST(SceneSections, FillEveryMemberOfOperatorsAndOutages) {
 
 TEST(SceneSections, FillEveryMemberOfDevicesNodesAndEntities) {
   const DeviceConfig device;
-  EXPECT_THAT(
-      without_key(device_section(),
-                  {place_of(device, device.orientation), place_of(device, device.descriptor),
-                   place_of(device, device.described), place_of(device, device.delay_samples),
-                   place_of(device, device.period), place_of(device, device.plugin)}),
-      testing::IsEmpty());
+  EXPECT_THAT(without_key(device_section(),
+                          {place_of(device, device.orientation),
+                           place_of(device, device.descriptor), place_of(device, device.described),
+                           place_of(device, device.delay_samples), place_of(device, device.period),
+                           place_of(device, device.driver),  // read by their names
+                           place_of(device, device.driver_values)}),
+              testing::IsEmpty());
   const NodeConfig node;
   EXPECT_THAT(without_key(node_section(), {place_of(node, node.orientation)}), testing::IsEmpty());
   const EntityConfig entity;
@@ -142,8 +143,8 @@ TEST(SceneSections, HaveEachKeyOnce) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<NodeKind, OperatorKind, DeviceSource, DeviceDriver, pdu::ForceId,
-                   pdu::ForceModelKind, aoim::CellScheme, pdu::CompressedForm, Prediction,
+    testing::Types<NodeKind, OperatorKind, DeviceSource, pdu::ForceId, pdu::ForceModelKind,
+                   aoim::CellScheme, pdu::CompressedForm, Prediction,
                    deadreckon::AccelerationReading, std::optional<pdu::DeadReckoningAlgorithm>,
                    const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);

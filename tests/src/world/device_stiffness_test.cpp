@@ -8,7 +8,8 @@
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/drivers/device_config.hpp"
+#include "reckon/peer/settings/hand_config.hpp"
 
 namespace reckon::peer {
 namespace {

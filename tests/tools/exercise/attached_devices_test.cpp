@@ -15,15 +15,16 @@
 #include <vector>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/peer/drivers/evdev.hpp"
+#include "reckon/peer/drivers/serial_lines.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
-#include "reckon/tools/exercise/attached_events.hpp"
-#include "reckon/tools/exercise/serial_lines.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using haptics::UsbDeviceSeen;
+using peer::judge_events;
 using test::run_reckon;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -161,7 +162,7 @@ TEST(AttachedDevices, RuleIsWrittenToTheGivenFolder) {
   EXPECT_EQ(written.status, 0) << written.err;
   std::ifstream file(folder.file(kRuleFile));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, udev_rule(undriven_devices()));
+  EXPECT_EQ(text, udev_rule());
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\""));
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\""));
   EXPECT_THAT(text, HasSubstr("TAG+=\"uaccess\""));
@@ -169,8 +170,8 @@ TEST(AttachedDevices, RuleIsWrittenToTheGivenFolder) {
 }
 
 TEST(AttachedDevices, RuleNamesDevicesWithoutAKernelDriver) {
-  EXPECT_THAT(udev_rule({}), Not(HasSubstr("hidraw")));
-  EXPECT_THAT(udev_rule({{0x346E, 0x0006}}),
+  EXPECT_THAT(peer::evdev_udev({}), Not(HasSubstr("hidraw")));
+  EXPECT_THAT(peer::evdev_udev({{0x346E, 0x0006}}),
               HasSubstr("SUBSYSTEM==\"hidraw\", ATTRS{idVendor}==\"346e\", "
                         "ATTRS{idProduct}==\"0006\", MODE="));
 }
@@ -198,7 +199,7 @@ TEST(AttachedDevices, SerialLinesAreListedWithTheirProblems) {
   std::filesystem::create_symlink(name(used), folder.file("a_used"));
   std::filesystem::create_symlink(name(free), folder.file("b_free"));
   std::filesystem::create_symlink(folder.file("nothing"), folder.file("c_gone"));
-  const auto lines = look_at_serial_lines(folder.file("."));
+  const auto lines = peer::look_at_serial_lines(folder.file("."));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].driver, "serial");
   EXPECT_THAT(lines[0].problem, HasSubstr("another program has it: tools_tests, process " +
@@ -207,7 +208,7 @@ TEST(AttachedDevices, SerialLinesAreListedWithTheirProblems) {
   EXPECT_THAT(lines[1].use, HasSubstr("reckon demo --device " + folder.file("./b_free")));
   EXPECT_THAT(lines[1].problem, IsEmpty());
   EXPECT_THAT(lines[2].problem, HasSubstr("nothing behind it"));
-  EXPECT_THAT(look_at_serial_lines(folder.file("none")), IsEmpty());
+  EXPECT_THAT(peer::look_at_serial_lines(folder.file("none")), IsEmpty());
   for (const int descriptor : {near, used, free}) close(descriptor);
 }
 
@@ -216,7 +217,7 @@ TEST(AttachedDevices, ForbiddenSerialLineNamesItsGroup) {
   const test::ScratchFolder folder;
   std::ofstream(folder.file("tty")) << "x";
   std::filesystem::permissions(folder.file("tty"), std::filesystem::perms::none);
-  const auto lines = look_at_serial_lines(folder.file("."));
+  const auto lines = peer::look_at_serial_lines(folder.file("."));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].problem, "this user may not open it");
   EXPECT_THAT(lines[0].remedy, HasSubstr("usermod -aG dialout"));
@@ -225,7 +226,7 @@ TEST(AttachedDevices, ForbiddenSerialLineNamesItsGroup) {
 TEST(AttachedDevices, VerbReportsThisHost) {
   const UsbLook look = look_at_usb(false);
   const auto result = run_reckon({"devices"});
-  if (!look.problem.empty() && look_at_serial_lines().empty()) {
+  if (!look.problem.empty() && peer::look_at_serial_lines().empty()) {
     EXPECT_NE(result.status, 0);
     EXPECT_THAT(result.err, HasSubstr(look.problem));
   } else {

@@ -13,6 +13,7 @@
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/haptics/usb/usb_line.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -22,7 +23,6 @@
 namespace reckon::tools {
 namespace {
 
-using peer::DeviceDriver;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -41,10 +41,10 @@ std::string usage_error(Call&& call) {
 
 TEST(RealDevices, ThePeersFirstDeviceGetsTheChosenDriver) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  choose_device({"falcon", ""}, scene, 2, 2);
+  choose_device({"falcon"}, scene, 2, 2);
   ASSERT_EQ(scene.devices.size(), 2U);
-  EXPECT_EQ(scene.devices[0].driver, DeviceDriver::simulated);
-  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::falcon);
+  EXPECT_EQ(peer::driver_name(scene.devices[0]), "simulated");
+  EXPECT_EQ(peer::driver_name(scene.devices[1]), "falcon");
   EXPECT_EQ(scene.devices[1].peer, 2U);
   // The simulated device's damping does not apply to this one.
   EXPECT_LT(scene.devices[1].damping, 0.5);
@@ -55,7 +55,7 @@ TEST(RealDevices, KeepsTheFilesValuesOfAFalcon) {
   peer::SceneFile scene = peer::parse_scene_file(
       std::string("[[device]]\ndriver = \"falcon\"\ndamping = \"2 N s/m\"\n") + kTwoHands,
       "x.toml");
-  choose_device({"falcon", ""}, scene, 1, 2);
+  choose_device({"falcon"}, scene, 1, 2);
   EXPECT_NEAR(scene.devices.at(0).damping, 1.8, 1e-12);
   EXPECT_EQ(scene.devices[0].joint_damping, 0.0) << "it is that of every pose";
 }
@@ -65,7 +65,7 @@ TEST(RealDevices, AnAssumedDampingIsThatOfTheMiddle) {
   for (const auto& [name, damping, square] :
        {std::tuple("falcon", 0.3, 0.0049), std::tuple("polhem", 0.2, 0.0365)}) {
     peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-    choose_device({name, ""}, scene, 1, 2);
+    choose_device({name}, scene, 1, 2);
     EXPECT_NEAR(scene.devices.at(0).joint_damping, damping * square, 0.01 * damping * square);
     EXPECT_LE(scene.devices[0].damping, 0.9 * damping * 1.0001);
     EXPECT_GT(scene.devices[0].damping, 0.8 * damping);
@@ -82,22 +82,18 @@ TEST(RealDevices, DescriptorChoosesTheDriverByItsUsbNumbers) {
                            "resolution = \"0.09 mm\"\ndelay = \"3.5 ms\"\n";
   };
   write("usb = [\"0403:cb48\"]\n");
-  EXPECT_EQ(usage_error([&] { check_device_choice({mine, ""}); }), "");
+  EXPECT_EQ(usage_error([&] { check_device_choice({mine}); }), "");
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  choose_device({mine, ""}, scene, 1, 2);
-  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::falcon);
+  choose_device({mine}, scene, 1, 2);
+  EXPECT_EQ(peer::driver_name(scene.devices.at(0)), "falcon");
   EXPECT_NEAR(scene.devices[0].damping, 2.7, 0.01) << "in the middle";
   EXPECT_NEAR(scene.devices[0].joint_damping, 3 * 0.07 * 0.07, 2e-4);
   EXPECT_EQ(scene.devices[0].max_force, 4.0);
   EXPECT_EQ(scene.devices[0].delay_samples, 4);
   write("usb = [\"0403:0001\"]\n");
-  EXPECT_THAT(usage_error([&] {
-                check_device_choice({mine, ""});
-              }),
+  EXPECT_THAT(usage_error([&] { check_device_choice({mine}); }),
               AllOf(HasSubstr("no driver is for the USB numbers"), HasSubstr("0403:cb48")));
-  EXPECT_THAT(usage_error([&] {
-                check_device_choice({folder.file("none.toml"), ""});
-              }),
+  EXPECT_THAT(usage_error([&] { check_device_choice({folder.file("none.toml")}); }),
               AllOf(HasSubstr("--device"), HasSubstr("none.toml")));
 }
 
@@ -109,7 +105,7 @@ TEST(RealDevices, DevicePositionDefaultsToItsOperatorsStart) {
                                             << "2,0.1,0.2,0.5\n";
     std::ofstream(folder.file("x.toml")) << device + hands;
     peer::SceneFile scene = peer::load_scene_file(folder.file("x.toml"));
-    choose_device({"falcon", ""}, scene, 1, 1);
+    choose_device({"falcon"}, scene, 1, 1);
     return scene.devices.at(0).position;
   };
   const std::string passive = "[[operator]]\npassive = true\nposition = \"0.1 0 0 m\"\n";
@@ -136,36 +132,32 @@ TEST(RealDevices, NothingChangesWithoutAChoice) {
 }
 
 TEST(RealDevices, AWrongNameGetsTheNearest) {
-  EXPECT_THAT(usage_error([] {
-                check_device_choice({"falkon", ""});
-              }),
+  EXPECT_THAT(usage_error([] { check_device_choice({"falkon"}); }),
               AllOf(HasSubstr("--device"), HasSubstr("did you mean 'falcon'?")));
-  EXPECT_THAT(usage_error([] {
-                check_device_choice({"crane", ""});
-              }),
+  EXPECT_THAT(usage_error([] { check_device_choice({"crane"}); }),
               HasSubstr("there are falcon, polhem, evdev"));
 }
 
 TEST(RealDevices, EachNameIsAccepted) {
   for (const char* name : {"falcon", "polhem", "evdev"})
-    EXPECT_EQ(usage_error([&] { check_device_choice({name, ""}); }), "") << name;
+    EXPECT_EQ(usage_error([&] { check_device_choice({name}); }), "") << name;
 }
 
 TEST(RealDevices, DriverFileIsLoadedAndReported) {
   const std::string file = std::string(RECKON_TEST_DRIVERS) + "/dummy_device.so";
-  EXPECT_EQ(usage_error([&] { check_device_choice({file, ""}); }), "");
+  EXPECT_EQ(usage_error([&] { check_device_choice({file}); }), "");
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  choose_device({file, ""}, scene, 2, 2);
-  EXPECT_EQ(scene.devices.at(1).driver, DeviceDriver::plugin);
+  choose_device({file}, scene, 2, 2);
+  EXPECT_EQ(peer::driver_name(scene.devices.at(1)), "plugin");
   SimulatedHands hands = make_simulated_hands(scene, 2);
-  RealDevices real(plugins_of({file, ""}));
+  RealDevices real(plugins_of({file}));
   real.plug_in(scene, 2, hands.wired);
   EXPECT_NE(hands.wired.at(0).device, hands.devices.at(0).get());
   EXPECT_EQ(hands.wired.at(0).device->limits().max_force, 10.0);
   EXPECT_THAT(real.take_notices(),
               ::testing::ElementsAre(AllOf(HasSubstr("dummy: 1 N s/m"), HasSubstr(file))));
 
-  scene.devices[1].plugin = "none.so";
+  scene.devices[1].driver_values["plugin"] = std::filesystem::path("none.so");
   EXPECT_THROW(RealDevices({"none.so"}).plug_in(scene, 2, hands.wired), std::runtime_error);
   EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), UsageError);
 }
@@ -174,33 +166,31 @@ TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("program.bin");
   std::ofstream(file) << std::string(5000, 'x');
-  EXPECT_THAT(usage_error([&] { check_device_choice({"falcon", file}); }), "");
+  EXPECT_THAT(usage_error([&] { check_device_choice({"falcon", {}, {{"firmware", file}}}); }), "");
   EXPECT_THAT(usage_error([&] {
-                check_device_choice({"falcon", folder.file("none")});
+                check_device_choice({"falcon", {}, {{"firmware", folder.file("none")}}});
               }),
               AllOf(HasSubstr("--firmware"), HasSubstr("none")));
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   EXPECT_THAT(usage_error([&] {
-                choose_device({"", file}, scene, 1, 2);
+                choose_device({"", {}, {{"firmware", file}}}, scene, 1, 2);
               }),
               HasSubstr("add --device falcon"));
-  choose_device({"falcon", file}, scene, 1, 2);
-  EXPECT_EQ(scene.devices.at(0).firmware, file);
+  choose_device({"falcon", {}, {{"firmware", file}}}, scene, 1, 2);
+  EXPECT_EQ(peer::driver_value<std::filesystem::path>(scene.devices.at(0), "firmware"), file);
 }
 
 TEST(RealDevices, EventDeviceNeedsTheScenesScale) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  EXPECT_THAT(usage_error([&] {
-                choose_device({"evdev", ""}, scene, 1, 2);
-              }),
+  EXPECT_THAT(usage_error([&] { choose_device({"evdev"}, scene, 1, 2); }),
               AllOf(HasSubstr("--device evdev"), HasSubstr("state 'travel' in its [[device]]")));
   scene = peer::parse_scene_file(
       std::string("[[device]]\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = "
                   "2000\nmax_stiffness = 1500\nevent = \"/no/such/device\"\n") +
           kTwoHands,
       "x.toml");
-  choose_device({"evdev", ""}, scene, 1, 2);
-  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::evdev);
+  choose_device({"evdev"}, scene, 1, 2);
+  EXPECT_EQ(peer::driver_name(scene.devices.at(0)), "evdev");
   SimulatedHands hands = make_simulated_hands(scene, 1);
   RealDevices real;
   real.plug_in(scene, 1, hands.wired);
@@ -211,10 +201,11 @@ TEST(RealDevices, EventDeviceNeedsTheScenesScale) {
   EXPECT_THAT(real.take_notices(),
               ::testing::Contains(HasSubstr("pushes no hand that does not press")));
   for (const char* path : {"/dev/input/event7", "/dev/hidraw0"}) {
-    choose_device({path, ""}, scene, 1, 2);
-    EXPECT_EQ(scene.devices[0].driver, DeviceDriver::evdev);
-    EXPECT_EQ(scene.devices[0].event, path);
-    EXPECT_EQ(scene.devices[0].port, "") << "it is no serial line";
+    choose_device({path}, scene, 1, 2);
+    EXPECT_EQ(peer::driver_name(scene.devices[0]), "evdev");
+    EXPECT_EQ(peer::driver_value<std::string>(scene.devices[0], "event"), path);
+    EXPECT_EQ(peer::driver_value<std::string>(scene.devices[0], "port"), "")
+        << "it is no serial line";
   }
 }
 
@@ -241,16 +232,14 @@ TEST(RealDevices, ExplainedEventDeviceMatchesItsServo) {
 TEST(RealDevices, APeerWithoutADeviceCannotHaveOne) {
   peer::SceneFile scene =
       peer::parse_scene_file(std::string("[[device]]\npeer = 2\n") + kTwoHands, "x.toml");
-  EXPECT_THAT(usage_error([&] {
-                choose_device({"falcon", ""}, scene, 1, 2);
-              }),
+  EXPECT_THAT(usage_error([&] { choose_device({"falcon"}, scene, 1, 2); }),
               HasSubstr("peer 1 has no device"));
 }
 
 // A simulated one has exactly the limits of the real one's servo.
 TEST(RealDevices, ExplainedFalconMatchesItsServo) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  choose_device({"falcon", ""}, scene, 1, 2);
+  choose_device({"falcon"}, scene, 1, 2);
   const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
   const haptics::DeviceLimits real =
       haptics::usb_limits(haptics::falcon_facts(), peer::usb_settings_of(scene.devices[0]));
@@ -263,13 +252,11 @@ TEST(RealDevices, ExplainedFalconMatchesItsServo) {
 
 TEST(RealDevices, PolhemIsChosenWithItsOwnLimits) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  EXPECT_THAT(usage_error([] {
-                check_device_choice({"polhme", ""});
-              }),
+  EXPECT_THAT(usage_error([] { check_device_choice({"polhme"}); }),
               HasSubstr("did you mean 'polhem'?"));
-  choose_device({"polhem", ""}, scene, 1, 2);
-  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::polhem);
-  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::simulated);
+  choose_device({"polhem"}, scene, 1, 2);
+  EXPECT_EQ(peer::driver_name(scene.devices.at(0)), "polhem");
+  EXPECT_EQ(peer::driver_name(scene.devices[1]), "simulated");
   const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
   const haptics::DeviceLimits real =
       haptics::usb_limits(haptics::polhem_facts(), peer::usb_settings_of(scene.devices[0]));
@@ -280,25 +267,25 @@ TEST(RealDevices, PolhemIsChosenWithItsOwnLimits) {
   EXPECT_EQ(simulated.delay_samples, real.delay_samples);
   EXPECT_EQ(simulated.resolution, real.resolution);
   EXPECT_THAT(usage_error([&] {
-                choose_device({"", __FILE__}, scene, 1, 2);
+                choose_device({"", {}, {{"firmware", __FILE__}}}, scene, 1, 2);
               }),
               HasSubstr("add --device falcon"));
 }
 
 TEST(RealDevices, ASerialBoardGoesByItsLine) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
-  choose_device({"/dev/ttyUSB7@115200", ""}, scene, 2, 2);
+  choose_device({"/dev/ttyUSB7@115200"}, scene, 2, 2);
   ASSERT_EQ(scene.devices.size(), 2U);
-  EXPECT_EQ(scene.devices[0].driver, DeviceDriver::simulated);
-  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::serial);
-  EXPECT_EQ(scene.devices[1].port, "/dev/ttyUSB7");
-  EXPECT_EQ(scene.devices[1].baud, 115'200U);
+  EXPECT_EQ(peer::driver_name(scene.devices[0]), "simulated");
+  EXPECT_EQ(peer::driver_name(scene.devices[1]), "serial");
+  EXPECT_EQ(peer::driver_value<std::string>(scene.devices[1], "port"), "/dev/ttyUSB7");
+  EXPECT_EQ(peer::driver_value<std::uint32_t>(scene.devices[1], "baud"), 115'200U);
   EXPECT_EQ(scene.devices[1].max_force, 1.0) << "what was said is of a simulated one";
-  choose_device({"/dev/ttyACM0", ""}, scene, 2, 2);
-  EXPECT_EQ(scene.devices[1].baud, 1'000'000U);
+  choose_device({"/dev/ttyACM0"}, scene, 2, 2);
+  EXPECT_EQ(peer::driver_value<std::uint32_t>(scene.devices[1], "baud"), 1'000'000U);
 
   const auto refused = [](const std::string& device) {
-    return usage_error([&] { check_device_choice({device, ""}); });
+    return usage_error([&] { check_device_choice({device}); });
   };
   EXPECT_EQ(refused("/dev/ttyACM0"), "");
   EXPECT_EQ(refused("/dev/serial/by-id/usb-Board-if00"), "");
@@ -313,8 +300,8 @@ TEST(RealDevices, KeepsTheFilesValuesOfABoard) {
                   "damping = \"2 N s/m\"\nmax_force = \"3 N\"\n") +
           kTwoHands,
       "x.toml");
-  choose_device({"/dev/ttyACM1", ""}, scene, 1, 2);
-  EXPECT_EQ(scene.devices.at(0).port, "/dev/ttyACM1");
+  choose_device({"/dev/ttyACM1"}, scene, 1, 2);
+  EXPECT_EQ(peer::driver_value<std::string>(scene.devices.at(0), "port"), "/dev/ttyACM1");
   EXPECT_EQ(scene.devices[0].max_force, 3.0);
   EXPECT_NEAR(scene.devices[0].damping, 1.8, 1e-12);
 }

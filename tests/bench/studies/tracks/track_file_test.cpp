@@ -161,7 +161,7 @@ TEST_F(TrackTable, NamesFileLineAndColumnOfAnError) {
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,nan,2\n"), HasSubstr(":2:3: x_m 'nan' is not a finite"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,1,1e400\n"), HasSubstr(":2:5: y_m '1e400'"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,1,\n"), HasSubstr("y_m is empty"));
-  EXPECT_THAT(error_of("t_s,x_m,y_m\n0,\"1\n2,3\n"), HasSubstr(\"is not closed\"));
+  EXPECT_THAT(error_of("t_s,x_m,y_m\n0,\"1\n2,3\n"), HasSubstr("is not closed"));
   EXPECT_THAT(error_of("t_s,lat_deg,lon_deg\n0,91,0\n"), HasSubstr("outside of +-90"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,2e9,0\n"), HasSubstr("beyond 1e9 m"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n"), HasSubstr("no rows"));

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 
-namespace reckon::tools {
+namespace reckon::peer {
 
 /// Folder with port names that do not depend on the socket.
 inline constexpr const char* kSerialFolder = "/dev/serial/by-id";
@@ -21,4 +21,4 @@ inline constexpr const char* kSerialFolder = "/dev/serial/by-id";
 [[nodiscard]] std::vector<AttachedDevice> look_at_serial_lines(
     const std::filesystem::path& folder = kSerialFolder);
 
-}  // namespace reckon::tools
+}  // namespace reckon::peer

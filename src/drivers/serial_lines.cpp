@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/exercise/serial_lines.hpp"
+#include "reckon/peer/drivers/serial_lines.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace reckon::tools {
+namespace reckon::peer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ std::vector<AttachedDevice> look_at_serial_lines(const fs::path& folder) {
   return lines;
 }
 
-}  // namespace reckon::tools
+}  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/loops/wake_signal.hpp"
+#include "reckon/peer/threads/wake_signal.hpp"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
