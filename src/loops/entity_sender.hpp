@@ -43,11 +43,10 @@ class EntitySender {
         hooks_(hooks),
         counters_(counters, aoim.tiers()) {}
 
-  /// The outermost tier for which the entity is requested, independent of its predictor: by a
-  /// newcomer, a change of cell, or a new listener of a tier.
-  [[nodiscard]] std::optional<std::size_t> asked_tier(OwnedEntity& entity,
-                                                      const Pass& pass) const noexcept {
-    return asked_tier({entity, pass, pass.now});
+  /// Whether the entity is requested, independent of its predictor: by a newcomer, a change of
+  /// cell, or a new listener of a tier. A withheld one is not.
+  [[nodiscard]] bool is_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
+    return !entity.is_withheld(pass.now) && asked_tier({entity, pass, pass.now});
   }
 
   /// Decides by the true state at `at`, and sends if an update is due. True if it was sent.
@@ -72,6 +71,7 @@ class EntitySender {
     std::optional<const aoim::Channel*> nearest = {};
   };
 
+  /// The outermost tier that requests it.
   [[nodiscard]] std::optional<std::size_t> asked_tier(const Decision& decision) const noexcept;
   [[nodiscard]] bool is_asked_in(std::size_t tier, const Decision& decision) const noexcept;
   bool note_asked(const Decision& decision) const noexcept;

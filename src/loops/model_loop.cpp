@@ -234,8 +234,7 @@ void ModelLoop::consider_others() noexcept {
   if (aoim_.introductions().is_pending()) {
     const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
     owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
-      if (!entity.is_withheld(pass_.now) && sender_.asked_tier(entity, pass_))
-        owned_.look_at(number);
+      if (sender_.is_asked(entity, pass_)) owned_.look_at(number);
     });
   }
   std::size_t room = outlet_.paced_room();

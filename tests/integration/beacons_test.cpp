@@ -158,7 +158,7 @@ TEST_F(FollowedTruck, SecondOwnerOfABeaconWaitsForFirst) {
   field_.world_.run(8000);
   EXPECT_NE(seen(kFollower), nullptr);
   EXPECT_EQ(seen(kFollower, kRival + 1), nullptr);
-  const auto complaint = testing::Contains(testing::HasSubstr("beacon gate is another peer's"));
+  const auto complaint = testing::Contains(testing::HasSubstr("another peer carries beacon gate"));
   EXPECT_THAT(field_.world_.notices(kRival), complaint);
   EXPECT_THAT(field_.world_.notices(kOwner), testing::Not(complaint));
   field_.world_.stop(kOwner);

@@ -97,7 +97,7 @@ TEST_F(Leaving, RestartedPeerIsKnownInItsNewEpoch) {
   EXPECT_EQ(world_.view(0).entities, 2u);
   const auto told = world_.notices(0);
   ASSERT_FALSE(told.empty());
-  EXPECT_NE(told[0].find("started anew"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("restarted"), std::string::npos) << told[0];
 }
 
 TEST_F(Leaving, NothingOfAFormerLifeIsUsed) {

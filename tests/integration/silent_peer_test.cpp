@@ -174,7 +174,7 @@ TEST(SilentPeer, ReturnsWithItsForceWithoutMakingEnergy) {
     for (const std::size_t link : {0u, 1u}) {
       EXPECT_GE(world.view(link).servo().port_energy_min, kNoEnergyMade);
       EXPECT_EQ(world.count(link, "timed_out"), 0u);
-      EXPECT_THAT(world.notices(link), Contains(HasSubstr("is heard again")));
+      EXPECT_THAT(world.notices(link), Contains(HasSubstr("is received again")));
     }
   }
 }

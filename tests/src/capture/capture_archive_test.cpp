@@ -103,9 +103,8 @@ TEST(ArchivedCapture, IsRefusedWhereItHoldsNoCapture) {
     EXPECT_THAT(refusal(folder.file("text")),
                 HasSubstr("text, decompressed: unknown file format; give a pcap or pcapng file"));
     compress(folder.file("text"), folder.file("twice"), method);
-    EXPECT_THAT(
-        refusal(folder.file("twice")),
-        HasSubstr("it is compressed more than once by \" + method + \"; decompress it first"));
+    EXPECT_THAT(refusal(folder.file("twice")), HasSubstr("it is compressed more than once by " +
+                                                         method + "; decompress it first"));
     std::vector<char> octets = octets_of(folder.file("text"));
     std::ofstream(folder.file("head"), std::ios::binary).write(octets.data(), 7);
     EXPECT_THAT(refusal(folder.file("head")), HasSubstr("give a pcap or pcapng file"));

@@ -156,7 +156,7 @@ TEST(Pcapng, ReportsDamageAndKeepsTheFramesBefore) {
     void (*plant)(PcapngFile&);
   };
   const std::vector<Case> cases = {
-      {"a packet of interface 1, of 1 that are described",
+      {"a packet of interface 1, but 1 are described",
        [](PcapngFile& f) { f.packet(1, 2, ethernet(ipv4(udp(10)))); }},
       {"a block of type 6 has a length of 13",
        [](PcapngFile& f) { f.octets() = f.octets() + f.number(6U) + f.number(13U) + Bytes(5, 0); }},
@@ -166,7 +166,7 @@ TEST(Pcapng, ReportsDamageAndKeepsTheFramesBefore) {
        [](PcapngFile& f) {
          f.octets() = f.octets() + f.number(9U) + f.number(16U) + Bytes(4, 0) + f.number(20U);
        }},
-      {"without the byte-order magic", [](PcapngFile& f) { f.block(0x0a0d0d0a, Bytes(16, 3)); }},
+      {"instead of the byte-order magic", [](PcapngFile& f) { f.block(0x0a0d0d0a, Bytes(16, 3)); }},
       {"pcapng version 2 is not supported",
        [](PcapngFile& f) {
          f.block(0x0a0d0d0a, f.number(0x1a2b3c4dU) + f.number<std::uint16_t>(2) + Bytes(10, 0));
@@ -181,7 +181,8 @@ TEST(Pcapng, ReportsDamageAndKeepsTheFramesBefore) {
       {"a packet block of 28 octets", [](PcapngFile& f) { f.block(6, Bytes(16, 0)); }},
       {"a packet of 100 octets in a block of 32",
        [](PcapngFile& f) { f.block(6, Bytes(12, 0) + f.number(100U) + f.number(100U)); }},
-      {"truncated: 6 of 12 octets", [](PcapngFile& f) { f.octets() = f.octets() + Bytes(6, 0); }}};
+      {"truncated: only 6 of 12 octets",
+       [](PcapngFile& f) { f.octets() = f.octets() + Bytes(6, 0); }}};
   const ScratchFolder folder;
   for (const Case& row : cases) {
     PcapngFile file;

@@ -224,7 +224,7 @@ TEST(AoimSetup, RefusesOwnGroupTiersWhereImpossible) {
     EXPECT_NE(refusal(tiers, more).find(what), std::string::npos) << more << refusal(tiers, more);
   };
   EXPECT_EQ(refusal(test::kOwnTiers, ""), "");
-  says(test::kOwnTiers, "pool = 1\n", "take 4 to 333");
+  says(test::kOwnTiers, "pool = 1\n", "write 4 to 333");
   says(test::kOwnTiers, "pool = 334\n", "4 to 333");
   says(test::kAllTiers, "pool = 256\n", "4 to 250");
   says(test::kOwnTiers, "leaders = true\n", "'leaders'");
@@ -255,7 +255,7 @@ TEST(AoimSetup, RefusesATouchTierWhereImpossible) {
   };
   EXPECT_EQ(refusal(""), "");
   EXPECT_EQ(refusal("leaders = true\n"), "");
-  EXPECT_NE(refusal("pool = 1\n").find("take 4 to 500"), std::string::npos);
+  EXPECT_NE(refusal("pool = 1\n").find("write 4 to 500"), std::string::npos);
   EXPECT_NE(refusal("pool = 501\n").find("4 to 500"), std::string::npos);
   EXPECT_NE(refusal("leaders = true\nhand_out = true\n").find("'hand_out'"), std::string::npos);
   EXPECT_NE(refusal("[network]\ninterop = true\n").find("'interop'"), std::string::npos);

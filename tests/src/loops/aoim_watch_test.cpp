@@ -90,7 +90,7 @@ TEST_F(AoimWatchTest, ReportsPeersWithoutRoom) {
   announce(1024);
   EXPECT_THAT(run(seconds(1)), IsEmpty());
   announce(1027);
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("1024 peers are known")));
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("is full with 1024")));
   EXPECT_EQ(count("peers_not_joined"), 3u);
   announce(1027);
   EXPECT_THAT(run(seconds(2)), IsEmpty());

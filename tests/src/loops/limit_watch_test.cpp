@@ -66,7 +66,8 @@ TEST_F(LimitWatchTest, ReportsAMissingKey) {
 
 TEST_F(LimitWatchTest, ReportsARefusedForceModelAndItsEnd) {
   counters_.make("models_refused", "").add();
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("force model of 7:8:9 is refused")));
+  EXPECT_THAT(run(seconds(1)),
+              ElementsAre(HasSubstr("force model of 7:8:9 has impossible values")));
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("no force model was refused since")));
 }
 

@@ -152,7 +152,7 @@ TEST_F(LinkWatchTest, ReportsWhetherAllOrSomeSendsFail) {
   EXPECT_THAT(run(seconds(5), [&] { ++link_.counts.send_errors; }),
               ElementsAre("SENDING fails: Operation not permitted; a firewall refuses it: nft list "
                           "ruleset"));
-  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("works again; 100 datagrams")));
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("works again; the kernel refused 100")));
   link_.counts.last_send_error = EMSGSIZE;
   EXPECT_THAT(run(seconds(1), [&] { ++link_.counts.send_errors, ++link_.counts.sent; }),
               ElementsAre(HasSubstr("sending some datagrams fails: Message too long")));
@@ -170,19 +170,19 @@ TEST_F(LinkWatchTest, ReportsASingleRefusal) {
   link_.counts.send_errors = 1;
   EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.sent; }),
               ElementsAre(HasSubstr("sending some datagrams fails")));
-  EXPECT_THAT(run(seconds(3)), ElementsAre(HasSubstr("works again; 1 datagrams")));
+  EXPECT_THAT(run(seconds(3)), ElementsAre(HasSubstr("works again; the kernel refused 1 ")));
 }
 
 TEST_F(LinkWatchTest, ReportsStatesHeldBackOnANarrowWire) {
   EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.held_back; }),
               ElementsAre(HasSubstr("is slower than the traffic")));
-  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("40 were left out")));
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("40 were not sent")));
 }
 
 TEST_F(LinkWatchTest, ReportsKernelDropsAndTheirEnd) {
   link_.counts.kernel_drops = 17;
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("rmem_max")));
-  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("17 datagrams were lost")));
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("17 were lost")));
 }
 
 }  // namespace

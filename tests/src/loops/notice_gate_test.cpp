@@ -78,7 +78,7 @@ TEST_P(RatesOfStrangers, TransientStrangersCauseOneLinePerSecond) {
   EXPECT_GE(told.size(), groups * kSeconds / 2) << "and each second some";
   std::size_t counted = 0;
   for (const std::string& line : told)
-    counted += line.find("more lines about") == std::string::npos ? 1 : std::stoul(line);
+    counted += line.find("more lines about") == std::string::npos ? 1 : std::stoul(line.substr(8));
   EXPECT_EQ(counted, caused) << "each is told or counted";
 }
 

@@ -55,7 +55,7 @@ TEST(ApplicationHold, RefusesATakenNumberAndNamesItsHolder) {
   EXPECT_EQ(holder.report(), "");
   EXPECT_THAT(refusal(scope(), 7), AllOf(HasSubstr("application 7 of site"),
                                          HasSubstr("is used on this host by process "),
-                                         HasSubstr("name another application")));
+                                         HasSubstr("choose another application")));
   const ApplicationHold next(scope(), {});
   EXPECT_EQ(next.number(), 1);
 }
@@ -123,8 +123,8 @@ TEST(ApplicationHold, KeepsGroupsExercisesAndSitesApart) {
 }
 
 TEST(ApplicationHold, RefusesNumbersThatAreNoneOfAnId) {
-  EXPECT_THAT(refusal(scope(), 0), HasSubstr("they are 1 to 65534"));
-  EXPECT_THAT(refusal(scope(), 65'535), HasSubstr("they are 1 to 65534"));
+  EXPECT_THAT(refusal(scope(), 0), HasSubstr("choose 1 to 65534"));
+  EXPECT_THAT(refusal(scope(), 65'535), HasSubstr("choose 1 to 65534"));
   EXPECT_EQ(refusal(scope(), 65'534), "");
 }
 

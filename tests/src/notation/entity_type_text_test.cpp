@@ -39,7 +39,8 @@ TEST(EntityTypeText, ApiReadsItOrThrows) {
 }
 
 TEST(EntityTypeText, RefusesNumbersThatDoNotFit) {
-  EXPECT_EQ(parse_entity_type("1.256").error, "its domain '256' is no whole number from 0 to 255");
+  EXPECT_EQ(parse_entity_type("1.256").error,
+            "its domain '256' is not a whole number from 0 to 255");
   EXPECT_EQ(parse_entity_type("1.1.65536").error,
             "its country '65536' is not a whole number from 0 to 65535");
   EXPECT_THAT(parse_entity_type("1.1.").error, HasSubstr("its country ''"));
@@ -86,7 +87,7 @@ TEST(EntityTypeText, RefusalNamesTheWrongWordAndTheNearest) {
             "'Untied States Tank' is no country and no category (did you mean \"United States\"?)");
   EXPECT_EQ(parse_entity_type("Platform Land Tnak").error,
             "'Tnak' is no country and no category (did you mean \"Tank\"?)");
-  EXPECT_EQ(parse_entity_type("Platform").error, "it says no domain");
+  EXPECT_EQ(parse_entity_type("Platform").error, "it has no domain");
   EXPECT_THAT(parse_entity_type("M1A2").error, HasSubstr("'M1A2' is no kind; `reckon inspect"));
   EXPECT_FALSE(parse_entity_type(std::string(100'000, 'x')).good());
 }

@@ -62,7 +62,7 @@ TEST(Units, MillimetresAreTheNearestDoubleToTheDecimal) {
 TEST(Units, RefuseMisfitsAndNameFittingUnits) {
   EXPECT_THAT(parse_quantity("5 ms", "m").error, HasSubstr("m, mm, um, cm, km"));
   EXPECT_THAT(parse_quantity("5 N/m", "N s/m").error, HasSubstr("'N/m' does not fit here"));
-  EXPECT_THAT(parse_quantity("5 m", "").error, HasSubstr("plain number"));
+  EXPECT_THAT(parse_quantity("5 m", "").error, HasSubstr("number without a unit"));
   EXPECT_THAT(parse_quantity("stiff", "N/m").error, HasSubstr("does not start with a number"));
   for (const char* text :
        {"", " ", "-", "+", "nan m", "inf m", "1e999 m", "0x10 m", "1 m m", "--1 m", "1,5 m", "m"}) {

@@ -151,7 +151,7 @@ TEST(CellsSection, RefusesSamplesThatCannotBeRead) {
   for (int i = 0; i <= 10'000; ++i) many += "1,2\n";
   EXPECT_THAT(refusal(many.c_str()), HasSubstr("more than 10000 positions at one instant"));
   for (int i = 0; i <= 50'000; ++i) often += std::to_string(i / 100) + ",1,2\n";
-  EXPECT_THAT(refusal(often.c_str()), HasSubstr("more than 50000 places;"));
+  EXPECT_THAT(refusal(often.c_str()), HasSubstr("more than 50000 positions;"));
 }
 
 TEST(CellsSection, LaysOutLocales) {

@@ -225,7 +225,7 @@ TEST_F(EntityTracks, AreRefusedWithTheirPlaceInBothFiles) {
   write("bad.csv", "t_s,px_m,py_m,pz_m\n0,0,0,0\n0,5,0,0\n");
   EXPECT_THAT(refusal("[[entity]]\ntrack = \"bad.csv\"\n", folder()),
               testing::AllOf(HasSubstr("x.toml:2:9: 'track': "),
-                             HasSubstr("bad.csv:3:1: t_s does not grow")));
+                             HasSubstr("bad.csv:3:1: t_s does not increase")));
   EXPECT_THAT(refusal("[[entity]]\ntrack = \"none.csv\"\n", folder()),
               HasSubstr("x.toml:2:9: 'track': cannot read "));
 }

@@ -37,15 +37,18 @@ std::string bound_of(const std::string& text) {
 
 TEST(TomlBounds, RefuseEveryKindOfDepthWithItsPlace) {
   const std::string parts = repeated("a.", 30'000) + "a";
-  EXPECT_THAT(refusal("\n" + parts + " = 1"), StartsWith("x.toml:2:512: more than 256 tables"));
-  EXPECT_THAT(refusal("[" + parts + "]\n"), StartsWith("x.toml:1:513: more than 256 tables"));
-  EXPECT_THAT(refusal("[[" + parts + "]]\n"), HasSubstr("more than 256 tables"));
-  EXPECT_THAT(refusal("x = " + repeated("[", 300)), HasSubstr("more than 256 tables"));
-  EXPECT_THAT(refusal("x = {y = 1, " + parts + " = 2}"), HasSubstr("more than 256 tables"));
+  EXPECT_THAT(refusal("\n" + parts + " = 1"),
+              StartsWith("x.toml:2:512: more than 256 nested tables"));
+  EXPECT_THAT(refusal("[" + parts + "]\n"),
+              StartsWith("x.toml:1:513: more than 256 nested tables"));
+  EXPECT_THAT(refusal("[[" + parts + "]]\n"), HasSubstr("more than 256 nested tables"));
+  EXPECT_THAT(refusal("x = " + repeated("[", 300)), HasSubstr("more than 256 nested tables"));
+  EXPECT_THAT(refusal("x = {y = 1, " + parts + " = 2}"), HasSubstr("more than 256 nested tables"));
   const std::string tables = repeated("{" + repeated("a.", 30) + "a = ", 10);
-  EXPECT_THAT(refusal("x = " + tables), HasSubstr("more than 256 tables")) << "they add up";
+  EXPECT_THAT(refusal("x = " + tables), HasSubstr("more than 256 nested tables")) << "they add up";
   const std::string header = "[" + repeated("a.", 200) + "a]\n";
-  EXPECT_THAT(refusal(header + repeated("b.", 100) + "b = 1\n"), HasSubstr("more than 256 tables"));
+  EXPECT_THAT(refusal(header + repeated("b.", 100) + "b = 1\n"),
+              HasSubstr("more than 256 nested tables"));
 }
 
 TEST(TomlBounds, RefuseDescriptorsToo) {
@@ -70,7 +73,7 @@ TEST(TomlBounds, CountDepthBehindTexts) {
   for (const char* text :
        {"x = \"\\\\\"\n", "x = '\\'\n", "x = \"\"\"a\"\"\"\"\"\n", "x = ''''''\n", "x = \"\"\n",
         "x = '''\n\\'''\n", "x = [\"\"\"a\"\"\"\", {", "# '''\n", "\"'\".b = '\"'\n"})
-    EXPECT_THAT(bound_of(text + deep), HasSubstr("more than 256 tables")) << text;
+    EXPECT_THAT(bound_of(text + deep), HasSubstr("more than 256 nested tables")) << text;
 }
 
 TEST(TomlBounds, RefuseTooManyValuesAndOctets) {

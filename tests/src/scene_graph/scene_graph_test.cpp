@@ -336,13 +336,13 @@ TEST(SceneGraph, RefusesInvalidNodes) {
   EXPECT_THAT(with([](auto& all) {
                 all[1].motion = NodeMotion{.turn_axis = {0, 0, 0}, .turn_rate = 1};
               }),
-              HasSubstr("without a direction"));
+              HasSubstr("has no direction"));
   EXPECT_THAT(with([](auto& all) {
                 all[1].kind = NodeKind::content;
                 all[2].parent = "b";
               }),
-              HasSubstr("'b', which is a leaf"));
-  EXPECT_THAT(with([](auto& all) { all[0].shows = "b"; }), HasSubstr("'a' is no switch"));
+              HasSubstr("'b', is a leaf"));
+  EXPECT_THAT(with([](auto& all) { all[0].shows = "b"; }), HasSubstr("'a' is not a switch"));
   EXPECT_THAT(with([](auto& all) {
                 all[0].kind = NodeKind::switch_;
                 all[0].shows = "z";

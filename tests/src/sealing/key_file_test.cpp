@@ -63,7 +63,7 @@ TEST(KeyFile, FaultsNamePlaceAndRemedyButNoSecret) {
       {head + "epoch 1 from tomorrow secret " + kDigits, "g.key:3: 'from' needs"},
       {head + good + "suite aes-256-gcm\n", "g.key:4: a second 'suite'"},
       {"suite rot13\n", "g.key:1: 'suite' needs"},
-      {"group a b\n", "g.key:1: there is more"},
+      {"group a b\n", "g.key:1: the line has extra text"},
       {"group " + std::string(33, 'x'), "g.key:1: 'group' needs"},
       {head + kDigits + "\n", "g.key:3: a line begins with"},
   };
@@ -144,7 +144,7 @@ TEST_F(KeyFileOnDisk, IsNotOverwrittenUnlessAsked) {
 TEST_F(KeyFileOnDisk, NamesFilesThatAreNoKeyFile) {
   EXPECT_THAT(refusal(), HasSubstr("reckon key new"));
   std::filesystem::create_directory(path());
-  EXPECT_THAT(refusal(), HasSubstr("is no file"));
+  EXPECT_THAT(refusal(), HasSubstr("is not a file"));
   std::filesystem::remove(path());
   std::ofstream(path()) << std::string(20000, '#');
   ASSERT_EQ(::chmod(path().c_str(), 0600), 0);

@@ -35,8 +35,8 @@ TEST(Mechanisms, AreReportedAtTheirKeyWithTheRemedy) {
                 "one of the two"));
   EXPECT_THAT(
       test::refusal("[aoim]\nhand_out = true\n"),
-      HasSubstr("x.toml:2:12: 'hand_out' needs leaders of cells: set 'leaders' too, or take "
-                "'hand_out' out"));
+      HasSubstr("x.toml:2:12: 'hand_out' needs leaders of cells: set 'leaders' too, or "
+                "remove 'hand_out'"));
 }
 
 TEST(Mechanisms, TiersAreReportedAtTheirRow) {

@@ -341,7 +341,7 @@ TEST(TrackSamples, ErrorsNameFileAndLine) {
   const std::string head = "t_s,px_m,py_m,pz_m";
   EXPECT_THAT(error_of("t_s,px_m,py_m\n0,0,0\n"), HasSubstr(".csv:1:1: no column pz_m"));
   EXPECT_THAT(error_of(head + "\n0,0,0,0\n1,0,x,0\n"), HasSubstr(".csv:3:5: py_m 'x' is not"));
-  EXPECT_THAT(error_of(head + "\n0,0,0,0\n0,0,0,0\n"), HasSubstr(".csv:3:1: t_s does not grow"));
+  EXPECT_THAT(error_of(head + "\n0,0,0,0\n0,0,0,0\n"), HasSubstr("3:1: t_s does not increase"));
   EXPECT_THAT(error_of(head + "\n0,0,0,0\n1e-9,0,0,0\n"), HasSubstr("3:1: t_s increases by less"));
   EXPECT_THAT(error_of(head + "\n0,0,2e6,0\n"), HasSubstr(".csv:2:1: the position is more than"));
   EXPECT_THAT(error_of(head + ",qw,qx,qy\n0,0,0,0,1,0,0\n"), HasSubstr("all of qw, qx, qy and qz"));

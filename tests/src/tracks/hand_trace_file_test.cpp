@@ -49,7 +49,7 @@ TEST(HandTraceFile, ErrorsNameFileAndLine) {
             std::string::npos);
   EXPECT_NE(error_of(head + "0,0,0,0\n1,nan,0,0\n").find(".csv:3:3: px_m 'nan'"),
             std::string::npos);
-  EXPECT_NE(error_of(head + "0,0,0,0\n0,0,0,0\n").find("does not grow"), std::string::npos);
+  EXPECT_NE(error_of(head + "0,0,0,0\n0,0,0,0\n").find("does not increase"), std::string::npos);
   EXPECT_NE(error_of(head + "0,0\n").find("2 cells, but the header has 4"), std::string::npos);
   EXPECT_NE(error_of(head).find("no samples"), std::string::npos);
   EXPECT_NE(error_of("").find("empty"), std::string::npos);
