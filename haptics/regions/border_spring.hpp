@@ -22,6 +22,7 @@ struct Border {
 class BorderSpring : public CountedEffect<BorderSpring> {
  public:
   using Parameters = Border;
+  static constexpr bool kActsOutside = true;
   static constexpr std::string_view kName = "border_spring";
   static constexpr std::string_view kKey = "border";
   static constexpr std::string_view kCost = "a few multiplications";

@@ -89,6 +89,13 @@ concept GivesRegionForce = requires(Effect& effect, const RegionPoint& point) {
   noexcept->std::same_as<Eigen::Vector3d>;
 };
 
+/// Declares that it acts outside the region too, which therefore needs a shape. Another effect is
+/// not called there.
+template <class Effect>
+concept ActsOutside = requires {
+  requires Effect::kActsOutside;
+};
+
 template <class Effect>
 concept HookedRegionEffect =
     StoresRegionEnergy<Effect> || GivesRegionForce<Effect> || ShakesRegion<Effect>;

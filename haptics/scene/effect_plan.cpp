@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -232,8 +233,11 @@ PlannedRegion plan_region(const SceneRegion& region) {
   PlannedRegion planned{
       region.name, {}, orientation.toRotationMatrix(), region.pose.position, plan_effects(region)};
   if (!region.shape) {
-    if (region.effects.find<BorderSpring>() != nullptr)
-      throw std::invalid_argument("what is everywhere has no border; give it a shape");
+    region.effects.for_each([]<class Effect>(const Effect&) {
+      if constexpr (ActsOutside<Effect>)
+        throw std::invalid_argument("what is everywhere has no " + std::string(Effect::kKey) +
+                                    "; give it a shape");
+    });
     return planned;
   }
   if (const auto* plane = std::get_if<PlaneShape>(&*region.shape)) {
@@ -249,10 +253,12 @@ PlannedRegion plan_region(const SceneRegion& region) {
 }
 
 bool acts_outside(const PlannedRegionEffects& effects) {
-  bool acts = effects.find<BorderSpring>() != nullptr;
+  bool acts = false;
   effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (std::is_same_v<Effect, GuardedRegionEffect>)
       acts |= !effect.effect().hooks().inside_only;
+    else
+      acts |= ActsOutside<Effect>;
   });
   return acts;
 }

@@ -43,7 +43,7 @@ PlanStage effect_stage(const std::string& object, const Effect& effect) {
   for (const auto& row : Effect::kParameters)
     append_value(stage.parameters, row.key, effect.parameters().*row.field, row.unit);
   // Four samples per wave render it fully.
-  if constexpr (std::is_same_v<Effect, Relief>) {
+  if constexpr (requires { effect.wavelength(); }) {
     append_value(stage.parameters, "waves of", effect.wavelength(), "m");
     append_value(stage.parameters, "whole up to", effect.wavelength() / 4e-3, "m/s at 1 kHz");
   }

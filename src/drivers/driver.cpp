@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "reckon/pdu/seconds.hpp"
@@ -49,6 +50,13 @@ const std::vector<std::string_view>& driver_names() {
     return names;
   }();
   return kNames;
+}
+
+std::vector<AttachedDevice> driver_ports() {
+  std::vector<AttachedDevice> ports;
+  for (const Driver* driver : drivers())
+    if (driver->ports != nullptr) std::ranges::move(driver->ports(), std::back_inserter(ports));
+  return ports;
 }
 
 const DriverValue& driver_value(const DeviceConfig& device, std::string_view key) {

@@ -120,6 +120,8 @@ struct Driver {
   std::filesystem::path (*native_code)(const DeviceConfig& device) = nullptr;
   /// Attached devices; null: those with the USB IDs of `force`.
   std::vector<AttachedDevice> (*find)() = nullptr;
+  /// Ports of this host to which its devices may be connected; opens none. Null: it uses no ports.
+  std::vector<AttachedDevice> (*ports)() = nullptr;
   /// Lines of the udev rule for this host; null: those for the USB IDs of `force`.
   std::string (*udev)() = nullptr;
   /// @throws std::runtime_error with the remedy  Null: by the USB IDs of `force`.
@@ -134,6 +136,8 @@ struct Driver {
 [[nodiscard]] std::string_view driver_name(const DeviceConfig& device);
 /// "simulated" and the names of all drivers.
 [[nodiscard]] const std::vector<std::string_view>& driver_names();
+/// Ports of this host to which devices of any driver may be connected.
+[[nodiscard]] std::vector<AttachedDevice> driver_ports();
 /// The value of a key of a driver, or its default. `T`: as DriverKey::standard.
 /// @throws std::invalid_argument if no driver has the key
 [[nodiscard]] const DriverValue& driver_value(const DeviceConfig& device, std::string_view key);

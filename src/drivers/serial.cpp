@@ -10,7 +10,7 @@
 
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
-#include "reckon/peer/drivers/driver.hpp"
+#include "reckon/peer/drivers/serial_lines.hpp"
 #include "reckon/peer/threads/threaded_device.hpp"
 
 namespace reckon::peer {
@@ -90,6 +90,7 @@ const Driver& serial_driver() {
           },
       .force = &kForce,
       .place = &kPlace,
+      .ports = [] { return look_at_serial_lines(); },
       .open = open_port};
   return kDriver;
 }

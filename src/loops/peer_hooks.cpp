@@ -8,6 +8,7 @@
 #include "reckon/peer/loops/budget_keeper.hpp"
 #include "reckon/peer/loops/channel_keeper.hpp"
 #include "reckon/peer/loops/custom_effect_watch.hpp"
+#include "reckon/peer/loops/known_sources_publisher.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
 #include "reckon/peer/loops/loss_watch.hpp"

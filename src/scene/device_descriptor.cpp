@@ -6,8 +6,11 @@
 
 #include <charconv>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/peer/scene/key_row.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/toml_bounds.hpp"
@@ -35,11 +38,16 @@ UsbId parse_usb_id(std::string_view text) {
 
 void check_kind(TomlReader& file, const DeviceDescriptor& device) {
   if (device.kind == DeviceKind::impedance) return;
+  std::vector<std::string> takers;  // of force models
+  for (const Driver* driver : drivers())
+    if (driver->springs != nullptr) takers.push_back(fmt::format("\"{}\"", driver->name));
   file.problem(
       "kind",
-      "descriptors are of impedance devices alone: they tell their place and take a force; one "
-      "that takes a force model is described in [[device]], with driver = \"evdev\", and so is one "
-      "that takes a motion, with virtual_mass");
+      fmt::format(
+          "descriptors are of impedance devices alone: they tell their place and take a force; one "
+          "that takes a force model is described in [[device]], with driver = {}, and so is one "
+          "that takes a motion, with virtual_mass",
+          fmt::join(takers, " or ")));
 }
 
 void check_axes(TomlReader& file, const DeviceDescriptor& device) {

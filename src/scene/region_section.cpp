@@ -48,8 +48,11 @@ void check_region(TomlReader& table, SceneRegion& region) {
   region.pose.orientation = read_orientation(table);
   read_effects(table, region.effects);
   read_custom_effects<haptics::GuardedRegionEffect>(table, region.name, region.custom_effects);
-  if (!shaped && table.has("border"))
-    table.problem("border", "a region without a shape has no border: give it a shape");
+  haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
+    if (haptics::ActsOutside<Effect> && !shaped && table.has(Effect::kKey))
+      table.problem(Effect::kKey, fmt::format("a region without a shape has no {}: give it a shape",
+                                              Effect::kKey));
+  });
   if (!declares_any(region)) {
     std::vector<std::string_view> keys;
     haptics::for_each_region_effect(

@@ -38,7 +38,7 @@ void say_native_code(const peer::SceneFile& scene, const Console& console) {
   for (const std::string& line : native_code_of(scene)) fmt::print(console.err, "{}\n", line);
 }
 
-fs::path plugin_folder() {
+fs::path native_code_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   return (program.parent_path() / "../lib/reckon/plugins").lexically_normal();
@@ -48,12 +48,12 @@ fs::path trusted_plugin(const fs::path& name, const std::vector<std::string>& gi
   for (const std::string& file : given)
     if (fs::path(file).filename() == name.filename()) return fs::absolute(file);
   std::error_code error;
-  const fs::path installed = plugin_folder() / name.filename();
+  const fs::path installed = native_code_folder() / name.filename();
   if (!name.has_parent_path() && fs::is_regular_file(installed, error)) return installed;
   throw UsageError(
       fmt::format("the scene asks for native code at {}: give --plugin {} if you trust it, or "
                   "install it in {} and name it without a folder",
-                  clean(name), clean(name), plugin_folder().string()));
+                  clean(name), clean(name), native_code_folder().string()));
 }
 
 }  // namespace reckon::tools

@@ -21,7 +21,7 @@ namespace reckon::tools {
 void say_native_code(const peer::SceneFile& scene, const Console& console);
 
 /// Folder of installed drivers: ../lib/reckon/plugins relative to the program's folder.
-[[nodiscard]] std::filesystem::path plugin_folder();
+[[nodiscard]] std::filesystem::path native_code_folder();
 
 /// The file of a driver: the file of `given` (--plugin) with the same name, else the installed one.
 /// @param name as written in the scene; with a folder, no installed driver is used

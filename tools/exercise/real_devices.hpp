@@ -58,7 +58,7 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
 /// Owns the real devices of a process; outlives the peers that use them.
 class RealDevices {
  public:
-  /// @param plugins driver files that may be loaded in addition to the ones in plugin_folder()
+  /// @param plugins driver files that may be loaded in addition to the ones in native_code_folder()
   explicit RealDevices(std::vector<std::string> plugins = {}) : trusted_(std::move(plugins)) {}
 
   /// Replaces the simulated devices of peer `number` that have a driver by real ones.

@@ -21,7 +21,6 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/drivers/driver.hpp"
-#include "reckon/peer/drivers/serial_lines.hpp"
 #include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -88,7 +87,7 @@ void print_device(std::FILE* out, const AttachedDevice& device) {
 int list_devices(const DevicesOptions& options, const Console& console) {
   UsbLook look = look_at_usb(true);
   std::ranges::move(look_beside_usb(), std::back_inserter(look.devices));
-  const std::vector<AttachedDevice> lines = peer::look_at_serial_lines();
+  const std::vector<AttachedDevice> lines = peer::driver_ports();
   if (!look.problem.empty() && look.devices.empty() && lines.empty())
     throw EnvironmentError(look.problem + "; see reckon doctor");
   const auto print = [&](const AttachedDevice& device) {

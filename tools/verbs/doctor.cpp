@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/drivers/serial_lines.hpp"
+#include "reckon/peer/drivers/driver.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
@@ -144,8 +144,8 @@ void examine_usb(std::vector<peer::Finding>& findings) {
 }
 
 // A serial port may have a haptic board, or any other device.
-void examine_serial_lines(std::vector<peer::Finding>& findings) {
-  for (const AttachedDevice& line : peer::look_at_serial_lines()) {
+void examine_ports(std::vector<peer::Finding>& findings) {
+  for (const AttachedDevice& line : peer::driver_ports()) {
     findings.push_back({line.problem.empty() ? peer::FindingLevel::ok : peer::FindingLevel::note,
                         "serial line " + line.name + ": " +
                             (line.problem.empty() ? "it can be opened" : line.problem),
@@ -199,7 +199,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
   findings.push_back(examine_waking());
   examine_usb(findings);
-  examine_serial_lines(findings);
+  examine_ports(findings);
   add_findings(look_beside_usb(), findings);
 
   for (const peer::Finding& finding : findings) {
