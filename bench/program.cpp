@@ -2,25 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/program.hpp"
 
-#include <array>
-#include <memory>
+#include <vector>
 
-#include "reckon/bench/studies/frame/study.hpp"
 #include "reckon/tools/command_line/reading_program.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::bench {
-tools::Verb bench_verb();  // verbs/bench.cpp
-
-// Studies that are verbs, each in its folder.
-std::unique_ptr<Study> figures_study();
-std::unique_ptr<Study> tune_study();
-std::unique_ptr<Study> zwidth_study();
 
 std::span<const tools::Verb> verbs() {
-  static const std::array kVerbs{bench_verb(),
-                                 study_verb(tools::verb_row("figures"), figures_study),
-                                 study_verb(tools::verb_row("tune"), tune_study),
-                                 study_verb(tools::verb_row("zwidth"), zwidth_study)};
+  static const std::vector<tools::Verb> kVerbs = tools::own_verbs<tools::kBenchProgram>();
   return kVerbs;
 }
 

@@ -2,24 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/inspect_program.hpp"
 
-#include <array>
+#include <vector>
 
 #include "reckon/tools/command_line/reading_program.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::tools {
-namespace verb {
-
-Verb inspect();
-Verb record();
-Verb replay();
-Verb info();
-Verb cut();
-
-}  // namespace verb
 
 std::span<const Verb> inspect_verbs() {
-  static const std::array kVerbs{verb::inspect(), verb::record(), verb::replay(), verb::info(),
-                                 verb::cut()};
+  static const std::vector<Verb> kVerbs = own_verbs<kInspectProgram>();
   return kVerbs;
 }
 

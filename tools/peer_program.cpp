@@ -2,26 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/peer_program.hpp"
 
-#include <array>
+#include <vector>
 
 #include "reckon/tools/command_line/reading_program.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::tools {
-namespace verb {
-
-Verb demo();
-Verb peer();
-Verb view();
-Verb scene();
-Verb key();
-Verb devices();
-Verb doctor();
-
-}  // namespace verb
 
 std::span<const Verb> peer_verbs() {
-  static const std::array kVerbs{verb::demo(), verb::peer(),    verb::view(),  verb::scene(),
-                                 verb::key(),  verb::devices(), verb::doctor()};
+  static const std::vector<Verb> kVerbs = own_verbs<kPeerProgram>();
   return kVerbs;
 }
 

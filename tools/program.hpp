@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The program `reckon`: starts the program of each verb. Its own verbs are only help and
-// completion. THE list of verbs is in command_line/verb_rows.hpp; a new verb is one file in verbs/,
-// a row of that list and one of its program.
+// completion. THE list of verbs is in command_line/verb_rows.hpp; a new verb is one file in verbs/
+// and a row of that list.
 #pragma once
 
 #include <functional>

@@ -309,3 +309,11 @@ class FiguresStudy final : public Study {
 std::unique_ptr<Study> figures_study() { return std::make_unique<FiguresStudy>(); }
 
 }  // namespace reckon::bench
+
+namespace reckon::tools::verb {
+
+Verb figures() {
+  return reckon::bench::study_verb(verb_row("figures"), reckon::bench::figures_study);
+}
+
+}  // namespace reckon::tools::verb

@@ -358,3 +358,9 @@ class TuneStudy final : public Study {
 std::unique_ptr<Study> tune_study() { return std::make_unique<TuneStudy>(); }
 
 }  // namespace reckon::bench
+
+namespace reckon::tools::verb {
+
+Verb tune() { return reckon::bench::study_verb(verb_row("tune"), reckon::bench::tune_study); }
+
+}  // namespace reckon::tools::verb

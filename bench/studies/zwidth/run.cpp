@@ -277,3 +277,9 @@ class ZWidthStudy final : public Study {
 std::unique_ptr<Study> zwidth_study() { return std::make_unique<ZWidthStudy>(); }
 
 }  // namespace reckon::bench
+
+namespace reckon::tools::verb {
+
+Verb zwidth() { return reckon::bench::study_verb(verb_row("zwidth"), reckon::bench::zwidth_study); }
+
+}  // namespace reckon::tools::verb
