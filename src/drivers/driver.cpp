@@ -123,11 +123,11 @@ std::string force_notice(const DeviceConfig& device, const haptics::DeviceLimits
   const ForceSide& force = *device.driver->force;
   const bool is_on_line = force.line != nullptr;
   return fmt::format(
-      "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
-      "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
-      "stiffer walls, and `reckon devices measure {}` finds them",
+      "{}: assumes {:.2g} N s/m of damping{} and a force delay of {:.2g} ms; more damping or less "
+      "delay allows stiffer walls: run `reckon devices measure {}` and set 'damping' and 'delay' "
+      "in its [[device]]",
       is_on_line ? force.line(device) : force.facts().name, limits.damping,
-      limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
+      limits.lever > 0 ? " in the middle of its work space (elsewhere, that of its joints)" : "",
       1e3 * limits.delay_samples * pdu::to_seconds(device.period),
       is_on_line ? force.line(device) : std::string(device.driver->name));
 }

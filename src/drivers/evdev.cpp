@@ -23,19 +23,19 @@ AttachedDevice judged(const haptics::EventDeviceSeen& seen) {
   device.name = fmt::format("{}, {}", facts.name, seen.path);
   const int axes = facts.axes[1] ? 2 : 1;
   device.use = fmt::format(
-      "renders walls by itself along {}: driver = \"evdev\" in a [[device]] that states travel, "
+      "renders walls itself along {}: write driver = \"evdev\" in a [[device]] with travel, "
       "full_force, full_stiffness and max_stiffness",
-      axes == 2 ? "two axes" : "an axis, event_axes = 1");
+      axes == 2 ? "two axes" : "one axis, with event_axes = 1");
   if (!seen.remedy.empty()) {
-    device.use = "has force feedback; what it renders is known once it can be opened";
+    device.use = "has force feedback; its effects are unknown until it can be opened";
     device.problem = "this user may not open it";
     device.remedy = seen.remedy;
   } else if (!seen.problem.empty()) {
-    device.use = "has force feedback; what it renders is known once it can be opened";
+    device.use = "has force feedback; its effects are unknown until it can be opened";
     device.problem = "it cannot be opened: " + seen.problem;
     device.remedy = "plug it in again";
   } else if (const std::string fault = haptics::fault_of(facts, axes); !fault.empty()) {
-    device.use = "has force feedback, of another kind";
+    device.use = "has force feedback that Reckon cannot use";
     device.problem = fault;
   }
   return device;
@@ -64,10 +64,10 @@ std::string udev_of_this_host() {
 }
 
 std::string event_fault_of(const DeviceConfig& device) {
-  if (device.axes != 3) return "an event device has the axes of 'event_axes': take 'axes' out";
+  if (device.axes != 3) return "'event_axes' gives the axes of an event device: remove 'axes'";
   if (device.scale != 1.0 || device.left_handed || device.clutch_button >= 0)
-    return "an event device renders its walls by itself, where its handle is: take 'scale', "
-           "'left_handed' and 'clutch_button' out";
+    return "an event device renders walls in the coordinates of its handle: remove 'scale', "
+           "'left_handed' and 'clutch_button'";
   try {
     static_cast<void>(haptics::evdev_limits(evdev_settings_of(device)));
   } catch (const std::invalid_argument& error) {
@@ -79,10 +79,10 @@ std::string event_fault_of(const DeviceConfig& device) {
 OpenedDevice open_events(const DeviceConfig& device, const DeviceOpening& opening) {
   const haptics::EvdevSettings settings = evdev_settings_of(device);
   return {evdev_device(opening.clock, settings),
-          fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
-                      "later; what others have is felt along its axes, and pushes no hand that "
-                      "does not press",
-                      settings.max_speed, 1e3 * pdu::to_seconds(settings.chain))};
+          fmt::format(
+              "evdev: a new wall starts farther away than a hand at {:.3g} m/s moves in {:.2g} ms; "
+              "contacts with others act along its axes, and do not move a hand that does not press",
+              settings.max_speed, 1e3 * pdu::to_seconds(settings.chain))};
 }
 
 // The device without its kernel interface.
@@ -112,14 +112,13 @@ std::vector<DriverKey> event_keys() {
   return {
       {.key = "event",
        .standard = std::string(),
-       .help = "of evdev: its path (/dev/input/event7, /dev/hidraw0), or a part of its name; "
-               "absent: the first that gives force feedback"},
+       .help = "of evdev: its path (/dev/input/event7, /dev/hidraw0) or a part of its name; when "
+               "absent, the first device with force feedback"},
       {.key = "event_axes",
        .standard = std::uint32_t{2},
        .least = 1,
        .most = 2,
-       .help = "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is "
-               "y"},
+       .help = "of evdev: 1: ABS_X, as x of the device; 2: also ABS_Y, as y"},
       stated("travel", "m", 0.01, 10,
              "of evdev: handle travel from one end of an axis to the other; no device reports "
              "it"),
@@ -169,20 +168,19 @@ std::vector<AttachedDevice> judge_events(const std::vector<haptics::EventDeviceS
   devices.push_back(
       {.driver = "evdev",
        .name = fmt::format("OpenFFBoard, /dev/bus/usb/{:03}/{:03}", board->bus, board->address),
-       .use = "renders walls by itself, once it is a game controller",
-       .problem = "it has no interface of the class PID",
-       .remedy = "choose a game controller (main class FFB wheel or joystick) in the board's own "
+       .use = "renders walls itself when configured as a game controller",
+       .problem = "it has no HID interface of class PID",
+       .remedy = "select a game controller (main class FFB wheel or joystick) in the board's "
                  "configurator"});
   return devices;
 }
 
 std::string evdev_udev(const std::vector<EventUsbId>& undriven) {
   std::string rule =
-      "# Event devices that give force feedback.\n"
-      "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
-      "TAG+=\"uaccess\"\n";
+      "# Event devices with force feedback.\nSUBSYSTEM==\"input\", KERNEL==\"event*\", "
+      "ATTRS{capabilities/ff}==\"*[1-9a-f]*\", TAG+=\"uaccess\"\n";
   if (!undriven.empty())
-    rule += "# Wheels and sticks whose force feedback the kernel leaves alone.\n";
+    rule += "# Wheels and sticks with force feedback that the kernel does not drive.\n";
   for (const EventUsbId& id : undriven) rule += udev_line("hidraw", "ATTRS", id.vendor, id.product);
   return rule;
 }

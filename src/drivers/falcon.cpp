@@ -27,10 +27,10 @@ const Driver& falcon_driver() {
       .summary = "a Novint Falcon on USB",
       .keys = {{.key = "firmware",
                 .standard = std::filesystem::path(),
-                .help = "of a Falcon: file of its program, which is its maker's; absent: it has it "
-                        "already",
+                .help = "of a Falcon: firmware file of its manufacturer; when absent, the Falcon "
+                        "must have its firmware already",
                 .flag = "--firmware",
-                .flag_help = "file of the program that a Falcon runs, where it has lost it",
+                .flag_help = "firmware file, for a Falcon that has lost its firmware",
                 .check_file =
                     [](const std::string& file) {
                       static_cast<void>(haptics::FalconFirmware::load(file));

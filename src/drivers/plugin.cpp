@@ -30,9 +30,9 @@ OpenedDevice open_plugin(const DeviceConfig& device, const DeviceOpening& openin
   const std::filesystem::path file = opening.trusted(library_of(device));
   auto plugin =
       std::make_unique<LoadedPlugin>(file, driver_value<std::string>(device, "plugin_options"));
-  std::string notice = fmt::format(
-      "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
-      plugin->name(), plugin->device().limits().damping, file.string());
+  std::string notice =
+      fmt::format("{}: assumes {:.2g} N s/m of damping, as its driver states; loaded from {}",
+                  plugin->name(), plugin->device().limits().damping, file.string());
   return {std::move(plugin), std::move(notice)};
 }
 
@@ -51,29 +51,28 @@ const Driver& plugin_driver() {
   static const Driver kDriver{
       .name = "plugin",
       .is_named = false,
-      .article = "a driver that is a shared library",
-      .summary = "a driver of yours in a shared library",
+      .article = "a driver in a shared library",
+      .summary = "your own driver in a shared library",
       .is_held = false,
       .keys = {{.key = "plugin",
                 .standard = std::string(),
-                .help = "of a plugin: name of the driver's shared library, which is installed or "
-                        "given by --plugin; what the device can do, it says itself"},
+                .help = "of a plugin: name of the driver's shared library, installed or given by "
+                        "--plugin; the driver states the limits of the device"},
                {.key = "plugin_options",
                 .standard = std::string(),
                 .help = "of a plugin: options for its driver"}},
       .fault =
           [](const DeviceConfig& device) {
-            return std::string(
-                library_of(device).has_filename()
-                    ? ""
-                    : "a plugin is a shared library: name it with plugin = \"driver.so\"");
+            return std::string(library_of(device).has_filename()
+                                   ? ""
+                                   : "a plugin needs a shared library: add plugin = \"driver.so\"");
           },
       .place = &kPlace,
       .holder =
           [](const DeviceConfig& device) {
             return fmt::format(
-                "whoever {} drives it for, which says what it can do; the limits here are those of "
-                "a simulated one in its place",
+                "the device of {}, whose driver states the limits at run time; these are those of "
+                "a simulated device",
                 library_of(device).filename().string());
           },
       .native_code = library_of,

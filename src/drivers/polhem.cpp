@@ -39,9 +39,9 @@ const Driver& polhem_driver() {
       .article = "a Polhem",
       .summary = "a Polhem on USB",
       .keys = {weight("upper_weight",
-                      "of a Polhem: torque that pulls its upper link down while that is level; "
-                      "held up by its motors while forces are shown, which costs damping"),
-               weight("fore_weight", "the same of its fore link")},
+                      "of a Polhem: torque of the weight of its upper link when level; the motors "
+                      "compensate it while forces are active, which uses up damping"),
+               weight("fore_weight", "the same for its fore link")},
       .force = &kForce};
   return kDriver;
 }

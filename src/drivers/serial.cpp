@@ -38,7 +38,7 @@ void put_port(DeviceConfig& device, const std::string& text) {
   const auto read = std::from_chars(text.data() + at + 1, end, baud);
   if (read.ec != std::errc() || read.ptr != end || baud < kLeastBaud || baud > kMostBaud)
     throw std::invalid_argument(
-        fmt::format("'{}' is no baud from {} to {}: write /dev/ttyACM0@115200, or leave it out",
+        fmt::format("'{}' is not a baud rate from {} to {}: write /dev/ttyACM0@115200, or omit it",
                     text.substr(at + 1), kLeastBaud, kMostBaud));
   device.driver_values["baud"] = baud;
 }
@@ -66,27 +66,26 @@ const Driver& serial_driver() {
                                 .assumed_force = haptics::kSerialAssumedForce,
                                 .line = port_of};
   static const DevicePlace kPlace{
-      "the line of a serial board (/dev/ttyACM0, or /dev/ttyUSB0@115200)", is_port, put_port};
+      "the port of a serial board (/dev/ttyACM0, or /dev/ttyUSB0@115200)", is_port, put_port};
   static const Driver kDriver{
       .name = "serial",
       .is_named = false,
       .article = "a serial board",
-      .summary = "a board on a serial line",
+      .summary = "a board on a serial port",
       .keys = {{.key = "port",
                 .standard = std::string(),
-                .help = "of a serial board: its line, such as \"/dev/ttyACM0\", or better one of "
-                        "/dev/serial/by-id"},
+                .help = "of a serial board: its port, such as \"/dev/ttyACM0\", or better a path "
+                        "in /dev/serial/by-id"},
                {.key = "baud",
                 .standard = std::uint32_t{1'000'000},
                 .least = kLeastBaud,
                 .most = kMostBaud,
-                .help = "of that line; a board that is on USB itself goes by none"}},
+                .help = "of that port; a board with its own USB interface ignores it"}},
       .fault =
           [](const DeviceConfig& device) {
-            return std::string(
-                port_of(device).empty()
-                    ? "a board is on a serial line: name that with port = \"/dev/ttyACM0\""
-                    : "");
+            return std::string(port_of(device).empty()
+                                   ? "a serial board needs a port: add port = \"/dev/ttyACM0\""
+                                   : "");
           },
       .force = &kForce,
       .place = &kPlace,

@@ -52,17 +52,17 @@ AttachedDevice line_at(const fs::path& named) {
   AttachedDevice device;
   device.driver = "serial";
   device.name = fmt::format("{}, {}", named.filename().string(), line.string());
-  device.use = fmt::format("if a board of docs/devices.md is there: reckon demo --device {}",
+  device.use = fmt::format("if it is a board as in docs/devices.md: reckon demo --device {}",
                            named.string());
   if (error) {
-    device.problem = "there is nothing behind it: " + error.message();
+    device.problem = "its link leads to no device: " + error.message();
     device.remedy = "plug it in again";
   } else if (access(line.c_str(), R_OK | W_OK) != 0) {
     device.problem = "this user may not open it";
     device.remedy = "sudo usermod -aG dialout $USER, and log in again";
   } else if (const std::string user = user_of(line); !user.empty()) {
-    device.problem = "another program has it: " + user;
-    device.remedy = "end that, for instance the serial monitor";
+    device.problem = "another program uses it: " + user;
+    device.remedy = "end that program, for instance a serial monitor";
   }
   return device;
 }

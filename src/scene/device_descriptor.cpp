@@ -26,7 +26,8 @@ std::uint16_t parse_hexadecimal(std::string_view text, std::string_view whole) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
   if (text.size() != 4 || error != std::errc() || end != text.data() + text.size())
     throw std::invalid_argument(fmt::format(
-        "'{}' is no vendor and product: write both with four digits, as \"0403:cb48\"", whole));
+        "'{}' is not a USB ID: write vendor and product with four digits each, as \"0403:cb48\"",
+        whole));
   return value;
 }
 
@@ -43,25 +44,24 @@ void check_kind(TomlReader& file, const DeviceDescriptor& device) {
     if (driver->springs != nullptr) takers.push_back(fmt::format("\"{}\"", driver->name));
   file.problem(
       "kind",
-      fmt::format(
-          "descriptors are of impedance devices alone: they tell their place and take a force; one "
-          "that takes a force model is described in [[device]], with driver = {}, and so is one "
-          "that takes a motion, with virtual_mass",
-          fmt::join(takers, " or ")));
+      fmt::format("a descriptor is for impedance devices only: describe a device that takes a force "
+                  "model in [[device]] with driver = {}, and one that takes a motion with "
+                  "virtual_mass",
+                  fmt::join(takers, " or ")));
 }
 
 void check_axes(TomlReader& file, const DeviceDescriptor& device) {
   if (device.axes != 3 && device.axes != 6) {
-    return file.problem(
-        "axes", fmt::format("the servo has 3 axes, or 6 with torque, and none of {}: where three "
-                            "axes of the device carry its handle write 3, and the others are free",
-                            device.axes));
+    return file.problem("axes",
+                        fmt::format("{} axes are not supported: write 6 for a device with torque, "
+                                    "or 3 if three axes move the handle and the others are passive",
+                                    device.axes));
   }
   const char* const turning[] = {"max_torque", "turn_damping", "turn_resolution", "inertia"};
   for (const char* key : turning) {
     if (device.axes == 6 && std::string_view(key) != "inertia") file.require(key);
     if (device.axes == 3 && file.has(key))
-      file.problem(key, fmt::format("only a device that turns has '{}': add axes = 6", key));
+      file.problem(key, fmt::format("'{0}' needs axes = 6: add it, or remove '{0}'", key));
   }
 }
 
@@ -70,20 +70,21 @@ void check_descriptor(TomlReader& file, DeviceDescriptor& device) {
   for (const char* key : {"name", "max_force", "damping", "resolution", "delay"}) file.require(key);
   file.each_text("usb", [&](const std::string& id) { device.usb.push_back(parse_usb_id(id)); });
   if (file.has("name") && device.name.empty())
-    file.problem("name", "'name' is empty; it wants that of the product");
+    file.problem("name", "'name' is empty: write the name of the product");
   check_kind(file, device);
   check_axes(file, device);
   if (device.axes == 6 && !(device.damping > 0))
-    file.problem("damping", "a device of six axes needs damping in all of them");
+    file.problem("damping", "a device of six axes needs damping: set it above 0");
   if (device.continuous_force > device.max_force)
-    file.problem("continuous_force", "it is more than max_force: take it out, or state less");
+    file.problem("continuous_force", "'continuous_force' exceeds max_force: lower or remove it");
   if (!((device.work_space.to - device.work_space.from).minCoeff() > 0))
-    file.problem("work_space", "'to' must be beyond 'from' along each axis");
+    file.problem("work_space", "'to' must be greater than 'from' along each axis");
 }
 
 Section<WorkSpaceCorners> work_space_keys() {
-  return {{{"from", &WorkSpaceCorners::from, within("m", -10, 10), "least place along each axis"},
-           {"to", &WorkSpaceCorners::to, within("m", -10, 10), "greatest place"}}};
+  return {
+      {{"from", &WorkSpaceCorners::from, within("m", -10, 10), "least position along each axis"},
+       {"to", &WorkSpaceCorners::to, within("m", -10, 10), "greatest place"}}};
 }
 
 const Section<DeviceDescriptor>& descriptor_section() {
@@ -93,46 +94,46 @@ const Section<DeviceDescriptor>& descriptor_section() {
       {
           {"name", &Device::name, "of the product"},
           {"usb", no_ids,
-           "vendor and product under which it is attached, as \"0403:cb48\"; absent: by no USB"},
+           "its USB IDs, vendor and product, as \"0403:cb48\"; when absent, it is not on USB"},
           {"kind", &Device::kind,
            "impedance: it reports its position and takes a force; admittance: it reports a force "
-           "and "
-           "takes a position; coefficients: it takes a force model. Descriptors are for the first"},
-          {"axes", &Device::axes, within("", 1, 8),
-           "3; or 6: it turns, and shows torque besides the force. Others are refused"},
+           "and takes a position; coefficients: it takes a force model. A descriptor must be "
+           "impedance"},
+          {"axes", &Device::axes, within("", 1, 8), "3; or 6: it also rotates and displays torque"},
           {"max_force", &Device::max_force, declared("N", 0.01, 1e3),
-           "it can show, and for ever unless continuous_force says less"},
+           "greatest force that it can display; permanently, unless continuous_force is lower"},
           {"continuous_force", &Device::continuous_force, within("N", 0, 1e3),
-           "that its motors hold for ever: once they are warm, no more is shown; 0: max_force"},
+           "greatest force that its motors can hold permanently; warm motors are limited to it; 0: "
+           "max_force"},
           {"thermal_time", &Device::thermal_time, within("s", 1, 3600),
-           "time constant with which its motors become warm and cool down"},
+           "time constant of heating and cooling of its motors"},
           {"damping", &Device::damping, declared("N s/m", 0, 1e3),
-           "its own viscous friction that one is sure of, wherever the handle is"},
+           "guaranteed viscous friction at the handle, at any position"},
           {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),
-           "viscous friction of each of its joints that one is sure of; where its driver knows "
-           "them "
-           "(Falcon, Polhem) it goes before `damping`; 0: not said"},
+           "guaranteed viscous friction of each joint; it replaces `damping` if the driver knows "
+           "the joints (Falcon, Polhem); 0: unknown"},
           {"resolution", &Device::resolution, declared("m", 0, 1e-3),
            "step of its position sensors at the handle, along each axis; 0: exact"},
-          {"delay", &Device::delay, declared("s", 0, 0.1), "until a force is at the handle"},
+          {"delay", &Device::delay, declared("s", 0, 0.1),
+           "from a command to its force at the handle"},
           {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
-           "it can show; 0: as much as damping, rate and delay allow"},
+           "greatest stiffness that it can display; 0: as damping, rate and delay allow"},
           {"max_speed", &Device::max_speed, within("m/s", 0.01, 100),
-           "faster readings cut the force"},
-          {"mass", &Device::mass, within("kg", 1e-3, 100), "that one feels at the handle"},
+           "faster motion switches the force off for a moment"},
+          {"mass", &Device::mass, within("kg", 1e-3, 100), "apparent mass at the handle"},
           {"friction", &Device::friction, within("N", 0, 100),
-           "dry friction at the handle; a simulated device has it, and no stiffness follows from "
-           "it"},
+           "dry friction at the handle; a simulated device applies it; it does not allow stiffer "
+           "walls"},
           {"work_space", &Device::work_space, work_space_keys(),
-           "a box of places in its own axes: x to the right, y away from the person, z up"},
+           "a box in the device's axes: x to the right, y away from the person, z up"},
           {"max_torque", &Device::max_torque, declared("N m", 1e-4, 100),
-           "of six axes: it can show for long"},
+           "of six axes: greatest permanent torque"},
           {"turn_damping", &Device::turn_damping, declared("N m s/rad", 1e-6, 10),
-           "of six axes: its own viscous friction in turning that one is sure of, about each axis"},
+           "of six axes: guaranteed viscous friction of rotation, about each axis"},
           {"turn_resolution", &Device::turn_resolution, declared("rad", 0, 0.1),
            "of six axes: step of its angle sensors; 0: exact"},
           {"inertia", &Device::inertia, within("kg m2", 1e-7, 1),
-           "of six axes: that one feels, about each axis"},
+           "of six axes: apparent inertia about each axis"},
       },
       check_descriptor};
   return section;

@@ -22,8 +22,9 @@ void check_keys(TomlReader& table, const DeviceConfig& device) {
     if (device.driver == driver || (driver->stands_in && device.driver == nullptr)) continue;
     for (const DriverKey& row : driver->keys)
       if (table.has(row.key))
-        table.problem(row.key, fmt::format("only {} has it: add driver = \"{}\", or take it out",
-                                           driver->article, driver->name));
+        table.problem(row.key,
+                      fmt::format("only {} has this key: add driver = \"{}\", or remove the key",
+                                  driver->article, driver->name));
   }
   if (device.driver == nullptr || device.driver->fault == nullptr) return;
   if (const std::string fault = device.driver->fault(device); !fault.empty())
@@ -35,10 +36,11 @@ void check_joint_damping(TomlReader& table, DeviceConfig& device) {
   const haptics::UsbFacts* const facts = usb_facts_of(device);
   if (table.has("joint_damping") && (facts == nullptr || !(facts->lever > 0)))
     table.problem("joint_damping",
-                  "its driver knows no joints: name one that does, or say the damping of the "
-                  "handle");
+                  "its driver does not know the joints: remove 'joint_damping', and write the "
+                  "'damping' of the handle");
   if (table.has("joint_damping") && table.has("damping"))
-    table.problem("joint_damping", "friction is said twice, of the handle too: keep one");
+    table.problem("joint_damping",
+                  "'joint_damping' and 'damping' both give the friction: keep one");
   if (table.has("damping") && !table.has("joint_damping")) device.joint_damping = 0.0;
 }
 
@@ -47,10 +49,11 @@ void check_forces(TomlReader& table, DeviceConfig& device) {
   const ForceSide& force = *device.driver->force;
   const std::string name = force.facts().name;
   if (table.has("resolution") && !(force.assumed_force > 0))
-    table.problem("resolution", "the driver knows the steps of a " + name + ": take it out");
+    table.problem("resolution",
+                  "the driver sets the resolution of a " + name + ": remove 'resolution'");
   if (5 * device.period > 2 * force.silence)
-    table.problem("rate", fmt::format("a {} is let go after {:.3g} ms without a force, which one "
-                                      "missed period must not bring about: 400 Hz is enough",
+    table.problem("rate", fmt::format("a {} drops its force after {:.3g} ms without a command, "
+                                      "which one missed period can exceed: write 400 Hz or more",
                                       name, 1e-3 * static_cast<double>(force.silence.count())));
   const bool described = !device.described.name.empty();
   const auto said = [&](const char* key) { return described || table.has(key); };
@@ -61,8 +64,8 @@ void check_forces(TomlReader& table, DeviceConfig& device) {
   if (settings.spent_damping > 0 && !(device.damping > 0)) {
     const bool by_joints = settings.joint_damping > 0;
     table.problem("damping",
-                  fmt::format("its driver itself costs {:.2g} {}, and none is left for walls: "
-                              "state more, if you are sure of it, or let it do less",
+                  fmt::format("its driver uses {:.2g} {} and leaves none for walls: raise it if it "
+                              "is measured, or let the driver compensate less",
                               by_joints ? settings.spent_joint_damping : settings.spent_damping,
                               by_joints ? "N m s/rad of joint_damping" : "N s/m of damping"));
   }
@@ -98,8 +101,8 @@ Row<DeviceConfig> driver_row() {
   row.kind = KeyKind::choice;
   row.standard = driver_names().front();
   row.sentence = fmt::format(
-      "what it is: simulated; or a real device that a person holds: {}. In simulated time its "
-      "operator replaces it",
+      "simulated, or a real device that a person holds: {}. In simulated time, its operator "
+      "replaces the person",
       fmt::join(known, ", "));
   row.words = driver_names();
   return {std::move(row), [](TomlReader& table, DeviceConfig& out) {
@@ -112,7 +115,7 @@ void check_device_driver(TomlReader& table, DeviceConfig& device) {
   check_joint_damping(table, device);
   if (device.driver == nullptr) return;
   if (device.source == DeviceSource::pointer && device.driver->is_held)
-    table.problem("kind", fmt::format("a person holds {}, and no pointer moves it: take kind out",
+    table.problem("kind", fmt::format("a person moves {}, so a pointer cannot: remove 'kind'",
                                       device.driver->article));
   if (device.driver->force != nullptr) check_forces(table, device);
 }

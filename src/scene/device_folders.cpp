@@ -24,7 +24,8 @@ std::vector<fs::path> device_folders() {
 }
 
 fs::path find_device_descriptor(const std::string& name, const fs::path& folder) {
-  if (name.empty()) throw std::invalid_argument("it is empty; it wants a file or a name");
+  if (name.empty())
+    throw std::invalid_argument("it is empty; write a file or the name of a descriptor");
   const bool has_end = fs::path(name).extension() == ".toml";
   const fs::path file = has_end ? fs::path(name) : fs::path(name + ".toml");
   std::vector<fs::path> places{fs::absolute(folder / file).lexically_normal()};
@@ -37,7 +38,7 @@ fs::path find_device_descriptor(const std::string& name, const fs::path& folder)
     looked += fmt::format("{}{}", looked.empty() ? "" : ", ", place.string());
   }
   throw std::invalid_argument(
-      fmt::format("there is no descriptor '{}': looked for {}", name, looked));
+      fmt::format("there is no descriptor '{}'; searched {}", name, looked));
 }
 
 }  // namespace reckon::peer

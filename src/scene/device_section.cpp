@@ -42,20 +42,19 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
                    const DeviceConfig& device) {
   if (device.source != DeviceSource::pointer) {
     if (table.has("reach"))
-      table.problem("reach", "only a pointer has a reach: add kind = \"pointer\", or take it out");
+      table.problem("reach", "'reach' needs kind = \"pointer\": add it, or remove 'reach'");
     return;
   }
   if (device.operator_number > operators.size()) return;
   const OperatorConfig& config = operators[device.operator_number - 1];
   if (config.kind != OperatorKind::passive) {
-    table.problem("kind",
-                  fmt::format("a pointer moves the hand, and so would [[operator]] {}: give "
-                              "that passive = true and the position where the hand starts",
-                              device.operator_number));
+    table.problem("kind", fmt::format("the pointer and [[operator]] {} both move the hand: write "
+                                      "passive = true and a start position there",
+                                      device.operator_number));
   }
   if (!(config.damping > 0)) {
-    table.problem("kind", fmt::format("a pointer needs a grip with damping, or the hand swings: "
-                                      "[[operator]] {} says 0 N s/m, 3 is usual",
+    table.problem("kind", fmt::format("the grip of a pointer needs damping, or the hand "
+                                      "oscillates: [[operator]] {} has 0 N s/m; 3 is usual",
                                       device.operator_number));
   }
 }
@@ -64,16 +63,16 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
 void check_mapping(TomlReader& table, const DeviceConfig& device) {
   for (const char* key : {"scale", "left_handed", "clutch_button"}) {
     if (device.source == DeviceSource::pointer && table.has(key))
-      table.problem(key, fmt::format("a pointer has no '{}': take it out", key));
+      table.problem(key, fmt::format("'{}' does not apply to a pointer: remove it", key));
   }
   if (device.clutch_button >= 0 && device.clutch_button == device.stop_button)
-    table.problem("clutch_button", fmt::format("button {} already stops all forces: name another",
+    table.problem("clutch_button", fmt::format("button {} already stops all forces: choose another",
                                                device.stop_button));
   const int grabs = static_cast<int>(device.grab_button);
   if (table.has("grab_button") && (grabs == device.stop_button || grabs == device.clutch_button))
     table.problem(
         "grab_button",
-        fmt::format("button {} already stops all forces, or is the clutch: name another", grabs));
+        fmt::format("button {} is already the stop or the clutch: choose another", grabs));
 }
 
 // An admittance device has a virtual handle with a mass.
@@ -81,25 +80,26 @@ void check_admittance(TomlReader& table, const DeviceConfig& device) {
   if (!(device.admittance.mass > 0)) {
     for (const char* key : {"bandwidth", "sensor_stiffness", "motion_loop"}) {
       if (table.has(key))
-        table.problem(key, fmt::format("only a device that moves by itself has '{}': add "
-                                       "virtual_mass = \"2 kg\", or take it out",
-                                       key));
+        table.problem(
+            key, fmt::format("'{}' needs a virtual mass: add virtual_mass = \"2 kg\", or remove it",
+                             key));
     }
     return;
   }
   if (device.driver != nullptr)
     table.problem("virtual_mass",
-                  "only a simulated device moves by itself: take it out, or driver");
+                  "only a simulated device has a virtual mass: remove 'virtual_mass' or 'driver'");
   if (device.source == DeviceSource::pointer)
-    table.problem("virtual_mass",
-                  "a pointer holds a device that takes forces: take it out, or "
-                  "kind = \"pointer\"");
+    table.problem(
+        "virtual_mass",
+        "a pointer needs an impedance device: remove 'virtual_mass', or kind = \"pointer\"");
   if (device.axes == 6)
-    table.problem("virtual_mass", "a virtual mass does not turn: take it out, or axes = 6");
+    table.problem("virtual_mass",
+                  "a virtual mass has no rotation: remove 'virtual_mass', or axes = 6");
   if (!(device.damping > 0))
-    table.problem("damping", "a virtual mass needs damping, or nothing pays for walls");
+    table.problem("damping", "a virtual mass needs damping, or no wall is stable: set it above 0");
   if (table.has("resolution"))
-    table.problem("resolution", "the place of a virtual mass is computed and exact: take it out");
+    table.problem("resolution", "the position of a virtual mass is exact: remove 'resolution'");
 }
 
 // Called before the table's keys, which override the descriptor.
@@ -123,10 +123,11 @@ void read_descriptor(TomlReader& table, DeviceConfig& device) {
 void check_marking(TomlReader& table, const std::string& marking) {
   const auto strange = std::ranges::find_if(marking, [](char c) { return c < 0x20 || c > 0x7E; });
   if (strange != marking.end()) {
-    return table.problem("marking", "'marking' has a letter that is not ASCII: write it without");
+    return table.problem("marking",
+                         "'marking' has a character that is not printable ASCII: remove it");
   }
   if (marking.size() > kLongestMarking) {
-    table.problem("marking", fmt::format("'marking' has {} letters; at most {} fit on the wire",
+    table.problem("marking", fmt::format("'marking' has {} characters; use at most {}",
                                          marking.size(), kLongestMarking));
   }
 }
@@ -142,44 +143,45 @@ std::optional<Attitude> read_attitude(TomlReader& table) {
 
 void check_axes(TomlReader& table, const DeviceConfig& device) {
   if (!device.described.name.empty() && table.has("axes"))
-    return table.problem("axes", "its descriptor says how many axes it has: take the key out");
+    return table.problem("axes", "the descriptor gives the number of axes: remove 'axes'");
   if (device.axes != 3 && device.axes != 6)
-    return table.problem("axes", "a device has 3 axes, or 6 with torque: write one of them");
+    return table.problem("axes", "a device has 3 axes, or 6 with torque: write 3 or 6");
   if (device.axes == 6) {
     if (device.source == DeviceSource::pointer)
-      table.problem("axes", "a pointer moves three axes: take out axes = 6, or kind = \"pointer\"");
+      table.problem("axes", "a pointer moves three axes: remove axes = 6, or kind = \"pointer\"");
     if (const haptics::UsbFacts* const facts = usb_facts_of(device)) {
       table.problem("axes",
-                    fmt::format("a {} has three axes: take out axes = 6, or driver", facts->name));
+                    fmt::format("a {} has three axes: remove axes = 6, or driver", facts->name));
     }
     if (!(device.damping > 0))
-      table.problem("damping", "a device of six axes needs damping in all of them");
+      table.problem("damping", "a device of six axes needs damping: set it above 0");
     if (device.probes.size() > haptics::kMostProbes) {
-      table.problem("probe", fmt::format("a tool has at most {} probes, this one has {}",
-                                         haptics::kMostProbes, device.probes.size()));
+      table.problem("probe",
+                    fmt::format("a tool has at most {} probes, and this one has {}: remove some",
+                                haptics::kMostProbes, device.probes.size()));
     }
     return;
   }
   for (const char* key : {"turn_damping", "max_torque", "turn_resolution", "probe"}) {
     if (table.has(key))
-      table.problem(key, fmt::format("only a device that turns has '{}': add axes = 6", key));
+      table.problem(key, fmt::format("'{0}' needs axes = 6: add it, or remove '{0}'", key));
   }
 }
 
 // Checks the motors of a device driven by the servo.
 void check_motors(TomlReader& table, const DeviceConfig& device) {
   if (table.has("thermal_time") && !(device.continuous_force > 0))
-    table.problem("thermal_time", "nothing becomes warm without continuous_force: add it");
+    table.problem("thermal_time", "'thermal_time' needs continuous_force: add it");
   if (!table.has("continuous_force")) return;
   if (device.continuous_force > device.max_force) {
-    table.problem("continuous_force",
-                  fmt::format("{:.3g} N are more than its max_force of {:.3g} N: take it out, or "
-                              "state less",
-                              device.continuous_force, device.max_force));
+    table.problem(
+        "continuous_force",
+        fmt::format("{:.3g} N exceed its max_force of {:.3g} N: lower or remove 'continuous_force'",
+                    device.continuous_force, device.max_force));
   }
   if ((device.driver != nullptr && device.driver->is_cooled) || device.admittance.mass > 0)
     table.problem("continuous_force",
-                  "such a device looks after its motors itself: take the key out");
+                  "this device protects its motors itself: remove 'continuous_force'");
 }
 
 void check_device(TomlReader& table, DeviceConfig& device) {
@@ -190,7 +192,7 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   if (attitude) device.orientation = device_orientation_of(*attitude);
   if (attitude && table.has("orientation")) {
     table.problem("orientation",
-                  "it is turned twice, by orientation and by heading, pitch or roll: keep one");
+                  "'orientation' and heading, pitch or roll both rotate it: keep one");
   }
   if (!attitude) device.orientation = read_orientation(table);
 
@@ -212,24 +214,23 @@ using Device = DeviceConfig;
 
 Section<ProbeConfig> probe_section() {
   return {{{"position", &ProbeConfig::position, within("m", -0.5, 0.5),
-            "from the handle, in the tool's axes"}}};
+            "relative to the handle, in the tool's axes"}}};
 }
 
 // Keys for its place and its driver.
 std::vector<Row<Device>> driver_rows() {
   const auto no_text = [](const Device&) { return std::string(); };
   std::vector<Row<Device>> rows{
-      {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
+      {"peer", &Device::peer, within("", 1, kMostPeers), "number of its peer"},
       {"operator", &Device::operator_number, within("", 1, 65535),
-       "which [[operator]] of the file holds it"},
+       "number of the [[operator]] that holds it"},
       {"kind", &Device::source,
-       "who moves it: its operator; or a pointer, from where its operator, a passive one, "
-       "holds "
-       "it at first"},
+       "who moves it: its operator, or a pointer, which starts at the position of its passive "
+       "operator"},
       driver_row(),
       {"descriptor", no_text,
-       "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
-       "before it: docs/devices.md"},
+       "file with the properties of the device, or the name of one that comes with Reckon; keys "
+       "here override it: docs/devices.md"},
   };
   for (const Driver* driver : drivers())
     for (const DriverKey& key : driver->keys) rows.push_back(driver_key_row(key));
@@ -240,22 +241,24 @@ std::vector<Row<Device>> driver_rows() {
 std::vector<Row<Device>> handle_rows() {
   return {
       {"virtual_mass", in(&Device::admittance, &AdmittanceConfig::mass), declared("kg", 0.05, 100),
-       "makes it an admittance device, simulated: it measures the hand's force and goes where "
-       "a mass would go that hand and scene push, braked by `damping`; absent: it takes "
-       "forces"},
+       "makes it a simulated admittance device: it measures the hand's force and moves as this "
+       "mass under the forces of hand and scene, with `damping`; when absent, it is an impedance "
+       "device"},
       {"bandwidth", in(&Device::admittance, &AdmittanceConfig::bandwidth), within("Hz", 1, 1000),
-       "with a virtual mass: of the device's own motion"},
+       "with a virtual mass: bandwidth of its motion control"},
       {"sensor_stiffness", in(&Device::admittance, &AdmittanceConfig::sensor_stiffness),
-       within("N/m", 100, 1e6), "with a virtual mass: of the sensor between hand and handle"},
+       within("N/m", 100, 1e6),
+       "with a virtual mass: stiffness of the sensor between hand and handle"},
       {"motion_loop", in(&Device::admittance, &AdmittanceConfig::loop),
-       "with a virtual mass: whether its command is a position or a velocity"},
+       "with a virtual mass: its command is a position or a velocity"},
       {"reach", &Device::reach, within("m", 0.001, 10),
-       "of a pointer: so far from there it takes the hand, along each axis of the device"},
+       "of a pointer: greatest distance of the hand from its start, along each axis of the device"},
       {"marking", &Device::marking,
-       "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
+       "of its hand, at most 11 printable ASCII characters; when absent, the peer's name and a "
        "number"},
       {"position", &Device::position, within("m", -kWorld, kWorld),
-       "of its own origin, in S; absent: of a real device where its operator begins"},
+       "of its origin, in S; when absent, the origin of a real device is where its operator "
+       "starts"},
   };
 }
 
@@ -264,30 +267,31 @@ std::vector<Row<Device>> motor_rows() {
   const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
   return {
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-       "instead: turned about S's x, then y, then z axis"},
-      {"max_force", &Device::max_force, within("N", 0.1, 1e3), "it can show"},
+       "instead: rotations about S's x, then y, then z axis"},
+      {"max_force", &Device::max_force, within("N", 0.1, 1e3),
+       "greatest force that it can display"},
       {"continuous_force", &Device::continuous_force, within("N", 0, 1e3),
-       "that its motors hold for ever: once they are warm, no more is shown; 0: max_force"},
+       "greatest force that its motors can hold permanently; warm motors are limited to it; 0: "
+       "max_force"},
       {"thermal_time", &Device::thermal_time, within("s", 1, 3600),
-       "time constant with which its motors become warm and cool down"},
+       "time constant of heating and cooling of its motors"},
       {"damping", &Device::damping, within("N s/m", 0, 1e3),
-       "its own friction that one is sure of; the stiffness that it can show grows with it"},
+       "guaranteed viscous friction of the device; more allows stiffer walls"},
       {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),
-       "of a device whose joints its driver knows, in the place of `damping`: the friction of each "
-       "joint that one is sure of; the servo knows what it is at the handle, pose by pose; 0: not "
-       "said"},
-      {"axes", &Device::axes, within("", 3, 6),
-       "3; or 6: it turns, and shows torque besides the force"},
+       "of a driver that knows the joints, instead of `damping`: guaranteed viscous friction of "
+       "each joint; the servo computes that of the handle for each pose; 0: unknown"},
+      {"axes", &Device::axes, within("", 3, 6), "3; or 6: it also rotates and displays torque"},
       {"turn_damping", &Device::turn_damping, within("N m s/rad", 1e-5, 10),
-       "of six axes: its own friction in turning that one is sure of, about each axis"},
-      {"max_torque", &Device::max_torque, within("N m", 1e-3, 100), "of six axes: it can show"},
+       "of six axes: guaranteed viscous friction of rotation, about each axis"},
+      {"max_torque", &Device::max_torque, within("N m", 1e-3, 100),
+       "of six axes: greatest torque that it can display"},
       {"turn_resolution", &Device::turn_resolution, within("rad", 0, 0.1),
        "of six axes: step of its angle sensors; 0: exact"},
       {"grab_button", &Device::grab_button, within("", 0, 31),
-       "its button, from 0, by which the hand holds bodies; see grab_stiffness of [hand]"},
+       "number of the button, from 0, that holds bodies; see grab_stiffness of [hand]"},
       {"probe", &Device::probes, probe_section(),
-       "of six axes: a place of the tool that touches, at most 8; remote hands touch the first. "
-       "None: the handle"},
+       "of six axes: a contact point of the tool, at most 8; remote hands touch the first; when "
+       "absent, the handle"},
   };
 }
 
@@ -297,43 +301,43 @@ std::vector<Row<Device>> servo_rows() {
   const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
   return {
       {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
-       "it can show; 0: as much as damping, rate and delay allow"},
-      {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},
+       "greatest stiffness that it can display; 0: as damping, rate and delay allow"},
+      {"max_speed", &Device::max_speed, within("m/s", 0.01, 100),
+       "faster motion switches the force off for a moment"},
       {"max_force_rate", &Device::max_force_rate, within("N/s", 0, 1e6),
-       "fastest growth and turning of its force, which falls as it likes; 0, and at most: what the "
-       "stiffest wall that it can show gives at 1 m/s"},
+       "greatest rate at which its force grows or rotates; its decrease is free; 0, and the upper "
+       "limit: the rate of the stiffest wall at 1 m/s"},
       {"received_power", &Device::received_power, within("W", 1e-3, 100),
-       "most that others put into its hand through their contacts, on average; what they give "
-       "beyond it waits, and a liar throws the hand no harder"},
+       "greatest average power of others on its hand through their contacts; more is delayed, and "
+       "false reports of energy cannot exceed it"},
       {"region_loan", in(&Device::regions, &RegionEnergyConfig::loan), within("J", 0, 1),
-       "most that is lent to springs, magnets, borders and constant forces of regions, all "
-       "together and until it is back; 0: the hand's motion has to pay for them"},
+       "greatest energy lent to springs, magnets, borders and constant forces of all regions "
+       "together, until it returns; 0: the hand's motion must supply it"},
       {"oscillation_power", in(&Device::regions, &RegionEnergyConfig::oscillation_power),
        within("W", 0, 10),
-       "most that oscillations of regions put into its hand, on average; beyond it they are "
-       "weaker"},
+       "greatest average power of oscillations of regions on its hand; above it they are weaker"},
       {"oscillation_energy", in(&Device::regions, &RegionEnergyConfig::oscillation_energy),
        within("J", 0, 1),
-       "most that oscillations of regions put in at once, beyond oscillation_power"},
+       "greatest energy of oscillations of regions at once, beyond oscillation_power"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),
        "step of its position sensors, along each of its axes; 0: exact"},
       {"stop_button", &Device::stop_button, declared("", 0, 31),
-       "number of its button that takes all forces of the program off, until it is pressed again; "
-       "absent: none does"},
+       "number of the button that switches all forces of the program off until it is pressed "
+       "again; when absent, none does"},
       {"scale", &Device::scale, within("", 0.01, 100),
-       "ways of the hand in S for one of the handle; its force and its stiffness in S are as much "
-       "smaller as keeps the power and the handle's own limits"},
+       "displacement of the hand in S per displacement of the handle; the power stays equal, so "
+       "forces in S are divided by it, and stiffness by its square"},
       {"left_handed", &Device::left_handed,
-       "its left and right change sides, as in a mirror along its y and z axes, forces and turns "
-       "with them"},
+       "swaps left and right: positions, forces and rotations are mirrored at the plane of its y "
+       "and z axes"},
       {"clutch_button", &Device::clutch_button, declared("", 0, 31),
-       "number of its button that lets the handle move without the hand, and without force, while "
-       "it is down; absent: none does"},
+       "number of the button that, while down, lets the handle move without the hand and without "
+       "force; when absent, none does"},
       {"rate", rate, within("Hz", kLeastRate, 10e3),
-       "of its servo; a device lets go after 10 ms without a force, which one missed period must "
-       "not bring about"},
+       "of its servo; at the least rate, one missed period stays below the 10 ms after which a "
+       "device drops its force"},
       {"delay", no_delay, within("s", 0, 0.1),
-       "until a force is at the handle; whole servo periods, rounded up"},
+       "from a command to its force at the handle, rounded up to whole servo periods"},
   };
 }
 

@@ -90,8 +90,9 @@ std::string unsensed_note(const SceneFile& scene) {
   }
   if (unsensed == 0) return {};
   return fmt::format(
-      "{} of {} entities {} farther than the radius of {:.4g} m from all that other peers have at "
-      "the start, the nearest {:.4g} m: nobody shows {} until they are nearer; [aoim] radius",
+      "{} of {} entities {} farther than [aoim] radius = {:.4g} m from all entities of other peers "
+      "at the start, the nearest {:.4g} m: no other peer shows {} at that distance; raise the "
+      "radius",
       unsensed, scene.entities.size(), unsensed == 1 ? "is" : "are", scene.aoim.radius, nearest,
       unsensed == 1 ? "it" : "them");
 }

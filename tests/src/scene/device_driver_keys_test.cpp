@@ -62,17 +62,17 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
 TEST(DeviceSection, RefusesKeysThatContradictAFalcon) {
   const std::string falcon = "driver = \"falcon\"\n";
   expect_refused({{"driver = \"falkon\"\n", "did you mean \"falcon\"?"},
-                  {falcon + "kind = \"pointer\"\n", "no pointer moves it"},
-                  {falcon + "resolution = \"10 um\"\n", "knows the steps"},
-                  {falcon + "rate = \"300 Hz\"\n", "400 Hz is enough"},
+                  {falcon + "kind = \"pointer\"\n", "so a pointer cannot"},
+                  {falcon + "resolution = \"10 um\"\n", "sets the resolution"},
+                  {falcon + "rate = \"300 Hz\"\n", "write 400 Hz or more"},
                   {falcon + "firmware = \"no_such_file\"\n", "no_such_file"},
-                  {"firmware = \"no_such_file\"\n", "only a Falcon has it"}});
+                  {"firmware = \"no_such_file\"\n", "only a Falcon has this key"}});
 }
 
 TEST(DeviceSection, APluginIsNamedByItsFile) {
   const std::string plugin = "driver = \"plugin\"\n";
-  expect_refused({{plugin, "name it with plugin = \"driver.so\""},
-                  {plugin + "plugin = \"drivers/\"\n", "name it with plugin = \"driver.so\""},
+  expect_refused({{plugin, "add plugin = \"driver.so\""},
+                  {plugin + "plugin = \"drivers/\"\n", "add plugin = \"driver.so\""},
                   {"plugin_options = \"x\"\n", "add driver = \"plugin\""}});
   EXPECT_EQ(refusal("[[device]]\n" + plugin + "plugin = \"no_such.so\"\n" + kOperator), "")
       << "it is not opened";
@@ -108,11 +108,11 @@ TEST(DeviceSection, RefusesAnEventDeviceWithMissingKeys) {
   for (const std::string key : {"travel", "full_force", "full_stiffness", "max_stiffness"}) {
     const std::size_t from = whole.find(key);
     expect_refused({{std::string(whole).erase(from, whole.find('\n', from) + 1 - from),
-                     "state '" + key + "'"}});
+                     "write '" + key + "'"}});
   }
-  expect_refused({{whole + "scale = 2\n", "take 'scale'"},
-                  {whole + "axes = 6\n", "take 'axes' out"},
-                  {whole + "kind = \"pointer\"\n", "no pointer moves it"},
+  expect_refused({{whole + "scale = 2\n", "remove 'scale'"},
+                  {whole + "axes = 6\n", "remove 'axes'"},
+                  {whole + "kind = \"pointer\"\n", "so a pointer cannot"},
                   {"driver = \"falcon\"\ntravel = \"0.2 m\"\n", "add driver = \"evdev\""}});
 }
 
@@ -164,22 +164,22 @@ TEST(DeviceSection, JointFrictionReplacesThatOfTheHandle) {
   EXPECT_NEAR(held.damping, (0.9 * 0.02 - 0.17 * 0.002) / (lever * lever), 1e-9);
   const std::string joints = "joint_damping = \"0.02 N m s/rad\"\n";
   expect_refused(
-      {{joints, "its driver knows no joints"},
-       {"driver = \"falcon\"\ndamping = \"1 N s/m\"\n" + joints, "friction is said twice"}});
+      {{joints, "its driver does not know the joints"},
+       {"driver = \"falcon\"\ndamping = \"1 N s/m\"\n" + joints, "both give the friction"}});
 }
 
 TEST(DeviceSection, RefusesKeysThatContradictAPolhem) {
   const std::string polhem = "driver = \"polhem\"\n";
   expect_refused(
       {{polhem + "axes = 6\n", "a Polhem has three axes"},
-       {polhem + "rate = \"300 Hz\"\n", "a Polhem is let go"},
-       {polhem + "kind = \"pointer\"\n", "a person holds a Polhem"},
-       {polhem + "firmware = \"x.bin\"\n", "only a Falcon has it"},
-       {polhem + "damping = 0.2\nupper_weight = \"0.5 N m\"\n", "costs 0.4 N s/m of damping"},
+       {polhem + "rate = \"300 Hz\"\n", "a Polhem drops its force"},
+       {polhem + "kind = \"pointer\"\n", "a person moves a Polhem"},
+       {polhem + "firmware = \"x.bin\"\n", "only a Falcon has this key"},
+       {polhem + "damping = 0.2\nupper_weight = \"0.5 N m\"\n", "uses 0.4 N s/m of damping"},
        {polhem + "joint_damping = 0.001\nupper_weight = \"0.5 N m\"\n",
-        "costs 0.001 N m s/rad of joint_damping"},
-       {"upper_weight = \"0.1 N m\"\n", "only a Polhem has it"},
-       {"fore_weight = \"0.1 N m\"\n", "only a Polhem has it"}});
+        "uses 0.001 N m s/rad of joint_damping"},
+       {"upper_weight = \"0.1 N m\"\n", "only a Polhem has this key"},
+       {"fore_weight = \"0.1 N m\"\n", "only a Polhem has this key"}});
 }
 
 TEST(DeviceSection, GivesASerialBoardItsLimits) {
@@ -212,12 +212,12 @@ TEST(DeviceSection, GivesASerialBoardItsLimits) {
 TEST(DeviceSection, RefusesKeysThatContradictASerialBoard) {
   const std::string serial = "driver = \"serial\"\n";
   const std::string wired = serial + "port = \"/dev/ttyACM0\"\n";
-  expect_refused({{serial, "name that with port = \"/dev/ttyACM0\""},
-                  {wired + "axes = 6\n", "take out axes = 6"},
+  expect_refused({{serial, "add port = \"/dev/ttyACM0\""},
+                  {wired + "axes = 6\n", "remove axes = 6"},
                   {wired + "rate = \"300 Hz\"\n", "after 6.5 ms"},
-                  {wired + "kind = \"pointer\"\n", "a person holds a serial board"},
-                  {"port = \"/dev/ttyACM0\"\n", "only a serial board has it"},
-                  {"baud = 9600\n", "only a serial board has it"}});
+                  {wired + "kind = \"pointer\"\n", "a person moves a serial board"},
+                  {"port = \"/dev/ttyACM0\"\n", "only a serial board has this key"},
+                  {"baud = 9600\n", "only a serial board has this key"}});
 }
 
 // Each host chooses its own device driver.

@@ -75,12 +75,11 @@ TEST(DeviceSection, NamesAPointerAndHowFarItReaches) {
 
 TEST(DeviceSection, RefusesPointersWithMovingOrUndampedOperators) {
   const std::string pointer = "[[device]]\nkind = \"pointer\"\n";
-  EXPECT_THAT(
-      refusal(pointer + "[[operator]]\nsweep = { from = [0, 0, 0], to = [1, 0, 0] }\n"),
-      HasSubstr("x.toml:2:8: a pointer moves the hand, and so would [[operator]] 1: give that "
-                "passive = true and the position where the hand starts"));
+  EXPECT_THAT(refusal(pointer + "[[operator]]\nsweep = { from = [0, 0, 0], to = [1, 0, 0] }\n"),
+              HasSubstr("x.toml:2:8: the pointer and [[operator]] 1 both move the hand: write "
+                        "passive = true and a start position there"));
   EXPECT_THAT(refusal(pointer + kOperator + "damping = 0\n"),
-              HasSubstr("x.toml:2:8: a pointer needs a grip with damping"));
+              HasSubstr("x.toml:2:8: the grip of a pointer needs damping"));
 }
 
 TEST(DeviceSection, SixAxisDeviceTurnsAToolOfProbes) {
@@ -109,17 +108,16 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
     return refusal("[[device]]\n" + lines + kOperator);
   };
   EXPECT_THAT(refused("[[device.probe]]\nposition = \"40 0 0 mm\"\n"),
-              HasSubstr("only a device that turns has 'probe': add axes = 6"));
-  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"),
-              HasSubstr("only a device that turns has 'max_torque'"));
+              HasSubstr("'probe' needs axes = 6: add it"));
+  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("'max_torque' needs axes = 6"));
   EXPECT_THAT(refused("axes = 4\n"),
               HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
-  EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));
+  EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping: set it above 0"));
   EXPECT_THAT(refused("axes = 6\nkind = \"pointer\"\n"), HasSubstr("a pointer moves three axes"));
   EXPECT_THAT(refused("axes = 6\ndriver = \"falcon\"\n"), HasSubstr("a Falcon has three axes"));
   std::string nine = "axes = 6\n";
   for (int i = 0; i < 9; ++i) nine += "[[device.probe]]\n";
-  EXPECT_THAT(refused(nine), HasSubstr("a tool has at most 8 probes, this one has 9"));
+  EXPECT_THAT(refused(nine), HasSubstr("a tool has at most 8 probes, and this one has 9"));
 }
 
 TEST(DeviceSection, MakesADeviceThatMovesByItself) {
@@ -138,11 +136,13 @@ TEST(DeviceSection, MakesADeviceThatMovesByItself) {
   };
   const std::string mass = "virtual_mass = \"2 kg\"\n";
   EXPECT_THAT(refused("bandwidth = \"30 Hz\"\n"), HasSubstr("add virtual_mass"));
-  EXPECT_THAT(refused(mass + "axes = 6\n"), HasSubstr("a virtual mass does not turn"));
-  EXPECT_THAT(refused(mass + "kind = \"pointer\"\n"), HasSubstr("a pointer holds a device"));
+  EXPECT_THAT(refused(mass + "axes = 6\n"), HasSubstr("a virtual mass has no rotation"));
+  EXPECT_THAT(refused(mass + "kind = \"pointer\"\n"),
+              HasSubstr("a pointer needs an impedance device"));
   EXPECT_THAT(refused(mass + "driver = \"falcon\"\n"), HasSubstr("only a simulated device"));
   EXPECT_THAT(refused(mass + "damping = 0\n"), HasSubstr("a virtual mass needs damping"));
-  EXPECT_THAT(refused(mass + "resolution = \"10 um\"\n"), HasSubstr("computed and exact"));
+  EXPECT_THAT(refused(mass + "resolution = \"10 um\"\n"),
+              HasSubstr("is exact: remove 'resolution'"));
 }
 
 // At any accepted rate: one period is missed and the next step is half a period late.
@@ -227,12 +227,13 @@ TEST(DeviceSection, RefusesInconsistentKeys) {
       {"delay = \"-1 ms\"\n", "it must be"},
       {"rate = nan\n", "it must be"},
       {"max_force = 0\n", "it must be"},
-      {"marking = \"TWELVE CHARS\"\n", "at most 11 fit"},
-      {"heading = 0\norientation = [0, 0, 0]\n", "x.toml:3:15: it is turned twice"},
+      {"marking = \"TWELVE CHARS\"\n", "use at most 11"},
+      {"heading = 0\norientation = [0, 0, 0]\n",
+       "x.toml:3:15: 'orientation' and heading, pitch or roll"},
       {"peer = 65\n", "it must be 1 to 64"},
       {"kind = \"mouse\"\n", "it needs one of simulated pointer"},
       {"kind = \"pointer\"\nreach = 0\n", "x.toml:3:9: 'reach' is 0 m; it must be 1 mm to 10 m"},
-      {"reach = 0.1\n", "x.toml:2:9: only a pointer has a reach: add kind = \"pointer\""},
+      {"reach = 0.1\n", "x.toml:2:9: 'reach' needs kind = \"pointer\": add it"},
   };
   for (const auto& [lines, words] : cases) {
     EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;

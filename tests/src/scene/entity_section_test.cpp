@@ -232,9 +232,10 @@ TEST_F(EntityTracks, AreRefusedWithTheirPlaceInBothFiles) {
 
 TEST(EntitySection, RefusesInconsistentKeys) {
   const std::pair<std::string, const char*> cases[] = {
-      {"marking = \"TWELVE CHARS\"\n", "x.toml:2:11: 'marking' has 12 letters; at most 11 fit"},
-      {"marking = \"MÜHLE\"\n", "x.toml:2:11: 'marking' has a letter that is not ASCII"},
-      {"marking = \"A\\tB\"\n", "not ASCII"},
+      {"marking = \"TWELVE CHARS\"\n", "x.toml:2:11: 'marking' has 12 letters; use at most 11"},
+      {"marking = \"MÜHLE\"\n",
+       "x.toml:2:11: 'marking' has a character that is not printable ASCII"},
+      {"marking = \"A\\tB\"\n", "not printable ASCII"},
       {"peer = 0\n", "x.toml:2:8: 'peer' is 0; it must be 1 to 64"},
       {"peer = 65\n", "it must be 1 to 64"},
       {"type = \"Platform Lnad\"\n",

@@ -80,7 +80,7 @@ TEST(SceneExtent, ReportsEntitiesBeyondTheRadius) {
   EXPECT_EQ(unsensed_note(parse_scene_file(two_trucks(30), "x.toml")), "");
   const std::string note =
       unsensed_note(parse_scene_file(two_trucks(30, "[aoim]\nradius = \"3 m\"\n"), "x.toml"));
-  EXPECT_THAT(note, testing::HasSubstr("2 of 2 entities are farther than the radius of 3 m"));
+  EXPECT_THAT(note, testing::HasSubstr("2 of 2 entities are farther than [aoim] radius = 3 m"));
   EXPECT_THAT(note, testing::HasSubstr("the nearest 30 m"));
   // With a single entity none can be out of range.
   EXPECT_EQ(unsensed_note(parse_scene_file("[scene]\nname = \"one\"\n[[entity]]\nmarking = \"A\"\n"

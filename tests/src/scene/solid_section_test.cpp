@@ -93,7 +93,7 @@ TEST(SolidSection, RefusesInvalidSolidsAtTheirPlace) {
               HasSubstr("is given twice, by sphere and part"));
   EXPECT_THAT(refusal(object + "part = [{sphere = \"1 cm\"}, {operation = \"intersect\", "
                                "sphere = \"1 cm\", position = \"1 0 0 m\"}]\n"),
-              HasSubstr("leave nothing solid"));
+              HasSubstr("leave no volume"));
   std::string many;
   for (int i = 0; i < 33; ++i) many += "{sphere = \"1 cm\"},";
   EXPECT_THAT(refusal(object + "part = [" + many + "]\n"), HasSubstr("more than 32 parts"));

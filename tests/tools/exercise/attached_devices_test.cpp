@@ -84,7 +84,7 @@ TEST(AttachedDevices, ShowHowToUseAPolhem) {
   denied.is_denied = true;
   EXPECT_THAT(judge_usb({denied}, {}, false).devices.at(0).remedy, HasSubstr("--install-rule"));
   EXPECT_THAT(judge_usb({denied}, {}, true).devices.at(0).remedy,
-              HasSubstr("over ssh it opens for the group plugdev alone"));
+              HasSubstr("over ssh, only the group plugdev may open it"));
 }
 
 haptics::EventDeviceSeen wheel() {
@@ -108,7 +108,7 @@ TEST(AttachedDevices, ShowHowToUseAnEventDevice) {
   EXPECT_THAT(device.problem, IsEmpty());
   haptics::EventDeviceSeen seen = wheel();
   seen.facts.has_springs = false;
-  EXPECT_THAT(said(seen).problem, HasSubstr("only forces that it is told"));
+  EXPECT_THAT(said(seen).problem, HasSubstr("it renders constant forces only"));
   seen = wheel();
   seen.remedy = "sudo reckon devices --install-rule";
   EXPECT_EQ(said(seen).problem, "this user may not open it");
@@ -145,8 +145,8 @@ TEST(AttachedDevices, ReportOtherProblems) {
     const std::array problems{UsbProblem{"falcon", sentence}};
     return judge_usb({falcon(true)}, problems, false).devices.at(0).problem;
   };
-  EXPECT_THAT(said("Falcon: it has no firmware, which it forgets"), HasSubstr("no firmware"));
-  EXPECT_THAT(said("Falcon: another program has it: Resource busy"), HasSubstr("another program"));
+  EXPECT_THAT(said("Falcon: it has lost its firmware"), HasSubstr("lost its firmware"));
+  EXPECT_THAT(said("Falcon: another program uses it: Resource busy"), HasSubstr("another program"));
   EXPECT_THAT(said("Falcon: not homed: pull the handle out"), HasSubstr("pull the handle out"));
 }
 
@@ -202,12 +202,12 @@ TEST(AttachedDevices, SerialLinesAreListedWithTheirProblems) {
   const auto lines = peer::look_at_serial_lines(folder.file("."));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].driver, "serial");
-  EXPECT_THAT(lines[0].problem, HasSubstr("another program has it: tools_tests, process " +
+  EXPECT_THAT(lines[0].problem, HasSubstr("another program uses it: tools_tests, process " +
                                           std::to_string(getpid())));
   EXPECT_EQ(lines[1].name, "b_free, " + name(free));
   EXPECT_THAT(lines[1].use, HasSubstr("reckon demo --device " + folder.file("./b_free")));
   EXPECT_THAT(lines[1].problem, IsEmpty());
-  EXPECT_THAT(lines[2].problem, HasSubstr("nothing behind it"));
+  EXPECT_THAT(lines[2].problem, HasSubstr("its link leads to no device"));
   EXPECT_THAT(peer::look_at_serial_lines(folder.file("none")), IsEmpty());
   for (const int descriptor : {near, used, free}) close(descriptor);
 }
