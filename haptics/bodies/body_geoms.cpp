@@ -31,15 +31,15 @@ dGeomID placed(const PlannedObject& object, dGeomID geom) {
 bool is_mesh(dGeomID geom) { return dGeomGetClass(geom) == dTriMeshClass; }
 
 void check_body(const PlannedObject& object, const SurfaceMesh& mesh) {
-  if (!mesh.report().closed)
-    refuse_body(object, "has a mass, but its mesh is open and encloses nothing: close it");
+  if (!mesh.report().closed) refuse_body(object, "has a mass, but its mesh is open: close it");
   if (mesh.triangles().size() > kMostTriangles) {
     refuse_body(object, "has a mass and " + std::to_string(mesh.triangles().size()) +
-                            " triangles, a body has at most " + std::to_string(kMostTriangles) +
-                            ": thin it");
+                            " triangles, but a body has at most " + std::to_string(kMostTriangles) +
+                            ": simplify it");
   }
   if (!mesh.origin().isZero(0.0))
-    refuse_body(object, "has a mass, and a mesh far from its file's origin: add centre = true");
+    refuse_body(object,
+                "has a mass, but its mesh is far from the origin of its file: add centre = true");
 }
 
 }  // namespace
@@ -93,14 +93,15 @@ std::shared_ptr<const SurfaceMesh> BodyGeoms::mesh_for(const PlannedObject& obje
   const auto* solid = std::get_if<std::shared_ptr<const ImplicitSolid>>(&object.shape);
   if (solid == nullptr || !has_bodies_) return nullptr;
   if (!(*solid)->bounds().sizes().allFinite()) {
-    if (object.is_body()) refuse_body(object, "has a mass, and no end: cut it");
+    if (object.is_body())
+      refuse_body(object, "has a mass, but is infinite: intersect it with a finite part");
     return nullptr;
   }
   std::shared_ptr<const SurfaceMesh>& mesh = solids_[solid->get()];
   try {
     if (!mesh) mesh = std::make_shared<const SurfaceMesh>(mesh_of(**solid, kCells));
   } catch (const std::invalid_argument&) {
-    refuse_body(object, "has walls that bodies would pass through: make them thicker than 1/" +
+    refuse_body(object, "has walls too thin to stop bodies: make them thicker than 1/" +
                             std::to_string(kCells) + " of its length");
   }
   return mesh;
@@ -129,7 +130,7 @@ dGeomID BodyGeoms::make(const PlannedObject& object, const SurfaceMesh* mesh) {
     return placed(object, dCreateCylinder(space_, cylinder->radius, cylinder->height));
   if (mesh != nullptr) return placed(object, make_mesh(*mesh));
   if (const auto* plane = std::get_if<HalfSpace>(&object.shape)) {
-    if (object.moves()) refuse_body(object, "is a plane, which cannot move: give a box");
+    if (object.moves()) refuse_body(object, "is a plane, which cannot move: use a box");
     const Vector3d normal = object.orientation * plane->normal();
     return dCreatePlane(space_, normal.x(), normal.y(), normal.z(), normal.dot(object.position));
   }

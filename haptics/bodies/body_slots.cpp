@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kEffort = 6e-4;  // cost of a step for a mesh corner, over a box
 constexpr const char* kTooManyCarried =
-    "the scene has more than 64 objects that move below time functions, and bodies beside them: "
-    "take the mass of the bodies out, or time functions";
+    "the scene has bodies and more than 64 objects below nodes that move by functions of time: "
+    "remove the mass of the bodies, or some of those objects";
 
 }  // namespace
 

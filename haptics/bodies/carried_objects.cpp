@@ -16,7 +16,7 @@ CarriedObjects::CarriedObjects(const EffectPlan& plan, const BodySolver& solver,
     if (solver.is_carried(slot)) carried_.push_back({slot, object, plan.objects()[object].origin});
   }
   if (!carried_.empty() && mover_ == nullptr)
-    throw std::invalid_argument("the scene has objects that are carried, which need a mover");
+    throw std::invalid_argument("objects below moving nodes need a mover");
 }
 
 void CarriedObjects::see(std::chrono::nanoseconds now) noexcept {

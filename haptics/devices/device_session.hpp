@@ -84,7 +84,7 @@ class DeviceSession {
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " ms";
   }
   /// Suffix of the notice of a loss.
-  static constexpr const char* kIsTakenUpAgain = "; it is taken up again as soon as it is there";
+  static constexpr const char* kIsTakenUpAgain = "; it reconnects automatically";
 
  private:
   SteadyTime time_;

@@ -49,11 +49,12 @@ Eigen::Vector3d slope(const std::vector<double>& t, const std::vector<Eigen::Vec
 HandTrace::HandTrace(std::vector<double> times, std::vector<Eigen::Vector3d> positions,
                      const HandTraceOptions& options) {
   if (times.empty() || times.size() != positions.size()) {
-    throw std::invalid_argument("hand trace: needs as many times as positions, at least one");
+    throw std::invalid_argument(
+        "hand trace: needs one time for each position, and at least one position");
   }
   const auto stuck =
       std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(b > a); });
-  if (stuck != times.end()) throw std::invalid_argument("hand trace: times must grow");
+  if (stuck != times.end()) throw std::invalid_argument("hand trace: times must increase");
   build(times, positions, options);
 }
 

@@ -16,7 +16,7 @@ MappedDevice::MappedDevice(HapticDevice& device, const HandMapping& mapping)
     throw std::invalid_argument("the scale of a device must be above 0, got " +
                                 std::to_string(mapping.scale));
   if (mapping.clutch_button && (*mapping.clutch_button < 0 || *mapping.clutch_button > 31))
-    throw std::invalid_argument("the button of a clutch is one of 0 to 31, got " +
+    throw std::invalid_argument("the clutch button must be 0 to 31, got " +
                                 std::to_string(*mapping.clutch_button));
 }
 

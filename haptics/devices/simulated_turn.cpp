@@ -34,15 +34,16 @@ void require_of_simulated(bool good, const char* what, double value) {
 SimulatedTurn::SimulatedTurn(const SimulatedTurnConfig& config)
     : config_(config), orientation_(config.start.normalized()) {
   require_of_simulated(config.inertia > 0, "inertia must be above 0 kg m^2", config.inertia);
-  require_of_simulated(config.damping > 0, "damping of a turn must be above 0 N m s/rad",
+  require_of_simulated(config.damping > 0, "damping of rotation must be above 0 N m s/rad",
                        config.damping);
   require_of_simulated(config.hand_stiffness >= 0,
-                       "hand stiffness of a turn must be 0 or more N m/rad", config.hand_stiffness);
+                       "rotational hand stiffness must be 0 or more N m/rad",
+                       config.hand_stiffness);
   require_of_simulated(config.hand_damping >= 0,
-                       "hand damping of a turn must be 0 or more N m s/rad", config.hand_damping);
+                       "rotational hand damping must be 0 or more N m s/rad", config.hand_damping);
   require_of_simulated(config.max_torque > 0, "largest torque must be above 0 N m",
                        config.max_torque);
-  require_of_simulated(config.resolution >= 0, "resolution of angles must be 0 or more rad",
+  require_of_simulated(config.resolution >= 0, "angular resolution must be 0 or more rad",
                        config.resolution);
 }
 

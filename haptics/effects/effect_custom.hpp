@@ -182,7 +182,7 @@ template <class Effect>
 class CustomEffectOf final : public CustomObjectEffect, private CheckedEffect<Effect> {
  public:
   CustomEffectOf() : CustomObjectEffect(std::type_identity<Effect>{}) {
-    static_assert(!AlwaysThere<Effect>, "a program's effect is there where a scene declares it");
+    static_assert(!AlwaysThere<Effect>, "a custom effect applies where a scene declares it");
   }
 
   [[nodiscard]] EffectHookSet hooks() const noexcept override { return kHooks<Effect>; }

@@ -41,13 +41,13 @@ struct CheckedEffect {
                 "kParameters, parameters() and a constructor from its Parameters, and owns no "
                 "memory (std::vector, std::string) unless copies share it (kSharesMemory): see "
                 "DescribedEffect in effect_hooks.hpp");
-  static_assert(HookedEffect<Effect>,
-                "an effect has a hook, else nothing would simulate it: cone(), or spring_force() "
-                "with stored_energy() and stiffness(), or force() with damping(); each noexcept. "
-                "Is one misspelt? See effect_hooks.hpp");
+  static_assert(
+      HookedEffect<Effect>,
+      "an effect needs a hook: cone(), or spring_force() with stored_energy() and stiffness(), or "
+      "force() with damping(); each noexcept. Is one misspelt? See effect_hooks.hpp");
   static_assert(WholeHooks<Effect>,
-                "a hook of this effect is there by half, or its types or noexcept differ from "
-                "those in effect_hooks.hpp");
+                "a hook of this effect is incomplete, or its types or noexcept differ from those "
+                "in effect_hooks.hpp");
   static constexpr bool kSpring = StoresEnergy<Effect> && AlwaysThere<Effect>;
 };
 
@@ -55,6 +55,6 @@ static_assert(
     []<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
       return (CheckedEffect<Effects>::kSpring || ...);
     }(std::type_identity<EffectTypes>{}),
-    "whatever can be touched has a spring: one effect that stores energy is kAlways");
+    "every touchable surface needs a spring: one effect that stores energy must be kAlways");
 
 }  // namespace reckon::haptics

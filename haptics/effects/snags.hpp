@@ -57,9 +57,9 @@ class Snags : public CountedEffect<Snags> {
         cone_(snagging.friction, snagging.friction) {
     check_parameters(kParameters, snagging);
     if (snagging.seed != std::floor(snagging.seed))
-      throw std::invalid_argument("snags: seed is no whole number");
+      throw std::invalid_argument("snags: seed must be a whole number");
     if (!(2.0 * snagging.reach < cell_))
-      throw std::invalid_argument("snags: they reach each other; lower the reach or the density");
+      throw std::invalid_argument("snags: their reaches overlap; lower the reach or the density");
   }
 
   /// The snag that reaches this position, as a number that is unique nearby; 0: none.

@@ -10,24 +10,25 @@ namespace {
 
 void require(double value, const char* key, const char* what) {
   if (value > 0) return;
-  throw std::invalid_argument(std::string("no event device tells ") + what + ": state '" + key +
-                              "' in its [[device]]");
+  throw std::invalid_argument(std::string("an event device does not report ") + what + ": write '" +
+                              key + "' in its [[device]]");
 }
 
 }  // namespace
 
 DeviceLimits evdev_limits(const EvdevSettings& settings) {
   const EffectScale& scale = settings.scale;
-  require(scale.travel, "travel", "how far its handle goes from one end to the other");
-  require(scale.full_force, "full_force", "the force at its greatest level");
-  require(scale.full_stiffness, "full_stiffness", "the stiffness at its greatest coefficient");
-  require(settings.max_stiffness, "max_stiffness", "the stiffness that it shows without shaking");
+  require(scale.travel, "travel", "the travel of its handle from end to end");
+  require(scale.full_force, "full_force", "its force at the greatest level");
+  require(scale.full_stiffness, "full_stiffness", "its stiffness at the greatest coefficient");
+  require(settings.max_stiffness, "max_stiffness",
+          "the stiffness that it renders without oscillation");
   if (settings.axes != 1 && settings.axes != 2)
     throw std::invalid_argument(
-        "an event device is driven by 1 or 2 axes: say one of them in "
-        "'event_axes' of its [[device]]");
+        "an event device has 1 or 2 axes: write 1 or 2 as 'event_axes' of its [[device]]");
   if (!(settings.max_force > 0) || !(settings.max_speed > 0) || settings.chain.count() <= 0)
-    throw std::invalid_argument("max_force, max_speed and delay of an event device are above 0");
+    throw std::invalid_argument(
+        "max_force, max_speed and delay of an event device must be above 0");
   DeviceLimits limits;
   limits.kind = DeviceKind::coefficients;
   limits.axes = settings.axes;

@@ -16,8 +16,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
-constexpr const char* kPulled =
-    "was unplugged while it was set up; it is taken up again as soon as it is there";
+constexpr const char* kPulled = "was unplugged during set-up; it reconnects automatically";
 constexpr std::int32_t kFullGain = 0xFFFF;
 // No reading is taken during a call, and one older than kWatchdog is invalid.
 constexpr nanoseconds kLongestCall = HapticDevice::kWatchdog - std::chrono::milliseconds(2);
@@ -26,7 +25,7 @@ constexpr nanoseconds kLongestCall = HapticDevice::kWatchdog - std::chrono::mill
 std::string refusal_of(int result) {
   const std::string error = std::strerror(-result);
   const bool is_silent = result == -EPROTO || result == -EILSEQ || result == -ETIME;
-  return is_silent ? "does not answer (" + error + "), as one that was unplugged"
+  return is_silent ? "does not answer (" + error + "), as if unplugged"
                    : "refuses an effect (" + error + ")";
 }
 
@@ -108,14 +107,13 @@ std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
     return std::to_string(std::chrono::ceil<microseconds>(time).count()) + " us";
   };
   if (calls_->waits_for_device(file) && kReports * interval_ > kLongestCall) {
-    return "it takes a report each " + text(interval_) +
-           ", and each would be waited for while nothing is read: only Linux' own driver "
-           "(CONFIG_HID_PID) can drive it";
+    return "it accepts a report every " + text(interval_) +
+           ", and nothing is read while each is sent: use the driver of Linux (CONFIG_HID_PID)";
   }
   const nanoseconds change = age_ + kTurns * kReports * interval_ + WallEffects::kReaction;
   if (change <= settings_.chain) return {};
-  return "it sends a report each " + text(age_ / kTurns) + " and takes one each " +
-         text(interval_) + ", and a change is two: state a delay of " +
+  return "it sends a report every " + text(age_ / kTurns) + " and accepts one every " +
+         text(interval_) + ", and a change takes two: write a delay of " +
          std::to_string(std::chrono::ceil<std::chrono::milliseconds>(change).count()) +
          " ms or more in its [[device]]";
 }
@@ -150,14 +148,14 @@ void EvdevLoop::detach(const std::string& why) {
   clear_problem();
   retry_after(kRetry);
   publish(now());
-  tell(why + ": it shows nothing" + kIsTakenUpAgain);
+  tell(why + ": it renders nothing" + kIsTakenUpAgain);
 }
 
 // A program that has grabbed the device (EVIOCGRAB) receives all its events, and this one none.
 std::string EvdevLoop::set_up() {
   int result = calls_->control(file_, EVIOCGRAB, reinterpret_cast<void*>(std::intptr_t{1}));
-  if (result == -EBUSY) return "another program has it for itself: end that one";
-  if (result < 0) return std::string("it cannot be taken: ") + std::strerror(-result);
+  if (result == -EBUSY) return "another program has grabbed it: end that program";
+  if (result < 0) return std::string("it cannot be grabbed: ") + std::strerror(-result);
   const auto set = [&](std::uint16_t code, std::int32_t value) {
     input_event event{};
     event.type = EV_FF;
@@ -169,12 +167,12 @@ std::string EvdevLoop::set_up() {
   if (result >= 0 && facts_.has_gain) result = set(FF_GAIN, kFullGain);
   if (result < 0) return std::string("its gain cannot be set: ") + std::strerror(-result);
   result = walls_.begin(file_, interval_, age_);
-  if (result == -ENOSPC) return "it has no room for two effects: end what else uses it";
-  if (result < 0) return std::string("it takes no spring: ") + std::strerror(-result);
+  if (result == -ENOSPC) return "it has no room for two effects: end other programs that use it";
+  if (result < 0) return std::string("it accepts no spring effect: ") + std::strerror(-result);
   result = walls_.play();
-  if (result < 0) return std::string("it plays no spring: ") + std::strerror(-result);
+  if (result < 0) return std::string("it plays no spring effect: ") + std::strerror(-result);
   state_ = EventState(facts_.buttons);
-  if (!ask_state(*calls_, file_, state_)) return "it does not tell where it is";
+  if (!ask_state(*calls_, file_, state_)) return "it does not report its position";
   return {};
 }
 
@@ -195,7 +193,7 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
   std::string fault;
   if (!is_meant || !facts) {
     fault = calls_->fault(file);
-    fault = !is_meant ? "none" : path + (fault.empty() ? " gives no force feedback" : ": " + fault);
+    fault = !is_meant ? "none" : path + (fault.empty() ? " has no force feedback" : ": " + fault);
   } else {
     fault = fault_of(*facts, settings_.axes);
     if (fault.empty()) fault = learn_intervals(path, file);
@@ -230,8 +228,8 @@ std::string EvdevLoop::open() {
   }
   if (!nearest.empty()) return nearest;
   return settings_.event.empty()
-             ? "no device with force feedback is attached (reckon devices tells what there is)"
-             : "no device whose name has '" + settings_.event + "' is attached";
+             ? "no device with force feedback is attached (`reckon devices` lists devices)"
+             : "no device with a name that contains '" + settings_.event + "' is attached";
 }
 
 void EvdevLoop::opened(nanoseconds now, std::string& problem) {

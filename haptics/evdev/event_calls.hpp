@@ -15,8 +15,8 @@ namespace reckon::haptics {
 
 /// Remedy for a user without permission to open a device.
 inline constexpr const char* kEventRemedy =
-    "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
-    "and log in again";
+    "sudo reckon devices --install-rule, then plug it in again; or sudo usermod -aG input $USER, "
+    "then log in again";
 
 /// Intervals between reports, from a device's USB endpoints; 0: unknown.
 struct ReportIntervals {

@@ -73,22 +73,22 @@ std::string fault_of(const EventFacts& facts, int axes) {
   constexpr int kEffects = 2;
   if (!facts.has_springs) {
     return facts.has_constant_forces
-               ? "it renders no springs, only forces that it is told: they come as late as it is "
-                 "polled, so no wall of them is sure, and Reckon does not use them"
-               : "it renders no springs (FF_SPRING), which walls are made of: it shakes at most";
+               ? "it renders constant forces only, no springs (FF_SPRING): polling makes them too "
+                 "late for a passive wall, so Reckon does not use it"
+               : "it renders no springs (FF_SPRING), which walls need";
   }
   if (facts.most_effects < kEffects)
     return "it holds " + std::to_string(facts.most_effects) +
-           " effects at once, and walls on both sides are two";
+           " effects at once, and walls on both sides need two";
   if (!facts.fault.empty()) return facts.fault;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes); ++axis) {
     const char* const name = axis == 0 ? "ABS_X" : "ABS_Y";
     if (!facts.axes[axis]) {
       return std::string("it has no axis ") + name +
-             (axis == 0 ? "" : ": say event_axes = 1 in its [[device]]");
+             (axis == 0 ? "" : ": write event_axes = 1 in its [[device]]");
     }
     if (facts.axes[axis]->maximum <= facts.axes[axis]->minimum)
-      return std::string("it states no range of ") + name + ", so that its places mean nothing";
+      return std::string("it reports no range of ") + name + ", so its position is unknown";
   }
   return {};
 }

@@ -101,11 +101,11 @@ FalconFirmware FalconFirmware::load(const std::string& file) {
     read = read_input_file(file, 4 * kMost);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(file + ": cannot be read (" + error.what() +
-                             "); name the file of the Falcon's firmware");
+                             "); give the Falcon's firmware file");
   }
   if (read.size() < kLeast || read.size() > kMost) {
-    throw std::runtime_error(file + ": is no firmware of a Falcon, which has 1,000 to 262,144 " +
-                             "octets; it is part of the drivers of Novint");
+    throw std::runtime_error(file + ": not Falcon firmware, which has 1,000 to 262,144 " +
+                             "octets; it is part of Novint's drivers");
   }
   firmware.octets.assign(read.begin(), read.end());
   return firmware;
@@ -127,21 +127,21 @@ std::string FalconDriver::set_up(UsbSetUp& desk) {
   const int timer = latency_timer(line);
   if (timer != kRunLatency) {
     return "the latency timer of its FTDI chip reads " + std::to_string(timer) +
-           " ms where 1 ms was set: forces would come too late, so that it is not used";
+           " ms instead of 1 ms: forces would be late, so the device is not used";
   }
   if (answers(desk)) return {};
   if (firmware_.octets.empty()) {
-    return "it has no firmware, which it forgets without power: name the file of it (firmware = "
-           "\"FILE\" of its [[device]], or --firmware FILE)";
+    return "it has lost its firmware, as after a power cut: give its file (firmware = \"FILE\" in "
+           "its [[device]], or --firmware FILE)";
   }
   const std::string problem = load_firmware(desk);
   if (!problem.empty()) return problem;
   if (set_line(line, false) && latency_timer(line) == kRunLatency && answers(desk)) {
     desk.tell("firmware loaded, " + std::to_string(firmware_.octets.size()) +
-              " octets; no checksum of it is known, its echo was compared");
+              " octets; checked by its echo, because no checksum is known");
     return {};
   }
-  return "it does not answer with the firmware that was loaded: is the file that of a Falcon?";
+  return "it does not answer with the loaded firmware: is the file Falcon firmware?";
 }
 
 // Sends a zero force. @return whether a report answers it
@@ -163,7 +163,7 @@ bool FalconDriver::answers(UsbSetUp& desk) {
 
 std::string FalconDriver::load_firmware(UsbSetUp& desk) {
   const std::string unheard =
-      "it does not take the firmware: unplug its power supply for ten seconds";
+      "it does not accept the firmware: unplug its power supply for ten seconds";
   UsbLine& line = desk.line();
   if (!set_line(line, true)) return kRefusal;
   line.clear();
@@ -183,7 +183,7 @@ std::string FalconDriver::load_firmware(UsbSetUp& desk) {
     line.clear();
     if (!desk.sends(piece)) return unheard;
     if (!hears(desk, piece, kEchoTime)) {
-      return "what it echoes is not the firmware that was sent, from octet " + std::to_string(at) +
+      return "its echo differs from the firmware sent, from octet " + std::to_string(at) +
              " on: unplug its power supply for ten seconds";
     }
   }

@@ -115,12 +115,12 @@ GreyImage heights_of(const HeightsShape& shape) {
   if (picture.pixels.size() > kMostFieldPixels)
     throw std::invalid_argument(shape.file.string() + ": has " +
                                 std::to_string(picture.pixels.size()) +
-                                " pixels, and a solid takes 1048576: scale the picture down");
+                                " pixels, and a solid allows 1048576: scale the picture down");
   try {
     LoadBudget::take(LoadWork::triangles, 2 * picture.pixels.size());
   } catch (const LoadLimitError& error) {
-    throw std::invalid_argument(shape.file.string() + ": with this picture there are " +
-                                error.what());
+    throw std::invalid_argument(shape.file.string() +
+                                ": this picture exceeds a limit: " + error.what());
   }
   return picture;
 }

@@ -46,7 +46,7 @@ struct HeightMap::Weights {
 HeightMap::HeightMap(std::size_t columns, std::size_t rows, std::vector<float> heights)
     : columns_(columns), rows_(rows), heights_(std::move(heights)) {
   if (columns < kLeast || rows < kLeast || heights_.size() != columns * rows)
-    throw std::invalid_argument("a height map has at least 4 x 4 heights, one for each place");
+    throw std::invalid_argument("a height map needs at least 4 x 4 heights, one for each point");
 }
 
 // Each height is the mean of a random one and of its eight neighbours, spread over [0, 1] again.

@@ -62,13 +62,13 @@ ConeFunction function_of(const ConeShape& shape) {
   const bool radii =
       shape.radius >= 0.0 && shape.top_radius >= 0.0 && is_length(shape.radius + shape.top_radius);
   need(radii && is_length(shape.height),
-       "cone: height must be finite and above 0 m, and so must be one of radius and top_radius");
+       "cone: height must be finite and above 0 m, and so must radius or top_radius");
   return {shape.radius, shape.top_radius, 0.5 * shape.height};
 }
 
 TorusFunction function_of(const TorusShape& shape) {
   need(is_length(shape.tube) && std::isfinite(shape.radius) && shape.radius > shape.tube,
-       "torus: tube must be above 0 m, and radius, of the middle of the tube, above tube");
+       "torus: tube must be above 0 m, and radius (to the centre of the tube) above tube");
   return {shape.radius, shape.tube};
 }
 
@@ -81,7 +81,7 @@ EllipsoidFunction function_of(const EllipsoidShape& shape) {
 SignedFunction function_of(const CsgPart& part) {
   need(part.position.allFinite() && part.orientation.coeffs().allFinite() &&
            part.orientation.norm() > 0.0,
-       "the place of a part must be finite, with an orientation that is not zero");
+       "the pose of a part must be finite, with a non-zero orientation");
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
   place.linear() = part.orientation.normalized().toRotationMatrix();
   place.translation() = part.position;
@@ -104,7 +104,7 @@ SignedFunction joined(const SignedFunction& before, const CsgPart& part) {
 
 SignedFunction function_of(const CsgShape& shape) {
   need(!shape.parts.empty() && shape.parts.front().operation == CsgOperation::add,
-       "a solid needs parts, the first of which is added");
+       "a solid needs parts, and the first one must be an addition");
   SignedFunction whole = function_of(shape.parts.front());
   for (std::size_t i = 1; i < shape.parts.size(); ++i) whole = joined(whole, shape.parts[i]);
   return whole;
@@ -119,7 +119,7 @@ std::string named(const CsgShape& shape) {
 
 ImplicitSolid::ImplicitSolid(SignedFunction function, std::string what)
     : function_(std::move(function)), what_(std::move(what)), cut_(function_.bounds()) {
-  need(!cut_.isEmpty(), "its parts leave nothing solid; see what is intersected");
+  need(!cut_.isEmpty(), "its parts leave no volume; check its intersections");
   if (cut_.sizes().allFinite()) size_ = cut_.sizes().norm();
   clearance_ = std::max(kLeastClearance, kImplicitClearance * size_);
   const Vector3d room = Vector3d::Constant(kCutRoom * size_);

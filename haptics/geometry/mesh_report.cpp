@@ -47,15 +47,15 @@ std::string place_text(const MeshReport& report, const MeshFinding& finding) {
 void note_size(const MeshReport& report, std::vector<std::string>& notes) {
   const double size = report.extent.norm();
   if (size > kLargest) {
-    notes.push_back("is " + length_text(size) +
-                    " large, where a hand reaches about 1 m: if it is drawn in millimetres, write "
-                    "scale_to = \"" +
-                    length_text(1e-3 * size) + "\"");
+    notes.push_back(
+        "is " + length_text(size) +
+        " large, and a hand reaches about 1 m: if its unit is the millimetre, write scale_to = \"" +
+        length_text(1e-3 * size) + "\"");
   }
   if (size < kSmallest) {
-    notes.push_back("is only " + length_text(size) +
-                    " large, too small to be felt: write scale_to with the diagonal that you mean, "
-                    "as \"200 mm\"");
+    notes.push_back(
+        "is only " + length_text(size) +
+        " large, too small to feel: write the intended diagonal as scale_to, such as \"200 mm\"");
   }
 }
 
@@ -63,36 +63,34 @@ void note_octets(const MeshReport& report, std::vector<std::string>& notes) {
   if (report.octets_behind == 0) return;
   notes.push_back(counted(report.octets_behind, "octet", "octets") + " behind the " +
                   counted(report.faces, "face", "faces") +
-                  " that the file counts were not read; write it again if faces are missing");
+                  " of the file's count were not read; export it again if faces are missing");
 }
 
 void note_drops(const MeshReport& report, std::vector<std::string>& notes) {
   if (const MeshFinding& found = report.dropped_degenerate; found.count > 0) {
     notes.push_back(
         counted(found.count, "triangle without area was", "triangles without area were") +
-        " dropped" + place_text(report, found) + "; neighbours cover the place");
+        " dropped" + place_text(report, found) + "; neighbours cover the gap");
   }
   if (const MeshFinding& found = report.dropped_duplicates; found.count > 0) {
     notes.push_back(counted(found.count, "triangle was", "triangles were") +
-                    " dropped that had the corners of another" + place_text(report, found));
+                    " dropped, because another has the same corners" + place_text(report, found));
   }
 }
 
 void note_sides(const MeshReport& report, std::vector<std::string>& notes) {
   if (const MeshFinding& found = report.turned; found.count > 0) {
     notes.push_back(counted(found.count, "triangle", "triangles") +
-                    " ran against the neighbours and " + (found.count == 1 ? "was" : "were") +
-                    " turned" + place_text(report, found));
+                    " had the opposite orientation of the neighbours and " +
+                    (found.count == 1 ? "was" : "were") + " turned" + place_text(report, found));
   }
   if (report.inward_pieces > 0) {
     notes.push_back(std::to_string(report.inward_pieces) + " of " +
-                    counted(report.pieces, "piece", "pieces") +
-                    " faced inwards and was turned outwards");
+                    counted(report.pieces, "piece", "pieces") + " faced inwards; turned outwards");
   }
   if (report.one_sided_edges > 0) {
-    notes.push_back(
-        "has no outside that all triangles agree on, as a Moebius strip: they differ at " +
-        counted(report.one_sided_edges, "edge", "edges") + "; both sides are felt");
+    notes.push_back("has no consistent outside, like a Moebius strip: triangles disagree at " +
+                    counted(report.one_sided_edges, "edge", "edges") + "; both sides are felt");
   }
 }
 
@@ -102,18 +100,17 @@ void note_openings(const MeshReport& report, std::vector<std::string>& notes) {
         "is open: " + counted(found.count, "edge", "edges") + " of one triangle only";
     if (report.holes > 0) text += ", round " + counted(report.holes, "hole", "holes");
     notes.push_back(text + place_text(report, found) +
-                    "; both sides are felt and nothing counts as inside; close it for a solid");
+                    "; both sides are felt, and it has no inside; close it to make it solid");
   }
   if (const MeshFinding& found = report.non_manifold_edges; found.count > 0) {
-    notes.push_back(
-        "has " + counted(found.count, "edge", "edges") + " of three or more triangles" +
-        place_text(report, found) +
-        "; all are felt, from both sides, and nothing counts as inside; part the pieces "
-        "that meet there for a solid");
+    notes.push_back("has " + counted(found.count, "edge", "edges") + " of three or more triangles" +
+                    place_text(report, found) +
+                    "; all are felt from both sides, and it has no inside; separate the pieces "
+                    "that meet there to make it solid");
   }
   if (const MeshFinding& found = report.non_manifold_vertices; found.count > 0) {
     notes.push_back("has " + counted(found.count, "corner", "corners") +
-                    " where surfaces meet in a point only" + place_text(report, found) +
+                    " where surfaces meet in one point only" + place_text(report, found) +
                     "; they are felt as drawn");
   }
 }

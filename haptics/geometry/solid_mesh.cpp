@@ -158,7 +158,7 @@ class Contour {
 }  // namespace
 
 SurfaceMesh mesh_of(const ImplicitSolid& solid, int cells) {
-  if (!solid.bounds().sizes().allFinite()) throw std::invalid_argument("has no end");
+  if (!solid.bounds().sizes().allFinite()) throw std::invalid_argument("is infinite");
   for (const int more : kMoreCells) {
     SurfaceMesh mesh = Contour(solid, std::clamp(cells, 4, 256) + more).mesh();
     if (mesh.report().closed) return mesh;

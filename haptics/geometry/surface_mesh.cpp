@@ -29,11 +29,12 @@ constexpr double kAhead = 0.5;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
-    if (!v.allFinite()) throw std::runtime_error("a vertex is not finite; mend the mesh");
+    if (!v.allFinite()) throw std::runtime_error("a vertex is not finite; repair the mesh");
   }
   for (const Index3& t : triangles) {
     if (*std::max_element(t.begin(), t.end()) >= vertices.size()) {
-      throw std::runtime_error("a triangle names a vertex that does not exist; mend the mesh");
+      throw std::runtime_error(
+          "a triangle refers to a vertex that does not exist; repair the mesh");
     }
   }
 }
@@ -74,7 +75,7 @@ void drop_thin(TriangleSoup& soup, double thinnest, MeshReport& report) {
 std::runtime_error no_triangle(const MeshReport& report) {
   if (report.faces == 0) return std::runtime_error("has no triangle; give a mesh with faces");
   return std::runtime_error("has no usable triangle: of " + std::to_string(report.faces) +
-                            " faces all are without area; give a mesh with faces");
+                            " faces, none has an area; give a mesh with faces");
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ void cut_face(const MeshShape& shape, const MeshFile& file, const FileFace& face
     cut_polygon(file.vertices, file.corners_of(face), triangles);
   } catch (const LoadLimitError& error) {
     throw mesh_error(shape, std::string(file.place_word) + " " + std::to_string(face.place) +
-                                ": with this face of " + std::to_string(face.count) +
-                                " corners, there are " + error.what());
+                                ": with the face of " + std::to_string(face.count) +
+                                " corners, the scene exceeds a limit: " + error.what());
   }
 }
 

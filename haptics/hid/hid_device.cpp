@@ -54,10 +54,9 @@ bool HidDevice::says_where() const noexcept {
 std::string HidDevice::fault() const {
   if (!reports_.fault().empty()) return reports_.fault();
   if (!has_room_of_its_own_)
-    return "it wants its effects at addresses that the host chooses (no Device Managed Pool), and "
-           "Reckon chooses none";
-  if (!says_where())
-    return "it does not say where it is before it moves: move it, and it is tried again";
+    return "it needs a host that manages its effect memory (no Device Managed Pool), and Reckon "
+           "does not";
+  if (!says_where()) return "it reports no position before it moves: move it";
   return {};
 }
 

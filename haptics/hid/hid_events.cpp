@@ -167,7 +167,7 @@ class HidEvents final : public EventCalls {
   }
   std::string denied_remedy(const std::string& path) override {
     if (!is_ours(path)) return events_->denied_remedy(path);
-    return "sudo reckon devices --install-rule while it is plugged in, and plug it in again";
+    return "sudo reckon devices --install-rule while it is attached, then plug it in again";
   }
   int open(const std::string& path) override {
     if (!is_ours(path)) return events_->open(path);

@@ -219,22 +219,22 @@ void PidReports::find_rooms(const Finder& finder) {
 
 std::string PidReports::fault_of() const {
   const auto lacks = [](const char* what) {
-    return std::string("its reports have no ") + what + ", without which no wall of it is sure";
+    return std::string("its reports have no ") + what + ", which walls need";
   };
   for (const Form* const form : std::initializer_list<const Form*>{
            &place_forms_[0], &place_forms_[1], &create_, &load_, &pool_, &effect_, &condition_,
            &operation_, &free_, &control_, &gain_}) {
-    if (form->octets > 0 && form->number == 0) return "its reports have no numbers";
+    if (form->octets > 0 && form->number == 0) return "its reports have no report IDs";
     if (form->octets > HidReport::kMost) return "one of its reports is longer than 256 octets";
   }
   if (!load_.block || !load_.done)
-    return lacks("answer to the wish for an effect (PID Block Load)");
+    return lacks("answer to the creation of an effect (PID Block Load)");
   if (!effect_.block || !effect_.spring || !condition_.block || !operation_.block)
-    return lacks("number of an effect (Effect Block Index) or no kind of it");
+    return lacks("number (Effect Block Index) or type of an effect");
   if (!effect_.length || ticks_of(kEffectLength, *effect_.length) < 1)
     return lacks("length of an effect (Duration) of 60 ms");
   if (!condition_.at || !has_both_signs(*condition_.at))
-    return lacks("middle of a spring (CP Offset) on both sides");
+    return lacks("centre of a spring (CP Offset) on both sides");
   if (!condition_.above || !condition_.below || condition_.above->most < 1 ||
       condition_.below->most < 1)
     return lacks("coefficient of each side of a spring");

@@ -26,8 +26,8 @@ struct PngImage {
   ~PngImage() { png_image_free(&png); }
 
   [[noreturn]] void refuse() const {
-    throw std::invalid_argument(std::string("is no PNG picture that can be read (") + png.message +
-                                "); write it again");
+    throw std::invalid_argument(std::string("is not a readable PNG picture (") + png.message +
+                                "); export it again");
   }
 };
 
@@ -60,7 +60,7 @@ GreyImage read_png(std::string_view bytes) {
 std::string read_octets(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw std::invalid_argument("is no file; give the path relative to the scene file");
+    throw std::invalid_argument("does not exist; give the path relative to the scene file");
   return read_input_file(file, kMostImageOctets);
 }
 

@@ -34,7 +34,7 @@ class PgmNumbers {
   /// Data after the single blank that ends the header.
   [[nodiscard]] std::string_view raster() const {
     const bool parted = !rest_.empty() && kBlanks.find(rest_.front()) != std::string_view::npos;
-    if (!parted) refuse("has no blank after its greatest value; write the picture again");
+    if (!parted) refuse("has no blank after its greatest value; export the picture again");
     return rest_.substr(1);
   }
   [[nodiscard]] std::size_t left() const { return rest_.size(); }
@@ -54,21 +54,21 @@ class PgmNumbers {
 
 std::uint32_t header_number(PgmNumbers& numbers, std::string_view what) {
   const auto value = numbers.next();
-  if (!value) refuse("gives no " + std::string(what) + " in its head; write the picture again");
+  if (!value) refuse("has no " + std::string(what) + " in its header; export the picture again");
   return *value;
 }
 
 void check_left(std::size_t left, std::size_t needed) {
   if (left >= needed) return;
   refuse("ends early: its pixels need " + std::to_string(needed) + " octets and " +
-         std::to_string(left) + " are there; write the picture again");
+         std::to_string(left) + " exist; export the picture again");
 }
 
 float grey(std::uint32_t value, std::uint32_t white, std::size_t index, std::size_t width) {
   if (value <= white) return static_cast<float>(value) / static_cast<float>(white);
   refuse("row " + std::to_string(index / width + 1) + ", column " +
          std::to_string(index % width + 1) + ": " + std::to_string(value) +
-         " is above its greatest value " + std::to_string(white) + "; write the picture again");
+         " is above its greatest value " + std::to_string(white) + "; export the picture again");
 }
 
 void read_octets(std::string_view raster, std::uint32_t white, GreyImage& out) {
@@ -91,7 +91,7 @@ void read_text(PgmNumbers& numbers, std::uint32_t white, GreyImage& out) {
     const auto value = numbers.next();
     if (!value)
       refuse("row " + std::to_string(i / out.width + 1) + ", column " +
-             std::to_string(i % out.width + 1) + ": no number; write the picture again");
+             std::to_string(i % out.width + 1) + ": not a number; export the picture again");
     out.pixels[i] = grey(*value, white, i, out.width);
   }
 }

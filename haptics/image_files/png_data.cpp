@@ -50,7 +50,7 @@ class Unpacked {
       stream_.avail_out = static_cast<uInt>(room.size());
       if (inflate(&stream_, Z_NO_FLUSH) != Z_OK) return false;
       if (stream_.total_out > most_)
-        throw std::invalid_argument("has more data than its pixels take; write the picture again");
+        throw std::invalid_argument("has more data than its pixels need; export the picture again");
     } while (stream_.avail_out == 0);
     return true;
   }

@@ -99,7 +99,7 @@ AlignedBox3d placed(const AlignedBox3d& box, const Eigen::Isometry3d& place) {
 
 SignedFunction::SignedFunction(const Primitive& primitive, const Eigen::Isometry3d& place) {
   if (!place.matrix().allFinite()) {
-    throw std::invalid_argument("the place of a part must be finite");
+    throw std::invalid_argument("the pose of a part must be finite");
   }
   Node leaf;
   leaf.primitive = primitive;
@@ -115,7 +115,7 @@ SignedFunction SignedFunction::combine(const SignedFunction& a, const SignedFunc
   check(radius);
   if (a.leaves() + b.leaves() > kMostLeaves) {
     throw std::invalid_argument("more than " + std::to_string(kMostLeaves) +
-                                " parts; make several objects of them");
+                                " parts; split it into several objects");
   }
   SignedFunction whole;
   whole.nodes_ = a.nodes_;

@@ -16,13 +16,13 @@ struct Limit {
 };
 // In the order of LoadWork. docs/robustness.md has the table, with inputs that reach each bound.
 constexpr Limit kLimits[kLoadWorks] = {
-    {512 << 20, "octets in all files", "take smaller files, or fewer"},
-    {1 << 21, "triangles in all meshes and pictures", "take coarser ones, or fewer"},
+    {512 << 20, "octets in all files", "use smaller files, or fewer"},
+    {1 << 21, "triangles in all meshes and pictures", "use coarser ones, or fewer"},
     {100'000'000, "pairs of corners in faces that are not convex",
-     "triangulate the mesh where it is made"},
-    {1 << 24, "pixels in all pictures", "scale them down, or take fewer"},
-    {1'000'000, "rows in all tables of motion", "sample them more coarsely, or take fewer"},
-    {20'000'000, "triangles in all copies of meshes with patches", "copy them less"},
+     "triangulate the mesh before its export"},
+    {1 << 24, "pixels in all pictures", "scale them down, or use fewer"},
+    {1'000'000, "rows in all tables of motion", "sample them more coarsely, or use fewer"},
+    {20'000'000, "triangles in all copies of meshes with patches", "reduce the copies"},
 };
 
 thread_local LoadBudget* current_budget = nullptr;

@@ -72,9 +72,9 @@ void check_corners(const MeshFile& file) {
       if (corner < file.vertices.size()) continue;
       throw MeshFileError(lines ? face.place : 0,
                           (lines ? "a face" : "face " + std::to_string(face.place)) +
-                              " names vertex " + std::to_string(corner) + ", counted from 0, of " +
-                              std::to_string(file.vertices.size()) +
-                              "; write the mesh again, the file is damaged");
+                              " refers to vertex " + std::to_string(corner) +
+                              ", counted from 0, of " + std::to_string(file.vertices.size()) +
+                              "; the file is damaged, export the mesh again");
     }
   }
 }
@@ -104,10 +104,10 @@ void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line) {
   if (!(p.cwiseAbs().maxCoeff() <= kFarthestVertex) || !p.allFinite()) {
     throw MeshFileError(line,
                         "vertex " + std::to_string(file.vertices.size()) +
-                            ", counted from 0, is not finite; mend it or write the mesh again");
+                            ", counted from 0, is not finite; repair it or export the mesh again");
   }
   if (file.vertices.size() >= std::numeric_limits<std::uint32_t>::max()) {
-    throw MeshFileError(line, "more than 2^32 vertices; take a coarser mesh");
+    throw MeshFileError(line, "more than 2^32 vertices; use a coarser mesh");
   }
   file.vertices.push_back(p);
 }
@@ -127,9 +127,9 @@ void begin_face(MeshFile& file, std::size_t place) {
 
 void add_corner(MeshFile& file, long long index, std::size_t line) {
   if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
-    throw MeshFileError(line, "face " + std::to_string(file.faces.size()) + " names vertex " +
+    throw MeshFileError(line, "face " + std::to_string(file.faces.size()) + " refers to vertex " +
                                   std::to_string(index) +
-                                  ", counted from 0, which does not exist; write the mesh again");
+                                  ", counted from 0, which does not exist; export the mesh again");
   }
   file.corners.push_back(static_cast<std::uint32_t>(index));
   ++file.faces.back().count;
@@ -139,8 +139,8 @@ double take_number(TextCursor& text, std::string_view what) {
   const std::string_view word = text.word();
   if (const auto value = to_number(word)) return *value;
   throw MeshFileError(text.line(), std::string(what) +
-                                       (word.empty() ? " is missing" : " is no number") +
-                                       "; write the mesh again");
+                                       (word.empty() ? " is missing" : " is not a number") +
+                                       "; export the mesh again");
 }
 
 Eigen::Vector3d take_point(TextCursor& text) {
@@ -154,8 +154,8 @@ long long take_integer(TextCursor& text, std::string_view what) {
   const std::string_view word = text.word();
   if (const auto value = to_integer(word)) return *value;
   throw MeshFileError(text.line(), std::string(what) +
-                                       (word.empty() ? " is missing" : " is no whole number") +
-                                       "; write the mesh again");
+                                       (word.empty() ? " is missing" : " is not a whole number") +
+                                       "; export the mesh again");
 }
 
 }  // namespace reckon::haptics

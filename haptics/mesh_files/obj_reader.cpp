@@ -13,7 +13,7 @@ long long corner_of(std::string_view word, const MeshFile& file, std::size_t lin
   const auto number = to_integer(word.substr(0, word.find('/')));
   if (!number || *number == 0) {
     throw MeshFileError(line, "'" + std::string(word) +
-                                  "' names no vertex; they are counted from 1, or back from -1");
+                                  "' refers to no vertex; they count from 1, or back from -1");
   }
   return *number > 0 ? *number - 1 : static_cast<long long>(file.vertices.size()) + *number;
 }

@@ -18,15 +18,16 @@ std::size_t read_counts(TextCursor& text, std::size_t& faces) {
   const std::string_view keyword = behind.word();
   if (keyword.ends_with("OFF")) {
     if (keyword.find_first_of("4n") != keyword.npos) {
-      throw MeshFileError(text.line(), "has no points of three coordinates; write it as OFF");
+      throw MeshFileError(text.line(),
+                          "does not have three coordinates a vertex; export it as plain OFF");
     }
     text = behind;
     if (behind.word() == "BINARY") {
-      throw MeshFileError(text.line(), "is binary; write it as a text, or as PLY");
+      throw MeshFileError(text.line(), "is binary; export it as text, or as PLY");
     }
     TextCursor same = text;
     if (same.word().empty() && !text.next_line()) {
-      throw MeshFileError(text.line(), "ends behind its first line; write the mesh again");
+      throw MeshFileError(text.line(), "ends after its first line; export the mesh again");
     }
   } else if (!to_integer(keyword)) {
     throw MeshFileError(text.line(), "cannot be read as OFF: it does not begin with 'OFF'");
@@ -44,7 +45,7 @@ void next_element(TextCursor& text, std::string_view what, std::size_t index, st
   if (text.next_line()) return;
   throw MeshFileError(text.line(), "ends before " + std::string(what) + " " +
                                        std::to_string(index) + " of " + std::to_string(count) +
-                                       "; it is cut off, write the mesh again");
+                                       "; it is truncated, export the mesh again");
 }
 
 }  // namespace

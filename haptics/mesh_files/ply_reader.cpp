@@ -63,14 +63,14 @@ const Type* type_of(std::string_view name, std::size_t line) {
   const auto found = std::ranges::find_if(
       kTypes, [&](const Type& type) { return name == type.names[0] || name == type.names[1]; });
   if (found != std::end(kTypes)) return &*found;
-  throw MeshFileError(line, "'" + std::string(name) + "' is no type of a PLY file");
+  throw MeshFileError(line, "'" + std::string(name) + "' is not a PLY type");
 }
 
 Encoding encoding_of(std::string_view name, std::size_t line) {
   if (name == "ascii") return Encoding::text;
   if (name == "binary_little_endian") return Encoding::little;
   if (name == "binary_big_endian") return Encoding::big;
-  throw MeshFileError(line, "'" + std::string(name) + "' is no format of a PLY file");
+  throw MeshFileError(line, "'" + std::string(name) + "' is not a PLY format");
 }
 
 Property read_property(TextCursor& text) {
@@ -108,7 +108,7 @@ Header read_header(TextCursor& text) {
     }
     header.elements.back().properties.push_back(read_property(text));
   }
-  throw MeshFileError(text.line(), "ends within its header; write the mesh again");
+  throw MeshFileError(text.line(), "ends within its header; export the mesh again");
 }
 
 /// A sequence of values, in either encoding.
@@ -126,14 +126,14 @@ class Values {
  private:
   double next_word() {
     const std::string_view word = text_.word_of_any_line();
-    if (word.empty()) throw MeshFileError(text_.line(), "ends too early; write the mesh again");
+    if (word.empty()) throw MeshFileError(text_.line(), "is truncated; export the mesh again");
     if (const auto value = to_number(word)) return *value;
-    throw MeshFileError(text_.line(), "'" + std::string(word) + "' is no number");
+    throw MeshFileError(text_.line(), "'" + std::string(word) + "' is not a number");
   }
 
   double next_octets(const Type& type) {
     if (octets_.size() < type.octets) {
-      throw MeshFileError(0, "ends too early: it is cut off; write the mesh again");
+      throw MeshFileError(0, "is truncated; export the mesh again");
     }
     std::array<char, 8> value{};
     std::copy_n(octets_.begin(), type.octets, value.begin());
@@ -151,7 +151,7 @@ long long whole(double value, std::size_t line) {
   if (value >= -1e15 && value <= 1e15 && value == std::floor(value)) {
     return static_cast<long long>(value);
   }
-  throw MeshFileError(line, "a number of corners or an index is no whole number");
+  throw MeshFileError(line, "a number of corners or an index is not a whole number");
 }
 
 /// Number of values in a property; 1 if it is not a list.

@@ -55,10 +55,11 @@ void read_text(std::string_view bytes, MeshFile& file) {
     if (what == "outer") begin_face(file, text.line());
     if (what == "outer" || what == "endloop") open = what == "outer";
     if (what != "vertex") continue;
-    if (!open) throw MeshFileError(text.line(), "a vertex outside 'outer loop'; write it again");
+    if (!open) throw MeshFileError(text.line(), "a vertex outside 'outer loop'; export it again");
     add_own_corner(file, take_point(text), text.line());
   }
-  if (open) throw MeshFileError(text.line(), "ends within a facet; it is cut off, write it again");
+  if (open)
+    throw MeshFileError(text.line(), "ends within a facet; it is truncated, export it again");
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ void read_stl(std::string_view bytes, MeshFile& file) {
   throw MeshFileError(
       0, "cannot be read as STL: it does not begin with 'solid', and as binary it would have " +
              std::to_string(facets_of(bytes)) + " facets, " + std::to_string(octets) +
-             " octets, where it has " + std::to_string(bytes.size()) + "; write the mesh again");
+             " octets, but it has " + std::to_string(bytes.size()) + "; export the mesh again");
 }
 
 }  // namespace reckon::haptics

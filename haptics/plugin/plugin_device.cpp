@@ -52,21 +52,21 @@ std::string fault_of(const DeviceLimits& limits) {
   };
   const bool turns = limits.axes == 6;
   const std::array<std::pair<bool, std::string_view>, 11> rules{{
-      {limits.axes == 3 || turns, "axes are 3 or 6"},
+      {limits.axes == 3 || turns, "axes must be 3 or 6"},
       {limits.delay_samples >= 0 && limits.delay_samples <= kMostDelay,
-       "delay_samples are 0 to 1000"},
-      {is_within(limits.max_force, 1e-3, 1e4), "max_force is 0.001 to 10000 N"},
-      {is_within(limits.max_stiffness, 0, 1e7), "max_stiffness is 0 to 1e7 N/m"},
-      {is_within(limits.damping, 0, 1e4), "damping is 0 to 10000 N s/m"},
-      {is_within(limits.max_speed, 1e-3, 1e3), "max_speed is 0.001 to 1000 m/s"},
-      {is_within(limits.resolution, 0, 0.1), "resolution is 0 to 0.1 m"},
+       "delay_samples must be 0 to 1000"},
+      {is_within(limits.max_force, 1e-3, 1e4), "max_force must be 0.001 to 10000 N"},
+      {is_within(limits.max_stiffness, 0, 1e7), "max_stiffness must be 0 to 1e7 N/m"},
+      {is_within(limits.damping, 0, 1e4), "damping must be 0 to 10000 N s/m"},
+      {is_within(limits.max_speed, 1e-3, 1e3), "max_speed must be 0.001 to 1000 m/s"},
+      {is_within(limits.resolution, 0, 0.1), "resolution must be 0 to 0.1 m"},
       {((limits.workspace_max - limits.workspace_min).array() > 0).all() &&
            (limits.workspace_max - limits.workspace_min).allFinite(),
-       "workspace_min is below workspace_max"},
-      {!turns || is_within(limits.max_torque, 1e-6, 1e4), "max_torque is 1e-6 to 10000 N m"},
+       "workspace_min must be below workspace_max"},
+      {!turns || is_within(limits.max_torque, 1e-6, 1e4), "max_torque must be 1e-6 to 10000 N m"},
       {!turns || is_within(limits.turn_damping, 1e-9, 1e4),
-       "turn_damping is 1e-9 to 10000 N m s/rad"},
-      {!turns || is_within(limits.turn_resolution, 0, 1), "turn_resolution is 0 to 1 rad"},
+       "turn_damping must be 1e-9 to 10000 N m s/rad"},
+      {!turns || is_within(limits.turn_resolution, 0, 1), "turn_resolution must be 0 to 1 rad"},
   }};
   const auto broken = std::ranges::find(rules, false, &std::pair<bool, std::string_view>::first);
   return broken == rules.end() ? std::string() : std::string(broken->second);
@@ -91,29 +91,30 @@ PluginDevice::PluginDevice(const std::filesystem::path& file, const std::string&
     throw std::runtime_error(file.string() + ": " + why);
   };
   if (std::error_code none; !std::filesystem::is_regular_file(file, none))
-    refuse("there is no such file: name the shared library of the driver");
+    refuse("no such file: give the driver's shared library");
   library_ = std::make_unique<Library>(file);
   using Table = const reckon_device_driver*();
   auto* const table = reinterpret_cast<Table*>(dlsym(library_->handle, kTable));
   if (table == nullptr)
-    refuse(std::string("has no function ") + kTable + ": it is no driver, see device_plugin.h");
+    refuse(std::string("has no function ") + kTable +
+           ", so it is not a driver: see device_plugin.h");
   driver_ = table();
-  if (driver_ == nullptr) refuse("its table of functions is null");
+  if (driver_ == nullptr) refuse("its function table is null");
   if (driver_->abi != RECKON_DEVICE_ABI || driver_->size != sizeof(reckon_device_driver)) {
-    refuse("is built for version " + std::to_string(driver_->abi) + " of the interface (" +
-           std::to_string(driver_->size) + " octets), this program has version " +
+    refuse("was built for version " + std::to_string(driver_->abi) + " of device_plugin.h (" +
+           std::to_string(driver_->size) + " octets), and this program has version " +
            std::to_string(RECKON_DEVICE_ABI) + " (" + std::to_string(sizeof(reckon_device_driver)) +
-           " octets): build it anew");
+           " octets): rebuild it");
   }
   if (driver_->name == nullptr || driver_->open == nullptr || driver_->limits == nullptr ||
       driver_->read == nullptr || driver_->write == nullptr || driver_->close == nullptr)
-    refuse("lacks a function: open, limits, read, write, close and a name are all needed");
+    refuse("lacks a function or its name: open, limits, read, write, close and name are required");
   name_ = driver_->name;
   std::array<char, 256> error{};
   device_ = driver_->open(options.c_str(), error.data(), error.size() - 1);
   if (device_ == nullptr) {
     const std::string_view said(error.data());
-    refuse(said.empty() ? "its device does not open, and it does not say why" : std::string(said));
+    refuse(said.empty() ? "its open function fails without a message" : std::string(said));
   }
   reckon_device_limits limits{};
   driver_->limits(device_, &limits);
@@ -121,7 +122,7 @@ PluginDevice::PluginDevice(const std::filesystem::path& file, const std::string&
   if (const std::string fault = fault_of(limits_); !fault.empty()) {
     driver_->close(device_);
     device_ = nullptr;
-    refuse("its device states impossible limits: " + fault);
+    refuse("its device states invalid limits: " + fault);
   }
 }
 
@@ -180,17 +181,17 @@ std::vector<std::string> PluginDevice::take_notices() {
   const std::uint64_t slow = slow_.load(std::memory_order_relaxed);
   if (!told_slow_ && slow >= 10 && 100 * slow >= calls) {
     told_slow_ = true;
-    said.push_back(name_ + ": its driver kept the servo waiting in " + std::to_string(slow) +
-                   " of " + std::to_string(calls) + " calls, up to " +
+    said.push_back(name_ + ": its driver delayed the servo in " + std::to_string(slow) + " of " +
+                   std::to_string(calls) + " calls, up to " +
                    std::to_string(slowest_.load(std::memory_order_relaxed) / 1000) +
-                   " us; it is to have a thread of its own, see device_plugin.h");
+                   " us; it needs its own thread, see device_plugin.h");
   }
   const std::uint64_t impossible = impossible_.load(std::memory_order_relaxed);
   if (impossible > 0 && told_impossible_ == 0) {
     told_impossible_ = impossible;
     said.push_back(name_ +
-                   ": its driver gives readings that are none (a number that is not finite, "
-                   "or an orientation that is not a unit quaternion); they count as failed");
+                   ": its driver returns invalid readings (a number that is not finite, or an "
+                   "orientation that is not a unit quaternion); they count as failed");
   }
   return said;
 }

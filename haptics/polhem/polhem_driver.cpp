@@ -29,15 +29,14 @@ constexpr double kHoldUpStep =
     1.0 / 250;  // growth of the share of the weights per exchange: 250 of 2 ms
 constexpr double kMilli = 1e-3;
 
-constexpr const char* kSilence = "it does not answer: is its power supply on?";
+constexpr const char* kSilence = "it does not answer: switch its power supply on";
 
 std::string refusal_of(std::size_t octets) {
   if (octets == static_cast<std::size_t>(PolhemForm::eight)) {
-    return "its reports of 8 octets are those of an older program, as a WoodenHaptics has, and do "
-           "not tell which command they follow: only a first Polhem with a program of 2019 or "
-           "later is driven";
+    return "its reports have 8 octets, as in older firmware such as WoodenHaptics, and do not "
+           "identify their command: use a Polhem with firmware of 2019 or later";
   }
-  return "its reports have " + std::to_string(octets) + " octets where 14 are known";
+  return "its reports have " + std::to_string(octets) + " octets instead of 14";
 }
 
 }  // namespace

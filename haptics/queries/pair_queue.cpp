@@ -64,7 +64,7 @@ double earliest_contact(const BodyMotion& a, const BodyMotion& b, double now) no
 
 PairQueue::PairQueue(std::size_t bodies) : motions_(bodies), present_(bodies, false) {
   if (bodies > kMostInQueue)
-    throw std::invalid_argument("a queue of pairs holds 4096 bodies at most: use CellGrid");
+    throw std::invalid_argument("a pair queue holds at most 4096 bodies: use CellGrid");
   for (std::uint32_t high = 1; high < bodies; ++high)
     for (std::uint32_t low = 0; low < high; ++low) bodies_of_.push_back({low, high});
   places_.resize(bodies_of_.size());

@@ -117,8 +117,8 @@ class CustomRegionEffectOf final : public CustomRegionEffect {
                   "memory (std::vector, std::string) unless copies share it (kSharesMemory): see "
                   "DescribedEffect in effect_hooks.hpp");
     static_assert(WholeRegionHooks<Effect>,
-                  "a hook of this effect is there by half, or its types or noexcept differ from "
-                  "those in region_hooks.hpp");
+                  "a hook of this effect is incomplete, or its types or noexcept differ from those "
+                  "in region_hooks.hpp");
     static_assert(!HookedEffect<Effect>,
                   "an effect is of objects or of regions: make it two classes");
   }

@@ -36,8 +36,8 @@ static_assert(
                WholeRegionHooks<Effects>)&&...);
     }(std::type_identity<RegionTypes>{}),
     "an effect of a region has Parameters, kName, kKey, kCost, kParameters, parameters(), a "
-    "constructor from its Parameters, no memory of its own, and a hook; none is there by half or "
-    "with other types: see region_hooks.hpp");
+    "constructor from its Parameters, no memory of its own, and a hook; each hook is complete and "
+    "has the types of region_hooks.hpp");
 
 /// The effects that a scene declares for a region.
 using DeclaredRegionEffects = EffectDeclarations<RegionTypes>;

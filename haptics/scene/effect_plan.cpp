@@ -161,7 +161,7 @@ void check_one_holder(const PlannedEffects& effects) {
     const std::string_view key = key_of(effect);
     if (!holder.empty()) {
       throw std::invalid_argument(std::string(holder) + " and " + std::string(key) +
-                                  " both hold the contact point; declare one of them");
+                                  " both hold the contact point: declare one of them");
     }
     holder = key;
   });
@@ -189,7 +189,7 @@ void hold_for(const SurfacePatches& patches, PlannedEffects& effects) {
 Eigen::Quaterniond checked_orientation(const ObjectPose& pose) {
   const Eigen::Quaterniond& q = pose.orientation;
   if (!pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
-    throw std::invalid_argument("pose must be finite, with an orientation that is not zero");
+    throw std::invalid_argument("pose must be finite, with a non-zero orientation");
   }
   return q.normalized();
 }
@@ -214,7 +214,7 @@ PlannedObject plan_object(const SceneObject& object, ShapeMaker& shapes) {
     planned.patches = plan_patches(object, **mesh);
     if (planned.patches) hold_for(*planned.patches, planned.effects);
   } else if (!object.patches.empty()) {
-    throw std::invalid_argument("only a mesh or a picture has patches; take them out");
+    throw std::invalid_argument("only a mesh or a picture has patches: remove them");
   }
   planned.bounds = place_bounds(planned);
   if (planned.matter.mass > 0 && planned.damping() > 0) planned.least_mass = least_mass_of(planned);
@@ -235,8 +235,8 @@ PlannedRegion plan_region(const SceneRegion& region) {
   if (!region.shape) {
     region.effects.for_each([]<class Effect>(const Effect&) {
       if constexpr (ActsOutside<Effect>)
-        throw std::invalid_argument("what is everywhere has no " + std::string(Effect::kKey) +
-                                    "; give it a shape");
+        throw std::invalid_argument("a region without a shape has no " + std::string(Effect::kKey) +
+                                    ": give it a shape");
     });
     return planned;
   }
@@ -247,7 +247,7 @@ PlannedRegion plan_region(const SceneRegion& region) {
   } else if (const auto* box = std::get_if<BoxShape>(&*region.shape)) {
     planned.shape = Block(*box);
   } else {
-    throw std::invalid_argument("a region is a plane, a sphere, a box, or everywhere");
+    throw std::invalid_argument("a region must be a plane, a sphere, a box, or have no shape");
   }
   return planned;
 }

@@ -29,11 +29,11 @@ PlannedPatch planned(const SurfacePatch& patch) {
 void check_names(const std::vector<SurfacePatch>& patches) {
   for (auto patch = patches.begin(); patch != patches.end(); ++patch) {
     if (patch->name.empty()) {
-      throw std::invalid_argument("a patch has no name; give that of a material or group");
+      throw std::invalid_argument("a patch has no name: write the name of a material or group");
     }
     if (std::ranges::find(patch + 1, patches.end(), patch->name, &SurfacePatch::name) !=
         patches.end()) {
-      throw std::invalid_argument("patch \"" + patch->name + "\" is there twice; keep one");
+      throw std::invalid_argument("patch \"" + patch->name + "\" exists twice: keep one");
     }
   }
   if (patches.size() >= std::numeric_limits<std::uint16_t>::max()) {
@@ -91,7 +91,7 @@ std::shared_ptr<const SurfacePatches> plan_patches(const SceneObject& object,
 std::vector<std::string> patch_notes(const SurfacePatches& patches) {
   std::vector<std::string> notes;
   for (const std::string& name : patches.missing) {
-    notes.push_back("patch \"" + name + "\" is no material or group of any face; the file has " +
+    notes.push_back("patch \"" + name + "\" is not a material or group of any face; the file has " +
                     (patches.in_file.empty() ? "none: name them by usemtl or g in an OBJ, "
                                                "material_index in a PLY"
                                              : joined(patches.in_file)));
@@ -100,8 +100,8 @@ std::vector<std::string> patch_notes(const SurfacePatches& patches) {
   if (rest > 0) {
     notes.push_back(std::to_string(rest) + " of " + std::to_string(patches.of_triangle.size()) +
                     " triangles " +
-                    (rest == 1 ? "is in no patch and feels" : "are in no patch and feel") +
-                    " as the object itself");
+                    (rest == 1 ? "is in no patch and has" : "are in no patch and have") +
+                    " the surface of the object");
   }
   return notes;
 }

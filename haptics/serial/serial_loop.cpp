@@ -33,7 +33,8 @@ SerialLoop::~SerialLoop() {
   session_->end_run();
   const nanoseconds end = now() + kShutdownDrain;
   const auto drain = [&] {
-    while (!port_->is_gone() && port_->is_sending() && now() < end) wait_without_line(kPollInterval);
+    while (!port_->is_gone() && port_->is_sending() && now() < end)
+      wait_without_line(kPollInterval);
   };
   drain();
   port_->send(session_->farewell().span());
@@ -50,8 +51,8 @@ void SerialLoop::exchange(microseconds longest) {
   const nanoseconds time = now();
   exchange_octets(time);
   if (port_->is_gone()) return detach("was unplugged", kRetry);
-  if (session_->is_lost(time)) return detach("does not answer any more", nanoseconds(0));
-  if (time - taken_at_ > kStuck) return detach("takes no octets for 6 ms", nanoseconds(0));
+  if (session_->is_lost(time)) return detach("stopped answering", nanoseconds(0));
+  if (time - taken_at_ > kStuck) return detach("has accepted no octets for 6 ms", nanoseconds(0));
   tell_stage(time);
 }
 
@@ -66,32 +67,31 @@ void SerialLoop::exchange_octets(nanoseconds now) {
 void SerialLoop::tell_stage(nanoseconds now) {
   if (session_->is_unanswered(now)) {
     tell_problem(session_->hears_noise()
-                     ? "what it sends are no frames of this line: is its baud " +
+                     ? "it sends data that are not frames of this protocol: is its baud rate " +
                            std::to_string(place_.baud) + "?"
-                     : "it does not answer: does the board run a program for this line, at " +
+                     : "it does not answer: does the board run firmware of this protocol, at " +
                            std::to_string(place_.baud) + " baud?");
   }
   const nanoseconds chain = session_->chain();
   if (chain > nanoseconds(0) && !timed_) {
     timed_ = true;
-    tell("a force is at the handle, and told so, within " + in_tenths(chain + microseconds(500)) +
-         ": that is enough for the 'delay' of its [[device]]");
+    tell("the time from a command to the report of its effect is at most " +
+         in_tenths(chain + microseconds(500)) + "; 'delay' of its [[device]] can be that low");
   }
   const SerialStage stage = session_->stage();
   if (stage == SerialStage::asked || stage == SerialStage::greeted || told_ == stage) return;
   told_ = stage;
   const std::string name = std::string(session_->greeting().name.data());
   if (stage == SerialStage::refused)
-    tell_problem((name.empty() ? "the board" : name) + " is not driven: " + session_->refusal());
-  if (stage == SerialStage::homing)
-    tell(name + " does not know its place yet; no force until then");
+    tell_problem((name.empty() ? "the board" : name) + " cannot be used: " + session_->refusal());
+  if (stage == SerialStage::homing) tell(name + " is not homed; no force until it is");
   if (stage == SerialStage::running) {
     clear_problem();
     unsigned axes = 0;
     for (std::size_t i = 0; i < session_->greeting().axes; ++i)
       axes |= 1U << session_->greeting().axis[i].direction;
     axes_ = axes;
-    tell(name + " is ready: forces are shown");
+    tell(name + " is ready: forces are active");
   }
 }
 

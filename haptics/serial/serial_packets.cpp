@@ -45,24 +45,24 @@ std::string refusal_of_axes(const SerialGreeting& greeting) {
   for (std::size_t i = 0; i < greeting.axes; ++i) {
     const SerialAxis& axis = greeting.axis[i];
     if (axis.direction > 2 || taken[axis.direction])
-      return "two of its axes move the same way, or one goes nowhere: x, y and z are 0, 1 and 2";
+      return "two of its axes have the same direction, or one has none: write 0, 1 or 2 for x, y "
+             "or z";
     taken[axis.direction] = true;
     if (axis.nm_per_count == 0 || axis.nm_per_count > kLongestStep ||
         axis.nm_per_count < -kLongestStep)
-      return "a count of it is 0 or above 1 mm";
-    if (axis.most_force == 0) return "it shows no force";
+      return "the step of one of its encoders is 0 or above 1 mm";
+    if (axis.most_force == 0) return "one of its axes has no force";
   }
   return {};
 }
 
 std::string refusal_of_times(const SerialGreeting& greeting) {
   if (greeting.watchdog == 0 || greeting.watchdog > HapticDevice::kWatchdog.count())
-    return "without frames it lets go after " + std::to_string(greeting.watchdog) +
-           " ms: its watchdog has to be one of 1 to 10 ms, for a force that is held on makes "
-           "energy";
+    return "its watchdog drops the force after " + std::to_string(greeting.watchdog) +
+           " ms: set it to 1 to 10 ms, because a force that is held longer adds energy";
   if (greeting.period < kLeastPeriod || greeting.period > kMostPeriod)
     return "its reports come every " + std::to_string(greeting.period) +
-           " us: 100 us to 2 ms are driven";
+           " us: it must be 100 us to 2 ms";
   return {};
 }
 
@@ -136,7 +136,7 @@ SerialFrame frame_of(const SerialForce& force, std::size_t axes) noexcept {
 
 std::string refusal_of(const SerialGreeting& greeting, double max_force, double resolution) {
   if (greeting.axes == 0 || greeting.axes > kSerialAxes)
-    return "it has " + std::to_string(greeting.axes) + " axes: boards of one to three are driven";
+    return "it has " + std::to_string(greeting.axes) + " axes: it must have one to three";
   std::string refusal = refusal_of_axes(greeting);
   if (refusal.empty()) refusal = refusal_of_times(greeting);
   if (!refusal.empty()) return refusal;
@@ -147,10 +147,10 @@ std::string refusal_of(const SerialGreeting& greeting, double max_force, double 
   }
   // A millionth allows for rounding.
   if (force < max_force * (1 - 1e-6))
-    return "it holds less force than is asked of it: write max_force = " + in_units(force, "N") +
+    return "its force is below max_force: write max_force = " + in_units(force, "N") +
            " in its [[device]]";
   if (step > resolution * (1 + 1e-6))
-    return "its steps are longer than is relied on: write resolution = " +
+    return "its steps are longer than the assumed resolution: write resolution = " +
            in_units(1e6 * step, "um") + " in its [[device]]";
   return {};
 }

@@ -34,11 +34,11 @@ struct Trouble {
 
 Trouble trouble_of_opening(const std::string& path, int error) {
   if (error == ENOENT || error == ENXIO || error == ENODEV)
-    return {"there is no " + path, "plug it in; reckon devices shows what is there"};
+    return {"there is no " + path, "plug it in; `reckon devices` lists ports"};
   if (error == EACCES || error == EPERM)
     return {"this user may not open " + path, "sudo usermod -aG dialout $USER, and log in again"};
   if (error == EBUSY || error == EWOULDBLOCK)
-    return {"another program has " + path, "end it, for instance the serial monitor"};
+    return {"another program uses " + path, "end that program, for instance a serial monitor"};
   return {path + " cannot be opened: " + std::generic_category().message(error), ""};
 }
 
@@ -79,14 +79,14 @@ SerialOpening SerialPort::open(const std::string& path, unsigned baud) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return refused(trouble_of_opening(path, errno));
   std::unique_ptr<SerialPort> port(new SerialPort(descriptor));
-  if (isatty(descriptor) == 0) return refused({path + " is no serial line", ""});
+  if (isatty(descriptor) == 0) return refused({path + " is not a serial port", ""});
   // TIOCEXCL does not exclude root, so the lock is needed too.
   if (!control(descriptor, TIOCEXCL, 0) || flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     return refused(trouble_of_opening(path, errno));
   if (!make_raw(descriptor, baud)) {
-    return refused({path + " cannot do " + std::to_string(baud) +
+    return refused({path + " does not support " + std::to_string(baud) +
                         " baud: " + std::generic_category().message(errno),
-                    "name another with baud"});
+                    "set another 'baud'"});
   }
   ask_for_low_latency(descriptor);
   static_cast<void>(control(descriptor, TCFLSH, TCIOFLUSH));

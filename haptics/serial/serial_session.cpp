@@ -52,8 +52,8 @@ void SerialSession::greet(std::span<const std::uint8_t> carried, nanoseconds now
   const auto version = serial_version(carried);
   if (!version) return;
   if (*version != kSerialVersion) {
-    refusal_ = "it speaks version " + std::to_string(*version) + " of the line, and not " +
-               std::to_string(kSerialVersion) + ": load it with a program of that version";
+    refusal_ = "it has version " + std::to_string(*version) + " of the protocol instead of " +
+               std::to_string(kSerialVersion) + ": load firmware of that version";
     stage_ = SerialStage::refused;
     return;
   }
@@ -91,8 +91,7 @@ bool SerialSession::keeps_time(nanoseconds now) {
   if (clock_ > ours - ours / 20 && clock_ < ours + ours / 20) return true;
   leave();
   stage_ = SerialStage::refused;
-  refusal_ =
-      "its clock is off by more than a twentieth: the stamps of its reports are to be microseconds";
+  refusal_ = "its clock is wrong by more than 5 %: its timestamps must count microseconds";
   return false;
 }
 

@@ -88,7 +88,8 @@ std::unique_ptr<ServoCore> make_servo(HapticDevice& device, std::shared_ptr<cons
   if (device.limits().kind == DeviceKind::coefficients) {
     auto* const springs = dynamic_cast<CoefficientDevice*>(&device);
     if (springs == nullptr)
-      throw std::invalid_argument("servo: a device of kind coefficients is a CoefficientDevice");
+      throw std::invalid_argument(
+          "servo: a device of kind coefficients must be a CoefficientDevice");
     return std::make_unique<CoefficientStep>(*springs, std::move(plan), config, std::move(bodies));
   }
   if (device.limits().axes == 6)

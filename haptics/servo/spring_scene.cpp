@@ -35,18 +35,18 @@ std::optional<Index> axis_of(const Vector3d& direction) noexcept {
 
 void check_effects(const PlannedObject& object) {
   if (object.moves())
-    refuse(object.name, "moves: a device that renders springs shows surfaces that stand still");
+    refuse(object.name, "moves: a device that renders springs needs fixed surfaces");
   if (object.patches != nullptr)
-    refuse(object.name, "has patches: a device that renders springs shows one stiffness");
+    refuse(object.name, "has patches: a device that renders springs needs one stiffness an object");
   object.effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (!std::is_same_v<Effect, SpringDamper>) {
       refuse(object.name,
-             "has an effect besides its surface: a device that renders springs shows its stiffness "
-             "alone; take the effect out, or use a device that takes forces");
+             "has an effect besides its surface: a device that renders springs has stiffness only; "
+             "remove the effect, or use a device that takes forces");
     } else if (effect.damping() > 0) {
       refuse(object.name,
-             "has damping: a device that renders springs shows its stiffness alone; take the "
-             "damping of its surface out");
+             "has damping: a device that renders springs has stiffness only; remove the damping of "
+             "its surface");
     }
   });
 }
@@ -58,7 +58,7 @@ SpringScene::SpringScene(const EffectPlan& plan, const ServoConfig& config, int 
     : axes_(static_cast<std::size_t>(axes)), most_stiffness_(most_stiffness) {
   if (!plan.regions().empty()) {
     refuse(plan.regions().front().name,
-           "is a region: a device that renders springs shows surfaces alone; take it out, or use a "
+           "is a region: a device that renders springs has surfaces only; remove it, or use a "
            "device that takes forces");
   }
   for (const PlannedObject& object : plan.objects()) {
@@ -71,8 +71,8 @@ SpringScene::SpringScene(const EffectPlan& plan, const ServoConfig& config, int 
 std::optional<SpringScene::Solid> SpringScene::solid_of(const PlannedObject& object,
                                                         const ServoConfig& config) const {
   const char* const oblique =
-      "has faces that stand along no axis of the device: one that renders springs along its axes "
-      "cannot show them; turn the object, or the device";
+      "has faces that are not perpendicular to the device's axes, along which it renders springs: "
+      "rotate the object or the device";
   const Matrix3d turn =
       config.device_orientation.conjugate().toRotationMatrix() * object.orientation;
   const Vector3d at =
@@ -95,8 +95,8 @@ std::optional<SpringScene::Solid> SpringScene::solid_of(const PlannedObject& obj
     }
   } else {
     refuse(object.name,
-           "is no plane and no box: a device that renders springs along its axes shows these "
-           "alone; use a device that takes forces");
+           "is neither a plane nor a box: a device that renders springs needs one of them; use a "
+           "device that takes forces");
   }
   Solid solid;
   solid.stiffness = std::min(object.stiffness(), most_stiffness_);
@@ -114,8 +114,8 @@ std::optional<SpringScene::Solid> SpringScene::solid_of(const PlannedObject& obj
   }
   if (!is_walled) {
     refuse(object.name,
-           "is wherever the handle is: the device does not move across its face; put the device "
-           "outside of it, or turn it");
+           "encloses the handle, and no axis of the device crosses its faces: place the device "
+           "outside of it, or rotate it");
   }
   return solid;
 }

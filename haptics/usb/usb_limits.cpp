@@ -21,18 +21,18 @@ DeviceLimits usb_limits(const UsbFacts& facts, const UsbSettings& settings) {
   };
   check(settings.max_force > 0, "largest force must be above 0 N", settings.max_force);
   check(settings.damping >= 0, "damping must be 0 or more N s/m", settings.damping);
-  check(settings.spent_damping >= 0, "damping that is spent must be 0 or more N s/m",
+  check(settings.spent_damping >= 0, "damping that the driver uses must be 0 or more N s/m",
         settings.spent_damping);
   check(settings.joint_damping >= 0, "damping of its joints must be 0 or more N m s/rad",
         settings.joint_damping);
   check(!(settings.joint_damping > 0) || facts.lever > 0,
-        "its joints are not known: state the damping of the handle", settings.joint_damping);
-  check(settings.spent_joint_damping >= 0, "damping that is spent must be 0 or more N m s/rad",
-        settings.spent_joint_damping);
+        "its joints are unknown: state the damping of the handle", settings.joint_damping);
+  check(settings.spent_joint_damping >= 0,
+        "damping that the driver uses must be 0 or more N m s/rad", settings.spent_joint_damping);
   check(settings.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
         settings.max_stiffness);
   check(settings.max_speed > 0, "largest speed must be above 0 m/s", settings.max_speed);
-  check(settings.resolution >= 0, "steps of the encoders must be 0 or more m", settings.resolution);
+  check(settings.resolution >= 0, "resolution must be 0 or more m", settings.resolution);
   check(settings.period > nanoseconds(0), "the servo's period must be above 0 ns",
         static_cast<double>(settings.period.count()));
   check(settings.chain > nanoseconds(0), "delay must be above 0 ns",

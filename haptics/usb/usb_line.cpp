@@ -50,7 +50,7 @@ void UsbContext::look_again() noexcept {
 
 UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::uint16_t product) {
   UsbOpening opening;
-  opening.problem = "none is attached: plug it in, with its power supply";
+  opening.problem = "none is attached: plug it in, and its power supply";
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context, &list);
   for (ssize_t i = 0; i < count && opening.handle == nullptr; ++i) {
@@ -59,7 +59,7 @@ UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::u
     if (about.idVendor != vendor || about.idProduct != product) continue;
     const int code = libusb_open(list[i], &opening.handle);
     if (code == LIBUSB_ERROR_ACCESS) {
-      opening.problem = "this user may not open it: see reckon devices for the rule of udev";
+      opening.problem = "this user may not open it: `reckon devices` prints the udev rule";
     } else if (code != 0 && code != LIBUSB_ERROR_NO_DEVICE) {
       opening.problem = "it cannot be opened: " + reason(code);
     }
@@ -115,8 +115,7 @@ UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPip
     libusb_close(handle);
     const bool is_gone = code == LIBUSB_ERROR_NO_DEVICE;
     throw std::runtime_error(
-        (is_gone ? "was unplugged while it was opened: " : "another program has it: ") +
-        reason(code));
+        (is_gone ? "was unplugged while it opened: " : "another program uses it: ") + reason(code));
   }
   out_.reset(libusb_alloc_transfer(0));
   for (std::size_t i = 0; i < kListeners; ++i) {

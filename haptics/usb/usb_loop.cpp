@@ -64,9 +64,9 @@ void UsbLoop::exchange(microseconds longest) {
   if (line_->fault() == UsbFault::gone) return detach("was unplugged");
   if (line_->fault() == UsbFault::stalled) return detach("refuses transfers");
   if (line_->fault() == UsbFault::failed) return detach("a transfer failed or was cut short");
-  if (session_->is_lost(time)) return detach("does not answer any more");
+  if (session_->is_lost(time)) return detach("stopped answering");
   if (line_->is_sending()) {
-    if (session_->is_late(time)) detach("takes no command for 6 ms");
+    if (session_->is_late(time)) detach("has accepted no command for 6 ms");
     return;
   }
   if (const auto command = session_->next(time)) line_->send(*command);
@@ -78,15 +78,15 @@ void UsbLoop::tell_stage() {
   if (exchange > nanoseconds(0) && !timed_) {
     timed_ = true;
     tell("an exchange takes " + in_tenths(exchange) +
-         " at most: three of them and a half are enough for the 'delay' of its [[device]]");
+         " at most: 'delay' of its [[device]] can be as low as 3.5 exchanges");
   }
   const UsbStage stage = session_->stage();
   if (stage == UsbStage::silent || told_ == stage) return;
   told_ = stage;
   if (stage == UsbStage::homing)
-    tell(std::string("not homed: ") + driver_->how_to_home() + "; no force until then");
-  if (stage == UsbStage::outside) tell("the handle is at the end of its reach: no force there");
-  if (stage == UsbStage::running) tell("ready: forces are shown");
+    tell(std::string("not homed: ") + driver_->how_to_home() + "; no force until it is homed");
+  if (stage == UsbStage::outside) tell("the handle is at the end of its range: no force there");
+  if (stage == UsbStage::running) tell("ready: forces are active");
 }
 
 // A device still attached is set up again at once, which sends it a zero force.
@@ -112,7 +112,7 @@ std::string UsbLoop::open() {
   const std::optional<UsbPipes> pipes = driver_->pipes(opening.handle);
   if (!pipes) {
     close_usb_device(opening.handle);
-    return "what is attached under its number is another device: it has none of its pipes";
+    return "another device has its USB ID: it lacks the endpoints";
   }
   try {
     line_.emplace(context_, opening.handle, *pipes);
@@ -131,7 +131,7 @@ void UsbLoop::opened(nanoseconds now, std::string& problem) {
   } else if (line_) {
     const bool is_gone = line_->fault() == UsbFault::gone;
     driver_->lost(is_gone);
-    if (is_gone) problem = std::string("was unplugged while it was set up") + kIsTakenUpAgain;
+    if (is_gone) problem = std::string("was unplugged during set-up") + kIsTakenUpAgain;
     line_.reset();
   }
 }

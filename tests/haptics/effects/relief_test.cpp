@@ -134,7 +134,7 @@ TEST(ImageFile, ReadsGreyColourAndSixteenBits) {
 TEST(ImageFile, RefusesInvalidPicturesWithTheRemedy) {
   const test::ScratchFolder folder;
   EXPECT_THAT(refusal(folder.file("none.png")), testing::HasSubstr("none.png"));
-  EXPECT_THAT(refusal(folder.file("")), testing::HasSubstr("is no file; give the path"));
+  EXPECT_THAT(refusal(folder.file("")), testing::HasSubstr("does not exist; give the path"));
   std::ofstream(folder.file("text.png")) << "GIF89a";
   EXPECT_THAT(refusal(folder.file("text.png")), testing::HasSubstr("neither a PNG picture nor"));
   write_png(folder.file("small.png"), 3, 9, PNG_FORMAT_GRAY, std::vector<std::uint8_t>(27));
@@ -144,7 +144,8 @@ TEST(ImageFile, RefusesInvalidPicturesWithTheRemedy) {
   // A file that ends early.
   write_png(folder.file("whole.png"), 64, 64, PNG_FORMAT_GRAY, std::vector<std::uint8_t>(4096, 7));
   std::filesystem::resize_file(folder.file("whole.png"), 60);
-  EXPECT_THAT(refusal(folder.file("whole.png")), testing::HasSubstr("is no PNG picture"));
+  EXPECT_THAT(refusal(folder.file("whole.png")),
+              testing::HasSubstr("is not a readable PNG picture"));
 }
 
 std::string refusal_of(std::string_view bytes) {

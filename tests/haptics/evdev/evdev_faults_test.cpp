@@ -161,9 +161,9 @@ struct Way {
 TEST(EvdevLoop, ReportsObstaclesWithTheRemedy) {
   const Way ways[] = {
       {"sudo usermod -aG input", [](EvdevModel& m) { m.opening = -EACCES; }},
-      {"another program has it for itself", [](EvdevModel& m) { m.fail(EVIOCGRAB, EBUSY); }},
-      {"only forces that it is told", [](EvdevModel& m) { m.without = {FF_SPRING}; }},
-      {"it shakes at most",
+      {"another program has grabbed it", [](EvdevModel& m) { m.fail(EVIOCGRAB, EBUSY); }},
+      {"it renders constant forces only", [](EvdevModel& m) { m.without = {FF_SPRING}; }},
+      {"which walls need",
        [](EvdevModel& m) {
          m.without = {FF_SPRING, FF_CONSTANT};
        }},

@@ -123,7 +123,7 @@ TEST(FalconLoop, DeclaredQuickChainAllowsStifferWalls) {
   EXPECT_GT(falcon.servo.static_stiffness_limit(), 1.4 * standard);
   falcon.run(std::chrono::seconds(3));
   EXPECT_THAT(falcon.notices, Contains(HasSubstr("an exchange takes 1.")));
-  EXPECT_LE(falcon.last.tally.failed, 300U) << "while it was set up";
+  EXPECT_LE(falcon.last.tally.failed, 300U) << "during set-up";
   EXPECT_GT(falcon.model.force().z(), 0.5);
   EXPECT_GE(falcon.least_books, -1e-9);
 }
@@ -222,7 +222,7 @@ TEST(FalconLoop, DifferentEchoStopsTheLoading) {
   Plugged falcon(options, pressing, {program()});
   falcon.model.damage(1);
   falcon.run(std::chrono::seconds(3));
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("echoes is not the firmware")));
+  EXPECT_THAT(falcon.notices, Contains(HasSubstr("echo differs from the firmware")));
 }
 
 TEST(FalconLoop, RefusesAFileThatIsNoFirmware) {

@@ -86,7 +86,7 @@ class FalconVm : public ::testing::Test {
     const bool is_ready = comes_true([&] {
       // The action requested of its user.
       if (program->has_said("not homed")) falcon->with([](FalconModel& one) { one.home(); });
-      return program->has_said("ready: forces are shown");
+      return program->has_said("ready: forces are active");
     });
     EXPECT_TRUE(is_ready) << program->said();
     return is_ready ? std::move(program) : nullptr;

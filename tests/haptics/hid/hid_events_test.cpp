@@ -198,17 +198,17 @@ TEST(HidEvents, ReportsObstaclesWithTheRemedy) {
   };
   EXPECT_THAT(said([](HidWheel& wheel) { wheel.opening = -EACCES; }),
               HasSubstr("this user may not open /dev/hidraw3: sudo reckon devices --install-rule "
-                        "while it is plugged in"));
+                        "while it is attached"));
   EXPECT_THAT(said([](HidWheel& wheel) { wheel.is_taken = true; }),
-              HasSubstr("another program has it"));
+              HasSubstr("another program has grabbed it"));
   EXPECT_THAT(said([](HidWheel& wheel) { wheel.fail(HidWheel::Call::set_feature, -EPIPE); }),
-              HasSubstr("it takes no spring: Broken pipe"));
+              HasSubstr("it accepts no spring effect: Broken pipe"));
   EXPECT_THAT(said([](HidWheel& wheel) { wheel.fail(HidWheel::Call::write, -EPIPE); }),
-              HasSubstr("it cannot be taken: Broken pipe"));
+              HasSubstr("it cannot be grabbed: Broken pipe"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x64}; }), HasSubstr("Saturation"));
   HidWheelOptions seldom;
   seldom.takes = milliseconds(5);
-  EXPECT_THAT(said([](HidWheel&) {}, seldom), HasSubstr("it takes a report each 5000 us"));
+  EXPECT_THAT(said([](HidWheel&) {}, seldom), HasSubstr("it accepts a report every 5000 us"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x23}; }), HasSubstr("event_axes = 1"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x25}; }), HasSubstr("renders no springs"));
   EXPECT_THAT(with([](auto& wheel) { wheel.has_room_of_its_own = false; }),
@@ -232,7 +232,7 @@ TEST(HidEvents, DeviceRefusedByPathGetsAReason) {
   EXPECT_THAT(said({}), HasSubstr(path + ": its report descriptor cannot be read"));
   EXPECT_THAT(said({0x06, 0x01}), HasSubstr(path + ": its report descriptor is malformed"));
   EXPECT_THAT(said({0x05, 0x01, 0x09, 0x02, 0xA1, 0x01, 0xC0}),
-              HasSubstr(path + " gives no force feedback"));
+              HasSubstr(path + " has no force feedback"));
 }
 
 TEST(HidEvents, MissingOptionalUsagesAreTolerated) {
@@ -251,7 +251,8 @@ TEST(HidEvents, AsksToMoveADeviceWithoutAPosition) {
     return HidWheel::Places{moves ? 0.01 * std::sin(10 * t) : 0, 0};
   });
   plugged.run(milliseconds(1000));
-  EXPECT_THAT(plugged.notices, ElementsAre(HasSubstr("move it, and it is tried again")));
+  EXPECT_THAT(plugged.notices,
+              ElementsAre(HasSubstr("it reports no position before it moves: move it")));
   moves = true;
   plugged.run(milliseconds(1000));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));

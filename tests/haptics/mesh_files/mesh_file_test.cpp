@@ -180,13 +180,13 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
   EXPECT_THAT(message(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n"),
               HasSubstr(":5: a face names vertex 8, counted from 0, of 3"));
   EXPECT_THAT(message(".obj", "v 0 0 0\nf -1 -2 -3\n"), HasSubstr(":2: face 1 names vertex -1"));
-  EXPECT_THAT(message(".obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr(":2: '0' names no vertex"));
+  EXPECT_THAT(message(".obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr(":2: '0' refers to no vertex"));
   const std::string little("v\0 \0001\0 \000", 8), big("\0v\0 \0001\0 ", 8);
   EXPECT_EQ(message(".obj", little), ": is text in UTF-16 (little-endian); save it in UTF-8");
   EXPECT_EQ(message(".obj", "\xFF\xFE" + little), message(".obj", little));
   EXPECT_EQ(message(".obj", big), ": is text in UTF-16 (big-endian); save it in UTF-8");
   EXPECT_EQ(message(".ply", "\xFE\xFF" + big), message(".obj", big));
-  EXPECT_THAT(message(".off", "OFF BINARY\n"), HasSubstr(":1: is binary; write it as a text"));
+  EXPECT_THAT(message(".off", "OFF BINARY\n"), HasSubstr(":1: is binary; export it as text"));
   EXPECT_THAT(message(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n"),
               HasSubstr("ends before vertex 2 of 3"));
   EXPECT_THAT(message(".off", "OFF\n1 1 0\n0 0 0\n3 0 0\n"),
@@ -196,8 +196,8 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
               HasSubstr("no list vertex_indices"));
   EXPECT_THAT(message(".ply", binary_ply(false).substr(0, 400)), HasSubstr("cut off"));
   EXPECT_THAT(message(".stl", "solid s\nouter loop\nvertex 0 0 0\n"), HasSubstr("cut off"));
-  EXPECT_THAT(message(".stl", binary_stl("cut").substr(0, 180)), HasSubstr("184 octets, where"));
-  EXPECT_THAT(message(".stl", std::string(100, 'x')), HasSubstr("octets, where it has 100"));
+  EXPECT_THAT(message(".stl", binary_stl("cut").substr(0, 180)), HasSubstr("184 octets, but"));
+  EXPECT_THAT(message(".stl", std::string(100, 'x')), HasSubstr("octets, but it has 100"));
   EXPECT_THAT(message(".3ds", ""), HasSubstr("ends in .obj, .ply, .stl or .off"));
 }
 

@@ -212,7 +212,7 @@ TEST(PolhemLoop, CounterWrapsDuringMotion) {
   }
   EXPECT_LT(polhem.model.counts()[0], -33'000) << "beyond 16 bits";
   EXPECT_LT(most, 5e-3) << "[m]: the way of 7 ms, and no jump";
-  EXPECT_THAT(polhem.notices, Not(Contains(HasSubstr("end of its reach"))));
+  EXPECT_THAT(polhem.notices, Not(Contains(HasSubstr("end of its range"))));
 }
 
 TEST(PolhemLoop, WithoutHomingThereIsNoForce) {
@@ -325,7 +325,7 @@ TEST(PolhemLoop, OlderReportsAreRefusedWithTheRemedy) {
   options.report = 8;
   Plugged polhem(options);
   polhem.run(seconds(1));
-  EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("reports of 8 octets")));
+  EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("reports have 8 octets")));
   EXPECT_TRUE(polhem.motors_rest());
   EXPECT_FALSE(polhem.loop->stage());
 }
@@ -335,7 +335,7 @@ TEST(PolhemLoop, ReportsOfAnotherLengthAreRefused) {
   options.report = 12;
   Plugged polhem(options);
   polhem.run(seconds(1));
-  EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("12 octets where 14 are known")));
+  EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("12 octets instead of 14")));
 }
 
 TEST(PolhemLoop, LeavesAnotherDeviceWithTheSameIdAlone) {

@@ -157,7 +157,7 @@ TEST(SerialLoop, ResetBoardIsAskedAgain) {
   serial.plug();
   ASSERT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
   serial.board.forget();
-  ASSERT_TRUE(serial.is_told("does not answer any more"));
+  ASSERT_TRUE(serial.is_told("stopped answering"));
   EXPECT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
 }
 
@@ -169,7 +169,7 @@ TEST(SerialLoop, BlockedLineIsReopened) {
   ASSERT_GE(line, 0);
   ASSERT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
   ASSERT_EQ(tcflow(line, TCOOFF), 0);
-  EXPECT_TRUE(serial.is_told("takes no octets"));
+  EXPECT_TRUE(serial.is_told("has accepted no octets"));
   ASSERT_EQ(tcflow(line, TCOON), 0);
   EXPECT_TRUE(serial.wait_for([&] { return !serial.board.force().isZero(0); }));
   close(line);

@@ -216,18 +216,18 @@ TEST(SerialPackets, UnsuitableBoardIsRefusedWithTheReason) {
   EXPECT_THAT(refusal([](auto& board) { board.axes = 4; }), HasSubstr("it has 4 axes"));
   EXPECT_THAT(refusal([](auto& board) { board.axes = 0; }), HasSubstr("it has 0 axes"));
   EXPECT_THAT(refusal([](auto& board) { board.watchdog = 0; }), HasSubstr("after 0 ms"));
-  EXPECT_THAT(refusal([](auto& board) { board.watchdog = 11; }), HasSubstr("one of 1 to 10 ms"));
+  EXPECT_THAT(refusal([](auto& board) { board.watchdog = 11; }), HasSubstr("set it to 1 to 10 ms"));
   EXPECT_THAT(refusal([](auto& board) { board.period = 2001; }), HasSubstr("every 2001 us"));
   EXPECT_THAT(refusal([](auto& board) { board.period = 99; }), HasSubstr("every 99 us"));
-  EXPECT_THAT(refusal([](auto& board) { board.axis[0].direction = 3; }), HasSubstr("nowhere"));
+  EXPECT_THAT(refusal([](auto& board) { board.axis[0].direction = 3; }), HasSubstr("one has none"));
   EXPECT_THAT(refusal([](auto& board) {
                 board.axes = 2;
                 board.axis[1] = board.axis[0];
               }),
-              HasSubstr("the same way"));
-  EXPECT_THAT(refusal([](auto& board) { board.axis[0].nm_per_count = 0; }), HasSubstr("a count"));
+              HasSubstr("the same direction"));
+  EXPECT_THAT(refusal([](auto& board) { board.axis[0].nm_per_count = 0; }), HasSubstr("the step"));
   EXPECT_THAT(refusal([](auto& board) { board.axis[0].nm_per_count = -1'000'001; }),
-              HasSubstr("a count"));
+              HasSubstr("the step"));
   EXPECT_THAT(refusal([](auto& board) { board.axis[0].most_force = 0; }), HasSubstr("no force"));
   EXPECT_THAT(refusal([](auto& board) { board.axis[0].most_force = 2'500; }),
               HasSubstr("max_force = \"2.5 N\""));

@@ -34,7 +34,7 @@ struct Falcon : test::FalconKind {
   static constexpr milliseconds kReady{1000};   // until it is ready
   static constexpr milliseconds kSettle{3000};  // until it presses again
   static constexpr double kBeyond = 0.08;       // [m], out of reach
-  static constexpr const char* kNotice = "ready: forces are shown";
+  static constexpr const char* kNotice = "ready: forces are active";
 };
 
 struct Polhem : test::PolhemKind {
@@ -72,7 +72,7 @@ TYPED_TEST(UsbLoopTest, WallIsFeltThroughTheRealLibrary) {
   Plugged<TypeParam> usb;
   usb.run(TypeParam::kSettle);
   EXPECT_THAT(usb.notices, Contains(HasSubstr(TypeParam::kNotice)));
-  EXPECT_THAT(usb.notices, Contains(HasSubstr("ready: forces are shown")));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("ready: forces are active")));
   EXPECT_THAT(usb.notices, Contains(HasSubstr("an exchange takes 1.")));
   // A wall spring K against the hand's of 200 N/m, 20 mm behind it.
   const double wall = usb.servo.static_stiffness_limit();
@@ -89,7 +89,7 @@ TYPED_TEST(UsbLoopTest, NoForceAtTheEndOfItsReach) {
   usb.press();
   out = TypeParam::kBeyond;
   usb.run(milliseconds(1000));
-  EXPECT_THAT(usb.notices, Contains(HasSubstr("end of its reach")));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("end of its range")));
   EXPECT_TRUE(usb.motors_rest());
   out = 0;
   usb.run(TypeParam::kSettle);
@@ -233,7 +233,7 @@ TYPED_TEST(UsbLoopTest, MuteDeviceIsSetUpAgain) {
   usb.press();
   usb.model.mute(milliseconds(600));
   usb.run(milliseconds(400));
-  EXPECT_THAT(usb.notices, Contains(HasSubstr("does not answer any more")));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("stopped answering")));
   EXPECT_TRUE(usb.motors_rest());
   usb.run(TypeParam::kSettle);
   EXPECT_GT(usb.model.force().z(), 0.5);
