@@ -81,7 +81,7 @@ class Reader:
             return f"exit status {program.returncode}\n{err[-2000:]}"
         if not out.strip() and set(self._folder.iterdir()) == before and "replay" not in words:
             return f"nothing comes of it\n{err[-2000:]}"
-        if beside and re.search(r"no entity heard|recorded 0 datagrams", out + err):
+        if beside and re.search(r"no entity received|it has no entity|recorded 0 datagrams", out + err):
             return f"it heard nobody\n{out}{err[-2000:]}"
         return None
 

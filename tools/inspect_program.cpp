@@ -16,7 +16,8 @@ std::span<const Verb> inspect_verbs() {
 
 int run_inspect_program(Arguments arguments, const Console& console) noexcept {
   return run_reading_program(
-      {"reckon-inspect", "The captures of Reckon: `reckon inspect` and its like start it.",
+      {"reckon-inspect",
+       "Verbs of Reckon for captures: `reckon inspect` and similar verbs start it.",
        inspect_verbs()},
       arguments, console);
 }

@@ -16,7 +16,8 @@ std::span<const Verb> peer_verbs() {
 
 int run_peer_program(Arguments arguments, const Console& console) noexcept {
   return run_reading_program(
-      {"reckon-peer", "The peers of Reckon: `reckon demo` and its like start them.", peer_verbs()},
+      {"reckon-peer", "Verbs of Reckon for peers: `reckon demo` and similar verbs start it.",
+       peer_verbs()},
       arguments, console);
 }
 

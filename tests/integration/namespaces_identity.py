@@ -46,7 +46,7 @@ def eight_at_once(setup):
         check(len(first) == 8, f"{len(first)} epochs")
         check(len({own for _, own in last.values()}) == 8, "two hold one id")
         check(settled < CONVERGED, f"an id changed {settled:.2f} s after the last start")
-        buried = [text for p in peers for _, text in p.errors if "silent" in text or "anew" in text]
+        buried = [text for p in peers for _, text in p.errors if "silent" in text or "restarted" in text]
         check(not buried, f"the living were buried: {buried}")
 
 
@@ -118,7 +118,7 @@ def restart(setup):
             time.sleep(0.4)
             again = time.monotonic()
             bob = bed.peer(2, setup.scene, "BOB", 2)
-            told = alice.wait_line("started anew", 5, again - alice.started, errors=True)
+            told = alice.wait_line("restarted", 5, again - alice.started, errors=True)
             check(told, f"the restart was not seen: {alice.error_text()}")
             begun = min(when for when, source, _, kind, _ in sniffer.pdus(Testbed.address(2), again)
                         if kind == PRESENCE)

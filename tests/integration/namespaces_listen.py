@@ -167,11 +167,11 @@ def silence(setup):
             sender.sendto(pdu(number), ("239.9.9.9", 6400))
             time.sleep(0.1)
         check(not heard(elsewhere) and not heard(port), "heard what it does not listen to")
-        for program, where, what in ((elsewhere, rf"nothing heard yet at {BASE_GROUP}:{PORT} .* on e0", f"{BASE_GROUP}:{PORT} on lo"),
-                                     (port, "nothing heard yet at 239.7.7.7:7000 on lo and e0", "239.9.9.9:6400 on e0")):
+        for program, where, what in ((elsewhere, rf"nothing received yet at {BASE_GROUP}:{PORT} .* on e0", f"{BASE_GROUP}:{PORT} on lo"),
+                                     (port, "nothing received yet at 239.7.7.7:7000 on lo and e0", "239.9.9.9:6400 on e0")):
             told = program.wait_line(where, 0, errors=True)
             check(told and 2.9 < told[0] < 5, f"not told where it listens: {program.error_text()}")
-            check(program.wait_line(f"heard on this host: {what}", 0, errors=True), f"not told of {what}: {program.error_text()}")
+            check(program.wait_line(f"received by this host: {what}", 0, errors=True), f"not told of {what}: {program.error_text()}")
         print("  " + "\n  ".join(text for _, text in port.errors))
         other.close()
         demo.interrupt()

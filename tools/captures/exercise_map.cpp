@@ -126,16 +126,17 @@ bool ExerciseMap::has_body_axes(std::span<const std::byte> octets, const pdu::Pd
 std::string ExerciseMap::summary() const {
   if (!is_active()) return "";
   std::string text = fmt::format("{} mapped\n", counted(counts_.mapped, "PDU"));
-  if (request_.has_value() && !shift_.has_value()) text += "no PDU has a place: none was moved\n";
-  text += line_of(counts_.broken, "not mapped: damaged, sealed or no DIS");
+  if (request_.has_value() && !shift_.has_value())
+    text += "no PDU has a location: none was moved\n";
+  text += line_of(counts_.broken, "not mapped: damaged, sealed or not DIS");
   if (ids_.empty() && !request_.has_value()) return text;
   text += line_of(counts_.untabled,
-                  "of types without a field table: IDs and places in them are as they were");
+                  "of types without a field table: their IDs and locations are unchanged");
   text += line_of(counts_.octets,
-                  "with vendor records, datums or signals: what these say is as it was");
+                  "with vendor records, datums or signals: their contents are unchanged");
   text += line_of(counts_.places,
-                  "with places that cannot be moved: live entities, grids, compressed states");
-  text += line_of(counts_.ids, "with an ID of 8 bits that the new one does not fit");
+                  "with locations that cannot be moved: live entities, grids, compressed states");
+  text += line_of(counts_.ids, "with an ID of 8 bits that is too small for the new one");
   return text;
 }
 

@@ -43,7 +43,7 @@ IdMap::Rule IdMap::parse(const std::string& text) {
                     text));
   if (!(*from)[2].has_value() && (*to)[2].has_value())
     throw UsageError(fmt::format(
-        "--map-id {}: all entities would become one; write * for the entity on the right too",
+        "--map-id {}: this would merge all entities; write * for the entity on the right too",
         text));
   return {*from, *to};
 }

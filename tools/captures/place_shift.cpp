@@ -44,7 +44,7 @@ ShiftRequest::Geodetic ShiftRequest::parse(std::string_view text, const std::str
                         std::abs(numbers[0]) <= 90 && std::abs(numbers[1]) <= 360;
   const bool has_height = numbers.size() == 3;
   if (!is_place || (has_height && !(std::abs(numbers[2]) <= kGreatestHeight)))
-    throw UsageError(fmt::format("--map-place {}: '{}' is no place; {}", whole, text, kForm));
+    throw UsageError(fmt::format("--map-place {}: '{}' is not a place; {}", whole, text, kForm));
   Geodetic place{numbers[0] * kRadiansPerDegree, numbers[1] * kRadiansPerDegree, {}};
   if (has_height) place.height = numbers[2];
   return place;

@@ -126,10 +126,10 @@ std::string RadioAudio::summary() const {
   };
   tell(gaps_, time_text(silence_) + " of this is silence, in", counted(gaps_, "gap"));
   tell(repeats_, counted(repeats_, "Signal PDU"), "left out: the same PDU as before");
-  tell(overlap_, time_text(overlap_), "left out: it overlaps what came before");
+  tell(overlap_, time_text(overlap_), "left out: it overlaps an earlier PDU");
   for (const auto& [scheme, count] : others_)
     tell(count, counted(count, "Signal PDU"),
-         fmt::format("left out: {}, not decoded here", encoding_text(scheme)));
+         fmt::format("left out: {} is not supported", encoding_text(scheme)));
   return text;
 }
 

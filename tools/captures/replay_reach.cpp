@@ -29,7 +29,7 @@ std::string recorded_interface(const peer::DatagramSource& source) {
     throw UsageError("--iface recorded: the capture names no interface; write --iface eth0");
   if (::if_nametoindex(name.c_str()) == 0)
     throw UsageError(fmt::format(
-        "--iface recorded: {} is not on this host; `reckon doctor` lists what is", name));
+        "--iface recorded: {} is not on this host; `reckon doctor` lists interfaces", name));
   return name;
 }
 
@@ -41,7 +41,7 @@ std::string ReplayReach::text(const std::string& interface) const {
                         destinations_.size() - 1);
   text += " on " + interface;
   if (interface != "lo") return text;
-  return text + fmt::format(" (this host alone; --iface {} for the LAN)", name_of_a_lan());
+  return text + fmt::format(" (only this host; --iface {} for the LAN)", name_of_a_lan());
 }
 
 }  // namespace reckon::tools

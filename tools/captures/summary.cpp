@@ -190,10 +190,10 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
         compression(report),
         report.zstd_frames > 0 ? ", " + counted(report.zstd_frames, "zstd frame") : std::string());
   if (report.fragments.whole > 0)
-    out += fmt::format("{} put together from IP fragments\n",
+    out += fmt::format("{} reassembled from IP fragments\n",
                        counted(report.fragments.whole, "datagram"));
   if (tally.foreign > 0)
-    out += fmt::format("{} of other protocols, no DIS\n", counted(tally.foreign, "datagram"));
+    out += fmt::format("{} of other protocols\n", counted(tally.foreign, "datagram"));
   const std::string damage = damage_text(report);
   if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
   if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));

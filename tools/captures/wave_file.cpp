@@ -34,7 +34,7 @@ WaveFile::WaveFile(const std::string& path, bool overwrite, std::uint32_t rate)
     : path_(path), rate_(rate), file_(std::fopen(path.c_str(), overwrite ? "wb" : "wbx")) {
   if (!file_ && errno == EEXIST)
     throw UsageError(path_ + " exists; choose another name, or --force to overwrite it");
-  if (!file_) throw UsageError(path_ + " cannot be written; name a file in a folder of yours");
+  if (!file_) throw UsageError(path_ + " cannot be written; name a file in a writable folder");
   write_header();
 }
 
@@ -46,7 +46,7 @@ WaveFile::~WaveFile() {
 }
 
 void WaveFile::check(bool good) const {
-  if (!good) throw EnvironmentError(path_ + ": could not be written whole; is the disk full?");
+  if (!good) throw EnvironmentError(path_ + ": could not be written completely; is the disk full?");
 }
 
 void WaveFile::write_header() {

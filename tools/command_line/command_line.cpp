@@ -34,7 +34,7 @@ std::uint64_t count_value(const std::string& name, const std::string& text) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, count);
   if (result.ec == std::errc{} && result.ptr == end) return count;
-  throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
+  throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number of at least 0", text));
 }
 
 /// Accepts only one of the words; help shows their list as the value's name.
@@ -198,7 +198,7 @@ struct CommandLine::Parser {
       waits = takes_value && name.size() == word.size() ? option : nullptr;
     }
     if (waits == nullptr) return {};
-    return fmt::format("{} is the last word and needs a value: {}", waits->get_name(),
+    return fmt::format("{} needs a value after it: {}", waits->get_name(),
                        manual_entry(*waits).value);
   }
 
@@ -317,7 +317,7 @@ void CommandLine::check_for(std::string_view word) const {
   for (std::size_t i = 0; i < options.size(); ++i) {
     const std::string_view owners = parser_->owners_of(i);
     if (options[i]->count() == 0 || owners.empty() || is_among(word, owners)) continue;
-    throw UsageError(fmt::format("{} belongs to reckon {} {}; reckon {} {} does not take it",
+    throw UsageError(fmt::format("{} is a flag of reckon {} {}, not of reckon {} {}",
                                  options[i]->get_name(), parser_->verb,
                                  owners.substr(0, owners.find(' ')), parser_->verb, word));
   }
@@ -341,7 +341,7 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
     return exit_status(ExitCode::good);
   }
   const auto wrong = [&](const std::string& sentence) {
-    fmt::print(console.err, "reckon {}: {}\n`reckon {} --help` shows what it takes.\n",
+    fmt::print(console.err, "reckon {}: {}\n`reckon {} --help` shows its arguments.\n",
                parser_->verb, sentence, parser_->verb);
     return exit_status(ExitCode::usage);
   };
@@ -354,7 +354,7 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
     fmt::print(console.out, "{}", parser_->help_of(parser_->word_of(arguments)));
     return exit_status(ExitCode::good);
   } catch (const CLI::ExtrasError&) {
-    return wrong(fmt::format("'{}' is a word too many; write reckon {} {}",
+    return wrong(fmt::format("unexpected argument '{}'; write reckon {} {}",
                              parser_->app.remaining().front(), parser_->verb, parser_->synopsis()));
   } catch (const CLI::RequiredError& error) {
     return wrong(

@@ -77,13 +77,13 @@ void take_word(std::string_view word, Law& law, std::optional<std::string_view>&
     const auto time = parse_duration(value);
     if (!time)
       throw UsageError(
-          fmt::format("--impair {}: '{}' is no duration; write {}=20ms", name, value, name));
+          fmt::format("--impair {}: '{}' is not a duration; write {}=20ms", name, value, name));
     law.*key->time = *time;
   } else {
     const auto number = parse_number(value);
     if (!number)
       throw UsageError(
-          fmt::format("--impair {}: '{}' is no number; write {}=20%", name, value, name));
+          fmt::format("--impair {}: '{}' is not a number; write {}=20%", name, value, name));
     law.*key->number = *number;
   }
 }

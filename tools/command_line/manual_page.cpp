@@ -160,7 +160,7 @@ void print_manual_page(std::span<const Verb> verbs, std::FILE* out) {
   print_verbs(verbs, out);
   print_exit_status(out);
   fmt::print(out, ".SH ENVIRONMENT\n.TP\n\\fBNO_COLOR\\fR\n{}",
-             filled("Set to anything: no colour. Without a terminal there is none anyway."));
+             filled("If set: no colour. Output that is not a terminal has none."));
   fmt::print(out,
              ".SH FILES\n.TP\n\\fI../share/reckon/scenes\\fR\n{}"
              ".TP\n\\fI../share/reckon/wireshark/reckon.lua\\fR\n{}",

@@ -15,7 +15,7 @@ void check_writable(const std::string& path) {
   std::error_code ignored;
   const bool is_new = !std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
   if (!std::ofstream(path, std::ios::app))
-    throw UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+    throw UsageError(fmt::format("{}: cannot be written; name a file in a writable folder", path));
   if (is_new) std::filesystem::remove(path, ignored);
 }
 
@@ -24,7 +24,7 @@ void save_output(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (!file)
-    throw UsageError(fmt::format("{}: could not be written whole; is the disk full?", path));
+    throw UsageError(fmt::format("{}: could not be written completely; is the disk full?", path));
 }
 
 void write_output(const std::string& path, const std::string& text, const Console& console) {

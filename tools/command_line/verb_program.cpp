@@ -64,19 +64,16 @@ int out_of_memory(const Console& console, Arguments arguments) {
   rlimit room{};
   const bool limited = getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY;
   if (limited) {
-    std::fprintf(
-        console.err,
-        "reckon %.*s: the %llu KiB of address space that ulimit -v leaves are too few, for "
-        "tables are reserved whole and take memory as they fill: raise it (ulimit -v "
-        "unlimited) and bound memory itself instead (MemoryMax of systemd, docker run "
-        "--memory)\n",
-        length, verb.data(), static_cast<unsigned long long>(room.rlim_cur / 1024));
+    std::fprintf(console.err,
+                 "reckon %.*s: ulimit -v leaves only %llu KiB of address space, but tables reserve "
+                 "their full size and use memory as they fill: raise it (ulimit -v unlimited) and "
+                 "limit memory itself instead (MemoryMax of systemd, docker run --memory)\n",
+                 length, verb.data(), static_cast<unsigned long long>(room.rlim_cur / 1024));
   } else {
-    std::fprintf(
-        console.err,
-        "reckon %.*s: there is no memory left (see free -m, and the limit of the container "
-        "in memory.max): end other programs, or give the container more\n",
-        length, verb.data());
+    std::fprintf(console.err,
+                 "reckon %.*s: out of memory (see free -m, and the container's limit in "
+                 "memory.max): end other programs, or raise the container's limit\n",
+                 length, verb.data());
   }
   return exit_status(ExitCode::environment);
 }

@@ -227,7 +227,7 @@ std::size_t exchanged(std::uint16_t length) {
 
 /// "; 36864 is 144 with its octets exchanged".
 std::string exchanged_text(std::uint16_t length) {
-  return fmt::format("; {} is {} with its octets exchanged", length, exchanged(length));
+  return fmt::format("; {} is {} with its octets swapped", length, exchanged(length));
 }
 
 PduFault truncated(std::span<const std::byte> octets, const pdu::PduHeader& header) {
@@ -236,7 +236,7 @@ PduFault truncated(std::span<const std::byte> octets, const pdu::PduHeader& head
             fmt::format("a header needs 12 octets, {} remain", octets.size())};
   const PduFault inside = find_fault(octets, header.pdu_type, FaultFinder::Search::end);
   std::string reason =
-      fmt::format("header says {} octets, {} remain", header.length, octets.size());
+      fmt::format("length field: {} octets, {} remain", header.length, octets.size());
   if (has_exchanged_length(octets, header, DecodeError::truncated))
     return {DecodeError::truncated, kLengthFieldAt, reason + exchanged_text(header.length)};
   const bool named = inside.error == DecodeError::truncated;
@@ -251,8 +251,8 @@ std::string need_text(pdu::PduType type) {
 }
 
 PduFault length_fault(std::span<const std::byte> octets, const pdu::PduHeader& header) {
-  std::string reason = fmt::format("header says {} octets, ", header.length);
-  if (header.length == 0) reason += fmt::format("{} are there, ", octets.size());
+  std::string reason = fmt::format("length field: {} octets, ", header.length);
+  if (header.length == 0) reason += fmt::format("{} available, ", octets.size());
   reason += need_text(header.pdu_type);
   if (has_exchanged_length(octets, header, DecodeError::length))
     reason += exchanged_text(header.length);
@@ -263,7 +263,7 @@ PduFault length_fault(std::span<const std::byte> octets, const pdu::PduHeader& h
 
 PduFault explain_shortness(std::span<const std::byte> octets, const pdu::PduHeader& header) {
   return {DecodeError::length, kLengthFieldAt,
-          fmt::format("{} octets are there, {}", octets.size(), need_text(header.pdu_type))};
+          fmt::format("{} octets available, {}", octets.size(), need_text(header.pdu_type))};
 }
 
 bool has_exchanged_length(std::span<const std::byte> octets, const pdu::PduHeader& header,
@@ -288,15 +288,16 @@ PduFault explain_fault(std::span<const std::byte> octets, const pdu::PduHeader& 
     case DecodeError::length:
       return length_fault(octets, header);
     case DecodeError::version:
-      return {error, 0,
-              fmt::format("protocol version {}, {} to {} are read", header.protocol_version,
-                          pdu::kOldestProtocolVersion, pdu::kProtocolVersion)};
+      return {
+          error, 0,
+          fmt::format("protocol version {}, but {} to {} are supported", header.protocol_version,
+                      pdu::kOldestProtocolVersion, pdu::kProtocolVersion)};
     case DecodeError::stray:
-      return {error, 0, fmt::format("{} octets behind the last PDU", octets.size())};
+      return {error, 0, fmt::format("{} octets after the last PDU", octets.size())};
     case DecodeError::unknown_type:
       return {error, 2,
-              fmt::format("{} octets kept as they are: no field table for PDU type {}",
-                          header.length, static_cast<unsigned>(header.pdu_type))};
+              fmt::format("{} octets kept unchanged: no field table for PDU type {}", header.length,
+                          static_cast<unsigned>(header.pdu_type))};
     default:
       break;
   }

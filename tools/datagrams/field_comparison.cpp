@@ -16,7 +16,7 @@
 namespace reckon::tools {
 namespace {
 
-static_assert(std::numeric_limits<long double>::digits >= 64, "it holds every 64-bit number");
+static_assert(std::numeric_limits<long double>::digits >= 64, "every 64-bit number matches it");
 
 /// A number that takes the whole text.
 template <typename Number>
@@ -62,10 +62,10 @@ FieldComparison::FieldComparison(pdu::FieldPath path, FilterOperator op, std::st
 
 std::string FieldComparison::misfit() const {
   const bool is_ordered = op_ != FilterOperator::equal && op_ != FilterOperator::unequal;
-  if (is_ordered && !path_.has_numbers()) return "this field takes == and != only";
+  if (is_ordered && !path_.has_numbers()) return "this field allows == and != only";
   if (number_.has_value()) return {};
   if (is_ordered || (!path_.has_names() && !path_.has_others()))
-    return fmt::format("'{}' is no number, and this field is one", text_);
+    return fmt::format("'{}' is not a number, but this field is", text_);
   return path_.has_others() && !path_.is_name() ? std::string() : unlisted_name();
 }
 
@@ -81,7 +81,7 @@ std::string FieldComparison::unlisted_name() const {
     names.insert(std::move(word));
   });
   if (is_listed || search.is_found()) return {};
-  if (names.empty()) return fmt::format("'{}' is no number, and this field is one", text_);
+  if (names.empty()) return fmt::format("'{}' is not a number, but this field is", text_);
   const auto end = names.size() > kShown ? std::next(names.begin(), kShown) : names.end();
   const std::string known =
       fmt::format("; it is a number, or {}{}", fmt::join(names.begin(), end, ", "),

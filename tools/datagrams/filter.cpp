@@ -67,7 +67,7 @@ class FilterParser {
 
   void parse() {
     if (text_.size() > Filter::kLongest)
-      fail(Filter::kLongest, fmt::format("a filter has at most {} letters", Filter::kLongest));
+      fail(Filter::kLongest, fmt::format("a filter has at most {} characters", Filter::kLongest));
     advance();
     (void)disjunction();
     if (token_.kind == TokenKind::end) return;
@@ -122,7 +122,7 @@ class FilterParser {
       at_ = begin + sign.size();
       return;
     }
-    fail(begin, "this letter has no meaning here; put text in quotes");
+    fail(begin, "unexpected character; put text in quotes");
   }
   /// Takes the token if it is one of these.
   [[nodiscard]] bool take(std::string_view word, std::string_view sign) {
@@ -197,7 +197,7 @@ class FilterParser {
     comparison.op = operation();
     const bool ordered = of.kind == ValueKind::number || of.kind == ValueKind::name;
     if (!ordered && comparison.op > Filter::Operator::unequal)
-      fail(at, fmt::format("{} takes == and != only", of.name));
+      fail(at, fmt::format("{} allows == and != only", of.name));
     value(of, comparison);
     return comparison;
   }
@@ -214,7 +214,7 @@ class FilterParser {
     const std::size_t at = token_.at;
     const Filter::Operator op = operation();
     if (op > Filter::Operator::unequal && !path->has_numbers())
-      fail(at, fmt::format("{} takes == and != only", written));
+      fail(at, fmt::format("{} allows == and != only", written));
     if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
       fail(token_.at, fmt::format("expected a value of {}", written));
     FieldComparison comparison(std::move(*path), op, token_.text);
@@ -235,11 +235,10 @@ class FilterParser {
     }
     search.look_at(nearest_table_field(typed));
     fail(token_.at,
-         fmt::format(
-             "there is no field '{}'{}", token_.text,
-             suggestion(search.nearest(),
-                        "; `reckon inspect --help` lists those of every PDU, `reckon inspect "
-                        "--fields TYPE` those of a PDU type")));
+         fmt::format("there is no field '{}'{}", token_.text,
+                     suggestion(search.nearest(),
+                                "; `reckon inspect --help` lists the fields of every PDU, `reckon "
+                                "inspect --fields TYPE` the fields of a PDU type")));
   }
 
   Filter::Operator operation() {
@@ -275,7 +274,7 @@ class FilterParser {
       comparison.number = named_value(field);
     else
       fail(token_.at,
-           fmt::format("'{}' is no number: {} is {}", token_.text, field.name, field.meaning));
+           fmt::format("'{}' is not a number: {} is {}", token_.text, field.name, field.meaning));
     advance();
   }
   [[nodiscard]] std::optional<double> plain_number() const {

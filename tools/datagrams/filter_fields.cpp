@@ -142,7 +142,7 @@ constexpr auto kFields = std::to_array<FilterField>({
     {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name,
      from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
      name_of<pdu::DeadReckoningAlgorithm>},
-    {"entity.speed", "length of its velocity in m/s", ValueKind::number, from_state<speed>},
+    {"entity.speed", "magnitude of its velocity in m/s", ValueKind::number, from_state<speed>},
     {"entity.marking", "its marking; * stands for any letters", ValueKind::text, nullptr, nullptr,
      [](const FilterSubject& s) -> Text {
        if (s.entity_state == nullptr) return std::nullopt;
@@ -154,13 +154,13 @@ constexpr auto kFields = std::to_array<FilterField>({
      from_attitude<&pdu::Attitude::pitch_deg>},
     {"entity.roll", "rotation about its x axis in degrees, right side down", ValueKind::number,
      from_attitude<&pdu::Attitude::roll_deg>},
-    {"latitude", "of the PDU's first position, degrees north (WGS84)", ValueKind::number,
+    {"latitude", "latitude of the PDU's first position in degrees north (WGS84)", ValueKind::number,
      from_place<&pdu::Geodetic::latitude_deg>},
-    {"longitude", "of the same, degrees east", ValueKind::number,
+    {"longitude", "longitude of the same in degrees east", ValueKind::number,
      from_place<&pdu::Geodetic::longitude_deg>},
-    {"height", "of the same, metres above the ellipsoid", ValueKind::number,
+    {"height", "height of the same in metres above the ellipsoid", ValueKind::number,
      from_place<&pdu::Geodetic::height>},
-    {"location.x", "of the same, geocentric in metres", ValueKind::number,
+    {"location.x", "geocentric x of the same in metres", ValueKind::number,
      from_location<&pdu::WorldCoordinates::x>},
     {"location.y", "of the same", ValueKind::number, from_location<&pdu::WorldCoordinates::y>},
     {"location.z", "of the same", ValueKind::number, from_location<&pdu::WorldCoordinates::z>},
@@ -170,7 +170,7 @@ constexpr auto kFields = std::to_array<FilterField>({
      from_header<[](const Header& h) { return h.exercise_id; }>},
     {"version", "protocol version: 7 is DIS 7", ValueKind::number,
      from_header<[](const Header& h) { return h.protocol_version; }>},
-    {"length", "octets by the header", ValueKind::number,
+    {"length", "length field of the header, in octets", ValueKind::number,
      from_header<[](const Header& h) { return h.length; }>},
     {"time", "arrival in seconds since the first datagram of the source", ValueKind::number,
      [](const FilterSubject& s) -> Number { return pdu::to_seconds(s.row.time - s.row.start); }},
@@ -205,8 +205,8 @@ std::string filter_fields_text() {
   for (const FilterField& field : kFields)
     fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
   return text +
-         "Each field of a PDU type is named as in --full, or by the end of that name, such as\n"
-         "frequency, munition_type.kind or beams[0].beam_function; --fields TYPE lists them.";
+         "A field of a PDU type has its name in --full, or the end of that name, such "
+         "as\nfrequency, munition_type.kind or beams[0].beam_function; --fields TYPE lists them.";
 }
 
 std::string table_fields_text(std::string_view type) {

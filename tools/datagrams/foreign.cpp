@@ -50,10 +50,11 @@ std::string foreign_reason(const peer::SourceDatagram& datagram) {
     return known.port == datagram.source.port || known.port == datagram.group.port;
   };
   const auto* known = std::find_if(kKnownPorts.begin(), kKnownPorts.end(), is_used);
-  const std::string port = known == kKnownPorts.end() ? std::string()
-                                                      : fmt::format("; port {} is that of {}",
-                                                                    known->port, known->protocol);
-  return fmt::format("no PDU of any version of DIS in {} octets{}", datagram.bytes.size(), port);
+  const std::string port =
+      known == kKnownPorts.end()
+          ? std::string()
+          : fmt::format("; port {} is registered for {}", known->port, known->protocol);
+  return fmt::format("no DIS PDU in {} octets{}", datagram.bytes.size(), port);
 }
 
 }  // namespace reckon::tools

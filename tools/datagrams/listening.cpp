@@ -47,7 +47,7 @@ std::string listening_text(const SourceChoice& choice, const peer::SourceReport&
   }
   const Places groups = groups_of(choice);
   std::string text = groups.front().text();
-  if (groups.size() > 1) text += fmt::format(" and {} groups behind it", groups.size() - 1);
+  if (groups.size() > 1) text += fmt::format(" and the {} groups after it", groups.size() - 1);
   return text + " on " + listed(report.interfaces);
 }
 
@@ -59,7 +59,8 @@ std::string heard_text(const peer::SourceReport& report) {
                     interface.datagrams == 0 ? "none" : counted(interface.datagrams, "datagram"));
   }
   if (report.copies > 0)
-    text += fmt::format("; {} came over another interface too", counted(report.copies, "datagram"));
+    text +=
+        fmt::format("; {} also arrived on another interface", counted(report.copies, "datagram"));
   if (!text.empty()) text += '\n';
   for (const std::string& sentence : report.unheard) text += sentence + '\n';
   return text;
@@ -107,18 +108,17 @@ std::vector<std::string> SilenceWatch::look(const peer::SourceReport& report, na
   if (now - start_ < kPatience + kTried && stated_.size() < kMostStated) return out;
   over_ = true;
   if (stated_.empty() && elsewhere_)
-    out.push_back(fmt::format(
-        "nor is DIS heard at {} other places of this host, which are its broadcast addresses and "
-        "the groups of its programs: does the sender run, and is no firewall between "
-        "(reckon doctor)?",
-        places_.size()));
+    out.push_back(
+        fmt::format("no DIS at {} other addresses of this host either (broadcast, groups of its "
+                    "programs): start the sender, and check firewalls (`reckon doctor`)",
+                    places_.size()));
   elsewhere_.reset();
   return out;
 }
 
 void SilenceWatch::begin(const peer::SourceReport& report, std::vector<std::string>& out) {
   begun_ = true;
-  out.push_back("nothing heard yet at " + listening_text(choice_, report));
+  out.push_back("nothing received yet at " + listening_text(choice_, report));
   own_ = groups_of(choice_);
   const bool leaves_interfaces_out = !choice_.interface.empty() || report.interfaces.size() == 1;
   places_ = other_places(own_, leaves_interfaces_out, peer::bound_endpoints(own_.front().is_v6),
@@ -138,11 +138,11 @@ void SilenceWatch::hear(std::vector<std::string>& out) {
     if (!begins_with_pdu(datagram.bytes) || holds(stated_, datagram.group)) continue;
     stated_.push_back(datagram.group);
     out.push_back(
-        fmt::format("heard on this host: {} on {}, from {}; {}", datagram.group.text(),
+        fmt::format("received by this host: {} on {}, from {}; {}", datagram.group.text(),
                     datagram.interface, datagram.source.text(),
                     holds(own_, datagram.group)
-                        ? fmt::format("take --iface {}, or none", datagram.interface)
-                        : fmt::format("take udp://{} as the source", datagram.group.text())));
+                        ? fmt::format("write --iface {}, or remove it", datagram.interface)
+                        : fmt::format("write udp://{} as the source", datagram.group.text())));
   }
 }
 

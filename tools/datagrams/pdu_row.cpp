@@ -84,7 +84,7 @@ std::string_view portion_text(peer::Portion portion) {
     case peer::Portion::whole:
       return "";
     case peer::Portion::first_fragment:
-      return "; IP fragments behind these octets are missing";
+      return "; IP fragments after these octets are missing";
     case peer::Portion::later_fragment:
     case peer::Portion::overlapping_fragment:
       return "";
@@ -194,17 +194,16 @@ void DatagramInspector::excuse(const pdu::BundledPdu& bundled, std::size_t behin
   if (!row_.decoded && row_.rule.empty() && is_trailing(bundled))
     return set_fault(row_, kTrailingRule,
                      {DecodeError::stray, 0,
-                      fmt::format("{} octets behind the last PDU are kept: {}", size,
+                      fmt::format("{} octets after the last PDU are kept: {}", size,
                                   start_in_hex(bundled.bytes))});
   std::string kept;
   if (behind > 0)
-    kept = fmt::format("{} octets behind the last field are kept: {}", behind,
+    kept = fmt::format("{} octets after the last field are kept: {}", behind,
                        start_in_hex(bundled.bytes.last(behind)));
   if (without_length_ == bundled.offset) {
-    kept = fmt::format(
-        "the length field is 0, the {} octets up to the end of the datagram are "
-        "taken{}{}",
-        size, kept.empty() ? "" : "; ", kept);
+    kept =
+        fmt::format("the length field is 0: the {} octets to the end of the datagram are used{}{}",
+                    size, kept.empty() ? "" : "; ", kept);
     return set_fault(row_, kNoLengthRule, {DecodeError::length, kLengthAt, kept});
   }
   if (behind > 0) set_fault(row_, kTrailingRule, {DecodeError::stray, size - behind, kept});
@@ -257,8 +256,8 @@ void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
       {DecodeError::truncated, 0,
        fmt::format("{} octets of {}", datagram.bytes.size(),
                    datagram.portion == peer::Portion::later_fragment
-                       ? "IP fragments whose first one is missing"
-                       : "an IP fragment that overlaps earlier ones: its datagram is refused")});
+                       ? "IP fragments without the first one"
+                       : "an IP fragment that overlaps earlier ones; its datagram is refused")});
 }
 
 }  // namespace reckon::tools

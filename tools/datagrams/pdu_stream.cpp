@@ -65,7 +65,7 @@ PduStream::PduStream(const PduStreamOptions& options)
   choice.source = options.path;
   if (means_groups(choice) || options.path == "-" || options.path.starts_with("iface:"))
     throw UsageError("'" + options.path +
-                     "' is no file, and diff reads twice; record it first (reckon record)");
+                     "' is not a file, and diff reads it twice; record it first (reckon record)");
   source_ = open_chosen_source(choice);
 }
 

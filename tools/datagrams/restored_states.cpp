@@ -10,7 +10,7 @@ namespace {
 std::string_view reason_of(peer::RestoreVerdict verdict) {
   return verdict == peer::RestoreVerdict::awaits_key
              ? "cannot be restored: its key, an earlier plain or compact state, is missing"
-             : "cannot be restored: its octets are no state of this form";
+             : "cannot be restored: its octets do not have this format";
 }
 
 std::size_t number_of(const pdu::CompressedStates& states) {

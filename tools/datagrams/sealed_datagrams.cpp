@@ -120,10 +120,10 @@ std::string SealedDatagrams::summary() const {
                     kind.sealer.boot, peer::word_of_suite(kind.suite), kind.epoch);
     if (count.greetings > 0) text += fmt::format(", {}", counted(count.greetings, "greeting"));
     if (key_ && count.opened < count.datagrams)
-      text += fmt::format(", {} not opened by this key", count.datagrams - count.opened);
+      text += fmt::format(", {} not readable with this key", count.datagrams - count.opened);
     text += '\n';
   }
-  if (!key_ && unread_ > 0) text += "not read without the key: give --key FILE\n";
+  if (!key_ && unread_ > 0) text += "not readable without the key: add --key FILE\n";
   return text;
 }
 

@@ -32,7 +32,7 @@ peer::SceneFile scene_of_source(const std::string& source) {
     throw UsageError(error.what());
   }
   throw UsageError(fmt::format(
-      "{}: its 'peers' speak by unicast, which no group carries: inspect iface:NAME", source));
+      "{}: its 'peers' use unicast, which no group carries: inspect iface:NAME", source));
 }
 
 /// A base group and the number of groups to join after it.
@@ -87,7 +87,7 @@ std::string meant_by(const std::string& source) {
   const auto is_it = [&](const peer::NetworkInterface& one) { return one.name == source; };
   if (std::none_of(all.begin(), all.end(), is_it)) return "";
   return fmt::format(
-      "--iface {} for the groups heard there, or iface:{} for all of its UDP (needs "
+      "--iface {} for the groups received there, or iface:{} for all of its UDP (needs "
       "CAP_NET_RAW)",
       source, source);
 }
@@ -128,7 +128,7 @@ std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
 
 std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene) {
   if (!scene.network.peers.empty())
-    throw UsageError("the scene's 'peers' speak by unicast, which no group carries");
+    throw UsageError("the scene's 'peers' use unicast, which no group carries");
   return addresses_of(groups_of_scene(scene, false));
 }
 
@@ -141,7 +141,7 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
   check_form(choice.source);
   if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
     throw UsageError(fmt::format(
-        "--iface and --pool are for live groups, not for '{}': leave them out", choice.source));
+        "--iface and --pool are for live groups, not for '{}': remove them", choice.source));
   try {
     if (!means_groups(choice)) return peer::open_source(choice.source, choice.follow);
     std::string interface = choice.interface;
@@ -153,7 +153,7 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
   } catch (const std::runtime_error& error) {
     if (is_live(choice)) throw EnvironmentError(error.what());
     if (choice.source.starts_with(kRaw))
-      throw UsageError(fmt::format("{}; raw: takes a file of one bare datagram", error.what()));
+      throw UsageError(fmt::format("{}; raw: needs a file of one bare datagram", error.what()));
     throw UsageError(error.what());
   }
 }

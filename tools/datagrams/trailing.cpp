@@ -75,7 +75,7 @@ class CauseSearch {
   }
 
   void more_records(std::string_view name, std::size_t is, std::size_t more) {
-    cause_ = fmt::format("{} is {}, and {} more {} there", name, is, more,
+    cause_ = fmt::format("{} is {}, and {} more {} present", name, is, more,
                          more == 1 ? "record is" : "records are");
   }
   template <typename View>
@@ -97,7 +97,7 @@ class CauseSearch {
   void longer_block(std::string_view name, const View& block) {
     const std::size_t size = block.bytes.size();
     const bool may_be_count = size > 0 && (size + behind_.size()) % size == 0;
-    cause_ = fmt::format("{} is {}, {} fewer than are there{}", name, octets_text(size),
+    cause_ = fmt::format("{} is {}, {} fewer than are present{}", name, octets_text(size),
                          behind_.size(), may_be_count ? ": a count in place of a length?" : "");
   }
   /// A length in bits of a value that is padded to `padded_to` octets: the cause if it is 0, or
@@ -106,7 +106,7 @@ class CauseSearch {
                         std::size_t padded_to) {
     const bool fits = bits <= there && there - bits < padded_to;
     if (!fits && bits > 0) return;
-    cause_ = fmt::format("{} is {} bits, {} octets fewer than are there{}", name, bits,
+    cause_ = fmt::format("{} is {} bits, {} octets fewer than are present{}", name, bits,
                          (bits > 0 ? bits : there) - (bits + 7) / 8,
                          bits > 0 ? ": given in octets?" : "");
   }
@@ -152,7 +152,7 @@ std::string explain_trailing(std::span<const std::byte> octets, const pdu::PduHe
   constexpr std::size_t kWord = 8;  // some senders pad to this size
   const std::span<const std::byte> rest = octets.last(behind);
   std::string text =
-      fmt::format("{} behind the last field: {}", octets_text(behind), start_in_hex(rest));
+      fmt::format("{} after the last field: {}", octets_text(behind), start_in_hex(rest));
   const bool is_padding =
       behind < kWord && octets.size() % 4 == 0 &&
       std::ranges::all_of(rest, [](std::byte octet) { return octet == std::byte{0}; });

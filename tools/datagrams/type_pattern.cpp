@@ -45,7 +45,7 @@ TypePatternText by_numbers(std::string_view text) {
     const std::size_t end = std::min(text.find('.', out.at), text.size());
     const std::string_view number = text.substr(out.at, end - out.at);
     if (part == kParts.size()) {
-      out.error = "an entity type has 7 parts at most, from kind to extra";
+      out.error = "an entity type has at most 7 parts, from kind to extra";
       return out;
     }
     unsigned value = 0;

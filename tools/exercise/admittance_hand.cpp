@@ -13,8 +13,8 @@ std::string AdmittanceHand::take_notice() {
   if (heavier == 0 || heavier < 2 * told_) return {};
   told_ = heavier;
   return fmt::format(
-      "an admittance device could not follow its hand: its mass of {} was doubled for some "
-      "seconds, {} so far; a greater virtual_mass, more damping or a looser grip go without",
+      "an admittance device could not follow its hand, so its mass of {} was doubled for some "
+      "seconds, {} so far: raise virtual_mass or damping, or loosen the grip",
       peer::format_quantity(own_mass_, "kg"),
       heavier == 1 ? "once" : fmt::format("{} times", heavier));
 }

@@ -49,10 +49,10 @@ AttachedDevice attached(const Driver& driver, const UsbDeviceSeen& seen,
     if (found != problems.end()) device.problem = found->sentence;
   } else if (seen.is_denied) {
     device.problem = "this user may not open it";
-    device.remedy =
-        has_rule ? "plug it in again, for the rule is installed; over ssh it opens for the group "
-                   "plugdev alone: sudo usermod -aG plugdev $USER, and log in again"
-                 : "sudo reckon devices --install-rule, and plug it in again";
+    device.remedy = has_rule
+                        ? "the udev rule is installed: plug it in again; over ssh, only the group "
+                          "plugdev may open it: sudo usermod -aG plugdev $USER, then log in again"
+                        : "sudo reckon devices --install-rule, then plug it in again";
   } else {
     device.problem = "it cannot be opened: " + seen.problem;
     device.remedy = "plug it in again";
@@ -67,7 +67,7 @@ std::string problem_of(const Driver& driver) {
   haptics::UsbLoopOptions options;
   options.clock = [&clock] { return clock.now(); };
   haptics::UsbLoop loop(exchange, driver.force->make({}), std::move(options));
-  std::string last = fmt::format("{}: it sends no answer", driver.force->facts().name);
+  std::string last = fmt::format("{}: it does not answer", driver.force->facts().name);
   for (const auto end = clock.now() + kAskFor; clock.now() < end;) {
     loop.step(std::chrono::milliseconds(1));
     const auto stage = loop.stage();
@@ -81,7 +81,7 @@ std::string problem_of(const Driver& driver) {
 }  // namespace
 
 std::string udev_rule() {
-  std::string rule = "# Devices that Reckon drives, for whoever sits at this host.\n";
+  std::string rule = "# Devices with a Reckon driver, for the user at this host.\n";
   for (const Driver* driver : peer::drivers()) {
     if (is_on_usb(*driver)) {
       const haptics::UsbFacts& facts = driver->force->facts();
@@ -97,8 +97,8 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, std::span<const UsbPro
   UsbLook look;
   if (seen.empty()) {
     look.problem =
-        "no USB is visible, not even a hub: a container or a virtual machine needs "
-        "/dev/bus/usb of its host";
+        "no USB is visible, not even a hub: give the container or virtual machine /dev/bus/usb of "
+        "its host";
   }
   for (const UsbDeviceSeen& device : seen) {
     if (const Driver* const driver = usb_driver_of(device)) {

@@ -18,21 +18,19 @@ auto awake_of(const haptics::BodyWorld& bodies) {
 void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
   if (bodies == nullptr) return;
   fmt::print(out,
-             "  bodies                     {} move, {} awake at the end; {:.1e} J made by the "
-             "solver and taken out\n",
+             "  bodies                     {} move, {} awake at the end; {:.1e} J added by the "
+             "solver and removed\n",
              bodies->states().size(), awake_of(*bodies), bodies->taken_out());
   if (bodies->approximated() > 0 || bodies->coarse() > 0)
-    fmt::print(
-        out,
-        "                             {} steps by the iterative solver; {} periods of a hand "
-        "at more bodies than could be foreseen\n",
-        bodies->approximated(), bodies->coarse());
+    fmt::print(out,
+               "                             {} steps by the iterative solver; {} periods of a "
+               "hand at more bodies than can be predicted\n",
+               bodies->approximated(), bodies->coarse());
   if (bodies->crowded() > 0)
-    fmt::print(
-        out,
-        "                             in {} steps one did not wake, since as many moved as can "
-        "(64): it did not give way\n",
-        bodies->crowded());
+    fmt::print(out,
+               "                             in {} steps a body stayed at rest, because 64 (the "
+               "most) were moving\n",
+               bodies->crowded());
 }
 
 std::string bodies_json(const haptics::BodyWorld* bodies) {

@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const haptics::Scene& scene) {
     return object.matter.mass > 0 || object.carried;
   };
   if (std::ranges::none_of(scene.objects, moves))
-    throw UsageError("--trace-bodies: nothing in this scene moves; give an object a mass");
+    throw UsageError("--trace-bodies: this scene has no bodies; give an object a mass");
   std::vector<std::string> names;
   for (const haptics::SceneObject& object : scene.objects) names.push_back(csv(object.name));
   return names;

@@ -14,8 +14,7 @@ namespace reckon::tools {
 CsvOutput::CsvOutput(const std::filesystem::path& file, std::string_view header)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "w"), &std::fclose) {
   if (!file_) {
-    throw UsageError(
-        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
+    throw UsageError(fmt::format("{}: {}; name a writable file", name_, std::strerror(errno)));
   }
   write(header);
   write("\n");

@@ -49,33 +49,31 @@ haptics::SimulatedDeviceConfig free_device_of(const peer::DeviceDescriptor& devi
 std::string_view sentence_of(MeasurementProblem problem) noexcept {
   switch (problem) {
     case MeasurementProblem::readings:
-      return "its readings fail: see that it is plugged in, and homed";
+      return "its readings fail: plug it in, and home it";
     case MeasurementProblem::switch_off:
-      return "the operator's switch was released: hold it, and nothing else";
+      return "the operator's switch was released: hold only the switch";
     case MeasurementProblem::restless:
-      return "it moves while no force is there: lay the handle where its weight does not move it, "
-             "and let go";
+      return "it moves without a force: place the handle where its weight does not move it, and "
+             "release it";
     case MeasurementProblem::speed:
-      return "it went faster than 0.6 m/s: let go of the handle, or it is lighter than can be "
-             "measured safely";
+      return "it moved faster than 0.6 m/s: release the handle; if you have, it is too light to "
+             "measure safely";
     case MeasurementProblem::place:
-      return "it went farther than 40 mm: let go of the handle, or it has too little friction to "
-             "be "
-             "measured safely";
+      return "it moved farther than 40 mm: release the handle; if you have, its friction is too "
+             "low to measure safely";
     case MeasurementProblem::active:
-      return "it goes on faster than the push left it: it gains energy by itself, or a hand moves "
-             "it; a device that does cannot be used";
+      return "it accelerates after the push: release the handle; if you have, it gains energy by "
+             "itself and cannot be used";
     case MeasurementProblem::stuck:
-      return "the greatest push that is safe does not move it by 5 mm: let go of the handle, or it "
+      return "the greatest safe push does not move it by 5 mm: release the handle; if you have, it "
              "has too much dry friction";
     case MeasurementProblem::late:
-      return "its forces come more than 50 ms late: no wall can be shown on it";
+      return "its forces are more than 50 ms late, which allows no walls";
     case MeasurementProblem::unlike:
-      return "it does not move as a mass with friction does: let go of the handle, or a spring "
-             "holds it";
+      return "it does not move like a mass with friction: release the handle, or detach its spring";
     case MeasurementProblem::busy:
-      return "this host was too busy to call it in time, and what was found would be wrong: end "
-             "other programs, and allow real-time priority (see reckon doctor)";
+      return "this host was too busy for a valid result: end other programs, and allow real-time "
+             "priority (see `reckon doctor`)";
     case MeasurementProblem::none:
       break;
   }
@@ -84,8 +82,7 @@ std::string_view sentence_of(MeasurementProblem problem) noexcept {
 
 haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) {
   constexpr std::chrono::minutes kLongest{10};
-  if (device.axes != 3)
-    throw std::runtime_error("only devices of three axes are measured: turns are not pushed yet");
+  if (device.axes != 3) throw std::runtime_error("only devices of three axes can be measured");
   haptics::SimulatedDevice simulated(free_device_of(device));
   haptics::DeviceMeasurement run(simulated.limits(), kPeriod);
   for (std::chrono::nanoseconds now{0}; !run.is_done() && now < kLongest; now += kPeriod) {
@@ -94,7 +91,7 @@ haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) 
   }
   if (run.problem() != MeasurementProblem::none)
     throw std::runtime_error(std::string(sentence_of(run.problem())));
-  if (!run.result()) throw std::runtime_error("it did not come to an end within 10 minutes");
+  if (!run.result()) throw std::runtime_error("the measurement did not finish within 10 minutes");
   return *run.result();
 }
 
@@ -111,9 +108,9 @@ std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor&
     ids += fmt::format("{}\"{:04x}:{:04x}\"", ids.empty() ? "" : ", ", id.vendor, id.product);
   if (!ids.empty()) text += fmt::format("usb = [{}]\n", ids);
   text += fmt::format("axes = {}\nmax_force = \"{:.6g} N\"\n", known.axes, known.max_force);
-  text +=
-      fmt::format("damping = \"{:.3g} N s/m\"  # measured {:.3g} +- {:.1g}, two of it left out\n",
-                  sure, found.damping, found.damping_error);
+  text += fmt::format(
+      "damping = \"{:.3g} N s/m\"  # measured {:.3g} +- {:.1g}, twice of which is subtracted\n",
+      sure, found.damping, found.damping_error);
   text += fmt::format("friction = \"{:.3g} N\"  # measured\n", found.friction);
   text += fmt::format("delay = \"{:.1f} ms\"  # measured {:.3g}\n", 1e3 * found.delay,
                       1e3 * found.delay);
@@ -122,7 +119,7 @@ std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor&
   const bool has_steps = found.resolution > 0 || known.resolution <= 0;
   text += fmt::format("resolution = \"{:.3g} um\"  # {}; noise at rest {:.2g} um\n",
                       1e6 * (has_steps ? found.resolution : known.resolution),
-                      has_steps ? "measured" : "as known before", 1e6 * found.noise);
+                      has_steps ? "measured" : "known to its driver", 1e6 * found.noise);
   text += fmt::format("mass = \"{:.3g} kg\"  # measured\n", found.mass);
   text += fmt::format("max_stiffness = \"{:.6g} N/m\"\nmax_speed = \"{:.6g} m/s\"\n",
                       known.max_stiffness, known.max_speed);

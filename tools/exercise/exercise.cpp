@@ -61,8 +61,7 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
       manual_(std::chrono::seconds(1), std::chrono::hours(1)),
       real_(options.plugins) {
   if (options.peers < 1 || options.peers > 64) {
-    throw std::invalid_argument(
-        fmt::format("{} peers: between 1 and 64 can be run", options.peers));
+    throw std::invalid_argument(fmt::format("{} peers: choose 1 to 64", options.peers));
   }
   if (options.simulated_time) {
     peer::SimulatedNetworkOptions network;

@@ -63,13 +63,13 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {
     {"held back", &ServoTally::held_back, &ServoTally::hands, "energy was short"},
-    {"guests held back", &ServoTally::guests, &ServoTally::hands, "energy was short beside hands"},
+    {"guests held back", &ServoTally::guests, &ServoTally::hands, "energy was short, with hands"},
     {"softened", &ServoTally::softened, &ServoTally::hands, "energy was short for longer"},
-    {"crowded", &ServoTally::crowd, &ServoTally::hands, "stiffer together than a device can show"},
+    {"crowded", &ServoTally::crowd, &ServoTally::hands, "together stiffer than the device allows"},
     {"walls held back", &ServoTally::walls, nullptr, "energy was short"},
     {"held forces cut", &ServoTally::effects, nullptr, "energy was short"},
-    {"rate limited", &ServoTally::rate, nullptr, "it grew or turned faster than it may"},
-    {"force cut", &ServoTally::limit, nullptr, "it was more than the device may show"},
+    {"rate limited", &ServoTally::rate, nullptr, "it grew or rotated faster than allowed"},
+    {"force cut", &ServoTally::limit, nullptr, "it exceeded the limit of the device"},
 };
 
 double lacking(const Shortfall& s) { return (1.0 - s.share) * s.asked; }
@@ -91,8 +91,8 @@ void print_shortfall(std::FILE* out, const Kind& kind, const Hands& hands) {
       of > 0 ? fmt::format("{:.2g} % of the time in contact with hands", 100.0 * seconds / of)
              : fmt::format("{:.2g} s", seconds);
   print_line(out, kind.name,
-             fmt::format("{}, at worst {:.0f} % of {:.3g} N shown: {}{}", span, 100.0 * worst.share,
-                         worst.asked, kind.why, behind(some, hands.size())));
+             fmt::format("{}, at worst {:.0f} % of {:.3g} N displayed: {}{}", span,
+                         100.0 * worst.share, worst.asked, kind.why, behind(some, hands.size())));
 }
 
 void print_touching(std::FILE* out, const Hands& hands) {
@@ -103,7 +103,7 @@ void print_touching(std::FILE* out, const Hands& hands) {
   if (apart.empty()) return;
   const bool all = apart.size() == hands.size();
   print_line(out, "touched nobody",
-             all ? "no hand touched another, nor anything that others own" : names(apart));
+             all ? "no hand touched another, or an object of another peer" : names(apart));
 }
 
 void print_refused(std::FILE* out, const Hands& hands) {
@@ -114,9 +114,10 @@ void print_refused(std::FILE* out, const Hands& hands) {
     longest = std::max(longest, hand->servo.tally.refused);
   }
   if (some.empty()) return;
-  print_line(out, "not shown",
-             fmt::format("for {:.2g} s, a record near a hand: its values are impossible{}", longest,
-                         behind(some, hands.size())));
+  print_line(
+      out, "not shown",
+      fmt::format("for {:.2g} s, a force model near a hand, because its values are impossible{}",
+                  longest, behind(some, hands.size())));
 }
 
 void print_passed(std::FILE* out, const Hands& hands) {
@@ -128,7 +129,7 @@ void print_passed(std::FILE* out, const Hands& hands) {
   }
   if (some.empty()) return;
   print_line(out, "let through",
-             fmt::format("{}, an object moved through a hand with more than the greatest force{}",
+             fmt::format("{}, an object exceeded the greatest force and moved through a hand{}",
                          counted(times, "time"), behind(some, hands.size())));
 }
 
@@ -154,8 +155,8 @@ void print_hidden(std::FILE* out, const Hands& hands) {
   }
   if (some.empty()) return;
   print_line(out, "walls hidden",
-             fmt::format("up to {:.3g} mm of their depth: the hand began deeper inside than its "
-                         "loan pays for{}",
+             fmt::format("up to {:.3g} mm of their depth, because the hand started deeper inside "
+                         "than its loan covers{}",
                          1e3 * deepest, behind(some, hands.size())));
 }
 
@@ -182,14 +183,13 @@ void print_steps(std::FILE* out, const Hands& hands) {
     late_cost += hand->servo.late_cost;
   }
   if (late > 0 || let_go > 0)
-    print_line(
-        out, "late servo steps",
-        fmt::format("{}, of which {} found that the device had let go of its force", late, let_go));
+    print_line(out, "late servo steps",
+               fmt::format("{}; in {} of them, the device had dropped its force", late, let_go));
   if (late_cost > 1e-9)
     print_line(out, "energy of late steps",
-               fmt::format("up to {:.1e} J, by which the energy may be below 0", late_cost));
+               fmt::format("up to {:.1e} J; the energy may be below 0 by this", late_cost));
   if (failed > 0)
-    print_line(out, "failed readings", fmt::format("{} of a device's position", failed));
+    print_line(out, "failed readings", fmt::format("{} readings of a device's position", failed));
 }
 
 void append_shortfall(std::string& out, const Shortfall& shortfall) {

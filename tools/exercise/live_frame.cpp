@@ -46,7 +46,8 @@ std::string bodies_text(const LivePicture& picture) {
     if (view.bodies == 0) continue;
     std::string text = fmt::format("bodies: {} of {} move", view.bodies_awake, view.bodies);
     if (view.bodies_not_woken > 0)
-      text += fmt::format(", in {} steps one did not wake, as 64 moved", view.bodies_not_woken);
+      text +=
+          fmt::format(", in {} steps one stayed at rest, because 64 moved", view.bodies_not_woken);
     return text;
   }
   return {};
@@ -62,7 +63,7 @@ std::string keys_text(const LivePicture& picture) {
   }
   const std::string quit = "[q] quit";
   if (!has_hands) return quit;
-  return (stopped ? "[s] let forces come back   " : "[s] stop all forces   ") + quit;
+  return (stopped ? "[s] restore forces   " : "[s] stop all forces   ") + quit;
 }
 
 void append_head(std::string_view head, std::size_t columns, std::vector<ScreenLine>& out) {

@@ -260,7 +260,7 @@ class Table {
     const auto share = shares(peers, all ? room - peers.size() : 0);
     for (std::size_t i = 0; i < peers.size(); ++i) block(peers[i], share[i], out);
     if (!all && room > 0)
-      out.push_back({fmt::format("and {} peers more", picture_.peers.size() - peers.size())});
+      out.push_back({fmt::format("and {} more peers", picture_.peers.size() - peers.size())});
     return out;
   }
 
@@ -290,7 +290,7 @@ class Table {
     }
     if (shown < lines && shown < view.entities)
       out.push_back({fmt::format("  and {} more, farther away", view.entities - shown)});
-    if (view.entities == 0 && lines > 0) out.push_back({"  nobody heard yet"});
+    if (view.entities == 0 && lines > 0) out.push_back({"  no entity received yet"});
   }
 
   const LivePicture& picture_;

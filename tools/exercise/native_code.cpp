@@ -51,7 +51,7 @@ fs::path trusted_plugin(const fs::path& name, const std::vector<std::string>& gi
   const fs::path installed = native_code_folder() / name.filename();
   if (!name.has_parent_path() && fs::is_regular_file(installed, error)) return installed;
   throw UsageError(
-      fmt::format("the scene asks for native code at {}: give --plugin {} if you trust it, or "
+      fmt::format("the scene needs native code from {}: add --plugin {} if you trust it, or "
                   "install it in {} and name it without a folder",
                   clean(name), clean(name), native_code_folder().string()));
 }

@@ -32,15 +32,15 @@ struct Words {
 };
 constexpr Words kWords[] = {
     {NoticeKind::joined, "joined", "sees {}"},
-    {NoticeKind::started_anew, "started anew", "saw {} start anew"},
+    {NoticeKind::started_anew, "restarted", "saw {} restart"},
     {NoticeKind::left, "left", "saw {} leave"},
     {NoticeKind::silent, "are silent: their entities were dropped",
      "dropped the entities of {} for silence"},
     {NoticeKind::other_scene, "run another scene and are not joined; start all with the same file",
      "met {} with another scene, not joined; start all with the same file"},
-    {NoticeKind::quiet, "have not been heard for 2.5 s", "has not heard {} for 2.5 s"},
-    {NoticeKind::unheard, "do not hear this one: see `reckon doctor` on all hosts",
-     "is not heard by {}: see `reckon doctor` on all hosts"},
+    {NoticeKind::quiet, "were silent for 2.5 s", "has received nothing from {} for 2.5 s"},
+    {NoticeKind::unheard, "do not receive this one: see `reckon doctor` on all hosts",
+     "is not received by {}: see `reckon doctor` on all hosts"},
     {NoticeKind::heard_again, "and this one receive each other again",
      "and {} receive each other again"},
 };

@@ -22,7 +22,7 @@ NoticeLog::NoticeLog(const std::string& path, const Console& console)
   file_.reset(std::fopen(path.c_str(), "ae"));
   if (!file_)
     throw UsageError(
-        fmt::format("--log {}: {}; name a file in a folder of yours", path, std::strerror(errno)));
+        fmt::format("--log {}: {}; name a file in a writable folder", path, std::strerror(errno)));
 }
 
 void NoticeLog::add(const ReceivedNotice& heard) {
@@ -46,7 +46,7 @@ void NoticeLog::write(const peer::NoticeFacts& facts, peer::Severity severity, s
                   (now - floor<seconds>(now)).count(), name_of(severity), facts.id, by, sentence);
   const bool written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
   if (written && std::fflush(file_.get()) == 0) return;
-  fmt::print(console_.err, "--log {}: {}; notices are not logged any more\n", path_,
+  fmt::print(console_.err, "--log {}: {}; further notices are not logged\n", path_,
              std::strerror(errno));
   file_.reset();
 }

@@ -13,9 +13,9 @@
 #include <system_error>
 #include <utility>
 
+#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
-#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -74,10 +74,10 @@ const Driver& driver_by_id(const peer::DeviceDescriptor& described, const std::s
     known += fmt::format("{}{} has {:04x}:{:04x}", known.empty() ? "" : ", ", facts.name, id.vendor,
                          id.product);
   }
-  throw UsageError(fmt::format(
-      "--device: no driver is for the USB numbers of {} ({}); of a serial board, a wheel "
-      "or a driver of yours write descriptor = \"{}\" in a [[device]]",
-      file, known, file));
+  throw UsageError(
+      fmt::format("--device: no driver has the USB IDs of {} ({}); for a serial board, a wheel or "
+                  "a plugin, write descriptor = \"{}\" in a [[device]]",
+                  file, known, file));
 }
 
 peer::DeviceDescriptor described_by(const std::string& file) {
@@ -139,12 +139,12 @@ std::vector<std::string_view> driver_flags_of(const DeviceChoice& choice) {
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
   line.option("--device", choice.device,
-              fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
-                          "reckon devices), {}, or its descriptor (MINE.toml)",
+              fmt::format("use a real device instead of the peer's first: its driver, {} (see "
+                          "`reckon devices`), {}, or its descriptor (MINE.toml)",
                           fmt::join(driver_words(), ", "), place_help()));
   add_driver_flags(line, choice);
   line.option("--plugin", choice.plugins,
-              "file of a driver that the scene may load by its name; may be given again");
+              "driver file that the scene may load by name; repeatable");
 }
 
 std::vector<std::string> plugins_of(const DeviceChoice& choice) {
@@ -165,15 +165,15 @@ void check_device(const std::string& device) {
   const Driver* const driver = peer::find_driver(device);
   if (driver != nullptr && driver->is_named) return;
   if (driver != nullptr)
-    throw UsageError(fmt::format("--device: a driver '{}' alone is not enough: write {}", device,
+    throw UsageError(fmt::format("--device: the driver '{}' needs a place: write {}", device,
                                  driver->place->help));
   const std::vector<std::string_view> words = driver_words();
   const std::string_view nearest = peer::nearest_word(device, words);
   const std::string meant =
       nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
   throw UsageError(
-      fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), {}, and "
-                  "descriptors (mine.toml)",
+      fmt::format("--device: there is no driver '{}'{}; write {} (see `reckon devices`), {}, or a "
+                  "descriptor (mine.toml)",
                   device, meant, fmt::join(words, ", "), place_help()));
 }
 
@@ -183,7 +183,7 @@ void check_device_choice(const DeviceChoice& choice) {
   if (!choice.device.empty()) check_device(choice.device);
   for (const std::string& file : choice.plugins)
     if (std::error_code none; !std::filesystem::is_regular_file(file, none))
-      throw UsageError(fmt::format("--plugin: there is no file '{}'", file));
+      throw UsageError(fmt::format("--plugin: file '{}' does not exist", file));
   for_each_given(choice, [&](const Driver&, const DriverKey& key, const std::string& file) {
     try {
       key.check_file(file);
@@ -222,8 +222,8 @@ void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       return of_peer(one) && one.driver == &driver;
     });
     if (device == scene.devices.end())
-      throw UsageError(fmt::format("{}: no device of this peer takes one; add --device {}",
-                                   key.flag, driver.name));
+      throw UsageError(fmt::format("{}: no device of this peer uses it; add --device {}", key.flag,
+                                   driver.name));
     device->driver_values[key.key] = std::filesystem::absolute(file);
   });
 }
@@ -282,9 +282,9 @@ void RealDevices::check_free(const DeviceConfig& config) const {
       driven_, [&](const Driven& one) { return one.driver == config.driver && one.line == line; });
   if (is_free) return;
   if (!line.empty())
-    throw std::runtime_error(fmt::format("two devices are on {}: a line has one", line));
+    throw std::runtime_error(fmt::format("two devices use {}: give each its own port", line));
   throw std::runtime_error(
-      fmt::format("one program drives one {}: start another peer for the second",
+      fmt::format("a program uses at most one {}: start another peer for the second",
                   config.driver->force->facts().name));
 }
 

@@ -54,16 +54,16 @@ void check_measurable(const RealMeasuring& wanted) {
   check_device_choice(wanted.choice);
   const peer::Driver& driver = driver_of(name);
   if (driver.springs != nullptr) {
-    throw UsageError(fmt::format(
-        "{}: it renders springs by itself and takes no force, so it cannot be pushed: measure "
-        "'travel', 'full_force', 'full_stiffness' and 'max_stiffness' with a ruler and a spring "
-        "balance (docs/devices.md)",
-        name));
+    throw UsageError(
+        fmt::format("{}: it renders springs itself and takes no force, so it cannot be pushed: "
+                    "measure 'travel', 'full_force', 'full_stiffness' and 'max_stiffness' with a "
+                    "ruler and a spring balance (docs/devices.md)",
+                    name));
   }
   if (!wanted.max_force.empty() && !states_force(driver)) {
     throw UsageError(
-        "--max-force: what a serial board can hold; the limits of other devices are known to their "
-        "drivers: leave it out");
+        "--max-force applies to serial boards only, because other drivers know their limits: "
+        "remove it");
   }
 }
 
@@ -91,8 +91,7 @@ class OpenedDevice {
     const haptics::DeviceLimits limits = device().limits();
     if (limits.kind != haptics::DeviceKind::impedance || limits.axes != 3) {
       throw UsageError(
-          fmt::format("{}: only devices that take a force along three axes are measured: turns are "
-                      "not pushed yet",
+          fmt::format("{}: only devices that take a force along three axes can be measured",
                       wanted.choice.device));
     }
   }
@@ -178,12 +177,12 @@ class Conversation {
     bool told = false, told_switch = false;
     while (servo_.stage() != MeasuringStage::ready) {
       if (servo_.stage() == MeasuringStage::switch_off && !std::exchange(told_switch, true))
-        say("its operator's switch is not held: hold it, and nothing else");
+        say("its operator's switch is released: hold only the switch");
       if (!std::exchange(told, true)) say("waiting until it is ready; Ctrl-C ends");
       static_cast<void>(key());
-      check_ended("nothing was moved");
+      check_ended("nothing moved");
       if (!keys_.is_active() && clock_.now() > end)
-        throw EnvironmentError("it was not ready within 60 s: see what is said above, and homed");
+        throw EnvironmentError("it was not ready within 60 s: see the notices above, and home it");
     }
   }
 
@@ -191,9 +190,9 @@ class Conversation {
     say(warning_of(opened_.device().limits(), !wanted_.is_agreed));
     while (!wanted_.is_agreed) {
       const char pressed = key();
-      check_ended("nothing was moved");
+      check_ended("nothing moved");
       if (pressed == '\n' || pressed == '\r') return;
-      if (pressed != 0) throw EnvironmentError("a key that is not Enter: nothing was moved");
+      if (pressed != 0) throw EnvironmentError("a key other than Enter: nothing moved");
     }
   }
 
@@ -201,10 +200,10 @@ class Conversation {
     const DeviceMeasurement::Axes axes = pushed_axes();
     const nanoseconds end = clock_.now() + kSettling;
     while (!servo_.begin(axes)) {
-      if (key() != 0) throw EnvironmentError("a key: nothing was moved");
-      check_ended("nothing was moved");
+      if (key() != 0) throw EnvironmentError("a key: nothing moved");
+      check_ended("nothing moved");
       if (clock_.now() > end)
-        throw EnvironmentError("it is not ready any more: see that it is plugged in and homed");
+        throw EnvironmentError("it is no longer ready: plug it in, and home it");
     }
     std::size_t told = 0;
     while (servo_.stage() == MeasuringStage::pushing) {
@@ -223,11 +222,10 @@ class Conversation {
     const MeasuringStage stage = servo_.stage();
     if (stage == MeasuringStage::halted)
       throw EnvironmentError(
-          fmt::format("{} stopped it, and its force is zero: start anew where you want to go on",
+          fmt::format("{} stopped it, and its force is zero: start again to continue",
                       by_key_ ? "a key" : "Ctrl-C"));
     if (stage == MeasuringStage::stopped)
-      throw EnvironmentError(
-          "SIGUSR1 stopped it, and its force is zero: start anew where you want to go on");
+      throw EnvironmentError("SIGUSR1 stopped it, and its force is zero: start again to continue");
     const DeviceMeasurement& run = *servo_.run();
     if (!run.result())
       throw EnvironmentError(fmt::format("{} (its force is zero)", sentence_of(run.problem())));
@@ -284,8 +282,8 @@ std::string name_of(const DeviceChoice& choice) {
 std::string warning_of(const haptics::DeviceLimits& limits, bool asks) {
   const double most = std::min(DeviceMeasurement::kMostPush, 0.4 * limits.max_force);
   return fmt::format(
-      "Let go of the handle, in the middle of its work space. It will move by itself: by up to "
-      "{:.0f} mm, with up to {:.2g} N.\n{}",
+      "Release the handle in the middle of its work space. It will move by itself, by up to {:.0f} "
+      "mm, with up to {:.2g} N.\n{}",
       1e3 * DeviceMeasurement::kMostWay, most,
       asks ? "Press Enter to begin; then any key or Ctrl-C stops it."
            : "It begins now; any key or Ctrl-C stops it.");
@@ -300,13 +298,12 @@ double delay_to_state(const MeasuredChain& chain) {
 std::vector<std::string> remarks_of(const MeasuredChain& chain) {
   const double relied = chain.limits.damping, found = chain.found.damping;
   std::vector<std::string> remarks{
-      fmt::format("damping: its driver relied on {:.3g} N s/m so far; measured {:.3g} +- {:.1g}{}",
-                  relied, found, chain.found.damping_error,
-                  found < relied ? ": LESS, walls were stiffer than is safe" : "")};
+      fmt::format("damping: its driver assumed {:.3g} N s/m; measured {:.3g} +- {:.1g}{}", relied,
+                  found, chain.found.damping_error,
+                  found < relied ? ": LESS, so walls were stiffer than is safe" : "")};
   const double stated = 1e3 * chain.limits.delay_samples * chain.period;
-  std::string delay =
-      fmt::format("delay: its driver counted on {:.3g} ms so far; pushes came {:.3g} ms late",
-                  stated, 1e3 * chain.found.delay);
+  std::string delay = fmt::format("delay: its driver assumed {:.3g} ms; pushes were {:.3g} ms late",
+                                  stated, 1e3 * chain.found.delay);
   if (chain.needed_delay > 0)
     delay += fmt::format("; reports on this host need {:.3g} ms",
                          1e3 * chain.needed_delay * chain.period);
@@ -318,8 +315,8 @@ std::string measure_real(const RealMeasuring& wanted, const Console& console) {
   check_measurable(wanted);
   if (!wanted.is_agreed && isatty(wanted.keys) != 1) {
     throw UsageError(
-        "measure asks before it moves the handle, and stdin is no terminal: run it in one, or add "
-        "--yes where nobody has to be asked");
+        "measure asks before it moves the handle, but stdin is not a terminal: use one, or add "
+        "--yes to skip the question");
   }
   StopControl stop;
   const peer::SteadyClock clock;
@@ -332,7 +329,7 @@ std::string measure_real(const RealMeasuring& wanted, const Console& console) {
     const ServoBeside beside(clock, servo);
     Conversation conversation(wanted, console, opened, stop.stop(), servo);
     if (const std::string weakness = beside.weakness(); !weakness.empty())
-      fmt::print(console.err, "{}: a busy host may end it\n", weakness);
+      fmt::print(console.err, "{}: load on this host may end the measurement\n", weakness);
     conversation.wait_until_ready();
     conversation.ask();
     conversation.push();
@@ -344,7 +341,7 @@ std::string measure_real(const RealMeasuring& wanted, const Console& console) {
   chain.needed_delay = reports == nullptr ? 0 : reports->needed_delay();
   std::vector<std::string> remarks = remarks_of(chain);
   if (std::ranges::count(axes, false) > 0)
-    remarks.push_back(fmt::format("pushed along {} alone: it has no other axis",
+    remarks.push_back(fmt::format("pushed along {} only: it has no other axis",
                                   fmt::join(names_of(axes), " and ")));
   chain.found.delay = delay_to_state(chain);
   return descriptor_text(name_of(wanted.choice), opened.known(), chain.found, remarks);

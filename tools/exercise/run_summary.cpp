@@ -31,11 +31,11 @@ struct Wall {
 };
 constexpr std::array<Wall, 6> kWalls{{
     {"models_refused", "{} force models were refused: their values are impossible"},
-    {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
-    {"table_full", "{} updates of entities for which the table had no room"},
-    {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
-    {"stale_datagrams", "{} datagrams had waited for more than 1 s before they were read: dropped"},
-    {"read_waits", "{} times the ring from the network was full; the kernel kept what came"},
+    {"hands_unfelt", "{} bodies near a hand were not felt: a servo has room for 32"},
+    {"table_full", "{} updates of entities that had no room in the table"},
+    {"write_overflow", "{} datagrams dropped, because the ring to the network was full"},
+    {"stale_datagrams", "{} datagrams dropped, because they waited for more than 1 s"},
+    {"read_waits", "{} times the ring from the network was full; datagrams waited in the kernel"},
 }};
 
 std::uint64_t most(std::span<const peer::Counters* const> peers, std::string_view counter) {
@@ -88,7 +88,7 @@ std::string emissions_json(const peer::Peer& peer, const peer::PeerView& view) {
 
 void print_emissions(std::FILE* out, const peer::EmissionTable& table) {
   if (table.rows().empty()) return;
-  fmt::print(out, "  emissions                  {} of remote entities, {} of them emit\n",
+  fmt::print(out, "  emissions                  {} of remote entities, {} of them active\n",
              counted(table.rows().size(), "system"),
              std::ranges::count_if(table.rows(), &peer::Emission::emits));
 }
@@ -186,7 +186,7 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
                "                             {:.1f} mJ lent to hands that met inside one another\n",
                1e3 * ports_of(view).loan_most);
   if (view.owned > view.hand_count) {
-    fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
+    fmt::print(out, "  without a device           {} entities, which gave {:.3g} J to hands\n",
                view.owned - view.hand_count, view.power_given);
   }
   if (view.leaders.on) {

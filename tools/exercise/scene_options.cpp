@@ -36,15 +36,14 @@ void check_key(const peer::SceneFile& scene) {
   static_cast<void>(peer::sealed_group(scene.network.group));
   if (scene.network.interop)
     throw UsageError(
-        "--key seals datagrams and the scene's 'interop' needs plain ones: leave one of them out");
+        "--key seals datagrams, but the scene's 'interop' needs plain ones: remove one of them");
 }
 
 }  // namespace
 
 std::string refusal_of(const peer::StepTooDear& slow) {
   return slow.finding() +
-         "; leave out the dearest (reckon scene explain lists them), or run it all the same with "
-         "--even-if-slow";
+         "; remove the costliest (`reckon scene explain` lists them), or add --even-if-slow";
 }
 
 bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept {

@@ -173,7 +173,7 @@ Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
 
 haptics::SceneObject& first_object(peer::SceneFile& scene) {
   if (scene.scene.objects.empty()) {
-    throw std::runtime_error("the scene has no object whose place another shape could take");
+    throw std::runtime_error("the scene has no object that another shape could replace");
   }
   return scene.scene.objects.front();
 }

@@ -67,10 +67,10 @@ std::vector<std::string> StopControl::take_notices() {
   if (changes == told_) return {};
   told_ = changes;
   if (!state.pressed)
-    return {fmt::format("forces come back: {} released the stop", name_of(state.cause))};
-  return {fmt::format(
-      "all forces are stopped by {}: SIGUSR1, the key s or the button lets them come back",
-      name_of(state.cause))};
+    return {fmt::format("forces are restored: {} released the stop", name_of(state.cause))};
+  return {
+      fmt::format("all forces are stopped by {}: SIGUSR1, the key s or the button restores them",
+                  name_of(state.cause))};
 }
 
 }  // namespace reckon::tools

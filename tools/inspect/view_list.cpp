@@ -46,7 +46,7 @@ void sort_inspect_words(InspectOptions& options) {
   for (const InspectViewKind& kind : inspect_views()) names.push_back(kind.name);
   const std::string_view nearest = peer::nearest_word(options.view, names);
   throw UsageError(
-      fmt::format("VIEW: '{}' is none of {}{}", options.view, fmt::join(names, ", "),
+      fmt::format("VIEW: '{}' is not one of {}{}", options.view, fmt::join(names, ", "),
                   nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 

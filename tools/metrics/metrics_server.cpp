@@ -32,8 +32,8 @@ std::optional<std::uint16_t> port_of(std::string_view text) {
 
 void add_metrics_flag(CommandLine& line, std::string& typed) {
   line.option("--metrics", typed,
-              "serve GET /metrics in OpenMetrics, as for Prometheus, at this address "
-              "(127.0.0.1:9464) or port of loopback");
+              "serve GET /metrics in OpenMetrics, for example for Prometheus, at this address "
+              "(127.0.0.1:9464) or loopback port");
 }
 
 std::optional<MetricsAddress> metrics_address(const std::string& typed) {
@@ -50,8 +50,8 @@ std::optional<MetricsAddress> metrics_address(const std::string& typed) {
       !port_of(std::string_view(typed).substr(colon + 1)) ||
       (endpoint->is_v6 && typed.front() != '['))
     throw UsageError(
-        fmt::format("--metrics: '{}' is no address with a port; write 127.0.0.1:9464, [::1]:9464, "
-                    "0.0.0.0:9464 for all interfaces, or a port alone",
+        fmt::format("--metrics: '{}' is not an address with a port; write 127.0.0.1:9464, "
+                    "[::1]:9464, 0.0.0.0:9464 for all interfaces, or a port alone",
                     typed));
   at.address = endpoint->address_text();
   at.port = endpoint->port;

@@ -26,7 +26,7 @@ constexpr std::array<ViewNumber, 7> kViewNumbers{{
      [](const peer::PeerView& view) { return static_cast<double>(view.peers); }},
     {"groups", "groups of cells that are joined",
      [](const peer::PeerView& view) { return static_cast<double>(view.groups); }},
-    {"frozen", "1 while the exercise stands still",
+    {"frozen", "1 while the exercise is frozen",
      [](const peer::PeerView& view) { return view.frozen ? 1.0 : 0.0; }},
     {"cells", "cells of which this peer is a member, in a scene with leaders",
      [](const peer::PeerView& view) { return static_cast<double>(view.leaders.cells); }},
@@ -40,20 +40,19 @@ struct HandNumber {
   double haptics::ServoSnapshot::*value;
 };
 constexpr std::array<HandNumber, 7> kHandNumbers{{
-    {"port_energy_joules", "energy that the hand's port holds",
-     &haptics::ServoSnapshot::port_energy},
+    {"port_energy_joules", "energy in the hand's port", &haptics::ServoSnapshot::port_energy},
     {"port_energy_min_joules",
-     "the least that the port held so far, with its loan and what regions put in",
+     "lowest energy of the port so far, including its loan and the energy of regions",
      &haptics::ServoSnapshot::port_energy_min},
     {"port_loan_joules", "energy lent to hands that met inside one another",
      &haptics::ServoSnapshot::loan},
     {"port_region_loan_joules", "energy lent to the potentials of regions",
      &haptics::ServoSnapshot::region_loan},
-    {"port_oscillation_joules", "energy that oscillations of regions put in so far",
+    {"port_oscillation_joules", "energy that oscillations of regions added so far",
      &haptics::ServoSnapshot::oscillation_energy},
     {"port_late_cost_joules", "energy that late steps took from an empty ledger",
      &haptics::ServoSnapshot::late_cost},
-    {"hand_softening_ratio", "share of the stiffness of remote bodies that is shown",
+    {"hand_softening_ratio", "displayed share of the stiffness of remote bodies",
      &haptics::ServoSnapshot::softening},
 }};
 
@@ -64,8 +63,8 @@ void add_hands(OpenMetrics& out, const peer::PeerView& view) {
     for (const HandNumber& row : kHandNumbers)
       out.gauge(row.name, row.meaning, servo.*row.value, {{"hand", number}});
     out.counter("hand_trips", "times that safety cut the force", servo.trips, {{"hand", number}});
-    out.counter("hand_stops", "times that the software stop took the force off", servo.tally.stops,
-                {{"hand", number}});
+    out.counter("hand_stops", "times that the software stop switched the force off",
+                servo.tally.stops, {{"hand", number}});
     out.gauge("hand_stopped", "1 while the software stop holds the force at zero",
               servo.stopped ? 1.0 : 0.0, {{"hand", number}});
   }
@@ -73,18 +72,17 @@ void add_hands(OpenMetrics& out, const peer::PeerView& view) {
 
 void add_servo(OpenMetrics& out, const peer::DutyCycle& duty) {
   out.counter("servo_steps", "steps of the servo", duty.steps());
-  out.counter("servo_steps_missed", "periods of the servo without a step of their own",
-              duty.missed());
-  out.counter("servo_overruns", "steps that ended later than a period after they were due",
+  out.counter("servo_steps_missed", "servo periods without a step", duty.missed());
+  out.counter("servo_overruns", "steps that ended more than a period after their due time",
               duty.overruns());
-  out.durations("servo_lateness", "how late steps of the servo began", duty.lateness());
-  out.durations("servo_step", "what steps of the servo took", duty.step_time());
+  out.durations("servo_lateness", "delay of the start of servo steps", duty.lateness());
+  out.durations("servo_step", "duration of servo steps", duty.step_time());
 }
 
 void add_loop(OpenMetrics& out, std::string_view name, const peer::PassTimes& times) {
-  out.counter("loop_overruns", "passes that took longer than a period of the servo",
-              times.overruns(), {{"loop", name}});
-  out.durations("loop_pass", "what passes of the loop took", times.times(), {{"loop", name}});
+  out.counter("loop_overruns", "passes longer than a servo period", times.overruns(),
+              {{"loop", name}});
+  out.durations("loop_pass", "duration of the passes of the loop", times.times(), {{"loop", name}});
 }
 
 }  // namespace
@@ -99,9 +97,9 @@ std::string peer_metrics(peer::Peer& peer, const peer::PeerThreads& threads,
         out.counter(fmt::format("link_{}", name), meaning, value);
       });
   for (const ViewNumber& row : kViewNumbers) out.gauge(row.name, row.meaning, row.value(view));
-  out.spread("pose_jump", "meters", "updates against what was predicted",
+  out.spread("pose_jump", "meters", "difference of updates from the prediction",
              peer.model().remote().pose_jumps().spread());
-  out.spread("force_jump", "newtons", "force models against what was predicted",
+  out.spread("force_jump", "newtons", "difference of force models from the prediction",
              peer.model().remote().force_jumps().spread());
   add_loop(out, "read", threads.read_times());
   add_loop(out, "model", threads.model_times());

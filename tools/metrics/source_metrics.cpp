@@ -11,7 +11,7 @@ void add_source(OpenMetrics& out, const peer::SourceReport& report) {
     out.counter(fmt::format("source_{}", name), meaning, value);
   });
   for (const peer::ListenedInterface& one : report.interfaces)
-    out.counter("interface_datagrams_in", "datagrams that came first over the interface",
+    out.counter("interface_datagrams_in", "datagrams that arrived first on the interface",
                 one.datagrams, {{"interface", one.name}});
 }
 

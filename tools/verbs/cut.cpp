@@ -40,7 +40,7 @@ void check_output(const CutOptions& options) {
   if (options.audio.empty() && options.out.path.empty())
     throw UsageError("OUT is missing: the pcapng file to write, or --audio FILE.wav");
   if (!options.audio.empty() && !options.out.path.empty())
-    throw UsageError("--audio writes sound instead of a capture: leave OUT out");
+    throw UsageError("--audio writes sound instead of a capture: remove OUT");
   const std::string& out = options.audio.empty() ? options.out.path : options.audio;
   std::error_code none;
   if (std::filesystem::equivalent(options.in, out, none))
@@ -55,7 +55,7 @@ ExitCode tell(const CutOptions& options, const Console& console, std::uint64_t s
   const std::string damage = damage_text(report);
   if (!damage.empty()) fmt::print(console.err, "{}: {}\n", options.in, damage);
   if (writer.datagrams() == 0 && seen > 0)
-    fmt::print(console.err, "nothing was chosen; `reckon info {}` shows what there is\n",
+    fmt::print(console.err, "no datagram was selected; `reckon info {}` shows the contents\n",
                options.in);
   return report.problem.empty() ? ExitCode::good : ExitCode::findings;
 }

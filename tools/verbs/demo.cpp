@@ -115,15 +115,14 @@ void check_flags(const DemoOptions& options) {
   check_device_choice(options.device);
   if (!options.simulated_time) return;
   if (!options.device.device.empty())
-    throw UsageError("--device: no person keeps up with --simulated-time; leave one of them out");
+    throw UsageError("--device: a person cannot follow --simulated-time; remove one of them");
   if (page)
-    throw UsageError(
-        "--view: --simulated-time sends nothing that a page could show; leave one out");
+    throw UsageError("--view: --simulated-time sends no datagrams for a page; remove one of them");
   if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
   if (options.scene.even_if_slow)
-    throw UsageError("--even-if-slow: --simulated-time takes what time it takes; leave one out");
+    throw UsageError("--even-if-slow has no effect with --simulated-time; remove one of them");
   if (!options.scene.iface.empty())
-    throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
+    throw UsageError("--iface: --simulated-time has no sockets; remove one of them");
 }
 
 ExerciseOptions exercise_options(const DemoOptions& options) {
@@ -151,7 +150,7 @@ DemoPageOptions page_options(const DemoOptions& options, const Exercise& exercis
 void say_where(const DemoOptions& options, const peer::SceneFile& scene, const Console& console) {
   if (options.simulated_time) return;
   fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
-             scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
+             scene.network.exercise_named ? "" : ", chosen at random, because the scene has none");
 }
 
 /// For a scene with bodies, the number of peers that have a device.
@@ -189,7 +188,7 @@ int run(const DemoOptions& asked, const Console& console) {
   if (!options.simulated_time) say_native_code(scene, console);
   options.peers = peers_of(options, scene);
   if (!scene.network.peers.empty())
-    fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
+    fmt::print(console.err, "all peers of a demo run on this host: the scene's {} are ignored\n",
                counted(scene.network.peers.size(), "peer"));
   scene.network.peers.clear();
   choose_device(options.device, scene, 1, options.peers);
@@ -217,7 +216,7 @@ int run(const DemoOptions& asked, const Console& console) {
   say_where(options, scene, console);
   LiveDisplay display(console, !options.json, options.peers, options.log);
   if (!display.is_drawn() && !options.json && !options.duration) {
-    fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
+    fmt::print(console.err, "running until Ctrl-C; add --for 10s to end by itself\n");
   }
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // until its hands have IDs
@@ -225,7 +224,7 @@ int run(const DemoOptions& asked, const Console& console) {
     show_address(page->view(), has_key, display);
     browser = open_browser(*flags, page->view().address());
   } else if (!options.simulated_time) {
-    display.put_in_head("with --view it is shown in a browser, where the mouse is a hand");
+    display.put_in_head("add --view to see it in a browser, where the mouse moves a hand");
   }
   show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr, stop);
   display.close();

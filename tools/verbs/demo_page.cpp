@@ -96,9 +96,9 @@ void DemoPage::report_lost(std::chrono::nanoseconds now) {
   if (twins_.resets() == told_resets_ || now - told_at_ < kTellEvery) return;
   told_resets_ = twins_.resets();
   told_at_ = now;
-  view_.note(
-      fmt::format("without the gate the hands are thrown about: their twins began anew, {} so far",
-                  counted(told_resets_, "time")));
+  view_.note(fmt::format(
+      "without the gate, the hands became unstable: their twins were restarted, {} so far",
+      counted(told_resets_, "time")));
 }
 
 std::vector<std::size_t> DemoPage::add_pointers(const Exercise& exercise) {

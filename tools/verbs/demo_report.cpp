@@ -44,10 +44,10 @@ void print_force_error(std::FILE* out, const DemoCost& cost, const Exercise& exe
   if (!(exercise.measurement().touching_hands() > 0)) {
     const bool touched = exercise.measurement().touching_entities() > 0;
     fmt::print(out, "    force             none: no hand touched another{}\n",
-               touched ? "; what entities press is not compared" : "");
+               touched ? "; forces of entities are not compared" : "");
   } else if (is_any_softened(hands_of(exercise))) {
     spread_row(out, "force asked", cost.force, 1.0, "N   (between hands, in contact)");
-    spread_row(out, "force possible", cost.possible_force, 1.0, "N   (what the devices can show)");
+    spread_row(out, "force possible", cost.possible_force, 1.0, "N   (possible for the devices)");
   } else {
     spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
   }
@@ -57,7 +57,7 @@ void print_pose_error(std::FILE* out, const DemoCost& cost) {
   if (cost.pose.count > 0) {
     spread_row(out, "pose", cost.pose, 1e3, "mm");
   } else {
-    fmt::print(out, "    pose              none: no peer showed anything of another\n");
+    fmt::print(out, "    pose              none: no peer showed an entity of another\n");
   }
 }
 
@@ -72,8 +72,8 @@ void print_touching(std::FILE* out, const DemoMeasurement& measured) {
 
 /// Compares the packets sent with peers without dead reckoning.
 std::string against_raw(double raw, double now, std::size_t peers) {
-  if (peers == 1) return "one peer: nobody to send to";
-  if (!(raw > 0)) return "no hand whose steps could be streamed";
+  if (peers == 1) return "one peer: no receiver";
+  if (!(raw > 0)) return "no hand to stream";
   return fmt::format("raw streaming {:.0f} /s   {:.0f} x fewer", raw, now > 0 ? raw / now : 0.0);
 }
 

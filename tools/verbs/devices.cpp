@@ -95,8 +95,7 @@ int list_devices(const DevicesOptions& options, const Console& console) {
   };
   std::ranges::for_each(look.devices, print);
   std::ranges::for_each(lines, print);
-  fmt::print(console.err,
-             "{} that can be held, {} on USB, {} that a board may be on; drivers: {}\n",
+  fmt::print(console.err, "{} with a driver, {} on USB, {} for boards; drivers: {}\n",
              counted(look.devices.size(), "device"), counted(look.others, "other"),
              counted(lines.size(), "serial line"),
              fmt::join(peer::driver_names() | std::views::drop(1), ", "));
@@ -106,7 +105,7 @@ int list_devices(const DevicesOptions& options, const Console& console) {
     return device.remedy.find("--install-rule") != std::string::npos;
   });
   if (needs_rule && !options.json)
-    fmt::print(console.err, "the rule that --install-rule writes:\n{}", udev_rule());
+    fmt::print(console.err, "--install-rule writes this rule:\n{}", udev_rule());
   return exit_status(any ? ExitCode::findings : ExitCode::good);
 }
 
@@ -138,17 +137,17 @@ void print_descriptor(std::FILE* out, const std::filesystem::path& file,
   line("is", fmt::format("{} axes, {}", device.axes, ids_of(device)));
   const std::string lasting =
       device.continuous_force > 0
-          ? fmt::format(", of which {} for ever (warm in {})", say(device.continuous_force, "N"),
+          ? fmt::format(", {} permanently (heats up in {})", say(device.continuous_force, "N"),
                         say(device.thermal_time, "s"))
           : "";
   line("limits",
        fmt::format("{}{}, {}", say(device.max_force, "N"), lasting, say(device.max_speed, "m/s")));
-  line("feels like", fmt::format("{}, {} sure, dry friction {}", say(device.mass, "kg"),
+  line("feels like", fmt::format("{}, {} guaranteed, dry friction {}", say(device.mass, "kg"),
                                  say(device.damping, "N s/m"), say(device.friction, "N")));
   if (device.axes == 6)
-    line("turns", fmt::format("{}, {}, {} sure", say(device.max_torque, "N m"),
+    line("turns", fmt::format("{}, {}, {} guaranteed", say(device.max_torque, "N m"),
                               say(device.inertia, "kg m2"), say(device.turn_damping, "N m s/rad")));
-  line("sensors", fmt::format("steps of {}; a force is there after {}", say(device.resolution, "m"),
+  line("sensors", fmt::format("steps of {}; a force acts after {}", say(device.resolution, "m"),
                               say(pdu::to_seconds(device.delay), "s")));
   line("work space", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x(), size.y(), size.z()));
   line("so at 1 kHz",
@@ -245,9 +244,11 @@ int measure_device(const DevicesOptions& options, const Console& console) {
   static_cast<void>(peer::parse_device_descriptor(text, options.name));
   std::fwrite(text.data(), 1, text.size(), console.out);
   if (options.simulate.empty())
-    fmt::print(
-        console.err, "where this is mine.toml: descriptor = \"mine.toml\" in its [[device]]{}\n",
-        text.find("\nusb = ") != std::string::npos ? ", or reckon demo --device mine.toml" : "");
+    fmt::print(console.err,
+               "save this as mine.toml, and write descriptor = \"mine.toml\" in its [[device]]{}\n",
+               text.find("\nusb = ") != std::string::npos
+                   ? ", or run reckon demo --device mine.toml"
+                   : "");
   return exit_status(ExitCode::good);
 }
 
@@ -255,15 +256,15 @@ void check_measure(const DevicesOptions& options) {
   const bool measures = options.action == "measure";
   if (!options.simulate.empty() && !measures)
     throw UsageError(fmt::format(
-        "--simulate is what measure pushes: reckon devices measure mine --simulate {}", example()));
+        "--simulate needs measure: reckon devices measure mine --simulate {}", example()));
   std::vector<std::string_view> given = driver_flags_of(options.choice);
   if (options.is_agreed) given.emplace_back("--yes");
   if (!options.max_force.empty()) given.emplace_back("--max-force");
   for (const std::string_view flag : given) {
     if (!measures)
-      throw UsageError(fmt::format("{}: of measure: reckon devices measure {}", flag, example()));
+      throw UsageError(fmt::format("{} needs measure: reckon devices measure {}", flag, example()));
     if (!options.simulate.empty())
-      throw UsageError(fmt::format("{}: of a real device: leave it or --simulate out", flag));
+      throw UsageError(fmt::format("{} needs a real device: remove it or --simulate", flag));
   }
   if (!measures) return;
   if (options.name.empty())
@@ -271,31 +272,29 @@ void check_measure(const DevicesOptions& options) {
         fmt::format("measure needs a device: reckon devices measure {0}, or for a simulated one "
                     "reckon devices measure mine --simulate {0}",
                     example()));
-  if (options.json) throw UsageError("--json: measure prints a descriptor; leave it out");
+  if (options.json) throw UsageError("--json: measure prints a descriptor; remove --json");
 }
 
 void check_flags(const DevicesOptions& options) {
   if (options.install_rule && options.json)
-    throw UsageError("--json: --install-rule lists nothing; leave one of them out");
+    throw UsageError("--json: --install-rule lists nothing; remove one of them");
   if (!options.install_rule && options.folder != kRuleFolder)
-    throw UsageError("--folder is where --install-rule writes: add that, or leave it out");
+    throw UsageError("--folder needs --install-rule: add it, or remove --folder");
   check_measure(options);
   if (options.action.empty()) return;
   constexpr std::array<std::string_view, 3> kActions{"describe", "keys", "measure"};
   if (std::ranges::find(kActions, options.action) == kActions.end())
-    throw UsageError(fmt::format("'{}': there is {}; as in reckon devices describe {}",
-                                 options.action, fmt::join(kActions, ", "), example()));
+    throw UsageError(
+        fmt::format("'{}' is not one of {}; write for example reckon devices describe {}",
+                    options.action, fmt::join(kActions, ", "), example()));
   if (options.action == "keys" && (options.json || !options.name.empty()))
-    throw UsageError("keys prints one table, of all descriptors: leave the rest out");
-  if (options.install_rule)
-    throw UsageError("--install-rule: such words write no rule; leave one of them out");
+    throw UsageError("keys prints one table for all descriptors: remove the other arguments");
+  if (options.install_rule) throw UsageError("--install-rule takes no action: remove one of them");
 }
 
 int run_devices(Arguments arguments, const Console& console) {
   DevicesOptions options;
-  CommandLine line("devices",
-                   "Lists real devices that are attached, how they would be used, and what keeps "
-                   "one from being used, with the remedy.",
+  CommandLine line("devices", "Lists attached real devices, their use, and problems with remedies.",
                    fmt::format("reckon devices\n"
                                "reckon devices describe\n"
                                "reckon devices describe touch\n"
@@ -306,25 +305,24 @@ int run_devices(Arguments arguments, const Console& console) {
                                "reckon demo --device {0}",
                                example()));
   line.word("ACTION", options.action, false,
-            "describe: what descriptors say, and the stiffness that follows; keys: what a "
-            "descriptor may say; measure: find damping, friction and delay by small pushes, and "
-            "print a descriptor: it asks first; absent: look for devices");
+            "describe: show descriptors and the resulting stiffness; keys: list the keys of a "
+            "descriptor; measure: measure damping, friction and delay by small pushes, after a "
+            "question, and print a descriptor; default: list devices");
   line.word("NAME", options.name, false,
-            "of describe: a descriptor's file, or the name of one that comes with Reckon; absent: "
-            "all of these. Of measure: a real device as --device of a demo has it, or with "
-            "--simulate a name");
+            "describe: a descriptor file, or the name of one that comes with Reckon; default: all "
+            "of the latter. measure: a real device as in demo --device, or a name with --simulate");
   line.option("--simulate", options.simulate,
-              "of measure: push a simulated device of this descriptor, that nobody holds");
+              "measure: push a simulated free device with this descriptor");
   line.flag("--yes", options.is_agreed,
-            "of measure: the handle is free to move by 40 mm, begin without asking");
-  add_driver_flags(line, options.choice, "of measure: ");
+            "measure: start without a question, because the handle is free to move by 40 mm");
+  add_driver_flags(line, options.choice, "measure: ");
   line.option(
       "--max-force", options.max_force,
-      "of measure: what each axis of a serial board can hold, such as \"3 N\"; default: 1 N");
+      "measure: permanent force of each axis of a serial board, such as \"3 N\"; default: 1 N");
   line.flag("--install-rule", options.install_rule,
-            "write the rule of udev by which the person at this host may open them");
+            "write the udev rule that lets the user at this host open devices");
   line.option("--folder", options.folder,
-              fmt::format("of --install-rule: where rules are; default: {}", kRuleFolder));
+              fmt::format("--install-rule: folder of udev rules; default: {}", kRuleFolder));
   line.flag("--json", options.json, "one JSON object per device");
   if (const auto status = line.parse(arguments, console)) return *status;
   check_flags(options);

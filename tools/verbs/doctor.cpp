@@ -109,12 +109,12 @@ peer::Finding examine_waking() {
   const std::string file = peer::AwakeProcessors::kRequests;
   if (peer::AwakeProcessors::is_allowed())
     return {peer::FindingLevel::ok,
-            file + " may be written: processors stay awake while something can be felt", ""};
-  return {peer::FindingLevel::note,
-          file +
-              " may not be written: processors may sleep while something is felt, and wake the "
-              "servo late",
-          "sudo setfacl -m u:$USER:w " + file + ", or run as root"};
+            file + " is writable: processors stay awake near touchable objects", ""};
+  return {
+      peer::FindingLevel::note,
+      file +
+          " is not writable: processors may sleep near touchable objects, and wake the servo late",
+      "sudo setfacl -m u:$USER:w " + file + ", or run as root"};
 }
 
 void add_findings(const std::vector<AttachedDevice>& devices,
@@ -133,14 +133,13 @@ void examine_usb(std::vector<peer::Finding>& findings) {
   const UsbLook look = look_at_usb(false);
   if (!look.problem.empty()) {
     findings.push_back({peer::FindingLevel::note,
-                        look.problem + ": hands are simulated, or moved by a pointer",
+                        look.problem + ": hands can only be simulated, or moved by a pointer",
                         "needed for a real device only"});
     return;
   }
   add_findings(look.devices, findings);
   if (look.devices.empty())
-    findings.push_back({peer::FindingLevel::ok,
-                        "USB can be used; no device that a hand could hold is attached", ""});
+    findings.push_back({peer::FindingLevel::ok, "USB works; no haptic device is attached", ""});
 }
 
 // A serial port may have a haptic board, or any other device.
@@ -155,7 +154,7 @@ void examine_ports(std::vector<peer::Finding>& findings) {
 
 peer::SceneFile scene_of(const DoctorOptions& options) {
   if (options.scene.empty()) return {};
-  if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; leave --ipv6 out");
+  if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; remove --ipv6");
   try {
     return peer::load_scene_file(options.scene);
   } catch (const std::exception& error) {

@@ -35,11 +35,11 @@ const std::vector<Opening>& openings() {
       {FileKind::table,
        "a table",
        {},
-       "`reckon tune {0}` takes recorded motion, `reckon demo --hand {0}` the trace of a hand"},
+       "`reckon tune {0}` reads recorded motion, `reckon demo --hand {0}` the trace of a hand"},
       {FileKind::unknown,
-       "no capture, no scene (.toml) and no mesh (.obj, .ply, .stl, .off)",
+       "not a capture, a scene (.toml) or a mesh (.obj, .ply, .stl, .off)",
        {},
-       "name a verb before it; `reckon help` lists them"}};
+       "write a verb before it; `reckon help` lists them"}};
   return kOpenings;
 }
 

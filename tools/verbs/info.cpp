@@ -46,7 +46,7 @@ int run_info(Arguments arguments, const Console& console) {
       json ? summary_json(file, summary, report) : summary_text(file, summary, report);
   fmt::print(console.out, "{}", text);
   if (console.stopped()) {
-    fmt::print(console.err, "stopped early: this is the beginning of {}\n", file);
+    fmt::print(console.err, "stopped early: only the beginning of {} was read\n", file);
     return exit_status(ExitCode::good);
   }
   return exit_status(verdict(summary, report));

@@ -249,10 +249,9 @@ void Inspection::summarise() const {
     line += fmt::format("; {} of other protocols", counted(all.foreign, "datagram"));
   const peer::FragmentCounts& fragments = report.fragments;
   if (fragments.whole > 0)
-    line +=
-        fmt::format("; {} put together from IP fragments", counted(fragments.whole, "datagram"));
+    line += fmt::format("; {} reassembled from IP fragments", counted(fragments.whole, "datagram"));
   if (all.fragments > 0)
-    line += fmt::format("; {} of which IP fragments are missing or overlap",
+    line += fmt::format("; {} with missing or overlapping IP fragments",
                         counted(all.fragments, "datagram"));
   if (fragments.waiting > 0)
     line += fmt::format("; {} still waited for IP fragments at the end",
@@ -262,7 +261,7 @@ void Inspection::summarise() const {
   if (report.malformed > 0)
     line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
   if (is_live(options_.source) || report.dropped > 0)
-    line += fmt::format("; {} lost before they reached us", report.dropped);
+    line += fmt::format("; {} lost before they reached this program", report.dropped);
   fmt::print(console_.err, "{}\n{}{}", line, heard_text(report), sealed_.summary());
   if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
 }
@@ -291,23 +290,23 @@ void check_combination(InspectOptions& options, const Console& console) {
   const InspectViewKind& kind = inspect_view_kind(options.view);
   const bool tail = kind.name == "tail";
   if (options.full && options.tree)
-    throw UsageError("--tree shows every field as it is; take --full or --tree");
+    throw UsageError("--tree and --full both list every field; remove one of them");
   if ((options.full || options.tree) && !tail)
-    throw UsageError("--full and --tree belong to the view tail: leave the other view out");
+    throw UsageError("--full and --tree need the view tail: remove the other view");
   if (options.csv && (options.json || options.full))
-    throw UsageError("--csv and --json are two forms of one output: leave one out");
+    throw UsageError("--csv and --json are alternatives: remove one of them");
   if (options.csv && !kind.takes_csv && !options.rules)
     throw UsageError(fmt::format(
-        "{} has no --csv, as its rows differ; take --json, or a view that is a table: {}",
+        "{} has no --csv, because its rows differ; write --json, or a view with --csv: {}",
         kind.name, views_with_csv()));
   if (!options.by.empty() && options.view != "stats")
-    throw UsageError("--by belongs to the view stats: write reckon inspect SOURCE stats --by " +
+    throw UsageError("--by needs the view stats: write reckon inspect SOURCE stats --by " +
                      options.by);
   if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
-    throw UsageError(
-        "--svg and --step belong to the view haptics: write reckon inspect SOURCE haptics");
+    throw UsageError("--svg and --step need the view haptics: write reckon inspect SOURCE haptics");
   if ((!options.from.empty() || !options.to.empty()) && is_live(options.source))
-    throw UsageError("--from and --to choose a part of a recording; what is live takes --for");
+    throw UsageError(
+        "--from and --to select a part of a recording; write --for with a live source");
   options.json = options.json || options.full;
 }
 

@@ -51,18 +51,18 @@ void make_file(const KeyOptions& options, const Console& console) {
   static_cast<void>(peer::parse_group_key(peer::group_key_text(key), "--group"));
   peer::save_group_key(key, options.file, false);
   fmt::print(console.err,
-             "{} is the key of '{}' ({}). Whoever can read it takes part: hand it on by a safe "
-             "way, and name it as [network] key, or by --key.\n",
+             "{} is the key of '{}' ({}). Anyone who can read it can take part: transfer it "
+             "safely, and give it as [network] key or by --key.\n",
              options.file, key.group, peer::word_of_suite(key.suite));
 }
 
 void add_epoch(const KeyOptions& options, const Console& console) {
   const std::chrono::seconds from = time_of(options);
   if (from <= peer::SteadyClock().utc_now())
-    throw UsageError(fmt::format(
-        "--from {} is over: this host would change its epoch at once, and members without "
-        "the new file would not hear it; write a time by which all have it",
-        options.from));
+    throw UsageError(
+        fmt::format("--from {} is past: this host would change its epoch at once, and members "
+                    "without the new file could not receive it; write a time when all have it",
+                    options.from));
   GroupKey key = peer::load_group_key(options.file);
   const auto number = static_cast<std::uint16_t>(key.epochs.back().number + 1);
   key.epochs.push_back(peer::draw_epoch(number, from));
@@ -103,9 +103,9 @@ int run_key(Arguments arguments, const Console& console) {
               "(default: fastest on this CPU)");
   line.option("--from", options.from, "next: start time in UTC, for example 2026-12-01T06:00:00Z");
   if (const auto status = line.parse(arguments, console)) return *status;
-  if (options.action.empty()) throw UsageError("name an action: reckon key new, next or show");
+  if (options.action.empty()) throw UsageError("write an action: reckon key new, next or show");
   if (options.file.empty())
-    throw UsageError(fmt::format("name a key file: reckon key {} FILE", options.action));
+    throw UsageError(fmt::format("write a key file: reckon key {} FILE", options.action));
   try {
     if (options.action == "new") make_file(options, console);
     if (options.action == "next") add_epoch(options, console);

@@ -36,9 +36,9 @@ namespace {
 // Reports that `touch` admits peers outside the scene.
 std::string touch_note(const peer::NetworkConfig& network) {
   if (network.touch_rule().text() != "all" || !network.key.empty()) return {};
-  std::string note = "everybody on the LAN may press a hand ('touch' is all)";
-  if (network.interop) note += ", and no body of the scene is felt from another program";
-  return note + ": list those who may";
+  std::string note = "every host on the LAN may press a hand ('touch' is all)";
+  if (network.interop) note += ", and bodies of other programs are not felt";
+  return note + ": list the allowed peers in 'touch'";
 }
 
 }  // namespace
@@ -47,24 +47,24 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
   std::vector<std::string> notes;
   if (needs.all() && !needs.capped()) {
-    notes.push_back(fmt::format(
-        "the radius of {} reaches all {} groups in use: everything that is said is heard, and the "
-        "cells filter nothing; larger cells or a larger pool would",
-        format_quantity(file.aoim.radius, "m"), needs.in_use));
+    notes.push_back(
+        fmt::format("the radius of {} needs all {} groups in use, so cells filter nothing: enlarge "
+                    "the cells or the pool",
+                    format_quantity(file.aoim.radius, "m"), needs.in_use));
   }
   if (needs.capped()) {
-    notes.push_back(fmt::format(
-        "the radius of {} may need {} groups and [aoim] groups allows {}: the farthest part of it "
-        "is not heard; raise groups, or take cells larger than {}",
-        format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
-        format_quantity(peer::cells_of(file.aoim).finest(), "m")));
+    notes.push_back(
+        fmt::format("the radius of {} may need {} groups, but [aoim] groups is {}, so its farthest "
+                    "part is not received: raise groups, or use cells larger than {}",
+                    format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
+                    format_quantity(peer::cells_of(file.aoim).finest(), "m")));
   }
   if (std::string note = peer::unsensed_note(file); !note.empty()) notes.push_back(std::move(note));
   for (const peer::TierConfig& tier : file.aoim.tiers) {
     if (!tier.own_group || tier.channel.farthest < file.aoim.radius) continue;
     notes.push_back(fmt::format(
-        "the tier up to {} reaches as far as the radius of {}: a group of its own saves nothing; "
-        "make it the last one, without 'farthest'",
+        "the tier up to {} reaches the radius of {}, so its own group saves nothing: make it the "
+        "last one, without 'farthest'",
         format_quantity(tier.channel.farthest, "m"), format_quantity(file.aoim.radius, "m")));
     break;
   }

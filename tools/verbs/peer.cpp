@@ -136,8 +136,8 @@ void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
   if (options.follow.empty()) return;
   if (!scene.aoim.hand_out)
     throw UsageError(
-        "--follow: beacons are found in the map of groups that are handed out; set 'leaders' and "
-        "'hand_out' in the scene's [aoim]");
+        "--follow needs the map of handed-out groups: set 'leaders' and 'hand_out' in the scene's "
+        "[aoim]");
   scene.aoim.follow = options.follow;
 }
 
@@ -146,7 +146,7 @@ void send_to(const std::vector<peer::NamedPeer>& list, peer::NetworkConfig& netw
              const Console& console) {
   if (list.empty()) return;
   if (!network.peers.empty())
-    fmt::print(console.err, "--to: the scene's {} are left out\n",
+    fmt::print(console.err, "--to: the scene's {} are ignored\n",
                counted(network.peers.size(), "peer"));
   network.peers = list;
 }
@@ -154,17 +154,18 @@ void send_to(const std::vector<peer::NamedPeer>& list, peer::NetworkConfig& netw
 void check_balance(const peer::SceneFile& scene, const PeerVerbOptions& options) {
   if (options.balance && asks_for_number(scene, options))
     throw UsageError(
-        "--balance: which peer of the scene this is would be asked for by datagrams without "
-        "numbers, of which no balance can be kept; say which it is, as in --operator 1");
+        "--balance needs the number of this peer, because the search for a free one uses datagrams "
+        "without numbers: add for example --operator 1");
 }
 
 void check_application(const peer::SceneFile& scene, const PeerVerbOptions& options) {
   if (!options.application) return;
   if (!scene.network.interop)
     throw UsageError(
-        "--application: peers of this scene agree on their IDs; it is for a scene with 'interop'");
+        "--application needs a scene with 'interop': peers of this scene choose their IDs "
+        "themselves");
   if (*options.application < 1 || *options.application > kMostApplications)
-    throw UsageError(fmt::format("--application: {} is none of an ID: they are 1 to {}",
+    throw UsageError(fmt::format("--application: {} is out of range: write 1 to {}",
                                  *options.application, kMostApplications));
 }
 
@@ -286,17 +287,17 @@ int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
   if (options.operator_number && *options.operator_number == 0)
-    throw UsageError("--operator counts from 1");
+    throw UsageError("--operator: write 1 or more");
   if (options.name.size() > kLongestMarking)
-    throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
-                                 options.name, options.name.size(), kLongestMarking));
+    throw UsageError(fmt::format("--name: '{}' has {} characters; write at most {}", options.name,
+                                 options.name.size(), kLongestMarking));
   if (options.name.empty()) options.name = marking_of_host();
   check_beacons(options.follow);
   check_device_choice(options.device);
   (void)flags_of_switch(options.view);
   (void)metrics_address(options.metrics);
   if (options.balance && *options.balance < kPeerLookEvery)
-    throw UsageError("--balance: a line every 100ms is the most that is printed");
+    throw UsageError("--balance: write at least 100ms");
   return run(options, console);
 }
 

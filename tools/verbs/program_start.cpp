@@ -99,14 +99,14 @@ int answer_without_program(const VerbRow& row, Arguments arguments, const Consol
   const std::string_view first = arguments.empty() ? std::string_view{} : arguments.front();
   if (first == kManualSection || first == kListFlags) {
     CommandLine line(row.name,
-                     fmt::format("{}. A part of {}, which was not there when this page was made.",
+                     fmt::format("{}. A part of {}, which was missing when this page was made.",
                                  row.summary, row.program),
                      fmt::format("reckon {} --help", row.name));
     return line.parse(arguments, console).value_or(exit_status(ExitCode::good));
   }
   throw EnvironmentError(
-      fmt::format("it is a part of {0}, which is neither beside reckon nor in PATH; from the "
-                  "sources, ./run build {0} builds it, and an installation has both",
+      fmt::format("it is a part of {0}, which is neither beside reckon nor in PATH: build it with "
+                  "./run build {0}, or install both",
                   row.program));
 }
 

@@ -194,8 +194,8 @@ void Recording::flush_when_due(nanoseconds now, bool quiet) {
 }
 
 void Recording::show_status(nanoseconds now) {
-  status_.show(fmt::format("{}: {}; {} lost before they reached us", duration_text(now - begin_),
-                           counts(), source_->report().dropped),
+  status_.show(fmt::format("{}: {}; {} lost before they reached this program",
+                           duration_text(now - begin_), counts(), source_->report().dropped),
                now);
   if (!options_.json) return;
   std::string text;
@@ -224,7 +224,7 @@ std::string Recording::counts() const {
 template <typename Visit>
 void Recording::for_each_count(Visit&& visit) const {
   visit("datagrams", "datagrams recorded", datagrams_);
-  visit("pdus", "PDUs in them that can be read", pdus_);
+  visit("pdus", "readable PDUs in them", pdus_);
   visit("octets", "octets of UDP payload recorded", octets_);
   visit("left_out", "datagrams that did not match the filter", left_out_);
   visit("sealed_unread", "sealed datagrams that could not be opened", sealed_.unread());
@@ -261,11 +261,11 @@ void Recording::summarise(nanoseconds elapsed) const {
                                               : fmt::format("{} files, {} to {}", paths.size(),
                                                             paths.front(), paths.back());
   const std::uint64_t dropped = source_->report().dropped;
-  fmt::print(console_.err, "recorded {} in {} to {} ({}); {} lost before they reached us\n",
-             counts(), duration_text(elapsed), files, size_text(writer_->octets()), dropped);
+  fmt::print(console_.err,
+             "recorded {} in {} to {} ({}); {} lost before they reached this program\n", counts(),
+             duration_text(elapsed), files, size_text(writer_->octets()), dropped);
   if (left_out_ > 0)
-    fmt::print(console_.err, "{} did not match and are not in it\n",
-               counted(left_out_, "datagram"));
+    fmt::print(console_.err, "{} did not match and were omitted\n", counted(left_out_, "datagram"));
   if (const peer::RemovedFiles& removed = writer_->removed(); removed.files > 0)
     fmt::print(console_.err, "removed the oldest: {} with {} (--rotate-total {})\n",
                counted(removed.files, "file"), counted(removed.datagrams, "datagram"),
@@ -273,7 +273,7 @@ void Recording::summarise(nanoseconds elapsed) const {
   fmt::print(console_.err, "{}{}", heard_text(source_->report()), sealed_.summary());
   if (dropped > 0)
     fmt::print(console_.err,
-               "against loss raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
+               "to avoid loss, raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
 }

@@ -22,10 +22,10 @@
 #include "reckon/tools/captures/replay_senders.hpp"
 #include "reckon/tools/captures/timestamp_rewrite.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
-#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -241,14 +241,15 @@ peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const
   if (options_.destination.has_value()) return *options_.destination;
   if (datagram.group.is_multicast() && datagram.group.port != 0) return datagram.group;
   throw UsageError(
-      fmt::format("frame {} was sent to {}, which is not a multicast group; give a destination, "
+      fmt::format("frame {} was sent to {}, which is not a multicast group; write a destination, "
                   "for example --to udp://239.192.1.0:3000 or --to udp://127.0.0.1:3000",
                   datagram.frame, datagram.group.text()));
 }
 
 std::string Replay::speed_text() const {
   const double rate = schedule_ ? schedule_->asked() : options_.rate;
-  std::string text = rate > 0 ? fmt::format("asked {:.4g}x", rate) : "asked as fast as it goes";
+  std::string text =
+      rate > 0 ? fmt::format("asked {:.4g}x", rate) : "requested as fast as possible";
   if (schedule_ && schedule_->is_changed()) text += " on average by keys";
   // There is no rate without two sent datagrams.
   if (counts_.sent < 2 || schedule_->kept() <= 0) return text;
@@ -281,8 +282,9 @@ void Replay::report_refusal() const {
   fmt::print(console_.err, "{} not sent: {} too big for {}, {} refused by the kernel{}\n",
              counted(counts_.refused, "datagram"), too_big, senders_.interface(),
              counts_.refused - too_big,
-             senders_.interface() == "lo" ? "; lo reaches this host only, --iface names another"
-                                          : "; is there a route to it?");
+             senders_.interface() == "lo"
+                 ? "; lo reaches only this host, choose another with --iface"
+                 : "; is there a route to it?");
 }
 
 ExitCode Replay::summarise() const {
@@ -293,10 +295,10 @@ ExitCode Replay::summarise() const {
     fmt::print(console_.err, "; at most {} late", duration_text(counts_.latest));
   fmt::print(console_.err, "\n");
   if (counts_.not_chosen > 0)
-    fmt::print(console_.err, "{} left out: not chosen by the flags\n",
+    fmt::print(console_.err, "{} left out: not selected by the flags\n",
                counted(counts_.not_chosen, "datagram"));
   if (counts_.incomplete > 0)
-    fmt::print(console_.err, "{} left out: IP fragments are missing, or the capture cut it\n",
+    fmt::print(console_.err, "{} left out: with missing IP fragments, or cut by the capture\n",
                counted(counts_.incomplete, "datagram"));
   if (senders_.fragmented() > 0)
     fmt::print(console_.err, "{} sent in IP fragments: above the MTU of {}, {} octets\n",
@@ -313,7 +315,7 @@ ExitCode Replay::summarise() const {
     fmt::print(console_.out, "{}", text);
   }
   if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !has_ended())
-    fmt::print(console_.err, "nothing to send; `reckon info {}` shows what there is\n",
+    fmt::print(console_.err, "nothing to send; `reckon info {}` shows the contents\n",
                options_.file);
   if (counts_.sent == 0 && counts_.refused > 0) return ExitCode::environment;
   const bool whole = problem.empty() && counts_.incomplete == 0 && counts_.refused == 0;

@@ -37,7 +37,7 @@ void settle_destination(ReplayOptions& options) {
     if ((end.has_value() && options.selection.to.has_value()) ||
         (!end.has_value() && options.destination.has_value()))
       throw UsageError(
-          fmt::format("--to {}: the second {}; give one, and run `reckon replay` twice for two",
+          fmt::format("--to {}: the second {}; write one, and run `reckon replay` twice for two",
                       text, end.has_value() ? "end of the range" : "destination"));
     if (end.has_value())
       options.selection.to = end;
@@ -55,7 +55,7 @@ void settle_destination(ReplayOptions& options) {
 void check(const ReplayOptions& options) {
   if (!std::isfinite(options.rate) || options.rate < 0)
     throw UsageError(fmt::format(
-        "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
+        "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as possible",
         options.rate));
   // A missing file is reported when it is opened.
   std::error_code none;

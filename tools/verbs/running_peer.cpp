@@ -23,7 +23,8 @@ RunningPeer::RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& op
       joined_(federate_options(scene, options, hands_, real_, tap, stop_.stop()),
               options.events ? &events : nullptr) {
   if (joined_.options().deal) {
-    fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
+    fmt::print(console.err,
+               "this is peer {} of the scene, the first free number; --operator sets it\n",
                joined_.options().scene_peer);
   }
   for (const std::string& sentence : joined_.link_report()) {

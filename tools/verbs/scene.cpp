@@ -174,12 +174,12 @@ int run_scene(Arguments arguments, const Console& console) {
   const bool prints = action == "keys" || action == "new";
   if (prints && !files.empty())
     throw UsageError(
-        fmt::format("'{}' is a word too many: write reckon scene {}", files.front(), action));
+        fmt::format("unexpected argument '{}': write reckon scene {}", files.front(), action));
   if (action == "keys") return keys(json, console);
   if (action == "new") return print_template(console);
-  if (action.empty()) throw UsageError("name an action: reckon scene check, explain, new or keys");
+  if (action.empty()) throw UsageError("write an action: reckon scene check, explain, new or keys");
   if (files.empty())
-    throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
+    throw UsageError(fmt::format("write a scene file: reckon scene {} FILE", action));
   return action == "check" ? check(files, json, console) : explain(files, json, console);
 }
 

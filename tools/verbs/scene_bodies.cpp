@@ -49,12 +49,11 @@ std::optional<peer::SceneProblem> problem_of(const PlannedObject& body,
       haptics::way_out(haptics::QueryShape(other.shape), {other.position, other.orientation},
                        haptics::QueryShape(body.shape), {body.position, body.orientation});
   if (!(out.way > kDepthAtRest)) return std::nullopt;
-  return peer::SceneProblem{
-      0, 0,
-      fmt::format("object '{}' begins {} deep in '{}', and they will spring apart: move '{}' by {} "
-                  "along {}",
-                  body.name, length_text(out.way), other.name, body.name, length_text(out.way),
-                  direction_text(out.direction))};
+  return peer::SceneProblem{0, 0,
+                            fmt::format("object '{}' starts {} deep in '{}', and contact will push "
+                                        "them apart: move '{}' by {} along {}",
+                                        body.name, length_text(out.way), other.name, body.name,
+                                        length_text(out.way), direction_text(out.direction))};
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::string locales_text(const aoim::LocaleMap& map) {
     longest = std::max({longest, 2.0 * locale.half_x, 2.0 * locale.half_y});
     ways += locale.neighbours.size();
   }
-  return fmt::format("{} locales of {} to {}, ways between them: {}", map.locales().size(),
+  return fmt::format("{} locales of {} to {}, with {} connections", map.locales().size(),
                      format_quantity(map.finest(), "m"), format_quantity(longest, "m"), ways / 2);
 }
 
@@ -61,7 +61,7 @@ std::string over_delivery_text(const peer::AoimConfig& aoim) {
   const double side = tree->config().side / across;
   const aoim::CellGrid equal({aoim::CellScheme::square, side, aoim::kMaximumPool});
   return fmt::format(
-      "of the sample's {} places, {:.2f} times what lies within {}; {:.2f} times with equal "
+      "for {} sampled positions, {:.2f} times the entities within {}; {:.2f} times with equal "
       "squares of {}",
       places.size(), over_delivery(cells, places), format_quantity(aoim.quad_tree.reach, "m"),
       over_delivery(equal, places), format_quantity(side, "m"));

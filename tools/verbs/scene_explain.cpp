@@ -144,7 +144,7 @@ std::string step_text(const peer::StageCosts& costs) {
       fmt::format("measured here: {} takes {:.2g} us of 1,000 ({:.0f} ns without any stage)", what,
                   1e6 * costs.dearest, 1e9 * costs.empty);
   if (costs.dearest < kMost * kStep) return text;
-  return text + "; this host cannot do that at 1 kHz: leave out the dearest stages above" +
+  return text + "; this host is too slow for 1 kHz: remove the costliest stages above" +
          (costs.dearest < kStep ? "" : ". demo and peer refuse the scene here");
 }
 

@@ -88,7 +88,7 @@ SettingRows scene_graph_rows(const peer::SceneFile& file) {
   rows.emplace_back("nodes", fmt::format("{}, {} levels with the scene and its objects",
                                          node_count(file), nodes.graph.depth()));
   rows.emplace_back("hang on them",
-                    fmt::format("{}, {} of them by copies", counted(nodes.hung.size(), "object"),
+                    fmt::format("{}, {} of them from copies", counted(nodes.hung.size(), "object"),
                                 nodes.hung.size() - tables.size()));
   for (const peer::NodeConfig& node : file.node_tables)
     if (!node.use.empty()) rows.emplace_back("copy", fmt::format("{} of {}", node.name, node.use));

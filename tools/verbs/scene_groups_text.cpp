@@ -23,11 +23,10 @@ void add_beacons(const peer::SceneFile& file, SettingRows& rows) {
     beacons +=
         fmt::format("{}{} of peer {}", beacons.empty() ? "" : ", ", entity.beacon, entity.peer);
   }
-  if (!beacons.empty())
-    rows.emplace_back("beacons", beacons + ": found in the map of groups wherever they are");
+  if (!beacons.empty()) rows.emplace_back("beacons", beacons + ": located by the map of groups");
   if (!file.aoim.follow.empty())
     rows.emplace_back("follows",
-                      file.aoim.follow + ": listens to the cell of each and shows what is in it");
+                      file.aoim.follow + ": joins the cell of each, and shows its entities");
 }
 
 // Maximum number of groups that the tiers with these recipients need at once.
@@ -42,7 +41,7 @@ std::size_t within_tiers(const peer::SceneFile& file, peer::Recipients to) {
 }  // namespace
 
 std::string groups_text(const peer::SceneFile& file) {
-  if (file.network.interop) return fmt::format("{} alone, plain DIS", file.network.group.text());
+  if (file.network.interop) return fmt::format("{} only, plain DIS", file.network.group.text());
   const peer::GroupNeeds needs = peer::group_needs(file);
   return fmt::format("{} and {} after it; the radius needs up to {} of them",
                      file.network.group.text(), file.aoim.pool, needs.within_radius);
@@ -61,16 +60,16 @@ void add_group_rows(const peer::SceneFile& file, SettingRows& rows) {
   const std::size_t own_groups = own_group_count(file.aoim.tiers);
   if (has_touch_tier(file.aoim.tiers))
     rows.emplace_back("felt",
-                      fmt::format("by {} more groups, joined only by peers that can touch "
-                                  "there; a hand needs up to {} of them",
+                      fmt::format("in {} more groups, which only peers that can touch there join; "
+                                  "a hand needs up to {} of them",
                                   file.aoim.pool, within_tiers(file, peer::Recipients::touch)));
   if (own_groups > 0)
     rows.emplace_back(
         "near",
-        fmt::format("{} by {} more groups, joined only by peers that are near enough; a "
-                    "focus needs up to {} of them",
-                    own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
-                    own_groups * file.aoim.pool, within_tiers(file, peer::Recipients::distance)));
+        fmt::format(
+            "{} in {} more groups, which only near peers join; a focus needs up to {} of them",
+            own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
+            own_groups * file.aoim.pool, within_tiers(file, peer::Recipients::distance)));
 }
 
 std::vector<std::string> group_warnings(const peer::SceneFile& file) {

@@ -22,7 +22,7 @@ void note_distance(const haptics::PlannedObject& object, std::vector<std::string
   const double distance = object.bounds.exteriorDistance(Eigen::Vector3d::Zero());
   if (distance <= kFarFromHands) return;
   notes.push_back(fmt::format(
-      "lies {} from the scene's origin, where hands are: write centre = true, and a position",
+      "is {} from the scene's origin, where hands are: write centre = true, and a position",
       haptics::length_text(distance)));
 }
 

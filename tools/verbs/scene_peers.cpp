@@ -47,19 +47,19 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
   if (const peer::Driver* const driver = device.driver)
     return driver->holder != nullptr ? driver->holder(device)
                                      : fmt::format("a person, by {}", driver->article);
-  if (scene.operators.empty()) return "a hand that holds still";
+  if (scene.operators.empty()) return "a hand at rest";
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;
   const peer::OperatorConfig& config = scene.operators[index];
   if (device.source == peer::DeviceSource::pointer) {
-    return fmt::format("a pointer, within {} of where operator {} is; {} behind it",
+    return fmt::format("a pointer, within {} of the start of operator {}, with a lag of {}",
                        peer::format_quantity(device.reach, "m"), index + 1,
                        peer::format_quantity(haptics::PointerPath::kLag, "s"));
   }
   return fmt::format("operator {}, {}{}{}", index + 1, peer::word_of(config.kind),
                      device.operator_number > count ? ", aside" : "",
                      device.admittance.mass > 0
-                         ? fmt::format("; it moves by itself, as a mass of {}, to {}",
+                         ? fmt::format("; an admittance device with a mass of {}, up to {}",
                                        peer::format_quantity(device.admittance.mass, "kg"),
                                        peer::format_quantity(device.admittance.bandwidth, "Hz"))
                          : "");
@@ -68,7 +68,7 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
 std::string spring_limits_of(const peer::DeviceConfig& device) {
   const haptics::DeviceLimits limits = device.driver->springs->felt(device)->limits();
   return fmt::format(
-      "{}, {}; {} over {}; a change is there {} late", peer::format_quantity(limits.max_force, "N"),
+      "{}, {}; {} over {}; a change acts {} later", peer::format_quantity(limits.max_force, "N"),
       peer::format_quantity(limits.max_speed, "m/s"), limits.axes == 1 ? "an axis" : "two axes",
       peer::format_quantity(limits.workspace_max.x() - limits.workspace_min.x(), "m"),
       about(pdu::to_seconds(device.driver->springs->change(device)), "s"));
@@ -77,13 +77,13 @@ std::string spring_limits_of(const peer::DeviceConfig& device) {
 std::string limits_of(const peer::DeviceConfig& device) {
   const double period = pdu::to_seconds(device.period);
   return fmt::format(
-      "{}{}, {}, {}; {}; a force is there {}", peer::format_quantity(device.max_force, "N"),
+      "{}{}, {}, {}; {}; a force acts {}", peer::format_quantity(device.max_force, "N"),
       device.continuous_force > 0
-          ? fmt::format(" ({} for ever)", peer::format_quantity(device.continuous_force, "N"))
+          ? fmt::format(" ({} permanently)", peer::format_quantity(device.continuous_force, "N"))
           : "",
       peer::format_quantity(device.max_speed, "m/s"),
       peer::format_quantity(device.damping, "N s/m"), about(1.0 / period, "Hz"),
-      device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " late");
+      device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " later");
 }
 
 std::string tool_of(const peer::DeviceConfig& device) {
@@ -120,7 +120,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
 
 /// Energy that regions may put into the hand.
 std::string sources_of(const peer::DeviceConfig& device) {
-  return fmt::format("potentials are lent at most {}; oscillations put in at most {}, {} at once",
+  return fmt::format("potentials borrow at most {}; oscillations add at most {}, {} at once",
                      peer::format_quantity(device.regions.loan, "J"),
                      peer::format_quantity(device.regions.oscillation_power, "W"),
                      peer::format_quantity(device.regions.oscillation_energy, "J"));
@@ -132,7 +132,7 @@ std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
   const haptics::ServoLoop servo(hand.get(), haptics::EffectPlan(), servo_of(scene, device));
   const std::string text = "up to " + about(servo.force_rate_limit(), "N/s");
   if (!(device.max_force_rate > servo.force_rate_limit())) return text;
-  return text + fmt::format(" of {} asked: the stiffest wall that it holds gives no more at 1 m/s",
+  return text + fmt::format(" of the requested {}: the rate of its stiffest wall at 1 m/s",
                             peer::format_quantity(device.max_force_rate, "N/s"));
 }
 
@@ -163,7 +163,7 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::ServoLoop&
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
   if (can.hand_limit() < can.hands)
-    text += fmt::format(" beside a damper of {}, {} without",
+    text += fmt::format(" with a damper of {}, {} without it",
                         peer::format_quantity(can.damper_shown(scene.hand.damping), "N s/m"),
                         about(can.hands, "N/m"));
   return text + as_asked(scene, can);
@@ -185,24 +185,23 @@ std::string mapping_text(const peer::DeviceConfig& device) {
     if (is) text += (text.empty() ? "" : "; ") + what;
   };
   add(device.scale != 1.0,
-      fmt::format("{:.4g} times the way of the handle, so {} at most in the scene", device.scale,
+      fmt::format("{:.4g} times as far as the handle, with at most {} in the scene", device.scale,
                   about(device.max_force / device.scale, "N")));
-  add(device.left_handed, "left and right change sides");
+  add(device.left_handed, "left and right are swapped");
   add(device.clutch_button >= 0,
-      fmt::format("stands still while button {} is down", device.clutch_button));
+      fmt::format("it stays while button {} is down", device.clutch_button));
   return text;
 }
 
 /// How its button holds bodies, if there are any.
 std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
                     const haptics::ServoLoop& servo) {
-  if (device.peer > 1) return "none: the scene's first peer moves them";
-  if (!(scene.hand.grab.stiffness > 0))
-    return "none: grab_stiffness of [hand] would, while its button is pressed";
+  if (device.peer > 1) return "no: the scene's first peer moves them";
+  if (!(scene.hand.grab.stiffness > 0)) return "no: set grab_stiffness of [hand]";
   std::string text = fmt::format("while button {} is pressed, by {}", device.grab_button,
                                  about(servo.grab_stiffness(), "N/m"));
   if (servo.grab_stiffness() < scene.hand.grab.stiffness)
-    text += fmt::format(" of {} asked: device, or the lightest body, takes no more",
+    text += fmt::format(" of the requested {}: the limit of the device or the lightest body",
                         peer::format_quantity(scene.hand.grab.stiffness, "N/m"));
   return text;
 }
@@ -220,7 +219,7 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
             {"limits", spring_limits_of(device)},
             {"stiffness", "walls, hands and entities up to " +
                               about(servo.static_stiffness_limit(), "N/m") +
-                              ", which it renders by itself along its axes"}};
+                              ", rendered by the device along its axes"}};
   }
   Facts facts = {{"held by", holder_of(scene, device)},
                  {"stands at", point(device.position)},
@@ -293,17 +292,16 @@ std::vector<PeerFact> body_facts(const haptics::EffectPlan& plan) {
   std::vector<PeerFact> rows;
   if (carried > 0)
     rows.push_back({1, fmt::format("carried {}", carried), "moved",
-                    "by time functions, at each peer; hands and bodies do not stop them"});
+                    "by functions of time, at each peer; hands and bodies do not stop them"});
   if (count == 0) return rows;
   const std::string mass = least < most
                                ? fmt::format("{} to {}", peer::format_quantity(least, "kg"),
                                              peer::format_quantity(most, "kg"))
                                : peer::format_quantity(most, "kg");
   rows.push_back({1, fmt::format("bodies {}", count), "mass", mass});
-  rows.push_back(
-      {1, fmt::format("bodies {}", count), "step",
-       "in that of its hands, some 2 us for each that is awake, 10 us and more for one at "
-       "a hand"});
+  rows.push_back({1, fmt::format("bodies {}", count), "step",
+                  "within the servo step of its hands, about 2 us for each awake body, 10 us and "
+                  "more for one at a hand"});
   if (!passed.empty()) rows.push_back({1, fmt::format("bodies {}", count), "go through", passed});
   return rows;
 }
@@ -330,7 +328,7 @@ std::vector<PeerFact> peer_facts(const peer::SceneFile& scene, const haptics::Ef
       add(rows, number, fmt::format("entity {} {}", i + 1, entities[i].marking),
           facts_of(entities[i], tracks[i]));
     }
-    if (rows.size() == before) rows.push_back({number, "nothing", "", "it only listens"});
+    if (rows.size() == before) rows.push_back({number, "nothing", "", "it only receives"});
   }
   return rows;
 }

@@ -30,10 +30,10 @@ std::string duration_of(std::chrono::nanoseconds duration) {
 /// Convergence of remote entities.
 std::string shown_as(const peer::ConvergenceConfig& config) {
   const auto& settings = config.settings;
-  return fmt::format("{} in {}, at once from {}; follows {}", peer::word_of(settings.curve),
+  return fmt::format("{} in {}, at once above {}; follows {}", peer::word_of(settings.curve),
                      format_quantity(settings.duration, "s"),
                      format_quantity(settings.teleport_distance, "m"),
-                     config.prediction == peer::Prediction::adaptive ? "the best of its history"
+                     config.prediction == peer::Prediction::adaptive ? "the best recent model"
                                                                      : "the model as sent");
 }
 
@@ -50,19 +50,19 @@ std::string way_of(const peer::NetworkConfig& network) {
 /// "5 ms", "5 ms or until 6 go together".
 std::string wait_of(const peer::BundlePolicy& policy) {
   std::string text = duration_of(policy.hold);
-  if (policy.updates > 0) text += fmt::format(" or until {} go together", policy.updates);
+  if (policy.updates > 0) text += fmt::format(" or until {} are bundled", policy.updates);
   return text;
 }
 
 /// "all that is within the radius", "platform, within 500 m; 2 boxes hide".
 std::string awareness_of(const peer::AwarenessConfig& config) {
-  std::string text = config.kinds.empty() ? "all that is within the radius" : config.kinds;
+  std::string text = config.kinds.empty() ? "all entities within the radius" : config.kinds;
   if (config.aura > 0) text += fmt::format("; none beyond {}", format_quantity(config.aura, "m"));
   for (const peer::NimbusClass& one : config.nimbus)
     text += fmt::format("; {} from {} farther away", peer::entity_type_numbers(one.type),
                         format_quantity(one.nimbus, "m"));
   if (!config.occluders.empty())
-    text += fmt::format("; {} boxes hide what is behind them", config.occluders.size());
+    text += fmt::format("; {} boxes hide entities behind them", config.occluders.size());
   return text;
 }
 
@@ -85,11 +85,12 @@ std::string tiers_of(const peer::AoimConfig& aoim) {
   for (const peer::TierConfig& tier : aoim.tiers)
     text += (text.empty() ? "" : ", ") + tier_of(tier, own_groups);
   if (!has_distance_tiers(aoim.tiers))
-    return text.empty() ? "one: everything to all" : text + ", then everything to all";
+    return text.empty() ? "one: all updates to all peers"
+                        : text + ", then all updates to all peers";
   text += own_groups ? "" : " of the nearest receiver";
-  text += "; what is held back is counted (updates_held_back)";
+  text += "; delayed updates are counted (updates_held_back)";
   if (aoim.awareness.budget > 0)
-    text += fmt::format("; takes {} a second", format_quantity(aoim.awareness.budget, "B"));
+    text += fmt::format("; accepts {} a second", format_quantity(aoim.awareness.budget, "B"));
   return text;
 }
 
@@ -152,22 +153,22 @@ SettingRows scene_limits(const peer::SceneFile& file) {
   constexpr double kMebi = 1024.0 * 1024.0;
   return {
       {"remote entities",
-       fmt::format("{} rows of {} octets, {:.0f} MiB when full, taken as they come; further ones "
-                   "are counted (table_full) and not shown",
+       fmt::format("{} rows of {} octets, {:.0f} MiB when full; memory is used as it fills; "
+                   "further ones are counted (table_full) and not shown",
                    options.capacity, row, static_cast<double>(options.capacity * row) / kMebi)},
       {"rings of datagrams",
-       fmt::format("{:.3g} MiB each way, taken as they fill; a full one leaves what comes to the "
-                   "kernel (read_waits), and drops what goes (write_overflow)",
-                   static_cast<double>(options.datagram_ring) / kMebi)},
+       fmt::format(
+           "{:.3g} MiB each way; memory is used as they fill; when full, received datagrams wait "
+           "in the kernel (read_waits), and sent ones are dropped (write_overflow)",
+           static_cast<double>(options.datagram_ring) / kMebi)},
       {"felt by a hand",
-       fmt::format("what is within {} of it, the {} nearest; further ones are counted "
-                   "(hands_unfelt)",
+       fmt::format("the {1} nearest bodies within {0}; further ones are counted (hands_unfelt)",
                    format_quantity(peer::kContactReach, "m"), haptics::kMaxRemoteHands)},
       {"devices of a peer", fmt::format("{} at most", peer::kMaxDevices)},
       {"peers known", fmt::format("{}; further ones are counted (peers_not_joined)",
                                   aoim::PresenceConfig{}.capacity)},
       {"rows of a picture",
-       fmt::format("the {} remote entities that are nearest to the first hand; all are counted",
+       fmt::format("the {} remote entities nearest to the first hand; all are counted",
                    peer::PeerView::kRows)},
   };
 }

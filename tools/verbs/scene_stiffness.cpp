@@ -76,33 +76,35 @@ std::string sentence(const Group& group, std::size_t devices) {
                              : names(group.devices);
   if (group.first.damps && !group.first.is_light) {
     return fmt::format(
-        "{} ask for {}{:.6g} N s/m: {:.6g} N s/m are kept for them by {}, and what is beyond is "
-        "felt as far as the hand's motion has paid for it; more damping in [[device]] keeps more",
-        names(group.things), group.things.size() == 1 ? "" : "up to ", group.most_asked,
-        group.first.shown, by);
+        "{} {} {}{:.6g} N s/m: {:.6g} N s/m are reserved for this by {}, and the rest is rendered "
+        "if the hand's motion supplies its energy; more damping in [[device]] reserves more",
+        names(group.things), group.things.size() == 1 ? "has" : "have",
+        group.things.size() == 1 ? "" : "up to ", group.most_asked, group.first.shown, by);
   }
   if (group.first.is_light) {
     return fmt::format(
-        "{} {} for {}{:.6g} N s/m and {} felt with {:.6g} N s/m by {}: more would turn so light a "
-        "body around within a period; more mass or a higher rate shows more",
-        names(group.things), group.things.size() == 1 ? "asks" : "ask",
+        "{} {} {}{:.6g} N s/m, but {} rendered with {:.6g} N s/m by {}: more would reverse so "
+        "light a body within a period; more mass or a higher rate allows more",
+        names(group.things), group.things.size() == 1 ? "has" : "have",
         group.things.size() == 1 ? "" : "up to ", group.most_asked,
         group.things.size() == 1 ? "is" : "are", group.first.shown, by);
   }
   const bool beside = group.first.shown < group.first.alone;
-  const std::string remedy = fmt::format(
-      "{}; {}{} in [[device]] shows more",
-      beside ? fmt::format(", {:.6g} N/m without the damper beside it", group.first.alone) : "",
-      beside ? "less damping there, " : "",
-      group.first.has_limit ? "a greater max_stiffness"
-                            : "more damping, a higher rate or less delay");
+  const std::string remedy =
+      fmt::format("{}; {}{} in [[device]] allows more",
+                  beside ? fmt::format(", {:.6g} N/m without its damper", group.first.alone) : "",
+                  beside ? "a weaker damper, " : "",
+                  group.first.has_limit ? "a greater max_stiffness"
+                                        : "more damping, a higher rate or less delay");
   if (group.first.is_hardening()) {
-    return fmt::format("k3 of [hand] is felt up to a slope of {:.6g} N/m, {:.3g} mm deep, by {}{}",
-                       group.first.shown, 1e3 * group.first.from, by, remedy);
+    return fmt::format(
+        "k3 of [hand] is rendered up to a slope of {:.6g} N/m, {:.3g} mm deep, by {}{}",
+        group.first.shown, 1e3 * group.first.from, by, remedy);
   }
-  return fmt::format("{} {} {:.6g} N/m and {} felt with {:.6g} N/m by {}{}", names(group.things),
-                     group.things.size() == 1 ? "asks for" : "ask for up to", group.most_asked,
-                     group.things.size() == 1 ? "is" : "are", group.first.shown, by, remedy);
+  return fmt::format("{} {} {:.6g} N/m, but {} rendered with {:.6g} N/m by {}{}",
+                     names(group.things), group.things.size() == 1 ? "has" : "have up to",
+                     group.most_asked, group.things.size() == 1 ? "is" : "are", group.first.shown,
+                     by, remedy);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kTemplate =
-    R"(## A scene: what can be touched, who is there, how peers speak. All may be left out.
-## Check it:   reckon scene check FILE      What runs for it:   reckon scene explain FILE
-## All keys:   reckon scene keys            Lines with one '#' are examples: take the '# ' out.
+    R"(## A scene: touchable objects, hands and entities, network. Everything is optional.
+## Check it:   reckon scene check FILE      Explain it:         reckon scene explain FILE
+## All keys:   reckon scene keys            Lines with one '#' are examples: remove the '# '.
 
 [scene]
 name = "my scene"
@@ -18,7 +18,7 @@ origin = { latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m" }
 name = "table"
 plane = [0, 0, 1]                                   # a half-space and its outward normal
 surface = { stiffness = "900 N/m", damping = "0.2 N s/m" }
-# friction = { static = 0.5, kinetic = 0.35 }       # declared, hence simulated
+# friction = { static = 0.5, kinetic = 0.35 }       # only declared effects are simulated
 
 ## Other shapes: mesh, sphere, box, cylinder, cone, torus, ellipsoid; or a solid of parts.
 # [[object]]
@@ -28,24 +28,24 @@ surface = { stiffness = "900 N/m", damping = "0.2 N s/m" }
 #   { operation = "subtract", cylinder = { radius = "10 mm", height = "5 cm" }, rounding = "2 mm" },
 # ]
 
-[hand]                                              # what a hand is to other hands
+[hand]                                              # force model of a hand for other hands
 radius = "10 mm"
 k1 = "500 N/m"
 
 [[operator]]                                        # one simulated hand each, for peers 1, 2 ...
 sweep = { from = "-60 0 30 mm", to = "60 0 -5 mm", period = "4 s" }
 
-## Without [[device]] each peer has one. With any, a peer has exactly those that name it.
+## Without [[device]] each peer has one device. Otherwise only peers with a [[device]] have one.
 # [[device]]
 # peer = 1
 # operator = 1
-# position = "0 0 0 mm"                             # of the device's own origin in S
+# position = "0 0 0 mm"                             # of the device's origin in S
 # max_force = "10 N"
-# damping = "1 N s/m"                               # its own friction: more shows stiffer walls
+# damping = "1 N s/m"                               # viscous friction: more allows stiffer walls
 # rate = "1 kHz"
-# delay = "0 ms"                                    # until a force is at the handle
+# delay = "0 ms"                                    # from a command to its force at the handle
 
-## What a peer owns and no device moves.
+## Entities of a peer without a device.
 # [[entity]]
 # peer = 1
 # marking = "POST"
@@ -63,11 +63,11 @@ sweep = { from = "-60 0 30 mm", to = "60 0 -5 mm", period = "4 s" }
 # dead_reckoning = { position = "1 m", angle = "3 deg" }
 ## track = "truck_track.csv"                        # t_s,px_m,py_m,pz_m beside this file
 
-# [dead_reckoning]                                  # how far copies of hands may be off
+# [dead_reckoning]                                  # greatest errors of remote copies of hands
 # position = "0.5 mm"
 # force = "0.05 N"
 
-# [aoim]                                            # cells, and how far a peer senses
+# [aoim]                                            # cells, and the radius of reception
 # cell = "1 m"
 # radius = "2 m"
 

@@ -95,8 +95,8 @@ StageOptions stage_options(const ViewOptions& options) {
   stage.is_capture = !is_live(options.source);
   stage.kind = stage.is_capture ? "capture" : "live";
   stage.help = stage.is_capture
-                   ? "This capture holds no entities; reckon inspect shows its PDUs."
-                   : "Nobody is heard yet: start reckon demo, or a peer of this scene.";
+                   ? "This capture has no entities; reckon inspect shows its PDUs."
+                   : "No entity received yet: start reckon demo, or a peer of this scene.";
   return stage;
 }
 
@@ -109,7 +109,7 @@ void show_metrics(MetricsServer& server, Viewing& viewing, nanoseconds now, nano
   if (!server.is_due(now)) return;
   OpenMetrics text;
   text.gauge("uptime_seconds", "time since the start", pdu::to_seconds(elapsed));
-  text.gauge("page_tabs_open", "tabs that look now", static_cast<double>(viewing.server().tabs()));
+  text.gauge("page_tabs_open", "open tabs", static_cast<double>(viewing.server().tabs()));
   viewing.server().counts().for_each(
       [&](std::string_view name, std::string_view meaning, std::uint64_t value) {
         text.counter(fmt::format("page_{}", name), meaning, value);
@@ -160,17 +160,15 @@ int serve(const ViewOptions& options, const Console& console) {
 void check_save(const ViewOptions& options) {
   const ViewFlags& view = options.view;
   if (const std::string_view given = view.port ? "--port" : given_flag(view); !given.empty())
-    throw UsageError(fmt::format("--save serves no page: leave {} out", given));
+    throw UsageError(fmt::format("--save serves no page: remove {}", given));
   if (!options.metrics.empty())
-    throw UsageError("--metrics: with --save nothing is served; leave it out");
+    throw UsageError("--metrics: --save serves nothing; remove --metrics");
   if (is_live(options.source) && !options.duration)
-    throw UsageError("--save: this source is live; say how long to listen, as in --for 1min");
+    throw UsageError("--save: this source is live; add the time to receive, as in --for 1min");
   std::error_code none;
   if (std::filesystem::equivalent(options.source.source, options.save, none))
-    throw UsageError(
-        fmt::format("{} would be overwritten by what is saved of it; choose another "
-                    "name",
-                    options.save));
+    throw UsageError(fmt::format("{} is the source and would be overwritten; choose another name",
+                                 options.save));
   const bool is_there = std::filesystem::exists(options.save, none);
   if (is_there && !options.overwrite)
     throw UsageError(
@@ -184,10 +182,11 @@ void tell_saved(const SavedRun& run, std::size_t octets, const Console& console)
              run.entities == 1 ? "1 entity" : fmt::format("{} entities", run.entities),
              counted(run.pictures, "picture"), size_text(octets));
   if (run.spacing > 1.01 * pdu::to_seconds(ViewServer::kTick))
-    fmt::print(console.err, "pictures are up to {:.2f} s apart, for so many entities\n",
+    fmt::print(console.err,
+               "pictures are up to {:.2f} s apart, because of the number of entities\n",
                run.spacing);
   if (run.left_out >= 0.05)
-    fmt::print(console.err, "the {:.1f} s before are left out; --for says how much is saved\n",
+    fmt::print(console.err, "the {:.1f} s before are left out; --for sets the saved length\n",
                run.left_out);
 }
 
@@ -213,7 +212,7 @@ int save(const ViewOptions& options, const Console& console) {
   for (const std::string& sentence : told) fmt::print(console.err, "{}\n", sentence);
   const SavedRun run = save_run(stage, {.span = options.duration.value_or(SaveOptions::kMinute)});
   if (run.entities == 0) {
-    fmt::print(console.err, "nothing is saved: no entity is heard in it\n");
+    fmt::print(console.err, "nothing is saved: it has no entity\n");
     return exit_status(ExitCode::findings);
   }
   const std::string file = filled_frame(find_page_file("/frame.html")->text, run.items);
@@ -227,7 +226,7 @@ int run_view(Arguments arguments, const Console& console) {
   if (const auto status = parse(arguments, console, options)) return *status;
   options.source.sealed = !options.key.empty();
   if (!options.save.empty()) return save(options, console);
-  if (options.overwrite) throw UsageError("--force: there is no --save whose file it overwrites");
+  if (options.overwrite) throw UsageError("--force needs --save");
   return serve(options, console);
 }
 

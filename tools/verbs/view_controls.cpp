@@ -42,15 +42,15 @@ ViewerControls::HandAnswer ViewControls::take_hand(Watcher watcher) {
   for (Hand& hand : hands_) {
     if (hand.owner == watcher)
       return {static_cast<std::uint16_t>(hand.index),
-              fmt::format("hand {} is yours already", hand.index + 1)};
+              fmt::format("you already have hand {}", hand.index + 1)};
     if (free == nullptr && hand.owner == kNobody) free = &hand;
   }
   if (free == nullptr)
-    return {std::nullopt, hands_.empty() ? "no hand of this scene follows a pointer"
-                                         : "each hand that follows a pointer is taken; you watch"};
+    return {std::nullopt, hands_.empty() ? "this scene has no hand for a pointer"
+                                         : "all hands for pointers are taken; you can only watch"};
   free->owner = watcher;
   return {static_cast<std::uint16_t>(free->index),
-          fmt::format("hand {} is yours", free->index + 1)};
+          fmt::format("you have hand {}", free->index + 1)};
 }
 
 void ViewControls::give_hand(Watcher watcher) {
@@ -73,7 +73,7 @@ void ViewControls::point(Watcher watcher, const PointerRequest& request, std::ch
 }
 
 std::string ViewControls::set_network(const NetworkRequest& request) {
-  if (!change_) return "this program has no network of its own to change";
+  if (!change_) return "this program has no simulated network to change";
   network_ = request;
   law_.delay = pdu::from_seconds(1e-3 * request.delay_ms);
   law_.jitter = pdu::from_seconds(1e-3 * request.jitter_ms);

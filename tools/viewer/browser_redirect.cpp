@@ -18,11 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& place) {
-  throw std::system_error(
-      errno, std::generic_category(),
-      fmt::format("--open: no file for the browser can be written in {}; leave it out, and open "
-                  "the address that is printed",
-                  place.string()));
+  throw std::system_error(errno, std::generic_category(),
+                          fmt::format("--open: cannot write a file for the browser in {}; remove "
+                                      "--open, and open the printed address",
+                                      place.string()));
 }
 
 /// Makes a folder that only this user may enter.

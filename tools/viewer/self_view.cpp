@@ -38,7 +38,7 @@ SelfView::SelfView(const ViewFlags& flags, const peer::SceneFile& scene,
   StageOptions& stage = viewing.stage;
   stage.source = options.source;
   stage.kind = options.kind;
-  stage.help = "Nobody is heard yet.";
+  stage.help = "No entity received yet.";
   stage.scene = &scene;
   stage.history.exercise = scene.network.exercise;
   stage.raw_bit_per_s = options.raw_bit_per_s;
@@ -47,7 +47,7 @@ SelfView::SelfView(const ViewFlags& flags, const peer::SceneFile& scene,
   const bool is_unheard = source == nullptr;
   thread_ = std::make_unique<ViewThread>(viewing, std::move(source));
   if (is_unheard)
-    thread_->put_note("warning", "the peers of this scene speak by unicast: hands alone are shown");
+    thread_->put_note("warning", "the peers of this scene use unicast: only hands are shown");
 }
 
 void SelfView::show_hands() {

@@ -53,7 +53,7 @@ std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed) {
   const std::string& view = typed.view;
   if (view.empty() || view == "false") {
     if (const std::string_view given = given_flag(typed.page); !given.empty())
-      throw UsageError(fmt::format("{} is about the page: add --view to serve one", given));
+      throw UsageError(fmt::format("{} needs a page: add --view", given));
     return std::nullopt;
   }
   ViewFlags flags = typed.page;
@@ -61,7 +61,8 @@ std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed) {
   std::uint64_t port = 0;
   const auto [end, error] = std::from_chars(view.data(), view.data() + view.size(), port);
   if (error != std::errc() || end != view.data() + view.size())
-    throw UsageError(fmt::format("--view={}: write a port, as in --view=9000, or none", view));
+    throw UsageError(
+        fmt::format("--view={}: write a port, as in --view=9000, or --view alone", view));
   flags.port = port;
   return flags;
 }
@@ -69,13 +70,13 @@ std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed) {
 ViewServerOptions server_options(const ViewFlags& flags, bool has_key) {
   constexpr std::uint64_t kLastPort = 65535;
   if (flags.port && *flags.port > kLastPort)
-    throw UsageError(
-        fmt::format("port {} of the page: ports are 0 to {}; 0 takes any", *flags.port, kLastPort));
+    throw UsageError(fmt::format("port {} of the page: write 0 to {}; 0 chooses a free one",
+                                 *flags.port, kLastPort));
   const bool has_tls = !flags.tls.first.empty();
   if (has_key && !has_tls && !flags.behind_tunnel && !is_of_this_host(flags.listen))
     throw UsageError(fmt::format(
-        "--listen {}: this exercise has a key, and its page would cross the network in clear: add "
-        "--tls CERT KEY, or --behind-tunnel if a VPN or an SSH tunnel alone reaches that address",
+        "--listen {}: this exercise has a key, and its page would cross the network unencrypted: "
+        "add --tls CERT KEY, or --behind-tunnel if only a VPN or SSH tunnel reaches that address",
         flags.listen));
   ViewServerOptions options;
   options.address = flags.listen;
@@ -92,11 +93,9 @@ ViewServerOptions server_options(const ViewFlags& flags, bool has_key) {
 }
 
 std::vector<std::string> invitation(const std::vector<std::string>& addresses, bool has_key) {
-  std::vector<std::string> lines{
-      has_key
-          ? "other hosts reach the page too: whoever has the word can look and push, nobody else"
-          : "other hosts reach the page too: whoever does can look, and whoever has the word can "
-            "push"};
+  std::vector<std::string> lines{has_key
+                                     ? "other hosts can open the page with its word, and push:"
+                                     : "other hosts can open the page, and push with its word:"};
   for (const std::string& address : addresses) lines.push_back("  " + address);
   return lines;
 }

@@ -205,7 +205,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
       return false;
     }
     if (verdict == RequestVerdict::bad) {
-      refuse(400, "Bad Request", "no request that this server reads");
+      refuse(400, "Bad Request", "malformed request");
       return false;
     }
     answer(request);
@@ -215,29 +215,28 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
   void answer(const HttpRequest& request) {
     const Access& access = all_.access_;
     if (!access.is_own_host(request.host))
-      return refuse(403, "Forbidden", "this server is not reached by that name");
+      return refuse(403, "Forbidden", "this server has another name");
     if (!request.origin.empty() && !access.is_own_origin(request.origin, request.host))
-      return refuse(403, "Forbidden", "pages of other sites get nothing");
-    if (request.method != "GET")
-      return refuse(404, "Not Found", "there is no such thing to ask for");
+      return refuse(403, "Forbidden", "cross-origin requests are refused");
+    if (request.method != "GET") return refuse(404, "Not Found", "only GET is supported");
     if (all_.stage_ == nullptr) return answer_metrics(request);
     if (request.path == "/stream") return upgrade(request);
     const PageFile* file = find_page_file(request.path);
-    if (file == nullptr) return refuse(404, "Not Found", "the page has no such file");
+    if (file == nullptr) return refuse(404, "Not Found", "no such file");
     const bool is_plain = file->gzip.empty();
     end_with(file_answer(file->content_type, is_plain ? "" : "gzip",
                          is_plain ? file->text : file->gzip));
   }
 
   void answer_metrics(const HttpRequest& request) {
-    if (request.path != kMetricsPath) return refuse(404, "Not Found", "here is /metrics alone");
+    if (request.path != kMetricsPath) return refuse(404, "Not Found", "only /metrics exists");
     end_with(file_answer(all_.metrics_.content_type, "", all_.metrics_.text()));
   }
 
   void upgrade(const HttpRequest& request) {
     if (request.origin.empty() || request.version != "13" || !is_web_socket_key(request.key) ||
         !lists_word(request.upgrade, "websocket") || !lists_word(request.connection, "upgrade"))
-      return refuse(400, "Bad Request", "/stream takes a WebSocket of version 13");
+      return refuse(400, "Bad Request", "/stream needs a WebSocket of version 13");
     const bool knows_word = all_.access_.is_word(value_in_query(request.query, "word"));
     std::string head = upgrade_answer(request.key);
     if (const std::string why = refusal_of(knows_word); !why.empty()) {
@@ -256,21 +255,21 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
   // Why it may not become a tab, as the page shows it; empty: it may.
   [[nodiscard]] std::string refusal_of(bool knows_word) {
     if (!knows_word && all_.needs_word_)
-      return "this exercise has a key: open the address that reckon printed";
+      return "this exercise has a key: open the address that Reckon printed";
     const auto is_here = [this](const Pointer& one) {
       return one->is_stranger() && one->from() == from();
     };
     if (!knows_word && all_.count(is_here) >= kMostStrangers)
       return fmt::format(
-          "{} tabs without the word look from your address already, which is the "
-          "most; open the address that reckon printed",
+          "your address has the maximum of {} tabs without the word; open the address that Reckon "
+          "printed",
           kMostStrangers);
     if (all_.tabs() < kMostTabs) return {};
     const Pointer stranger = all_.oldest([](const Pointer& one) { return one->is_stranger(); });
     if (!knows_word || !stranger)
-      return fmt::format(
-          "{} tabs look already, which is the most; close one and load this page again", kMostTabs);
-    stranger->say_bye("a tab with the word has taken this place");
+      return fmt::format("the maximum of {} tabs is open; close one and reload this page",
+                         kMostTabs);
+    stranger->say_bye("a tab with the word replaced this one");
     stranger->close();
     return {};
   }

@@ -52,9 +52,8 @@ struct ViewServerCounts {
   /// Calls visit(name, meaning, value) for each; both texts are literals.
   template <typename Visit>
   void for_each(Visit&& visit) const {
-    visit("tabs", "tabs that were served", tabs);
-    visit("requests_refused", "requests that were refused, and tabs for which there was no room",
-          refused);
+    visit("tabs", "tabs served", tabs);
+    visit("requests_refused", "refused requests, and tabs beyond the maximum", refused);
     visit("pictures_out", "pictures sent to tabs", pictures);
     visit("octets_out", "octets of messages sent to tabs", octets);
   }

@@ -215,7 +215,7 @@ struct ViewStage::Requests {
   void operator()(const GiveHandRequest&) const {
     stage.options_.controls->give_hand(watcher.number);
     watcher.hand.reset();
-    watcher.answer = hand_message(std::nullopt, "the hand is free again");
+    watcher.answer = hand_message(std::nullopt, "the hand is released");
   }
   void operator()(const FollowRequest& request) const { watcher.follow = request.slot; }
 };
@@ -231,8 +231,8 @@ void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
     return std::visit(Requests{*this, watcher}, request);
   watcher.answer = hand_message(
       std::nullopt, options_.controls == nullptr
-                        ? "there is no hand to take here"
-                        : "this tab only looks: open the address that the program printed");
+                        ? "this program has no hand to take"
+                        : "this tab can only watch: open the address that the program printed");
 }
 
 // Pictures

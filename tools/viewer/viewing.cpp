@@ -47,7 +47,7 @@ std::vector<std::string> take_source(peer::DatagramSource& source, SealedDatagra
     if (event == peer::SourceEvent::end) break;
     if (event != peer::SourceEvent::datagram || !sealed.open(datagram)) continue;
     if (!stage.take(datagram)) {
-      told.emplace_back("the source is longer than what is kept of one: its end is left out");
+      told.emplace_back("the source is too long to keep: its end is left out");
       break;
     }
   }

@@ -312,7 +312,8 @@ TEST(ExerciseMap, ReportsUnmappablePdus) {
   EXPECT_EQ(map.counts().ids, 2U);
   EXPECT_GE(map.counts().places, 2U);
   EXPECT_THAT(map.summary(), HasSubstr("5 PDUs mapped\n1 PDU not mapped: damaged"));
-  EXPECT_THAT(map.summary(), HasSubstr("with places that cannot be moved: live entities, grids"));
+  EXPECT_THAT(map.summary(),
+              HasSubstr("with locations that cannot be moved: live entities, grids"));
   EXPECT_EQ(map_of({}, {}, "").summary(), "");
 }
 

@@ -216,7 +216,7 @@ TEST_F(CutAudio, NamesTheMistake) {
   refuse("frame 1: radio 1 of 1:2:3 has a sample rate of 0 Hz");
   const std::string in = capture.path();
   EXPECT_THAT(run_reckon({"cut", in}).err, HasSubstr("OUT is missing"));
-  EXPECT_THAT(run_reckon({"cut", in, wav(), "--audio", wav()}).err, HasSubstr("leave OUT out"));
+  EXPECT_THAT(run_reckon({"cut", in, wav(), "--audio", wav()}).err, HasSubstr("remove OUT"));
   EXPECT_THAT(run_reckon({"cut", in, "--audio", in}).err, HasSubstr("overwritten"));
   capture.add(signal(level(160, 200)), kStart);
   EXPECT_EQ(cut({"--where", "sample_rate == 8000"}).status, 0);

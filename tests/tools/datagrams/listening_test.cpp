@@ -69,7 +69,7 @@ TEST(SilenceWatch, ReportsAfterThreeSecondsWithTrafficElsewhere) {
   const peer::GroupAddress elsewhere = endpoint(("239.192.77.3:" + port).c_str());
   ASSERT_FALSE(sender.join(elsewhere)) << "a program of this host listens there";
   EXPECT_THAT(silence.look(report, 103s),
-              ElementsAre("nothing heard yet at 239.192.77.2:" + port + " on lo"));
+              ElementsAre("nothing received yet at 239.192.77.2:" + port + " on lo"));
   std::array<std::byte, 12> pdu{std::byte{7}, std::byte{1}, std::byte{11}, std::byte{5}};
   pdu[9] = std::byte{12};
   std::vector<std::string> told;
@@ -78,8 +78,9 @@ TEST(SilenceWatch, ReportsAfterThreeSecondsWithTrafficElsewhere) {
     std::this_thread::sleep_for(5ms);
     told = silence.look(report, 104s);
   }
-  EXPECT_THAT(told, Contains(AllOf(HasSubstr("heard on this host: " + elsewhere.text() + " on lo"),
-                                   HasSubstr("take udp://" + elsewhere.text()))));
+  EXPECT_THAT(told,
+              Contains(AllOf(HasSubstr("received by this host: " + elsewhere.text() + " on lo"),
+                             HasSubstr("write udp://" + elsewhere.text()))));
   EXPECT_THAT(silence.look(report, 120s), IsEmpty());
 }
 
@@ -87,9 +88,9 @@ TEST(SilenceWatch, ReportsOnceThatNothingIsReceivedElsewhere) {
   SourceChoice choice;
   choice.source = "udp://239.192.77.4:" + std::to_string(20001 + getpid() % 20000);
   SilenceWatch silence(choice, 0s);
-  EXPECT_THAT(silence.look({}, 3s), Contains(HasSubstr("nothing heard yet")));
+  EXPECT_THAT(silence.look({}, 3s), Contains(HasSubstr("nothing received yet")));
   EXPECT_THAT(silence.look({}, 20s),
-              Contains(AnyOf(HasSubstr("nor is DIS heard"), HasSubstr("heard on this host"))));
+              Contains(AnyOf(HasSubstr("no DIS at"), HasSubstr("received by this host"))));
   EXPECT_THAT(silence.look({}, 21s), IsEmpty());
 }
 

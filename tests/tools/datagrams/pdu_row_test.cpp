@@ -73,9 +73,9 @@ TEST(DatagramInspector, TakesLengthZeroAsTheRestIfLenient) {
   EXPECT_EQ(octets, before);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0], Row("entity_state", "", ""));
-  EXPECT_EQ(rows[1], Row("entity_state", "I-NO-LENGTH",
-                         "the length field is 0, the 144 octets up to the end of the datagram are "
-                         "taken"));
+  EXPECT_EQ(rows[1],
+            Row("entity_state", "I-NO-LENGTH",
+                "the length field is 0: the 144 octets to the end of the datagram are used"));
   octets.resize(288 + 5, std::byte{0xAB});
   EXPECT_EQ(std::get<2>(rows_of(octets, true).at(1)),
             "the length field is 0, the 149 octets up to the end of the datagram are taken; 5 "
@@ -127,7 +127,7 @@ TEST(DatagramInspector, KeepsAndNotesTrailingOctetsIfLenient) {
     EXPECT_EQ(rows[0], Row("fire", "", ""));
     EXPECT_EQ(rows[1], Row("trailing", "I-TRAILING",
                            std::to_string(trailing.size()) +
-                               " octets behind the last PDU are kept: " + std::string(in_hex)));
+                               " octets after the last PDU are kept: " + std::string(in_hex)));
   };
   expect_trailing(Octets(3, std::byte{0x55}), "555555");
   expect_trailing(Octets(40, std::byte{0xFF}), "ffffffffffffffffffffffffffffffff...");
@@ -142,10 +142,10 @@ TEST(DatagramInspector, WarnsOfOctetsBehindTheLastField) {
   octets[9] = std::byte{152};
   EXPECT_EQ(rows_of(octets, false),
             std::vector<Row>({Row("entity_state", "W-TRAILING",
-                                  "8 octets behind the last field: 1111111111111111")}));
+                                  "8 octets after the last field: 1111111111111111")}));
   EXPECT_EQ(rows_of(octets, true),
             std::vector<Row>({Row("entity_state", "I-TRAILING",
-                                  "8 octets behind the last field are kept: 1111111111111111")}));
+                                  "8 octets after the last field are kept: 1111111111111111")}));
 }
 
 TEST(DatagramInspector, NamesLiveEntitiesByTheirShorterIds) {
@@ -237,9 +237,9 @@ TEST(DatagramInspector, NotesDatagramsOfOtherProtocols) {
   const std::vector<std::tuple<Octets, std::uint16_t, std::string>> foreign{
       {dns(0, false), 5353, "no PDU of any version of DIS in 29 octets; port 5353 is that of mDNS"},
       {ntp, 123, "no PDU of any version of DIS in 48 octets; port 123 is that of NTP"},
-      {ssdp, 1900, "no PDU of any version of DIS in 51 octets; port 1900 is that of SSDP"},
-      {ssdp, 3000, "no PDU of any version of DIS in 51 octets"},
-      {octets_of("ping"), 3000, "no PDU of any version of DIS in 4 octets"}};
+      {ssdp, 1900, "no DIS PDU in 51 octets; port 1900 is that of SSDP"},
+      {ssdp, 3000, "no DIS PDU in 51 octets"},
+      {octets_of("ping"), 3000, "no DIS PDU in 4 octets"}};
   for (const auto& [octets, port, reason] : foreign) {
     const PduRow row = only_row(octets, port);
     EXPECT_EQ(row.rule, "I-FOREIGN");

@@ -53,7 +53,7 @@ TEST_F(HandReport, ReportsTimeAndAmountOfHeldBackContacts) {
                         "at worst 0 % of 3 N shown: energy was short beside hands (1:4:1)"));
   views_[5].servo.tally.crowd = {1.0, 0.5, 4.0};
   views_[6].servo.tally.effects = {1.5, 0.0, 0.2};
-  EXPECT_THAT(text(), AllOf(HasSubstr("crowded"), HasSubstr("50 % of 4 N shown"),
+  EXPECT_THAT(text(), AllOf(HasSubstr("crowded"), HasSubstr("50 % of 4 N displayed"),
                             HasSubstr("held forces cut            1.5 s, at worst 0 % of 0.2 N")));
 }
 
@@ -110,9 +110,9 @@ TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {
   views_[4].servo.tally.let_go = 3;
   views_[4].servo.tally.failed = 2;
   views_[4].servo.tally.refused = 0.5;
-  EXPECT_THAT(text(), AllOf(HasSubstr("12, of which 3 found that the device had let go"),
+  EXPECT_THAT(text(), AllOf(HasSubstr("12; in 3 of them, the device had dropped its force"),
                             HasSubstr("failed readings            2 "),
-                            HasSubstr("for 0.5 s, a record near a hand")));
+                            HasSubstr("for 0.5 s, a force model near a hand")));
 }
 
 TEST_F(HandReport, ReportsHowOftenAndLongForcesWereStopped) {

@@ -93,7 +93,7 @@ TEST(LiveTable, ReportsStoppedForcesAndTheirKey) {
   EXPECT_THAT(all.shown(24, 80).back(), AllOf(HasSubstr("[s] stop all forces"), HasSubstr("[q]")));
   all.view(1).hands[0].servo.stopped = true;
   EXPECT_EQ(lines_with(all.shown(24, 80), "STOPPED"), 1U);
-  EXPECT_THAT(all.shown(24, 80).back(), HasSubstr("[s] let forces come back"));
+  EXPECT_THAT(all.shown(24, 80).back(), HasSubstr("[s] restore forces"));
   EXPECT_THAT(Peers(1, 1, 0).shown(24, 80).back(), Not(HasSubstr("[s]"))) << "no hand";
 }
 
@@ -157,7 +157,7 @@ TEST(LiveTable, SharesTheLinesAmongPeers) {
   const auto lines = Peers(8, 7).shown(24, 80);
   EXPECT_EQ(lines_with(lines, "of 7"), 8U);  // each peer has its line with the number not shown
   EXPECT_GE(lines_with(lines, "7:7:"), 8U);
-  EXPECT_THAT(Peers(64, 63).shown(10, 80), Contains(HasSubstr("and 59 peers more")));
+  EXPECT_THAT(Peers(64, 63).shown(10, 80), Contains(HasSubstr("and 59 more peers")));
 }
 
 TEST(LiveTable, ReportsProblemsOfAHand) {
@@ -167,7 +167,7 @@ TEST(LiveTable, ReportsProblemsOfAHand) {
   const auto lines = peers.shown(24, 80);
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("4 UNFELT"))));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:2:1"), HasSubstr("FROZEN"))));
-  EXPECT_THAT(lines, Contains(HasSubstr("nobody heard yet")));
+  EXPECT_THAT(lines, Contains(HasSubstr("no entity received yet")));
 }
 
 TEST(LiveTable, HandThatFeelsAnEntityIsNotFree) {
@@ -278,9 +278,9 @@ TEST(LiveTable, CountsMovingBodiesAndThoseNotWoken) {
   peers.view(1).bodies = 150;
   peers.view(1).bodies_awake = 12;
   EXPECT_EQ(lines_with(peers.shown(24, 80), "bodies: 12 of 150 move"), 1U);
-  EXPECT_EQ(lines_with(peers.shown(24, 80), "did not wake"), 0U);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "stayed at rest"), 0U);
   peers.view(1).bodies_not_woken = 7;
-  EXPECT_EQ(lines_with(peers.shown(24, 80), "12 of 150 move, in 7 steps one did not wake"), 1U);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "12 of 150 move, in 7 steps one stayed at rest"), 1U);
 }
 
 TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {

@@ -20,9 +20,9 @@ import pseudo_terminal  # noqa: E402
 from pseudo_terminal import Terminal  # noqa: E402
 
 # Accepted failures of a busy host; each message states the disturbance.
-BUSY = ("this host was too busy", "its readings fail", "it is not ready any more")
+BUSY = ("this host was too busy", "its readings fail", "it is no longer ready")
 # For a handle that a hand holds.
-HELD = ("let go of the handle", "a hand moves it")
+HELD = ("release the handle",)
 ASKED = "Press Enter to begin"
 
 
@@ -41,12 +41,12 @@ def end(terminal, out, says):
 
 def endings(program, driver, out):
     """Ends before and after the first motion."""
-    for how, says in ((lambda t: t.press("x"), "a key that is not Enter: nothing was moved"),
-                      (lambda t: t.press("\x03"), "ended by Ctrl-C: nothing was moved"),
-                      (lambda t: t.process.send_signal(signal.SIGUSR1), "SIGUSR1: nothing was moved")):
+    for how, says in ((lambda t: t.press("x"), "a key other than Enter: nothing moved"),
+                      (lambda t: t.press("\x03"), "ended by Ctrl-C: nothing moved"),
+                      (lambda t: t.process.send_signal(signal.SIGUSR1), "SIGUSR1: nothing moved")):
         terminal = measure(program, driver, out)
         asked = terminal.expect(ASKED).decode()
-        assert "Let go of the handle" in asked and "by up to 40 mm, with up to 3 N" in asked, asked
+        assert "Release the handle" in asked and "by up to 40 mm, with up to 3 N" in asked, asked
         how(terminal)
         end(terminal, out, [says])
     # A spring pulls the driver's handle to a place, as if a hand held it.
@@ -58,11 +58,11 @@ def endings(program, driver, out):
 
 def refusals(program, driver):
     """Without a terminal there are no questions, and a device that cannot be pushed is named."""
-    for words, says in (([driver], "add --yes"), (["evdev"], "renders springs by itself"),
-                        (["/dev/input/event3"], "renders springs by itself"), (["falkon"], "did you mean 'falcon'?"),
-                        (["falcon", "--max-force", "2 N"], "--max-force: what a serial board can hold"),
+    for words, says in (([driver], "add --yes"), (["evdev"], "renders springs itself"),
+                        (["/dev/input/event3"], "renders springs itself"), (["falkon"], "did you mean 'falcon'?"),
+                        (["falcon", "--max-force", "2 N"], "--max-force applies to serial boards only"),
                         (["/dev/ttyACM0", "--max-force", "2 m"], "--max-force"),
-                        (["mine", "--simulate", "falcon", "--yes"], "--yes: of a real device")):
+                        (["mine", "--simulate", "falcon", "--yes"], "--yes needs a real device")):
         ended = subprocess.run([program, "devices", "measure", *words, *([] if says != "--max-force" else ["--yes"])],
                                stdin=subprocess.DEVNULL, capture_output=True, check=False, text=True)
         assert ended.returncode == 2 and says in ended.stderr and ended.stdout == "", (words, ended)
@@ -116,7 +116,7 @@ def board(program, model, out):
     print(text)
     damping = float(re.search(r"measured ([\d.]+) \+-", text)[1])
     assert abs(damping - 1.5) < 0.15, text
-    assert "pushed along x alone" in text and "its driver relied on 0.09 N s/m so far" in text, text
+    assert "pushed along x only" in text and "its driver assumed 0.09 N s/m" in text, text
     described = subprocess.run([program, "devices", "describe", str(out)], capture_output=True, check=False, text=True)
     assert described.returncode == 0 and "limits" in described.stdout, described
 

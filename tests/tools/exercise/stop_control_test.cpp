@@ -25,7 +25,7 @@ TEST(StopControl, Sigusr1PressesAndReleasesItWithAReport) {
   EXPECT_THAT(control.take_notices(), IsEmpty()) << "said once";
   ASSERT_EQ(std::raise(SIGUSR1), 0);
   EXPECT_FALSE(control.stop().is_pressed());
-  EXPECT_THAT(control.take_notices(), ElementsAre(HasSubstr("forces come back")));
+  EXPECT_THAT(control.take_notices(), ElementsAre(HasSubstr("forces are restored")));
 }
 
 TEST(StopControl, ItsKeyDoesNotReleaseInHaste) {

@@ -224,7 +224,7 @@ TEST(InspectJson, NamesEachInjectedFaultOfABundle) {
   constexpr std::array kExpected{
       Expected{"W-NOT-FINITE", 144 + 48, "entity_location.x is NaN", "1:2:2"},
       Expected{"I-UNKNOWN-TYPE", 288 + 2,
-               "144 octets kept as they are: no field table for PDU type 220", nullptr},
+               "144 octets kept unchanged: no field table for PDU type 220", nullptr},
       Expected{"E-COUNT", 432 + 19,
                "number_of_variable_parameter_records 200 need 3200 octets, 0 remain", "1:2:4"},
       Expected{"E-TRUNCATED", 576 + 70,
@@ -372,7 +372,7 @@ TEST(InspectLive, ReceivesAGroupOnLoopback) {
   const json row = json::parse(lines[0]);
   EXPECT_EQ(row["id"], "1:2:3");
   EXPECT_GT(row["time"].get<double>(), 1.6e9);
-  EXPECT_THAT(result.err, HasSubstr("0 lost before they reached us"));
+  EXPECT_THAT(result.err, HasSubstr("0 lost before they reached this program"));
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST(MetricsServer, HasNothingElseAndNothingForOtherNames) {
     EXPECT_THAT(answer_to(server, line, host), StartsWith("HTTP/1.1 404")) << line;
   // A page whose name resolves to this host.
   EXPECT_THAT(answer_to(server, "GET /metrics", "evil.example:80"), StartsWith("HTTP/1.1 403"));
-  EXPECT_THAT(answer_to(server, "no request", host), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(answer_to(server, "malformed request", host), StartsWith("HTTP/1.1 400"));
 }
 
 TEST(MetricsServer, IsNotDelayedBySlowClients) {

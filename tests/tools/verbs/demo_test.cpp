@@ -46,7 +46,7 @@ TEST_F(DemoExercise, IsTheScenesOrDrawnEachTime) {
   std::set<std::string> drawn;
   for (int i = 0; i < 6; ++i) {
     const std::string text = said("", {});
-    EXPECT_THAT(text, HasSubstr("drawn at random"));
+    EXPECT_THAT(text, HasSubstr("chosen at random"));
     drawn.insert(text.substr(0, text.find(',')));
   }
   EXPECT_GT(drawn.size(), 1u);
@@ -151,9 +151,9 @@ TEST(Demo, OfOnePeerReportsNoTraffic) {
   const auto text =
       test::run_reckon({"demo", scene, "--peers", "1", "--simulated-time", "--for", "1s"});
   EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_THAT(text.out, HasSubstr("one peer: nobody to send to"));
+  EXPECT_THAT(text.out, HasSubstr("one peer: no receiver"));
   EXPECT_THAT(text.out, Not(HasSubstr("x fewer")));
-  EXPECT_THAT(text.out, HasSubstr("pose              none: no peer showed anything of another"));
+  EXPECT_THAT(text.out, HasSubstr("pose              none: no peer showed an entity of another"));
 }
 
 TEST(Demo, TracesEveryDeviceOfAPeer) {

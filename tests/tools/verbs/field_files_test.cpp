@@ -34,7 +34,7 @@ const std::vector<Question> kQuestions{
     {"f07-fire-dis6-padding.pcap", {}, {"3 good, 0 errors"}, {}},
     {"f09-entity-state-140.pcap", {}, {"E-LENGTH", "SECOND"}, {}},
     {"f10-places.pcap", {"check"}, {"5 x W-LOCATION"}, {}},
-    {"f11-little-endian.pcap", {"check"}, {"octets exchanged"}, {"tcpdump -s 0"}},
+    {"f11-little-endian.pcap", {"check"}, {"octets swapped"}, {"tcpdump -s 0"}},
     {"f12a-timestamp-zero.pcap", {"check"}, {"not advance"}, {"NTP"}},
     {"f12b-absolute-hour-rollover.pcap", {"check"}, {"0 errors, 0 warnings"}, {}},
     {"f13a-spin-through-pi.pcap", {"check"}, {"0 errors, 0 warnings"}, {}},

@@ -64,7 +64,7 @@ TEST_F(GivenFile, NamesTheVerbForOtherFiles) {
   EXPECT_THAT(table.err, HasSubstr("`reckon tune " + shipped("truck_track.csv") + "`"));
   const auto other = run_reckon({write("notes.txt", "hello")});
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("no capture, no scene (.toml)"));
+  EXPECT_THAT(other.err, HasSubstr("not a capture, a scene (.toml)"));
   EXPECT_TRUE((key.out + table.out + other.out).empty());
 }
 

@@ -123,11 +123,11 @@ TEST_F(KeyVerb, InspectorReportsSealedDatagramsWithoutTheKey) {
   EXPECT_EQ(read.status, 1);
   EXPECT_EQ(read.out, "");
   EXPECT_THAT(read.err, HasSubstr("sealed: 4 datagrams of 7:8"));
-  EXPECT_THAT(read.err, HasSubstr("give --key FILE"));
+  EXPECT_THAT(read.err, HasSubstr("add --key FILE"));
   EXPECT_EQ(run_reckon({"key", "new", folder_.file("other.key")}).status, 0);
   const ProgramResult other = run_reckon({"inspect", capture, "--key", folder_.file("other.key")});
   EXPECT_EQ(other.status, 1);
-  EXPECT_THAT(other.err, HasSubstr("4 not opened by this key"));
+  EXPECT_THAT(other.err, HasSubstr("4 not readable with this key"));
 }
 
 }  // namespace

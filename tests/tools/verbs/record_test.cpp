@@ -53,7 +53,7 @@ TEST(Record, WritesSentDatagramsUntilStopped) {
                                         50, [] { send_some(group(20), 50); });
     EXPECT_TRUE(result.out.empty());
     EXPECT_THAT(result.err, HasSubstr("recorded 50 datagrams (50 PDUs, 7.2 kB)"));
-    EXPECT_THAT(result.err, HasSubstr("; 0 lost before they reached us"));
+    EXPECT_THAT(result.err, HasSubstr("; 0 lost before they reached this program"));
     const json info = info_of(path);
     EXPECT_EQ(info["datagrams"], 50);
     EXPECT_EQ(info["groups"][0]["group"], group(20).text());

@@ -135,7 +135,7 @@ TEST(Replay, SendsAnotherExerciseOtherIdsAndAnotherPlace) {
   EXPECT_EQ(receiver.take(), std::vector<Octets>(4, expected));
 
   const ProgramResult nowhere = run_reckon({"replay", in, "--rate", "0", "--map-place", "10,20"});
-  EXPECT_THAT(nowhere.err, HasSubstr("no PDU has a place: none was moved"));
+  EXPECT_THAT(nowhere.err, HasSubstr("no PDU has a location: none was moved"));
   EXPECT_EQ(run_reckon({"replay", in, "--map-id", "1:2"}).status, 2);
 }
 

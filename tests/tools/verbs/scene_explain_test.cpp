@@ -35,7 +35,7 @@ TEST(SceneExplain, CountsTheGroupsOfTheRadius) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("square, 1 m; senses 3 m"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("the radius needs up to 4[5-9] of them"));
-  EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
+  EXPECT_THAT(result.out, HasSubstr("[aoim] groups is 20"));
 }
 
 TEST(SceneExplain, NamesTheRecipientsOfAnUpdate) {
@@ -43,7 +43,7 @@ TEST(SceneExplain, NamesTheRecipientsOfAnUpdate) {
     const TemporaryScene scene("[aoim]\npool = 100\nradius = \"90 m\"\n" + tiers);
     return run_reckon({"scene", "explain", scene.path()}).out;
   };
-  EXPECT_THAT(explain(""), HasSubstr("one: everything to all"));
+  EXPECT_THAT(explain(""), HasSubstr("one: all updates to all peers"));
   EXPECT_THAT(explain(test::kTouchTier), HasSubstr("peers that can touch, then everything to all"));
   EXPECT_THAT(explain(test::kDistanceTiers),
               HasSubstr("to 200 m 10 Hz approximate, beyond 1 Hz rigid of the nearest receiver;"));
@@ -51,7 +51,7 @@ TEST(SceneExplain, NamesTheRecipientsOfAnUpdate) {
   EXPECT_THAT(all,
               HasSubstr("peers that can touch, to 1 m 1000 Hz full, to 50 m 30 Hz full, to 200 m "
                         "10 Hz approximate 4 x as coarse, beyond 1 Hz rigid 16 x as coarse;"));
-  EXPECT_THAT(all, HasSubstr("by 100 more groups, joined only by peers that can touch"));
+  EXPECT_THAT(all, HasSubstr("in 100 more groups, which only peers that can touch"));
   EXPECT_THAT(all, HasSubstr("2 tiers by 200 more groups"));
   EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches as far as the radius of 90 m"));
 }
@@ -102,7 +102,7 @@ TEST(SceneExplain, PrintsTheCostOfAQuadTree) {
   const auto result = run_reckon({"scene", "explain", folder.file("town.toml")});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("quad-tree of 16 cells in a square of 4 km: "));
-  EXPECT_THAT(result.out, HasSubstr("of the sample's 200 places, "));
+  EXPECT_THAT(result.out, HasSubstr("for 200 sampled positions, "));
   EXPECT_THAT(result.out, HasSubstr("with equal squares of 1 km"));
 }
 
@@ -282,7 +282,7 @@ TEST(SceneExplain, PrintsThePossessionsOfEachPeer) {
   auto felt = facts(text, "felt");
   EXPECT_EQ(felt["1 entity 1 POST"], "sphere of 20 mm, 475 N/m, 0.5 N s/m; gives up to 50 mW");
   EXPECT_THAT(felt["1 entity 2 "], HasSubstr("nothing"));
-  EXPECT_EQ(facts(text, "")["2 nothing"], "it only listens");
+  EXPECT_EQ(facts(text, "")["2 nothing"], "it only receives");
   EXPECT_EQ(facts(text, "held by")["3 device 1 "], "operator 1, passive");
 
   const TemporaryScene scene(text);

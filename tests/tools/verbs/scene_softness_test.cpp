@@ -124,7 +124,8 @@ TEST(SceneCheck, ReportsOnlyTheWeakDevices) {
 TEST(SceneCheck, ReportsTheSlopeLimitOfAHardeningHand) {
   const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\ndamping = 0\n");
   const auto text = run_reckon({"scene", "check", scene.path()});
-  EXPECT_THAT(text.out, HasSubstr("k3 of [hand] is felt up to a slope of 950 N/m, 3.16 mm deep"));
+  EXPECT_THAT(text.out,
+              HasSubstr("k3 of [hand] is rendered up to a slope of 950 N/m, 3.16 mm deep"));
   const auto json =
       nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
   ASSERT_EQ(json["softened"].size(), 1u);

@@ -42,7 +42,7 @@ TEST(SceneCheck, NotesARadiusThatReachesAllGroups) {
   const auto json = nlohmann::json::parse(capped.out);
   ASSERT_EQ(json["notes"].size(), 1u);
   EXPECT_THAT(json["notes"][0].get<std::string>(),
-              HasSubstr("may need 256 groups and [aoim] groups allows 20"));
+              HasSubstr("may need 256 groups, but [aoim] groups is 20"));
 }
 
 TEST(SceneCheck, RefusesAPoolThatNoDemoWouldTake) {

@@ -29,7 +29,7 @@ TEST(StepTooDear, IsRefusedWithDearestStagesAndTheSwitch) {
   EXPECT_TRUE(demo.out.empty());
   EXPECT_THAT(demo.err, HasSubstr("a servo step that touches cone takes "));
   EXPECT_THAT(demo.err, HasSubstr("on this host, and its period is 0.1 ms (costliest: contact "));
-  EXPECT_THAT(demo.err, HasSubstr("or run it all the same with --even-if-slow"));
+  EXPECT_THAT(demo.err, HasSubstr("or add --even-if-slow"));
   const auto peer = run_reckon({"peer", scene, "--iface", "lo", "--for", "10ms"});
   EXPECT_EQ(peer.status, 3);
   EXPECT_THAT(peer.err, HasSubstr("a servo step that touches cone takes "));

@@ -89,7 +89,7 @@ TEST_F(ViewControlsTest, SetTheLawAndKeepItsOtherValues) {
 TEST_F(ViewControlsTest, ReportThatThereIsNoNetworkToChange) {
   ViewControls without(law_, nullptr);
   EXPECT_EQ(without.set_network({100, 0, 0, false}),
-            "this program has no network of its own to change");
+            "this program has no simulated network to change");
   EXPECT_EQ(without.take_hand(1).hand, std::nullopt);
 }
 

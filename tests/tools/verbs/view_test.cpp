@@ -65,7 +65,7 @@ TEST(ViewVerb, KeyNeedsTlsOrATunnelForOthers) {
   EXPECT_EQ(view({"--tls", own + ".crt", own + ".key"}).status, 0) << "without a key";
   const auto swapped = view({"--tls", own + ".key", own + ".crt"});
   EXPECT_EQ(swapped.status, 2);
-  EXPECT_THAT(swapped.err, HasSubstr("is no certificate in PEM"));
+  EXPECT_THAT(swapped.err, HasSubstr("is not a PEM certificate"));
 }
 
 TEST(ViewVerb, RefusesUnreadableSourcesAndBadAddresses) {

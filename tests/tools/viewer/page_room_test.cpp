@@ -82,7 +82,8 @@ TEST(PageRoom, NinthStrangerOfAnAddressIsTurnedAway) {
   for (std::size_t i = 0; i < ViewServer::kMostStrangers; ++i)
     tabs.push_back(std::make_unique<Tab>(served));
   Tab ninth(served);
-  EXPECT_THAT(last_words(ninth), HasSubstr("8 tabs without the word look from your address"));
+  EXPECT_THAT(last_words(ninth),
+              HasSubstr("your address has the maximum of 8 tabs without the word"));
   Tab elsewhere(served, "", 0, 2), own(served, kWord);
   EXPECT_EQ(served.server.tabs(), ViewServer::kMostStrangers + 2);
 }
@@ -96,11 +97,11 @@ TEST(PageRoom, TabWithTheWordDisplacesTheOldestStranger) {
         served, "", 0, static_cast<std::uint32_t>(2 + i / ViewServer::kMostStrangers)));
   EXPECT_EQ(served.server.tabs(), ViewServer::kMostTabs);
   Tab late(served, "", 0, 200), own(served, kWord);
-  EXPECT_THAT(last_words(late), HasSubstr("64 tabs look already"));
+  EXPECT_THAT(last_words(late), HasSubstr("the maximum of 64 tabs is open"));
   served.tick();
   own.take();
   EXPECT_FALSE(own.pictures.empty());
-  EXPECT_EQ(last_words(*strangers.front()), "a tab with the word has taken this place");
+  EXPECT_EQ(last_words(*strangers.front()), "a tab with the word replaced this one");
   EXPECT_TRUE(strangers.back()->take());
   EXPECT_TRUE(first_own.take());
   EXPECT_EQ(served.server.tabs(), ViewServer::kMostTabs);

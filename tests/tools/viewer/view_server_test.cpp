@@ -190,7 +190,7 @@ TEST(ViewServer, ClosesOnUnexpectedFrames) {
       {"in parts", [](Tab& tab) { tab.frame("\x04", 0x02); }},
       {"text", [](Tab& tab) { tab.frame("hello", 0x81); }},
       {"ping", [](Tab& tab) { tab.frame("", 0x89); }},
-      {"no request", [](Tab& tab) { tab.frame("\x63"); }},
+      {"malformed request", [](Tab& tab) { tab.frame("\x63"); }},
       {"cut request", [](Tab& tab) { tab.frame("\x01\x01"); }},
       {"close", [](Tab& tab) { tab.frame("", 0x88); }}};
   for (const auto& [name, send] : frames) {
@@ -233,7 +233,7 @@ TEST(ViewServer, TakesTheNextPortUnlessOneIsGiven) {
   const ViewServer second(stage, {"127.0.0.1", std::nullopt, "w"});
   EXPECT_GT(second.port(), first.port());
   EXPECT_THROW(ViewServer(stage, {"127.0.0.1", first.port(), "w"}), std::runtime_error);
-  EXPECT_THROW(ViewServer(stage, {"no address", std::nullopt, "w"}), std::runtime_error);
+  EXPECT_THROW(ViewServer(stage, {"not an address", std::nullopt, "w"}), std::runtime_error);
 }
 
 }  // namespace

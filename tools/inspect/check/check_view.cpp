@@ -23,7 +23,7 @@ constexpr std::size_t kTimestampAt = 4;  // in the header
 constexpr double kLeastDegrees = 1.0;    // smallest turn reported with a jump
 
 /// For a code of the codec without a row, so that it is reported too.
-constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
+constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "inspect these octets"};
 
 const CheckRule& rule_of(std::string_view code) {
   const CheckRule* rule = find_check_rule(code);
@@ -96,7 +96,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
       if (memory == nullptr && !reported_limit_) {
         reported_limit_ = true;
         tell({rule_of(kMemoryRule), row.frame, row.pdu, row.offset, row.offset, row.time, row.id,
-              fmt::format("{} entities are remembered, this one is not", most_entities_)},
+              fmt::format("the table is full with {} entities, without this one", most_entities_)},
              out);
       }
     }
@@ -166,7 +166,7 @@ void CheckView::tell_jump(const Jump& jump, std::string& out) {
   std::string reason;
   if (jump.kind == Jump::Kind::by_turns) {
     code = kDuplicateRule;
-    reason = fmt::format("{} is at two places by turns, {} apart, from one sender",
+    reason = fmt::format("{} alternates between two positions, {} apart, from one sender",
                          id_text(jump.id), distance_text(jump.metres));
   } else {
     reason = fmt::format("{} at {:.3f} s{}; its motion explains {} in {:.3g} s",

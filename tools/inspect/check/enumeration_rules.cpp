@@ -25,7 +25,8 @@ Fault unknown_number(std::size_t offset, std::string_view field, pdu::SisoTable 
                      unsigned value) {
   if (!pdu::siso_name(table, value).empty()) return std::nullopt;
   const pdu::SisoEntry last = pdu::siso_entry(table, pdu::siso_size(table) - 1);
-  return RuleFault{offset, fmt::format("{} is {}, named are 0 to {}", field, value, last.value)};
+  return RuleFault{offset,
+                   fmt::format("{} is {}, but 0 to {} have names", field, value, last.value)};
 }
 
 /// Visitor of the fixed fields of a PDU: finds the first value without a name in its list.

@@ -187,11 +187,10 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
       pdu::to_seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
   const double went =
       (position_of(*checked.entity_state) - checked.memory->position).norm() / interval;
-  return RuleFault{
-      kVelocityAt,
-      fmt::format("entity_linear_velocity is {:.3g} m/s, the positions went {:.3g} m/s: "
-                  "{:.3g} m apart in {:.3g} s, the third time in a row",
-                  velocity_of(*checked.entity_state).norm(), went, error, interval)};
+  return RuleFault{kVelocityAt,
+                   fmt::format("entity_linear_velocity is {:.3g} m/s, but the positions moved at "
+                               "{:.3g} m/s: {:.3g} m apart in {:.3g} s, three times in a row",
+                               velocity_of(*checked.entity_state).norm(), went, error, interval)};
 }
 
 Fault wrong_orientation(const CheckedPdu& checked) {
@@ -202,16 +201,15 @@ Fault wrong_orientation(const CheckedPdu& checked) {
   if (turn.error == 0 || checked.memory->turn_contradictions + 1 != kContradictions)
     return std::nullopt;
   if (turn.is_flip)
-    return RuleFault{
-        kOrientationAt,
-        fmt::format("entity_orientation turns {:.3g} deg and back within {:.3g} s each, with "
-                    "a model without turn rate, the third time in a row",
-                    in_degrees(turn.turned), turn.seconds),
-        in_degrees(turn.error)};
+    return RuleFault{kOrientationAt,
+                     fmt::format("entity_orientation turns {:.3g} deg and back within {:.3g} s "
+                                 "each, with a model without turn rate, three times in a row",
+                                 in_degrees(turn.turned), turn.seconds),
+                     in_degrees(turn.error)};
   return RuleFault{
       kAngularVelocityAt,
-      fmt::format("entity_angular_velocity predicts a turn of {:.3g} deg in {:.3g} s, the "
-                  "orientation turned {:.3g} deg: {:.3g} deg apart, the third time in a row",
+      fmt::format("entity_angular_velocity predicts a turn of {:.3g} deg in {:.3g} s, but the "
+                  "orientation turned {:.3g} deg: {:.3g} deg apart, three times in a row",
                   in_degrees(turn.stated), turn.seconds, in_degrees(turn.turned),
                   in_degrees(turn.error)),
       in_degrees(turn.error)};
@@ -232,9 +230,9 @@ Fault float64_parameter(const CheckedPdu& checked) {
     if (!(size > 1e-6 && size < 1e6)) continue;  // metres, radians and their rates
     return RuleFault{
         kParametersAt + at + kValueAt,
-        fmt::format("parameter_value is {:.6g} and its padding {:#010x}: as one float64 they are "
-                    "{:.6g}",
-                    part.parameter_value, part.padding, wide)};
+        fmt::format(
+            "parameter_value is {:.6g} and its padding {:#010x}: as one float64, they give {:.6g}",
+            part.parameter_value, part.padding, wide)};
   }
   return std::nullopt;
 }

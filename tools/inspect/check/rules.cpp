@@ -66,7 +66,7 @@ Fault wrong_family(const CheckedPdu& checked) {
   if (!checked.row.decoded) return std::nullopt;
   const auto expected = family_of(checked.row.header.pdu_type, pdu::PduTypes{});
   if (checked.row.header.protocol_family == expected) return std::nullopt;
-  return RuleFault{3, fmt::format("protocol_family is {}, of this type {}",
+  return RuleFault{3, fmt::format("protocol_family is {}, but this type has {}",
                                   static_cast<unsigned>(checked.row.header.protocol_family),
                                   static_cast<unsigned>(expected))};
 }
@@ -122,8 +122,7 @@ Fault coupled_without(const CheckedPdu& checked) {
     return std::nullopt;
   if (!checked.survey.of(key_of(checked)).empty()) return std::nullopt;
   return RuleFault{kStatusAt,
-                   fmt::format("CEI is set, and no Attribute PDU in this datagram is for "
-                               "{}",
+                   fmt::format("CEI is set, but this datagram has no Attribute PDU for {}",
                                id_text(checked.entity_state->entity_id))};
 }
 
@@ -131,49 +130,48 @@ Fault out_of_order(const CheckedPdu& checked) {
   if (!checked.row.has_header ||
       pdu::bundle_rank(checked.row.header.pdu_type) >= checked.highest_rank)
     return std::nullopt;
-  return RuleFault{
-      2, fmt::format("{} stands behind a PDU that is to be after it", checked.row.type())};
+  return RuleFault{2, fmt::format("{} follows a PDU that must come after it", checked.row.type())};
 }
 
 /// THE rules.
 constexpr auto kRules = std::to_array<CheckRule>({
     {"E-TRUNCATED", "The datagram ends before the PDU does.",
-     "capture whole frames (tcpdump -s 0); else the sender's length field is wrong"},
+     "capture whole frames (tcpdump -s 0); otherwise the sender's length field is wrong"},
     {"E-LENGTH", "The length field is too small for a PDU of this type.",
      "the sender must write the octets of the whole PDU, header included; --lenient reads those of "
      "length 0"},
-    {kByteOrderRule, "The length field is right if its two octets are exchanged.",
+    {kByteOrderRule, "The length field is correct if its two octets are swapped.",
      "the sender writes little-endian: every field of DIS is big-endian (htons, htonl, as for "
      "network order)"},
-    {"E-COUNT", "More records are announced than octets are left in the PDU.",
-     "compare the sender's count of records with what it writes"},
+    {"E-COUNT", "The record count exceeds the octets left in the PDU.",
+     "compare the sender's record count with its records"},
     {"E-RECORD", "A record's length is too small or runs past the end of the PDU.",
      "a record's length includes its own header and padding"},
     {"E-VERSION", "The protocol or record version is not supported.",
      "set the sender to DIS 5, 6 or 7"},
-    {"E-TYPE", "A record is of another type than its place asks for.",
-     "compare the record's type with the PDU it is in"},
-    {"E-STRAY", "Octets behind the last PDU are neither padding nor a PDU.",
-     "padding is zero octets to the next multiple of 8; else a length field is too small"},
-    {"E-FRAGMENT", "IP fragments that cannot be put together: some are missing, or overlap.",
+    {"E-TYPE", "The type of a record does not fit its position.",
+     "compare the record's type with its PDU"},
+    {"E-STRAY", "Octets after the last PDU are neither padding nor a PDU.",
+     "padding is zero octets to the next multiple of 8; otherwise a length field is too small"},
+    {"E-FRAGMENT", "IP fragments cannot be reassembled: some are missing, or overlap.",
      "keep datagrams below the MTU, 1400 octets are safe"},
     {"W-NOT-FINITE", "A field holds NaN or infinity; receivers drop such a PDU.",
      "look in the sender for a division by zero or an unset value"},
-    {kTrailingWarning, "Octets within the PDU's length stand behind its last field.",
-     "correct the count or length that is named; --lenient keeps octets of a product's own"},
+    {kTrailingWarning, "Octets within the PDU's length follow its last field.",
+     "correct the named count or length; --lenient keeps vendor octets"},
     {"W-STATIC-MOVES",
      "The entity is dead-reckoned as static but has a velocity, acceleration or "
      "rotation.",
-     "send DRM 2 to 9 for what moves, or zeros for what stands", static_moves},
+     "send DRM 2 to 9 for moving entities, or zeros for fixed ones", static_moves},
     {"W-DRM", "The dead-reckoning algorithm has no name in the standard.",
      "send 0 to 9; receivers treat others as static or drop them", unknown_drm},
     {"W-SIDE", "The force ID has no name.", "send 0 to 30", unknown_force},
     {"W-KIND", "The kind of the entity type has no name.", "send 0 to 9", unknown_kind},
     {"W-DOMAIN", "The domain of the entity type has no name for its kind.",
      "send 0 to 5; 0 to 12 for munitions and supplies", unknown_domain},
-    {"W-ID", "The entity ID is one that is reserved.",
-     "entity 1 to 65533, site and application below 65535", reserved_id},
-    {"W-LOCATION", "The location lies deep in the earth or far out in space.",
+    {"W-ID", "The entity ID is reserved.", "entity 1 to 65533, site and application below 65535",
+     reserved_id},
+    {"W-LOCATION", "The location is deep in the earth or far out in space.",
      "locations are geocentric (ECEF of WGS84) in metres, not local or geodetic", no_place},
     {"W-SIZE", "The PDU is larger than the standard allows.", "send at most 8192 octets",
      too_large},
@@ -187,16 +185,16 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "constant one"},
     {kStampPaceRule,
      "An entity's timestamps do not count the time past the hour. Reported once until they are "
-     "right again.",
+     "correct again.",
      "count units of 3600 s / 2^31 (1.676 us), shifted left by one bit; set bit 0 only in absolute "
-     "ones; captures that were replayed at another rate break this rule too"},
+     "ones; captures replayed at another rate also break this rule"},
     {kToleranceRule,
-     "A timestamp is more than 5 s from the arrival. Reported once until it is right again.",
-     "synchronise clocks (NTP), or send relative timestamps; captures that were replayed show it "
-     "too"},
+     "A timestamp is more than 5 s from the arrival. Reported once until it is correct again.",
+     "synchronise clocks (NTP), or send relative timestamps; replayed captures also break this "
+     "rule"},
     {kHeartbeatRule, "An entity was silent for more than 2.4 heartbeats of its kind and domain.",
      "send Entity States at the heartbeat, and a deactivated one at the end", missed_heartbeat},
-    {kDuplicateRule, "One entity ID comes from two senders. Reported once.",
+    {kDuplicateRule, "Two senders use one entity ID. Reported once.",
      "give each simulation its own site and application", duplicate_id},
     {"W-VELOCITY", "Velocity and positions of an entity contradict each other grossly.",
      "check units (m/s), sign, and axes: geocentric for DRM 1 to 5, body for 6 to 9",
@@ -211,40 +209,33 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"W-FLOAT64", "The value of an articulated part looks like a float64.",
      "write parameter_value as a float32 of 4 octets, and 4 octets of zeros behind it",
      float64_parameter},
-    {kTeleportRule,
-     "An entity's place is farther from where its last update led than its motion can explain.",
-     "placed by hand, or lost updates; else look for what the sender did at that time"},
-    {kSpikeRule, "The same for a single update: the next one is back on the way.",
-     "look in the sender for a value that is set before the rest, or of another frame"},
-    {"W-ATTRIBUTE-ORDER", "An Attribute PDU stands before the Entity State that it extends.",
+    {kTeleportRule, "An entity is farther from its predicted position than its motion can explain.",
+     "it was repositioned, or updates were lost; otherwise examine the sender at that time"},
+    {kSpikeRule, "The same for a single update: the next one returns to the path.",
+     "look in the sender for a value that is set before the others, or in another frame"},
+    {"W-ATTRIBUTE-ORDER", "An Attribute PDU precedes the Entity State that it extends.",
      "put Entity States first in the datagram", attribute_first},
     {"W-COUPLED",
-     "An Entity State says that it is extended, but no Attribute PDU of it is in the "
-     "datagram.",
+     "An Entity State is marked as extended, but its datagram has no Attribute PDU for it.",
      "send both in one datagram, or clear bit 3 of the PDU status", coupled_without},
     {"I-UNKNOWN-TYPE",
-     "No field table for this PDU type: its octets are kept as they are. Reported once for each "
+     "No field table for this PDU type: its octets are kept unchanged. Reported once for each "
      "type.",
-     "nothing to do: it is stepped over by its length"},
-    {kNoLengthRule, "The length field is 0: taken as the rest of the datagram. With --lenient.",
+     "no action: its length field is used to skip it"},
+    {kNoLengthRule, "The length field is 0: the rest of the datagram is used. With --lenient.",
      "the sender must write the octets of the whole PDU into it"},
-    {kTrailingRule, "Octets behind the last PDU or behind its last field are kept. With --lenient.",
-     "nothing to do, if they are a product's own; else a length field or a count is wrong"},
-    {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
-     "nothing to do; a group or port of the exercise's own keeps others apart"},
-    {kCopiesRule,
-     "The same octets came again from the same sender within 5 ms. Reported once, at the end.",
+    {kTrailingRule, "Octets after the last PDU or its last field are kept. With --lenient.",
+     "no action for vendor octets; otherwise a length field or a count is wrong"},
+    {kForeignRule, "A datagram of another protocol, not DIS. Reported once.",
+     "no action; use a separate group or port for the exercise"},
+    {kCopiesRule, "The same sender repeats the same octets within 5 ms. Reported once, at the end.",
      "capture on one interface (not any) or in one direction (tcpdump -Q in); editcap -w 0.005 IN "
-     "OUT takes copies out of a file"},
-    {"I-UNNAMED",
-     "A number stands for something that SISO-REF-010 has no name for. Reported at an entity's "
-     "first "
-     "update.",
-     "look it up in the sender's list of enumerations; it may be newer than ours", unnamed_value},
-    {"I-BUNDLE-ORDER", "The order of the bundle is not the one that older receivers survive.",
+     "OUT removes copies from a file"},
+    {"I-UNNAMED", "A number has no name in SISO-REF-010. Reported at an entity's first update.",
+     "look it up in the sender's enumerations, which may be newer", unnamed_value},
+    {"I-BUNDLE-ORDER", "Older receivers may fail on the order of this bundle.",
      "Entity State, other standard types, Attribute, experimental, trailer", out_of_order},
-    {kMemoryRule,
-     "More entities than are remembered: the rules over several updates leave them out.",
+    {kMemoryRule, "More entities than the table holds: rules over several updates omit the excess.",
      "check a part of the exercise at a time"},
 });
 

@@ -29,9 +29,9 @@ struct Unit {
   double counts;  ///< per second
   std::string_view name;
 };
-constexpr std::array kUnits{Unit{1, "seconds"}, Unit{1e3, "milliseconds"},
-                            Unit{1e6, "microseconds"},
-                            Unit{kCountsPerSecond / 2, "units that are not shifted over bit 0"}};
+constexpr std::array kUnits{
+    Unit{1, "seconds"}, Unit{1e3, "milliseconds"}, Unit{1e6, "microseconds"},
+    Unit{kCountsPerSecond / 2, "units that are not shifted left by one bit"}};
 constexpr double kUnitError = 0.01;  // of the rate, in addition to one count
 
 /// The unit that matches `counts` in this time; null if there is none.
@@ -89,7 +89,7 @@ StampCourse::Course StampCourse::course_of(double counts, double passed) const {
 
 StampCourse::Finding StampCourse::still_finding() const {
   return {kStampStillRule,
-          fmt::format("timestamp stays {:#010x} for {:.3f} s of arrivals", last_.value,
+          fmt::format("the timestamp stays {:#010x} while {:.3f} s pass", last_.value,
                       pdu::to_seconds(last_.arrival - changed_.arrival))};
 }
 
@@ -97,7 +97,7 @@ StampCourse::Finding StampCourse::pace_finding(double counts, double passed) con
   if (course_ == Course::turns)
     return {kStampPaceRule,
             "timestamps alternate between absolute and relative: the sender counts in bit 0"};
-  std::string reason = fmt::format("timestamps advance {:.3g} s in {:.3g} s of arrivals",
+  std::string reason = fmt::format("timestamps advance {:.3g} s while {:.3g} s pass",
                                    counts / kCountsPerSecond, passed);
   const Unit* unit = unit_of(counts, passed);
   const double since_1970 = pdu::to_seconds(last_.arrival);
@@ -122,7 +122,7 @@ std::optional<StampCourse::Finding> StampCourse::error_finding() const {
   const double off = error().value_or(0);
   if (std::abs(off) <= kTolerance) return std::nullopt;
   return Finding{kToleranceRule,
-                 fmt::format("{} timestamp is {:.3f} s {} the arrival, {:g} s are allowed",
+                 fmt::format("{} timestamp is {:.3f} s {} the arrival; {:g} s are allowed",
                              pdu::is_absolute(last_.value) ? "absolute" : "relative", std::abs(off),
                              off > 0 ? "ahead of" : "behind", kTolerance)};
 }

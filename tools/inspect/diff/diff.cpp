@@ -14,9 +14,9 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::string_view kSummary =
-    "What differs between two captures: PDUs in one only, fields that changed, order, times,\n"
-    "and how far apart the entities are and their contact forces.\n\n"
-    "Exit status: 0 the same PDUs in the same order, 1 different, 2 a file cannot be read.";
+    "Compares two captures: PDUs in only one, changed fields, order, times,\nand the differences "
+    "of entity poses and contact forces.\n\nExit status: 0 the same PDUs in the same order, 1 "
+    "different, 2 a file cannot be read.";
 constexpr std::string_view kExamples =
     "reckon inspect diff before.pcapng after.pcapng\n"
     "reckon inspect diff recorded.pcapng replayed.pcapng --ignore-time --within 5ms\n"
@@ -45,23 +45,22 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
   CommandLine line("inspect diff", kSummary, kExamples);
   line.word("A", options.path_a, true, "a capture, pcap or pcapng");
   line.word("B", options.path_b, true, "another one");
-  line.option("--where", options.where, "only PDUs that match, of both; see reckon inspect --help");
+  line.option("--where", options.where, "only PDUs of both that match; see reckon inspect --help");
   declare_lenient(line, options.lenient);
   line.flag("--ignore-time", options.ignore_time,
-            "times inside PDUs do not count: header, trailer, presence");
+            "ignore times inside PDUs: header, trailer, presence");
   line.choice("--align", options.align, {"rate", "first", "none"},
-              "rate: B's times less the difference of the first PDU in both and, where it was "
-              "played at another rate, on those that its PDUs have in A; first: without the rate; "
-              "none: as they are");
+              "rate: shift B's times by the difference at the first common PDU, and scale them if "
+              "B was played at another rate; first: shift only; none: unchanged");
   line.option("--within", options.within,
               "arrivals farther apart than this count as different (default: none does)");
   line.option("--step", options.step, "time between the instants of poses and forces");
   line.flag("--json", options.json, "one JSON object per line");
-  line.flag("--csv", options.csv, "one table: what, key, a, b, difference");
+  line.flag("--csv", options.csv, "one CSV table: what, key, a, b, difference");
   if (const auto status = line.parse(arguments, console)) return status;
-  if (options.json && options.csv) throw UsageError("take --csv or --json");
+  if (options.json && options.csv) throw UsageError("write either --csv or --json");
   if (options.step < std::chrono::microseconds(100))
-    throw UsageError("--step is too small; give 100us or more");
+    throw UsageError("--step is too small; write 100us or more");
   return std::nullopt;
 }
 

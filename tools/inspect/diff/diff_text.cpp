@@ -73,18 +73,16 @@ void append_verdict(const DiffFindings& findings, std::string& out) {
   if (different == 0)
     fmt::format_to(end_of(out), "\n{} in both, in the same order\n", counted(found.same(), "PDU"));
   else
-    fmt::format_to(end_of(out),
-                   "\n{} in both, {} changed, {} only in A, {} only in B, {} at another place\n",
+    fmt::format_to(end_of(out), "\n{} in both, {} changed, {} only in A, {} only in B, {} moved\n",
                    counted(found.same(), "PDU"), found.changed(), found.count_only_a(),
                    found.count_only_b(), found.moved());
   if (!found.shift().has_value()) return;
   const peer::Spread times = found.times().spread();
   fmt::format_to(end_of(out), "B is {:+.9f} s against A", pdu::to_seconds(*found.shift()));
   if (found.rate() != 1)
-    fmt::format_to(end_of(out),
-                   " and was played {:.4g} times as fast: its PDUs are laid on A's times",
+    fmt::format_to(end_of(out), " and was played {:.4g} times as fast: its times are scaled to A's",
                    found.rate());
-  out += "; with that taken off, arrivals are ";
+  out += "; without that, arrivals are ";
   if (found.greatest_time() == 0)
     out += "the same\n";
   else
@@ -135,7 +133,7 @@ void append_differences(const CaptureDifference& found, std::string& out) {
   append_alone("B", found.only_b(), out);
   if (!found.first_moved().has_value()) return;
   const PduPair& moved = *found.first_moved();
-  fmt::format_to(end_of(out), "\nFIRST AT ANOTHER PLACE\n  A {}, B {}: {}\n", place_text(moved.a),
+  fmt::format_to(end_of(out), "\nFIRST MOVED PDU\n  A {}, B {}: {}\n", place_text(moved.a),
                  place_text(moved.b), who(moved.a));
 }
 

@@ -140,10 +140,9 @@ std::vector<ScreenLine> bundles_pane(const TopData& data) {
 
 std::vector<ScreenLine> faults_pane(const TopData& data) {
   std::vector<ScreenLine> out;
-  out.push_back(
-      {fmt::format("{} that broke a rule of the octets; reckon inspect check has all rules",
-                   counted(data.totals.errors, "PDU")),
-       LineStyle::title});
+  out.push_back({fmt::format("{} that broke an octet rule; reckon inspect check has all rules",
+                             counted(data.totals.errors, "PDU")),
+                 LineStyle::title});
   for (const auto& [rule, count] : data.faults) {
     const CheckRule* known = find_check_rule(rule);
     out.push_back({fmt::format("{:>8}  {:<16} {}", count, rule, known ? known->sentence : ""),

@@ -78,7 +78,7 @@ std::string top_advice(const TopData& data) {
                        static_cast<double>(std::max<std::uint64_t>(all, 1));
   if (spenders.size() < 2 || share < kShareToTell) return "";
   return fmt::format(
-      "{}:{}:* spends {:.0f} % of the octets of entities, and its jumps stay below {} in 99 of 100",
+      "{}:{}:* sends {:.0f} % of the octets of entities, and 99 % of its jumps are below {}",
       most->first >> 16, most->first & 0xFFFFU, 100 * share, distance_text(most->second.jump));
 }
 

@@ -317,7 +317,7 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
     out.push_back({window_of(row_text(rows[i - top_ + 1], widths_), shift_, size.columns), style});
   }
   if (!places.empty()) return;
-  out.push_back({filter_.has_value() ? "no entity passes the filter" : "no entity heard yet"});
+  out.push_back({filter_.has_value() ? "no entity passes the filter" : "no entity received yet"});
   if (data.totals.datagrams > 0) return;
   for (const std::string& notice : data.notices)
     for (std::string& line : folded(notice, size.columns)) out.push_back({std::move(line)});
@@ -346,7 +346,7 @@ void TopScreen::footer(ScreenSize size, std::vector<ScreenLine>& out) const {
     const std::size_t cut = edited_.size() - std::min(edited_.size(), room);
     out.push_back({std::string(kPrompt) + edited_.substr(cut) + "_", LineStyle::title});
     if (error_.empty()) {
-      out.push_back({"[Enter] take  [Esc] leave as it was  empty: everything", LineStyle::faint});
+      out.push_back({"[Enter] apply  [Esc] cancel  empty: everything", LineStyle::faint});
       return;
     }
     const std::size_t column = std::max(error_column_, cut + 1) - cut - 1;

@@ -58,7 +58,7 @@ class EmissionsView final : public View {
                         : emissions_table(rows, start_, last_);
     const peer::EmissionRefusals& refused = table_.refusals();
     if (refused.disputed > 0)
-      fmt::format_to(end_of(out), "{} left out: another host has sent that system\n",
+      fmt::format_to(end_of(out), "{} left out: another host sends that system\n",
                      counted(refused.disputed, "state"));
     if (refused.no_room > 0)
       fmt::format_to(end_of(out), "{} left out: more than {} systems of an entity, or {} in all\n",

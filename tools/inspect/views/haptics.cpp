@@ -33,7 +33,7 @@ constexpr std::size_t kMostEntities = kPeerRules.most_entities;
 /// Two directions of a contact are one curve if they differ by less than this share of the peak.
 constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
-    "Forces that the models on the wire give, before the receivers' gates and without friction.";
+    "Forces of the transmitted models, before the receivers' gates and without friction.";
 
 std::string marking_of(const ReceivedEntity& entity) {
   std::string text;
@@ -68,7 +68,7 @@ HapticsView::HapticsView(const InspectOptions& options, const PlotCanvas& canvas
       svg_(options.svg),
       step_(options.step.value_or(kStep)),
       canvas_(canvas) {
-  if (step_ < kLeastStep) throw UsageError("--step is too small; give 100us or more");
+  if (step_ < kLeastStep) throw UsageError("--step is too small; write 100us or more");
   check_writable(svg_);
 }
 
@@ -194,7 +194,7 @@ void HapticsView::finish(const InspectTally&, std::string& out) {
 // ------------------------------------------------------------------------------------------------
 
 void HapticsView::text(std::string& out) {
-  fmt::format_to(end_of(out), "{}\n{} with a force model, {:.3f} s, a sample each {:g} ms.\n",
+  fmt::format_to(end_of(out), "{}\n{} with a force model, {:.3f} s, a sample every {:g} ms.\n",
                  kBeforeGate,
                  entities_.size() == 1 ? "1 entity" : fmt::format("{} entities", entities_.size()),
                  pdu::to_seconds(span()), 1e3 * pdu::to_seconds(step_));
@@ -266,10 +266,10 @@ void HapticsView::text_left_out(std::string& out) const {
   const auto tell = [&](std::uint64_t count, std::string_view noun, std::string_view why) {
     if (count > 0) fmt::format_to(end_of(out), "{} {}\n", counted(count, noun), why);
   };
-  tell(refused.values, "record", "left out: impossible numbers, as a peer refuses them");
-  tell(refused.stale, "Entity State", "left out: not newer than what was known");
+  tell(refused.values, "record", "left out: impossible values, which a peer refuses");
+  tell(refused.stale, "Entity State", "left out: not newer than an earlier one");
   tell(refused.unplaced, "force model",
-       "left out: no Entity State with CEI set stood before (see `check`)");
+       "left out: no Entity State with CEI set before it (see `check`)");
   tell(refused.crowded, "update",
        fmt::format("left out: more than {} haptic entities", kMostEntities));
   tell(crowded_contacts_, "sample",
@@ -349,7 +349,7 @@ void HapticsView::json(std::string& out) const {
 
 void HapticsView::write_svg() const {
   SvgPlot plot;
-  plot.title = "Contact force by the models on the wire";
+  plot.title = "Contact force of the transmitted models";
   plot.note = "before the receivers' gates, without friction";
   plot.value = "force [N]";
   plot.end = pdu::to_seconds(span());
@@ -358,13 +358,13 @@ void HapticsView::write_svg() const {
   std::ofstream file(svg_, std::ios::binary | std::ios::trunc);
   file << svg_text(plot);
   if (!file.flush())
-    throw UsageError(fmt::format("{} could not be written whole; is the disk full?", svg_));
+    throw UsageError(fmt::format("{} could not be written completely; is the disk full?", svg_));
 }
 
 namespace view {
 
 InspectViewKind haptics() {
-  return {"haptics", "contact forces over time, by the models on the wire", true,
+  return {"haptics", "contact forces over time, from the transmitted models", true,
           [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
             return std::make_unique<HapticsView>(options, canvas_of(console.out));
           }};

@@ -137,7 +137,7 @@ void StatsView::text(std::string& out) const {
                  "{:.2f} PDUs a datagram; {:.1f} % of the octets on the wire are PDUs; ",
                  totals_.pdus_per_datagram(), 100 * totals_.efficiency());
   if (sequences.received == 0)
-    out += "no trailers, so loss cannot be known\n";
+    out += "no trailers, so loss is unknown\n";
   else
     fmt::format_to(end_of(out), "{} lost of {}, {} late, {} twice\n", sequences.lost,
                    sequences.received - sequences.duplicated + sequences.lost, sequences.reordered,

@@ -10,7 +10,7 @@ import { foreign } from './words.js';
 const MOST_BALLS = 128;
 
 export const drawnTouchEntities = {
-  name: 'felt entities', view: 'touch', says: 'what others own', mark: 'ball side-friendly',
+  name: 'felt entities', view: 'touch', says: 'entity of another peer', mark: 'ball side-friendly',
   make(group, view, labels) { return new TouchEntities(group, view, labels); },
 };
 

@@ -119,7 +119,7 @@ class Page {
 
   hello(message) {
     if (message.version !== VERSION) {
-      this.log.say(`The program speaks version ${message.version} of the stream, this page ${VERSION}: load the page anew.`, 'warning');
+      this.log.say(`The program has version ${message.version} of the stream, this page ${VERSION}: reload the page.`, 'warning');
     }
     if (this.source instanceof Server) {
       this.forget();
@@ -230,9 +230,9 @@ class Page {
     notice.hidden = !lost && !empty;
     if (notice.hidden) return;
     const bye = lost && this.source.bye;
-    notice.querySelector('h2').textContent = bye ? 'Closed' : lost ? 'No server' : 'Nothing is heard yet';
-    notice.querySelector('p').textContent = bye ? `${foreign(bye, 300)}. The page tries again by itself.` : lost
-      ? 'The program has ended, or the way to it is cut. The page tries again by itself; this is the last picture.'
+    notice.querySelector('h2').textContent = bye ? 'Closed' : lost ? 'No server' : 'No entity received yet';
+    notice.querySelector('p').textContent = bye ? `${foreign(bye, 300)}. The page reconnects by itself.` : lost
+      ? 'The program has ended, or the connection is lost. The page reconnects by itself; this is the last picture.'
       : foreign(this.moment.hello.help || 'Start a peer: reckon peer SCENE, or reckon demo.', 300);
   }
 
@@ -244,7 +244,7 @@ class Page {
     const at = moment.picture?.indexOf(moment.followed) ?? -1;
     const by = cells.find(({ cell }) => at >= 0 && cell === moment.picture.cell(at))?.heard_by.length;
     byId('hearing').textContent = moment.followed === NONE
-      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells${by === undefined ? '' : `, is heard by ${by}`}`;
+      ? (cells.length ? `${cells.length} cells · click an entity to see its cells` : '') : `${name} receives ${heard} of ${cells.length} cells${by === undefined ? '' : `, is received by ${by}`}`;
   }
 
   tip() {
@@ -269,7 +269,7 @@ class Page {
       orbit.goal.distance = Math.min(orbit.goal.distance, 1.6 * this.stage.view('world').extent.radius);
       orbit.touched = true;
     }
-    this.log.say(moment.followed === NONE ? 'Follows nobody.' : `Follows ${moment.name(slot)}; lit are the cells that it hears.`);
+    this.log.say(moment.followed === NONE ? 'Follows no entity.' : `Follows ${moment.name(slot)}; its received cells are highlighted.`);
   }
 
   swap() {
@@ -337,7 +337,7 @@ class Page {
     try {
       const text = await this.minute();
       download('reckon.html', new Blob([text], { type: 'text/html' }));
-      const thin = this.recorder.spacing > 0.04 ? ` Pictures are ${digits(this.recorder.spacing)} s apart, for so many entities.` : '';
+      const thin = this.recorder.spacing > 0.04 ? ` Pictures are ${digits(this.recorder.spacing)} s apart, because of the number of entities.` : '';
       this.log.say(`Saved the last minute as reckon.html, ${digits(text.length / 1e6)} MB.${thin}`);
     } catch (error) {
       this.log.say(`Not saved: ${error.message}`, 'warning');

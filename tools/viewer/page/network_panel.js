@@ -26,7 +26,7 @@ export class NetworkPanel {
   toggleOutage() {
     this.out = !this.out;
     this.send();
-    this.say(this.out ? 'Outage: nothing arrives any more.' : 'The outage is over.');
+    this.say(this.out ? 'Outage: no datagram arrives.' : 'The outage is over.');
   }
 
   write() {

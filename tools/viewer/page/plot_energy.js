@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 export const plotEnergy = {
-  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Good: never farther below zero than the dashed loans of contacts and regions, which are paid back.',
+  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Good: never below zero by more than the dashed loans of contacts and regions, which are repaid.',
   lines: [
     { says: 'energy', colour: 'hand-0', at: ({ hands }) => millijoules(hands[0]?.energy) },
     { says: 'energy', colour: 'hand-1', at: ({ hands }) => millijoules(hands[1]?.energy) },

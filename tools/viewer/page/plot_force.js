@@ -3,7 +3,7 @@
 import { shownTwin } from './twins.js';
 
 export const plotForce = {
-  name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt lies on true, and rests when the hand does.',
+  name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt equals true, and is constant when the hand rests.',
   // Drawn in this order: the felt force is above the force of the twin.
   lines: [
     { says: 'without the gate', colour: 'twin', at: twinForce },

@@ -26,23 +26,23 @@ export class PointerHand {
 
   askOrGive() {
     if (byId('push').hidden) {
-      this.say('This page watches: open the address that the program printed, with its word.');
+      this.say('This page can only watch: open the address that the program printed, with its word.');
     } else if (this.index === null) {
       this.tell('askHand');
-      this.say('Asked for a hand.');
+      this.say('Requested a hand.');
     } else {
       this.letGo();
       this.tell('giveHand');
-      this.say('Gave the hand back.');
+      this.say('Released the hand.');
     }
   }
 
   answer({ index, text }) {
     this.index = Number.isInteger(index) ? index : null;
     this.held = false;
-    this.button.textContent = this.index === null ? 'Take a hand' : 'Give it back';
-    const how = matchMedia('(pointer: coarse)').matches ? 'One finger moves it, a second one up and down in depth. Lifting the first lets go.'
-      : 'Move the mouse; wheel or shift for depth; its button holds what the hand touches. Leaving the picture lets go.';
+    this.button.textContent = this.index === null ? 'Take a hand' : 'Release it';
+    const how = matchMedia('(pointer: coarse)').matches ? 'One finger moves it, a second one moves it in depth. Lifting the first releases it.'
+      : 'Move the mouse; wheel or shift for depth; the button holds the touched object. Leaving the picture releases the hand.';
     this.text.textContent = this.index === null ? (text ?? '') : how;
     if (text) this.say(text);
     if (this.index !== null && this.stage.large !== 'touch') this.stage.swap();
@@ -119,7 +119,7 @@ export class PointerHand {
     const stopped = !!hand && (hand.flags & HAND_FLAGS.stopped) !== 0;
     if (stopped && !this.stopped) this.say('All forces are stopped, by the software stop.', 'warning');
     this.stopped = stopped;
-    if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The device let go; the force comes back when it is calm.', 'warning');
+    if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The force was cut; it returns when readings are normal.', 'warning');
     this.told = !!hand && (hand.flags & HAND_FLAGS.letGo) !== 0;
   }
 

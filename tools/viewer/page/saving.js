@@ -11,7 +11,7 @@ export function filledFrame(frame, items) {
 
 export async function savePage(items) {
   const answer = await fetch('frame.html');
-  if (!answer.ok) throw new Error(`the program gives no frame: ${answer.status}`);
+  if (!answer.ok) throw new Error(`the program sent no page: ${answer.status}`);
   return filledFrame(await answer.text(), items);
 }
 

@@ -60,7 +60,7 @@ export class TimeLine {
       this.say(`Plays at ${this.speed || 1} × from ${this.words(this.time)}.`);
     } else {
       this.tell('speed', 0);
-      this.say(`Paused at ${this.words(this.time)}; the world goes on.`);
+      this.say(`Paused at ${this.words(this.time)}; the exercise continues.`);
     }
   }
 

@@ -63,8 +63,10 @@ tcp::acceptor open_acceptor(asio::io_context& io, const std::string& text,
   std::error_code error;
   const auto address = asio::ip::make_address(text, error);
   if (error)
-    throw std::runtime_error(fmt::format(
-        "'{}' is no address; write that of an interface of this host, or 0.0.0.0 for all", text));
+    throw std::runtime_error(
+        fmt::format("'{}' is not an address; write the address of an interface of this host, or "
+                    "0.0.0.0 for all",
+                    text));
   const int begin = port.value_or(first);
   const int tried = port ? 1 : kPortsTried;
   for (int i = 0; i < tried; ++i) {

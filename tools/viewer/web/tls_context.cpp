@@ -46,14 +46,14 @@ std::string day_of(const ASN1_TIME* time) {
 
 void use_certificate(SSL_CTX* tls, const std::string& file) {
   if (SSL_CTX_use_certificate_chain_file(tls, file.c_str()) != 1)
-    fail(file, fmt::format("is no certificate in PEM ({}); name the file with the chain", fault()));
+    fail(file, fmt::format("is not a PEM certificate ({}); give the file with the chain", fault()));
   const X509* const leaf = SSL_CTX_get0_certificate(tls);
   const ASN1_TIME* const begin = X509_get0_notBefore(leaf);
   const ASN1_TIME* const end = X509_get0_notAfter(leaf);
   if (X509_cmp_current_time(end) < 0)
     fail(file, fmt::format("has expired on {}: renew it", day_of(end)));
   if (X509_cmp_current_time(begin) > 0)
-    fail(file, fmt::format("begins on {}: check the clock of this host", day_of(begin)));
+    fail(file, fmt::format("is valid from {}: check the clock of this host", day_of(begin)));
 }
 
 void use_key(SSL_CTX* tls, const TlsFiles& files) {
@@ -70,11 +70,10 @@ void use_key(SSL_CTX* tls, const TlsFiles& files) {
   const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(
       PEM_read_bio_PrivateKey(file.get(), nullptr, no_phrase, nullptr), EVP_PKEY_free);
   if (!key)
-    fail(files.key, fmt::format("is no private key in PEM without a pass phrase ({})", fault()));
+    fail(files.key, fmt::format("is not a PEM private key without a pass phrase ({})", fault()));
   if (X509_check_private_key(SSL_CTX_get0_certificate(tls), key.get()) != 1 ||
       SSL_CTX_use_PrivateKey(tls, key.get()) != 1)
-    fail(files.key, fmt::format("is not the key of the certificate {} ({}): give the two that "
-                                "were made together",
+    fail(files.key, fmt::format("is not the key of the certificate {} ({}): give a matching pair",
                                 files.certificate, fault()));
 }
 

@@ -86,7 +86,7 @@ TEST(MotionRules, AcceptTurnsOfModelsWithoutTurnRate) {
 TEST(MotionRules, ReportATurnRateWithoutMatchingOrientation) {
   const Checked still = Turning{.stated = {0, 0, 20}}.checked();
   EXPECT_EQ(still.codes(), kOrientation);
-  EXPECT_EQ(still.findings[0]["frame"], 4) << "the third time in a row";
+  EXPECT_EQ(still.findings[0]["frame"], 4) << "three times in a row";
   EXPECT_EQ(still.findings[0]["at"], 116);
   EXPECT_EQ((Turning{.rate = {0, 0, 1.2}}.checked().codes()), kOrientation) << "it says 0";
   EXPECT_EQ((Turning{.stated = {0, 0, -1}, .rate = {0, 0, 1}}.checked().codes()), kOrientation);

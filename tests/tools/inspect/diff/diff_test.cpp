@@ -209,7 +209,7 @@ TEST(InspectDiff, PairsACaptureOfAnotherRate) {
     EXPECT_GT(rows(diff(a, b, {"--json", "--align", "first"}), "pose").at(0)["max_m"], 0.1);
   }
   EXPECT_THAT(diff(a, File(played(two_flying_balls(), 2))).out,
-              HasSubstr("was played 2 times as fast: its PDUs are laid on A's times"));
+              HasSubstr("was played 2 times as fast: its times are scaled to A's"));
 }
 
 TEST(InspectDiff, FindsChangesInACaptureOfAnotherRate) {

@@ -94,18 +94,18 @@ TEST(TopScreen, ReportsSilenceInsteadOfAnUnknownTime) {
   TopData data;
   data.source = "239.192.1.0:3000";
   data.now = after(1e6);
-  data.notices = {"nothing heard yet at 239.192.1.0:3000 on lo and eth0"};
+  data.notices = {"nothing received yet at 239.192.1.0:3000 on lo and eth0"};
   TopScreen screen;
   const std::string silent = text_of(screen.lines(data, {}, {24, 40}));
   EXPECT_THAT(silent, HasSubstr("   ex -   0:00 "));
-  EXPECT_THAT(silent, HasSubstr("nothing heard yet at 239.192.1.0:3000 on\nlo and eth0"));
+  EXPECT_THAT(silent, HasSubstr("nothing received yet at 239.192.1.0:3000 on\nlo and eth0"));
   peer::SourceDatagram datagram;
   datagram.time = after(1e6 - 5);
   data.totals.count(datagram);
   data.interfaces = "lo, eth0";
   const std::string heard = text_of(screen.lines(data, {}, {24, 200}));
   EXPECT_THAT(heard, HasSubstr("239.192.1.0:3000   on lo, eth0   ex -   0:05 "));
-  EXPECT_THAT(heard, Not(HasSubstr("nothing heard yet")));
+  EXPECT_THAT(heard, Not(HasSubstr("nothing received yet")));
 }
 
 TEST(TopScreen, ScrollsThroughAllRows) {
@@ -210,7 +210,7 @@ TEST(TopScreen, NamesTheBusiestSimulation) {
     return true;
   });
   const std::string advice = top_advice(data);
-  EXPECT_THAT(advice, HasSubstr("1:2:* spends 94 % of the octets of entities"));
+  EXPECT_THAT(advice, HasSubstr("1:2:* sends 94 % of the octets of entities"));
   EXPECT_THAT(advice, HasSubstr("below 5.00 m in 99 of 100"));
   TopScreen screen;
   EXPECT_THAT(text_of(screen.lines(data, {}, {24, 200})), HasSubstr("advice: 1:2:* spends"));

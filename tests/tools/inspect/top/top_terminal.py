@@ -59,12 +59,12 @@ def keys_and_sizes(program: str) -> None:
     terminal.press("b")
     terminal.expect("datagrams")
     terminal.press("c")
-    terminal.expect("broke a rule")
+    terminal.expect("broke an octet rule")
     terminal.press("c")
     terminal.expect("VEHICLE1")
     terminal.press("q")
     said = terminal.expect_end()
-    assert b"lost before they reached us" in said, said
+    assert b"lost before they reached this program" in said, said
     assert terminal.process.returncode == 0
 
 

@@ -66,9 +66,9 @@ TEST(TlsContext, RefusesFilesThatAreNoPem) {
   EXPECT_THAT(refusal(folder.file("none.crt"), own + ".key"), HasSubstr("none.crt"));
   EXPECT_THAT(refusal(own + ".crt", folder.file("none.key")),
               HasSubstr("none.key: cannot be read: No such file"));
-  EXPECT_THAT(refusal(own + ".key", own + ".key"), HasSubstr("is no certificate in PEM"));
+  EXPECT_THAT(refusal(own + ".key", own + ".key"), HasSubstr("is not a PEM certificate"));
   std::ofstream(own + ".key") << "nothing\n";
-  EXPECT_THAT(refusal(own + ".crt", own + ".key"), HasSubstr("is no private key in PEM"));
+  EXPECT_THAT(refusal(own + ".crt", own + ".key"), HasSubstr("is not a PEM private key"));
 }
 
 }  // namespace
