@@ -16,7 +16,7 @@ std::span<const tools::Verb> verbs() {
 
 int run_program(tools::Arguments arguments, const tools::Console& console) noexcept {
   return tools::run_reading_program(
-      {"reckon-bench", "The studies of Reckon: `reckon bench` and its like start them.", verbs()},
+      {"reckon-bench", "Studies of Reckon: `reckon bench` and similar verbs start it.", verbs()},
       arguments, console);
 }
 

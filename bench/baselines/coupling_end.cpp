@@ -29,7 +29,7 @@ void check(const CouplingEndConfig& config) {
   demand(config.gain >= 0 && config.gain <= 1, "the gain must be 0 to 1");
   demand(config.counterpart == Counterpart::server ||
              config.environment.kind() == EnvironmentKind::linear,
-         "two hands press on a linear spring: take environment linear, or a server");
+         "two hands press on a linear spring: use the environment linear, or a server");
 }
 
 // The end that has the spring, if only one end has it.

@@ -83,9 +83,9 @@ void UdpSampleLink::await(std::uint32_t number) {
     if (::poll(&wanted, 1, static_cast<int>(kSayAgain.count())) > 0) read();
     const std::chrono::nanoseconds now = clock.now();
     if (heard_ < number && now >= end) {
-      throw std::runtime_error("coupling study: sample " + std::to_string(number - 1) +
-                               " of the other side did not come in time; is it running, with the "
-                               "same run and this address?");
+      throw std::runtime_error(
+          "coupling study: sample " + std::to_string(number - 1) +
+          " of the other side did not arrive in time: start it with the same run and this address");
     }
     if (now < say_again) continue;
     say();

@@ -36,7 +36,7 @@ RegionFault fault_of(const Region<D>& region) noexcept {
 template <std::size_t D>
 RefusedRegions keep_valid(std::span<const Region<D>> regions, std::vector<std::uint32_t>& places) {
   if (regions.size() > (std::size_t{1} << 31)) {
-    throw std::length_error("region matching takes 2^31 regions of a kind at most, not " +
+    throw std::length_error("region matching allows at most 2^31 regions of a kind, not " +
                             std::to_string(regions.size()));
   }
   RefusedRegions refused;

@@ -52,8 +52,8 @@ constexpr std::array kStudies{
               "reckon bench accuracy --touch --axis order,precision --report touch.html",
               accuracy_study},
     StudyKind{"latency",
-              "latency of a touch between two peers with threads and sockets, beside that of a "
-              "bare datagram",
+              "latency of a touch between two peers with threads and sockets, and of a bare "
+              "datagram",
               "", "reckon bench latency --for 60s", latency_study},
 };
 
@@ -124,7 +124,7 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
   }
   if (const auto status = line.parse(arguments, console)) return *status;
   if (name.empty()) {
-    throw tools::UsageError("name a study: " + joined("", ", ", [](const StudyKind& kind) {
+    throw tools::UsageError("write a study: " + joined("", ", ", [](const StudyKind& kind) {
                               return fmt::format("reckon bench {}", kind.name);
                             }));
   }

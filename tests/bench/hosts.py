@@ -68,9 +68,9 @@ def refusals(bench):
     for hosts, *said in [
         ("a=lo,down1", "host down1", "cannot be reached", "without a question"),
         ("bare1,a=lo", "host bare1", "no reckon in the PATH"),
-        ("a=lo,old1", "host old1", "'reckon 0.0.1'", "give both the same"),
-        ("a=lo,deaf1", "host deaf1", "does not understand"),
-        ("a=lo,other1=lo", "host other1", "another exercise"),
+        ("a=lo,old1", "host old1", "'reckon 0.0.1'", "install the same version"),
+        ("a=lo,deaf1", "host deaf1", "has an incompatible reckon"),
+        ("a=lo,other1=lo", "host other1", "a different exercise"),
         ("a=lo,b=nowhere0", "host b", "cannot use its network", "nowhere0"),
     ]:
         began = time.monotonic()

@@ -42,31 +42,31 @@ std::string refusal(AccuracyMode mode, std::string_view flag) {
   switch (mode) {
     case AccuracyMode::circle:
       return fmt::format(
-          "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and "
-          "--json; leave {} out",
+          "--circle is a fixed case and allows only --models, --curves, --seed, --seeds and "
+          "--json: remove {}",
           flag);
     case AccuracyMode::against:
-      return fmt::format("--against looks for equal errors of poses: leave {} out", flag);
+      return fmt::format("--against searches for equal errors of poses: remove {}", flag);
     case AccuracyMode::trace:
-      return fmt::format("--trace is one run of one pose: leave {} out", flag);
+      return fmt::format("--trace is one run of one pose: remove {}", flag);
     case AccuracyMode::touch:
       return fmt::format(
-          "--touch has cases of its own: beside it only --axis, --seed, --json, --csv, --plot and "
-          "--report; leave {} out",
+          "--touch has fixed cases and allows only --axis, --seed, --json, --csv, --plot and "
+          "--report: remove {}",
           flag);
     case AccuracyMode::forces:
-      return fmt::format("--force: {} is for poses; give --pose too, or leave it out", flag);
+      return fmt::format("--force: {} is for poses; add --pose, or remove it", flag);
     case AccuracyMode::poses_and_forces:
       if (flag == "--csv")
-        return "--csv: poses and forces are two tables; give --pose or --force alone";
-      return fmt::format("{} does not go with --pose --force; leave it out", flag);
+        return "--csv: poses and forces are two tables; write --pose or --force alone";
+      return fmt::format("{} does not apply to --pose --force: remove it", flag);
     case AccuracyMode::poses:
       break;
   }
   if (flag == "--axis" || flag == "--plot")
-    return fmt::format("{} is for error against time; give --touch too", flag);
+    return fmt::format("{} is for error against time; add --touch", flag);
   if (flag == "--period") return "--period: with --trace FILE.csv only";
-  return fmt::format("{} is for forces; give --force too", flag);
+  return fmt::format("{} is for forces; add --force", flag);
 }
 
 /// Whether the shown pose jumps from prediction to prediction: on request, or by default for files.
@@ -88,20 +88,18 @@ void check_values(AccuracyMode mode, const BenchOptions& options,
   const auto is_given = [&](std::string_view flag) { return std::ranges::count(given, flag) > 0; };
   if ((options.converge || options.converge_longest) && snaps(options))
     throw tools::UsageError(
-        "--converge, --converge-longest: the curve snap does not converge; name another by "
-        "--curves, as in cubic");
+        "--converge, --converge-longest: the curve snap does not converge; choose another, such as "
+        "--curves cubic");
   if (options.front && !options.json && options.csv.empty())
-    throw tools::UsageError(
-        "--front is for CSV and JSON; the table shows the front unless --all is given");
+    throw tools::UsageError("--front is for CSV and JSON; the table shows the front without --all");
   if (options.all && options.json)
-    throw tools::UsageError(
-        "--all is for the table; --json has all settings unless --front is given");
+    throw tools::UsageError("--all is for the table; --json has all settings without --front");
   const bool files_alone = !options.files.empty() && options.motions.empty();
   if (is_given("--for") && files_alone && mode != AccuracyMode::poses_and_forces)
-    throw tools::UsageError("--for is the length of a motion, FILE has its own: leave --for out");
+    throw tools::UsageError("--for is the length of a motion, and FILE has its own: remove --for");
   if (is_given("--seed") && !draws(mode, options))
     throw tools::UsageError(
-        "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+        "--seed: this run has no randomness; add --jitter or --loss, or remove --seed");
 }
 
 /// `read` applied to each part between commas.
@@ -122,21 +120,22 @@ double quantity(std::string_view text, std::string_view unit, std::string_view f
 double length_of(std::string_view text, std::string_view flag) {
   const double length = quantity(text, "m", flag);
   if (length > 0) return length;
-  throw tools::UsageError(fmt::format("{}: '{}' is not above 0; write it as in 50mm", flag, text));
+  throw tools::UsageError(
+      fmt::format("{}: '{}' is not above 0; write for example 50mm", flag, text));
 }
 
 double share_of(const std::string& text, double most, std::string_view flag) {
   if (text.empty()) return 0;
   const double share = quantity(text, "", flag);
   if (share >= 0 && share <= most) return share;
-  throw tools::UsageError(fmt::format("{}: '{}' is not between 0 and {} %; write it as in 10%",
+  throw tools::UsageError(fmt::format("{}: '{}' is not between 0 and {} %; write for example 10%",
                                       flag, text, 100 * most));
 }
 
 double heartbeat_of(const BenchOptions& options) {
   if (!options.heartbeat) return options.files.empty() ? 5.0 : kNoHeartbeat;
   if (options.heartbeat->count() > 0) return pdu::to_seconds(*options.heartbeat);
-  throw tools::UsageError("--heartbeat: has to be above 0; write it as in 5s");
+  throw tools::UsageError("--heartbeat: must be above 0, for example 5s");
 }
 
 /// All curves by default. The default for files is snap: they have a sample a second or a minute,
@@ -252,8 +251,8 @@ std::vector<ContactSending> read_sendings(std::span<const std::string> words) {
     const double value = quantity(part, rate ? "Hz" : "N", "--send-at");
     if (rate ? !(value >= kLeastRate && value <= kMostRate) : !(value > 0))
       throw tools::UsageError(
-          fmt::format("--send-at: '{}' is no force above 0 and no rate from {} to {} Hz; write it "
-                      "as in 15mN,50Hz",
+          fmt::format("--send-at: '{}' is neither a force above 0 nor a rate from {} to {} Hz; "
+                      "write for example 15mN,50Hz",
                       part, kLeastRate, kMostRate));
     return rate ? ContactSending{0, value} : ContactSending{value, 0};
   });
@@ -262,8 +261,8 @@ std::vector<ContactSending> read_sendings(std::span<const std::string> words) {
 Baseline read_baseline(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos)
-    throw tools::UsageError(
-        fmt::format("--against: '{}' names no threshold; write MODEL:LENGTH as in rvw:1m", text));
+    throw tools::UsageError(fmt::format(
+        "--against: '{}' has no threshold; write MODEL:LENGTH, for example rvw:1m", text));
   return {row_named(text.substr(0, colon), std::span<const PoseModel>(kPoseModels), "--against"),
           length_of(std::string_view(text).substr(colon + 1), "--against")};
 }
@@ -276,7 +275,8 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
     grid.angle = kAnyAngle;
   else if (!options.angle.empty())
     grid.angle = quantity(options.angle, "rad", "--angle");
-  if (!(grid.angle > 0)) throw tools::UsageError("--angle: has to be above 0; write 3deg, or none");
+  if (!(grid.angle > 0))
+    throw tools::UsageError("--angle: must be above 0; write for example 3deg, or none");
   grid.heartbeat = heartbeat_of(options);
   if (options.first_heartbeat) grid.first_heartbeat = pdu::to_seconds(*options.first_heartbeat);
   if (options.converge) grid.convergence.duration = pdu::to_seconds(*options.converge);

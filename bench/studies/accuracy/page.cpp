@@ -164,9 +164,9 @@ use{stroke:var(--page);stroke-width:.8}.plot .d{opacity:.28}
 
 void append_summary(std::string& out, const AccuracyReport& report) {
   out +=
-      "<p>An owner sends the motion of an entity when the prediction that its peers make is off by "
-      "more than a threshold; a viewer predicts and smooths. Each setting is a model, a threshold "
-      "and a convergence curve.</p>\n<dl>\n";
+      "<p>An owner sends the motion of an entity when the error of its peers' prediction exceeds a "
+      "threshold; a viewer predicts and smooths. Each setting is a model, a threshold and a "
+      "convergence curve.</p>\n<dl>\n";
   const auto row = [&](std::string_view name, const std::string& value) {
     out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
@@ -174,13 +174,13 @@ void append_summary(std::string& out, const AccuracyReport& report) {
   row("conditions", html_escaped(conditions_text(report.grid)));
   row("octets", "172 an update: Entity State of 144, UDP and IPv4 headers of 28");
   row("ns", html_escaped(report.processor) +
-                "; one predicted and converged pose, median of blocks that took turns");
+                "; one predicted and converged pose, median of interleaved blocks");
   out +=
       "</dl>\n<p class=\"note\">In full colour: the Pareto front of octets, error (99 % below) and "
       "largest velocity step; no setting is better in one of these without being worse in another. "
-      "The line joins the least errors for the octets; marks off the line are on the front for "
-      "smaller velocity steps. Pale: dominated, by what the table says. Settings are compared at "
-      "three digits. Errors below the axis are drawn on it.</p>\n<nav>";
+      "The line joins the smallest errors for the octets; marks off the line are on the front for "
+      "smaller velocity steps. Pale: dominated, by the setting in the table. Settings are compared "
+      "at three digits. Errors below the axis are drawn on it.</p>\n<nav>";
   for (std::size_t i = 0; i < report.results.size(); ++i)
     out += fmt::format("<a href=\"#r{}\">{}</a>\n", i, html_escaped(report.results[i].subject));
   if (!report.contacts.empty()) out += "<a href=\"#contacts\">hands in contact</a>\n";
@@ -191,9 +191,9 @@ void append_contacts(std::string& out, const AccuracyReport& report) {
   if (report.contacts.empty()) return;
   out +=
       "<section id=\"contacts\">\n<h2>hands in contact</h2>\n<p>Whole peers in simulated time; all "
-      "packets, and how many times fewer they are than an Entity State and an Attribute PDU each "
-      "millisecond of each hand. Errors: felt against the spring that the devices can show x the "
-      "true overlap at that instant.</p>\n";
+      "packets, and the reduction against an Entity State and an Attribute PDU each millisecond of "
+      "each hand. Errors: felt force against the spring that the devices can display x the true "
+      "overlap at that instant.</p>\n";
   out += contact_page_table(report.contacts) + "</section>\n";
 }
 

@@ -16,7 +16,7 @@ PoseTrace::PoseTrace(std::string path, std::span<const Track> tracks)
     : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc) {
   if (!file_)
     throw tools::UsageError(
-        fmt::format("{}: cannot be written; name a file in a folder of yours", path_));
+        fmt::format("{}: cannot be written; name a file in a writable folder", path_));
   for (const Track& track : tracks)
     entities_.push_back(track.name.empty() ? fmt::format("{}", entities_.size() + 1)
                                            : csv_cell(track.name));
@@ -38,7 +38,7 @@ void PoseTrace::write(const PoseSample& sample) {
 
 void PoseTrace::close() {
   file_.close();
-  if (!file_) throw tools::UsageError(fmt::format("{}: could not be written whole", path_));
+  if (!file_) throw tools::UsageError(fmt::format("{}: could not be written completely", path_));
 }
 
 }  // namespace reckon::bench

@@ -41,7 +41,7 @@ Subject read_subject(const std::string& path, bool angle_given) {
   const bool turns_send = file.has_orientation || angle_given;
   if (!turns_send) {
     file.note += file.note.empty() ? "" : " ";
-    file.note += "No orientations: position alone sends.";
+    file.note += "No orientations: only the position causes updates.";
   }
   return {{file.name, file.note, std::move(file.tracks)},
           {kFileThresholds.begin(), kFileThresholds.end()},
@@ -57,7 +57,7 @@ std::vector<Subject> subjects_of(const BenchOptions& options) {
   if (!subjects.empty() && options.motions.empty()) return subjects;
   const double seconds = pdu::to_seconds(options.span());
   if (!(seconds > 0 && seconds <= 3600))
-    throw tools::UsageError("--for: a motion lasts more than 0 s and at most 1 h");
+    throw tools::UsageError("--for: write more than 0 s and at most 1 h");
   for (const Motion& motion : read_motions(options.motions)) {
     subjects.push_back({{std::string(motion.name), std::string(motion.meaning), {}},
                         {motion.thresholds.begin(), motion.thresholds.end()}});
@@ -79,7 +79,7 @@ std::vector<ContactRow> study_contacts(const BenchOptions& options, const Accura
   if (!options.force) return {};
   const double seconds = pdu::to_seconds(options.span());
   if (!(seconds >= 1 && seconds <= 3600))
-    throw tools::UsageError("--for: hands touch for at least 1 s and at most 1 h");
+    throw tools::UsageError("--for: write 1 s to 1 h for hands");
   return run_contact_study(read_contacts(options.contacts), read_sendings(options.sendings),
                            grid.network, seconds, watch.of("settings", "contacts"));
 }
@@ -116,11 +116,11 @@ StudyOutput study_grid(const BenchOptions& options, AccuracyGrid grid, const Stu
 StudyOutput study_against(const BenchOptions& options, AccuracyGrid grid, const StudyCall& call) {
   const Baseline baseline = read_baseline(options.against);
   if (options.files.empty() && options.motions.empty())
-    throw tools::UsageError("--against: name files, or motions by --motion");
+    throw tools::UsageError("--against: write files, or motions with --motion");
   if (options.curves.empty() && options.files.empty())
     grid.curves = {deadreckon::ConvergenceCurve::cubic};
   if (grid.curves.size() > 1)
-    throw tools::UsageError("--against looks through one curve; name one by --curves, as in cubic");
+    throw tools::UsageError("--against uses one curve; write for example --curves cubic");
   const std::vector<PoseModel> rivals =
       options.models.empty() ? std::vector<PoseModel>{kPoseModels.front()} : grid.models;
   StudyWatch watch(call.console);
@@ -131,7 +131,8 @@ StudyOutput study_against(const BenchOptions& options, AccuracyGrid grid, const 
   for (const Subject& subject : subjects) {
     grid.angle = subject.turns_send ? angle : kAnyAngle;
     if (!subject.turns_send)
-      without += fmt::format("no orientations, position alone sends: {}\n", subject.study.name);
+      without += fmt::format("no orientations, only the position causes updates: {}\n",
+                             subject.study.name);
     for (const PoseModel& rival : rivals) {
       if (call.console.stopped()) break;
       found.push_back(
@@ -145,8 +146,7 @@ StudyOutput study_against(const BenchOptions& options, AccuracyGrid grid, const 
   output.code = code_of(subjects);
   if (!options.json)
     output.out += fmt::format(
-        "{}\n{}First line of each: what is compared against; then the fewest updates at no more "
-        "p99.\n",
+        "{}\n{}First line of each: the reference; then the fewest updates at no more p99.\n",
         wrapped(conditions_text(grid), kTextColumns), without);
   return output;
 }
@@ -179,8 +179,7 @@ StudyOutput study_circle(const BenchOptions& options, const AccuracyGrid& grid) 
 
 void check_period(const BenchOptions& options) {
   if (options.period && (options.period->count() <= 0 || !options.thresholds.empty()))
-    throw tools::UsageError(
-        "--period: has to be above 0, as in 1s, and takes the place of --thresholds");
+    throw tools::UsageError("--period: must be above 0, for example 1s; it replaces --thresholds");
 }
 
 /// The only row of the grid.
@@ -189,9 +188,9 @@ AccuracyRow row_traced(const std::vector<Subject>& subjects, const AccuracyGrid&
       grid.curves.size() == 1)
     return {grid.models.front(), grid.thresholds.front(), grid.curves.front(), {}, 0, {}};
   throw tools::UsageError(
-      fmt::format("--trace is one run, these are {} subjects x {} models x {} thresholds x {} "
-                  "curves; write --motion weave --models auto --thresholds 0.5m --curves cubic, or "
-                  "--period 1s in place of --thresholds",
+      fmt::format("--trace needs one run, but these are {} subjects x {} models x {} thresholds x "
+                  "{} curves; write --motion weave --models auto --thresholds 0.5m --curves cubic, "
+                  "or --period 1s instead of --thresholds",
                   subjects.size(), grid.models.size(), grid.thresholds.size(), grid.curves.size()));
 }
 

@@ -211,14 +211,14 @@ std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_
 }
 
 std::string conditions_text(const AccuracyGrid& grid) {
-  std::string text = grid.angle < kAnyAngle ? fmt::format("sent too when off by {} degrees",
+  std::string text = grid.angle < kAnyAngle ? fmt::format("also sent when off by {} degrees",
                                                           number_text(degrees(grid.angle)))
-                                            : "orientation sends nothing";
+                                            : "orientation causes no updates";
   text += grid.heartbeat < kNoHeartbeat
               ? fmt::format(", and every {} s", number_text(grid.heartbeat))
               : ", no heartbeat";
   if (grid.first_heartbeat > 0)
-    text += fmt::format("; said again after {} ms, then twice as long",
+    text += fmt::format("; repeated after {} ms, then after twice the time",
                         number_text(grid.first_heartbeat * 1e3));
   const auto is_curve = [](auto curve) { return curve != deadreckon::ConvergenceCurve::snap; };
   if (std::any_of(grid.curves.begin(), grid.curves.end(), is_curve))
@@ -243,9 +243,9 @@ std::string accuracy_text(const AccuracyReport& report, bool front_only) {
          "\nOCT/S: 172 octets an update (Entity State, UDP, IPv4), one entity. ANGLE: p99 [deg]. "
          "STEP:\nlargest change of the drawn velocity between samples [m/s]. NS: one shown pose, "
          "measured.\n" +
-         (front_only
-              ? "Front: nothing is better in OCT/S, P99 and STEP together; --all shows the rest.\n"
-              : "<: dominated in OCT/S, P99 and STEP; =: the same as another.\n");
+         (front_only ? "Front: no setting is better in OCT/S, P99 and STEP together; --all shows "
+                       "the rest.\n"
+                     : "<: dominated in OCT/S, P99 and STEP; =: equal to another.\n");
 }
 
 std::string accuracy_csv(const AccuracyReport& report, bool front_only) {

@@ -21,14 +21,14 @@ constexpr double kWorse = 1.1;
 
 constexpr std::string_view kLegend =
     "Forces in mN. FEWER: an Entity State and an Attribute PDU each millisecond of each hand, over "
-    "all packets.\nP50 to RMS: felt against the undelayed truth: spring that the devices can show "
-    "x true overlap at that\ninstant, in contact. ASKED: P99 against the spring that was asked "
-    "for. TWIN: RMS against a twin run of\nthe same hands and devices without a network. WEBER: "
-    "share of the time in contact with an error that\na person may notice, above 10 % of the force "
-    "and 50 mN; ! above 1 %. PEAK: in the first second of\ntouch, x the twin's. GAIN, PHASE [deg]: "
-    "at the strokes' frequency, of the hand that strokes and of\nthe other, against the truth at "
-    "that instant. LINGER [ms]: felt after the hands had parted. NS: one\nservo step, some 400 ns "
-    "of it the simulated device. <: another row of the scene sends and errs no more.\n";
+    "all packets.\nP50 to RMS: felt force against the undelayed truth: spring that the devices can "
+    "display x true overlap at\nthat instant, in contact. ASKED: P99 against the requested spring. "
+    "TWIN: RMS against a twin run of the\nsame hands and devices without a network. WEBER: share "
+    "of the time in contact with an error that a\nperson may notice, above 10 % of the force and "
+    "50 mN; ! above 1 %. PEAK: in the first second of\ntouch, x the twin's. GAIN, PHASE [deg]: at "
+    "the strokes' frequency, of the hand that strokes and of\nthe other, against the truth at that "
+    "instant. LINGER [ms]: felt after the hands had parted. NS: one\nservo step, some 400 ns of it "
+    "the simulated device. <: another row of the scene sends and errs no more.\n";
 
 std::string millinewtons(double newtons) { return number_text(1e3 * newtons); }
 
@@ -148,10 +148,11 @@ std::string wide_text(std::span<const ContactRow> rows) {
     if (worse && (worst == nullptr || row.from_shown.p99 > worst->from_shown.p99)) worst = &row;
   }
   if (worst == nullptr) return "";
-  return fmt::format("{} is worse than {} here in both: {} packets/s for {}, P99 {} mN for {}.\n",
-                     sending_text(worst->sending), sending_text(best->sending),
-                     number_text(worst->packets_per_s), number_text(best->packets_per_s),
-                     millinewtons(worst->from_shown.p99), millinewtons(best->from_shown.p99));
+  return fmt::format(
+      "{} is worse than {} in both: {} packets/s against {}, P99 {} mN against {}.\n",
+      sending_text(worst->sending), sending_text(best->sending), number_text(worst->packets_per_s),
+      number_text(best->packets_per_s), millinewtons(worst->from_shown.p99),
+      millinewtons(best->from_shown.p99));
 }
 
 std::string scene_text(std::span<const ContactRow> rows) {
@@ -162,7 +163,7 @@ std::string scene_text(std::span<const ContactRow> rows) {
   std::string text = fmt::format("{}: {}\n{} hands of {} N/m", first.scene, meaning, first.hands,
                                  number_text(first.asked));
   if (first.shown < first.asked)
-    text += fmt::format(", of which the devices can show {}", number_text(first.shown));
+    text += fmt::format(", of which the devices can display {}", number_text(first.shown));
   return text + "\n" + table_of(rows, contact_fields({})) + wide_text(rows) + "\n";
 }
 

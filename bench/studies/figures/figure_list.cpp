@@ -47,7 +47,7 @@ std::span<const FigureKind> figure_kinds() {
       FigureKind{"5.6", "Work space", drawing_work_space, true},
       FigureKind{"5.7", "Collision with a wall, complex and simple model",
                  figure_unilateral_collision},
-      FigureKind{"5.8", "Collision with what yields, complex and simple model",
+      FigureKind{"5.8", "Collision with a movable object, complex and simple model",
                  figure_bilateral_collision},
       FigureKind{"5.9", "Slip, complex and simple model", figure_slip},
   };

@@ -222,10 +222,10 @@ Figure figure_unilateral_collision() {
       "Both forces behave alike; the error is noticeable in the beginning, reduced at the end, and "
       "zero without contact. No number is printed.";
   figure.why =
-      "agrees in kind: where the hand rests both give its push, whatever K_s is (of the heavy "
-      "hands some still swing after 1 s). The sizes are not reproducible, because mass, push and "
-      "gap are not printed (ours: 0.1 kg, 1 N s/m, 1 N, 5 mm). With K_s = 0.9 the wall is nine "
-      "times as stiff; K_s = K_c is what (4.21) gives.";
+      "agrees in kind: at rest, both equal the push for any K_s (some heavy hands still oscillate "
+      "after 1 s). The sizes are not reproducible, because mass, push and gap are not printed "
+      "(ours: 0.1 kg, 1 N s/m, 1 N, 5 mm). With K_s = 0.9 the wall is nine times as stiff; (4.21) "
+      "gives K_s = K_c.";
   return figure;
 }
 
@@ -244,7 +244,7 @@ Figure figure_bilateral_collision() {
       }
     }
     const std::string name = gain_name(gain);
-    figure.numbers.push_back({"simple reaches its greatest before the complex one, " + name,
+    figure.numbers.push_back({"simple reaches its maximum before the complex one, " + name,
                               static_cast<double>(lead_of_simple(thrown_forces({}, gain))), -1.0,
                               "samples"});
     figure.numbers.push_back({"the same, least of 48 scenes, " + name, lead.least, {}, "samples"});

@@ -112,10 +112,10 @@ Figure drawing_networked_pair() {
   d.text(586, 123, "-");
   d.text(548, 290, "-");
   return drawn(std::move(d),
-               "Two users with equal devices and environments, each fed with the own speed minus "
-               "the other's of one sample ago.",
+               "Two users with equal devices and environments; the input of each is its speed "
+               "minus the other's speed one sample ago.",
                "run(TwoUserScene), pair_loop() and pair_radii() for any delay. Reckon does not "
-               "couple hands so: it sends models (docs/haptic_stability.md).");
+               "couple hands like this: it sends models (docs/haptic_stability.md).");
 }
 
 Figure drawing_signal_graph() {
@@ -130,8 +130,8 @@ Figure drawing_signal_graph() {
   d.text(345, 200, "-z^-1 HD2 VE1 ZOH HD1");
   return drawn(std::move(d),
                "Signal flow of two users, from pushes to speeds; it gives the matrix of (4.1).",
-               "printed_pair() is this graph: the loop of each user with the own environment is "
-               "not in it, and the coupling has the wrong sign. closed_pair() has both.");
+               "printed_pair() is this graph: it lacks the loop of each user with its environment, "
+               "and the coupling has the wrong sign. closed_pair() has both.");
 }
 
 Figure drawing_delayed_junction() {
@@ -146,7 +146,7 @@ Figure drawing_delayed_junction() {
   return drawn(std::move(d),
                "The simplest distributed simulation: effort and flow exchanged over a unit delay.",
                "delayed_junction() (wave_line.hpp). P + P^H has the eigenvalues +-2 sin wT, real: "
-               "it makes energy at every delay but 0.");
+               "it generates energy at every delay except 0.");
 }
 
 Figure drawing_transmission_line() {
@@ -162,8 +162,8 @@ Figure drawing_transmission_line() {
   d.arrow({line.left(30), one.right(30)}, "e^-Ts");
   return drawn(std::move(d),
                "A junction by a lossless, dispersionless transmission line between the subsystems.",
-               "transmission_line() and WaveLine (wave_line.hpp): what goes in at one end comes "
-               "out at the other T later; no energy made at any constant delay.");
+               "transmission_line() and WaveLine (wave_line.hpp): the input of one end leaves the "
+               "other end after T; no energy is generated at any constant delay.");
 }
 
 Figure drawing_environments() {

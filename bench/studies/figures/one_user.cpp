@@ -84,9 +84,9 @@ Figure high_order(Quantity quantity) {
   figure.thesis =
       "Oscillation, for higher order within a positive exponential envelope; no number is printed.";
   figure.why =
-      "agrees in kind: all four grow, and no damping of a device makes poles on the imaginary axis "
-      "of this kind passive. Where the poles lie is not printed: ours are +-10j rad/s (order 3), "
-      "with a lag alpha = 0.6 (order 4).";
+      "agrees in kind: all four grow, and no device damping makes such poles on the imaginary axis "
+      "passive. The poles are not printed: ours are +-10j rad/s (order 3), with a lag alpha = 0.6 "
+      "(order 4).";
   return figure;
 }
 

@@ -163,7 +163,7 @@ Figure figure_complex_velocity() {
   figure.thesis = "Grows exponentially, constant 1.25 from about 7.5 s.";
   figure.why =
       "the level agrees where both push: b = 0.3, and K/(1 - alpha) = 0.5 for any alpha. K, a and "
-      "alpha are not printed; they set when it is reached. One user alone makes it unstable.";
+      "alpha are not printed; they set the time. One user alone makes it unstable.";
   return figure;
 }
 
@@ -172,7 +172,7 @@ Figure figure_simple_velocity() {
   figure.thesis = "Almost as Fig 4.11; constant after 9.5 s.";
   figure.why =
       "the level agrees where both push. That the simple one takes 2 s longer is not reproducible, "
-      "because K, a and alpha are not printed; here both take as long.";
+      "because K, a and alpha are not printed; here both take equally long.";
   return figure;
 }
 

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::string_view kSummary =
     "Recomputes the figures of chapters 3 to 5 of the thesis: each experiment as CSV and SVG, each "
-    "drawing as SVG, and one page with printed and computed numbers and why they differ.\n\n"
-    "NAME is the number of a figure (default: all). Existing files are replaced.";
+    "drawing as SVG, and one page with printed and computed numbers and the reasons for "
+    "differences.\n\nNAME is the number of a figure (default: all). Existing files are replaced.";
 constexpr std::string_view kExamples =
     "reckon figures\n"
     "reckon figures 3.5 4.3 --out pictures\n"
@@ -190,9 +190,9 @@ Fields figure_fields(const MadeFigure& made) {
 
 std::string figures_page(std::span<const MadeFigure> figures) {
   std::string body =
-      "<p>Its experiments computed anew, its drawings drawn anew and named as such. Its pictures "
-      "are not at hand: what it shows is taken from its text, and no plotted curve is claimed to "
-      "be met. K with T and K, no T: its two ways to write the spring.</p>\n";
+      "<p>Recomputed experiments and redrawn drawings of the thesis. Its pictures are not "
+      "available: its results are taken from its text, and no match with a plotted curve is "
+      "claimed. K with T and K, no T: its two forms of the spring.</p>\n";
   body += page_table_of(figures, figure_fields);
   for (const MadeFigure& made : figures) append_figure(body, made);
   return html_page("The figures of the thesis", kFigureStyle, body);
@@ -209,7 +209,7 @@ std::string nearest_names(std::string_view typed) {
   if (names.empty()) return "";
   if (const std::string_view nearest = peer::nearest_word(typed, names); !nearest.empty())
     return fmt::format("did you mean '{}'? ", nearest);
-  return fmt::format("of its chapter there are {}. ", fmt::join(names, ", "));
+  return fmt::format("that chapter has {}. ", fmt::join(names, ", "));
 }
 
 const FigureKind& kind_of(const std::string& name) {
@@ -217,7 +217,7 @@ const FigureKind& kind_of(const std::string& name) {
   const auto kind = std::ranges::find(kinds, name, &FigureKind::name);
   if (kind == kinds.end())
     throw tools::UsageError(fmt::format(
-        "there is no figure '{}'; {}`reckon figures --list` names all", name, nearest_names(name)));
+        "there is no figure '{}'; {}`reckon figures --list` lists all", name, nearest_names(name)));
   return *kind;
 }
 
@@ -236,8 +236,8 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw tools::UsageError(fmt::format("{}: cannot be made ({}); name a folder of yours by --out",
-                                        folder, error.message()));
+    throw tools::UsageError(fmt::format(
+        "{}: cannot be created ({}); choose a writable folder by --out", folder, error.message()));
 }
 
 void write_file(const std::string& folder, const std::string& name, const std::string& text) {
@@ -245,11 +245,12 @@ void write_file(const std::string& folder, const std::string& name, const std::s
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (!file)
     throw tools::UsageError(
-        fmt::format("{}: cannot be written; name a folder of yours by --out", path));
+        fmt::format("{}: cannot be written; choose a writable folder by --out", path));
   file << text;
   file.close();
   if (!file)
-    throw tools::UsageError(fmt::format("{}: could not be written whole; is the disk full?", path));
+    throw tools::UsageError(
+        fmt::format("{}: could not be written completely; is the disk full?", path));
 }
 
 Fields kind_fields(const FigureKind& kind) {
@@ -278,9 +279,9 @@ class FiguresStudy final : public Study {
   StudyOutput run(const StudyCall& call) override {
     if (is_list_) {
       if (!shared_.files.empty())
-        throw tools::UsageError("--list takes no NAME: it names all figures");
+        throw tools::UsageError("--list takes no NAME: it lists all figures");
       if (std::ranges::count(call.given, "--out") > 0)
-        throw tools::UsageError("--list writes no files: leave --out out");
+        throw tools::UsageError("--list writes no files: remove --out");
       return {lines_of(shared_.json, figure_kinds(), kind_fields)};
     }
     const std::vector<const FigureKind*> kinds = kinds_of(shared_.files);

@@ -24,7 +24,7 @@ FigurePanel panel_of(SpringReading reading, Quantity quantity) {
   FigurePanel panel = panel_over_time(reading_name(reading), quantity, TwoUserScene{}.duration);
   panel.curves.push_back(curve_of("both push, either", run(scene_of(reading, 1)), 0, quantity));
   const auto one = run(scene_of(reading, 0));
-  panel.curves.push_back(curve_of("one pushes, he", one, 0, quantity));
+  panel.curves.push_back(curve_of("one pushes, itself", one, 0, quantity));
   panel.curves.push_back(curve_of("one pushes, the other", one, 1, quantity));
   return panel;
 }
@@ -75,7 +75,7 @@ Figure figure_two_users_force() {
   figure.thesis =
       "Ideally 0; a steady-state error and an oscillation larger than alone. No number is printed.";
   figure.why =
-      "agrees in kind without T: both push, and each feels 0.4 N of the other's lateness, K d/(b + "
+      "agrees in kind without T: both push, and the delay of the other gives each 0.4 N, K d/(b + "
       "K d). With T that is 0.007 N.";
   return figure;
 }

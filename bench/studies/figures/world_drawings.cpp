@@ -31,8 +31,8 @@ Figure drawing_family() {
   d.arrow({{380, 130}, right.left()}, "");
   d.text(380, 120, "siblings");
   return drawn(std::move(d), "Parent, child and sibling in a scene graph.",
-               "src/scene_graph: of each node its parent and the end of its subtree; the first "
-               "child stands right behind its parent (docs/scene_graph.md).");
+               "src/scene_graph: each node has its parent and the end of its subtree; the first "
+               "child follows its parent (docs/scene_graph.md).");
 }
 
 Figure drawing_traversal() {
@@ -58,7 +58,7 @@ Figure drawing_traversal() {
       std::move(d),
       "Traversal from top to bottom, left to right; the numbers show the order, once a frame.",
       "src/scene_graph: nodes are kept in this order, and GraphWalk modifies a state on the way; "
-      "the tree is an example of ours.");
+      "the tree is our example.");
 }
 
 Figure drawing_contact_point() {
@@ -104,9 +104,9 @@ Figure drawing_processes() {
   d.text(400, 238, "states");
   d.arrow({servo.bottom(-30), dynamics.top(-30)});
   d.arrow({dynamics.top(30), servo.bottom(30)});
-  return drawn(std::move(d), "Application and haptic process and what passes between them.",
-               "Reckon's peer has the servo at 1 kHz in a thread of its own, and threads for "
-               "model, network and display beside it (docs/architecture.md, loops).");
+  return drawn(std::move(d), "Application process, haptic process, and the data between them.",
+               "Reckon's peer runs the servo at 1 kHz in its own thread, beside threads for model, "
+               "network and display (docs/architecture.md, loops).");
 }
 
 Figure drawing_simulation_loop() {
@@ -140,7 +140,7 @@ Figure drawing_work_space() {
   return drawn(
       std::move(d), "The work space: two users, cubes, and a box of six walls.",
       "Reckon's scenes hold solids, bodies and hands at any place; the six walls are the scene's "
-      "work_space, which bodies rebound from and hands do not feel (docs/bodies.md).");
+      "work_space, from which bodies rebound and which hands do not feel (docs/bodies.md).");
 }
 
 }  // namespace reckon::bench

@@ -95,15 +95,16 @@ std::vector<std::size_t> find_columns(const peer::CsvReader& csv,
     for (char& letter : name)
       letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     if (!take(name))
-      csv.fail(0, fmt::format("no column {}; it has {}", name, fmt::join(csv.columns(), ", ")));
+      csv.fail(
+          0, fmt::format("no column {}; the columns are {}", name, fmt::join(csv.columns(), ", ")));
   }
   if (!asked.empty()) return places;
   if (take("f_n")) return places;
   for (const std::string_view name : {"fx_n", "fy_n", "fz_n"}) take(name);
   if (places.empty())
-    csv.fail(0,
-             fmt::format("no column f_n or fx_n,fy_n,fz_n; name one to three with --columns, of {}",
-                         fmt::join(csv.columns(), ", ")));
+    csv.fail(
+        0, fmt::format("no column f_n or fx_n,fy_n,fz_n; choose one to three with --columns, of {}",
+                       fmt::join(csv.columns(), ", ")));
   return places;
 }
 
@@ -113,7 +114,7 @@ ForceSignal read_force_signal(const std::filesystem::path& path,
                               std::span<const std::string> columns) {
   peer::CsvReader csv(path);
   const auto time = csv.find("t_s");
-  if (!time) csv.fail(0, "the first line names no column t_s; add the time in seconds");
+  if (!time) csv.fail(0, "the first line has no column t_s; add the time in seconds");
   const std::vector<std::size_t> places = find_columns(csv, columns);
   ForceSignal signal;
   signal.name = path.stem().string();

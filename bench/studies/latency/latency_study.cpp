@@ -241,14 +241,14 @@ Fields row_fields(const LatencyRow& row) {
 }
 
 std::string latency_text(const LatencyOptions& options, const Latencies& found) {
-  const std::vector<LatencyRow> rows{{"bare datagram, there", &found.there},
-                                     {"bare datagram, there and back", &found.there_and_back},
+  const std::vector<LatencyRow> rows{{"bare datagram, one way", &found.there},
+                                     {"bare datagram, round trip", &found.there_and_back},
                                      {"touch, servo to servo", &found.touch},
                                      {"one servo step to the next", &found.servo_steps}};
   return fmt::format(
-      "{}On {}, two peers in one process, in turn for {:.0f} s. A servo applies updates at its "
-      "next step: 0 to 1 ms of a touch are this wait.\n"
-      "{} touches did not arrive in time; each peer used {:.1f} % of a core{}\n",
+      "{}On {}, two peers in one process, alternating for {:.0f} s. A servo applies updates at its "
+      "next step, which adds 0 to 1 ms to a touch.\n{} touches did not arrive in time; each peer "
+      "used {:.1f} % of a core{}\n",
       table_of(rows, row_fields), options.iface, pdu::to_seconds(options.length), found.missed,
       100 * found.cpu_of_peer(),
       found.real_time ? "" : "; no real-time privilege, see reckon doctor");
@@ -291,17 +291,15 @@ class LatencyStudy final : public Study {
         {"--iface", &options_.iface, "latency: interface (lo)", std::string(tools::kInterfaces)},
         {"--key", &options_.key, "latency: key file; seals the touch"},
         {"--contact-groups", &options_.touch_tier,
-         "latency: send the touch to a group of its own, as with [[aoim.tier]] to = \"touch\""}};
+         "latency: send the touch to a separate group, as with [[aoim.tier]] to = \"touch\""}};
   }
 
   StudyOutput run(const StudyCall& call) override {
     options_.length = shared_.span();
     options_.seed = shared_.first_seed();
-    if (!shared_.files.empty())
-      throw tools::UsageError("bench latency reads no FILE: leave it out");
+    if (!shared_.files.empty()) throw tools::UsageError("bench latency takes no FILE: remove it");
     if (options_.length < kShortestLatencyStudy)
-      throw tools::UsageError(
-          "--for: bench latency takes 4s at least, for one round of pings and touches");
+      throw tools::UsageError("--for: write at least 4s, for one round of pings and touches");
     check_key(options_.key);
     try {
       const Latencies found = measure_latency(options_, call.console);

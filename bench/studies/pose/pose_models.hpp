@@ -22,7 +22,7 @@ struct PoseModel {
 /// The program's default is first: of two settings with equal results a study keeps the first.
 inline constexpr std::array<PoseModel, 11> kPoseModels{{
     {"auto", "the owner's choice among fpw, rpw, rvw, rpb, rvb (the default)", std::nullopt},
-    {"static", "held where it was", pdu::DeadReckoningAlgorithm::static_},
+    {"static", "held at the last position", pdu::DeadReckoningAlgorithm::static_},
     {"fpw", "velocity", pdu::DeadReckoningAlgorithm::fpw},
     {"rpw", "velocity, turning", pdu::DeadReckoningAlgorithm::rpw},
     {"rvw", "velocity and acceleration, turning", pdu::DeadReckoningAlgorithm::rvw},
@@ -31,7 +31,7 @@ inline constexpr std::array<PoseModel, 11> kPoseModels{{
     {"rpb", "velocity in turning body axes", pdu::DeadReckoningAlgorithm::rpb},
     {"rvb", "velocity and acceleration in turning body axes", pdu::DeadReckoningAlgorithm::rvb},
     {"fvb", "velocity and acceleration in body axes", pdu::DeadReckoningAlgorithm::fvb},
-    {"rvw+adaptive", "rvw sent, the viewer chooses an order from the last updates",
+    {"rvw+adaptive", "sent as rvw; the viewer chooses an order from the last updates",
      pdu::DeadReckoningAlgorithm::rvw, Prediction::adaptive},
 }};
 

@@ -86,8 +86,8 @@ std::string carries(const Capacity& one) {
   const std::string size =
       fmt::format("{} peers with {} entities", rounded(one.peers), rounded(one.entities));
   if (one.limit.empty())
-    return fmt::format("{} at least, where no limit\n  is near; --peers sweeps farther.\n", size);
-  return fmt::format("some {};\n  {} limits first{}.\n", size, one.limit,
+    return fmt::format("at least {}, where no limit\n  is near; raise --peers to find it.\n", size);
+  return fmt::format("some {};\n  {} is the first limit{}.\n", size, one.limit,
                      one.within ? "" : ", extrapolated");
 }
 
@@ -110,12 +110,12 @@ std::vector<Capacity> capacities(std::span<const ScaleRow> rows, const HostLimit
 std::string capacity_text(std::span<const Capacity> capacities, const HostLimits& limits) {
   if (capacities.empty()) return {};
   return fmt::format(
-             "What a LAN of {:g} Gbit/s carries, {:g} % of it and {:g} % of a core for each peer, "
-             "{:.1f} us a datagram:\n",
+             "Capacity of a LAN of {:g} Gbit/s, with {:g} % of it and {:g} % of a core for each "
+             "peer, {:.1f} us a datagram:\n",
              1e-9 * limits.link, 100 * limits.link_share, 100 * limits.core_share,
              1e6 * limits.datagram) +
          "- with all mechanisms: " + carries(capacities.back()) +
-         "- with dead reckoning alone: " + carries(capacities[1]);
+         "- with dead reckoning only: " + carries(capacities[1]);
 }
 
 std::string capacity_json(std::span<const Capacity> capacities) {

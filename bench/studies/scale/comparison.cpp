@@ -38,10 +38,9 @@ double number(std::string_view line, std::string_view key, std::string_view wher
   const auto text = member(line, key);
   double value = 0;
   if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc())
-    throw tools::UsageError(
-        fmt::format("{}: has no number '{}'; give a file that bench scale --json of "
-                    "this version wrote",
-                    where, key));
+    throw tools::UsageError(fmt::format(
+        "{}: has no number '{}'; use a file that bench scale --json of this version wrote", where,
+        key));
   return value;
 }
 
@@ -91,7 +90,7 @@ double ScaleChange::ratio() const {
 std::vector<BaseRow> read_scale_rows(const std::string& path) {
   std::ifstream in(path);
   if (!in)
-    throw tools::UsageError(fmt::format("{}: cannot be read; give a file that --json wrote", path));
+    throw tools::UsageError(fmt::format("{}: cannot be read; use a file that --json wrote", path));
   std::vector<BaseRow> rows;
   std::string line;
   for (int number_of_line = 1; std::getline(in, line); ++number_of_line) {
@@ -107,7 +106,7 @@ std::vector<BaseRow> read_scale_rows(const std::string& path) {
   }
   if (rows.empty())
     throw tools::UsageError(
-        fmt::format("{}: has no line of bench scale; give a file that --json wrote", path));
+        fmt::format("{}: has no line of bench scale; use a file that --json wrote", path));
   return rows;
 }
 
@@ -143,20 +142,19 @@ void check_same_exercises(std::span<const ScaleSetting> settings, std::span<cons
   for (const ScaleSetting& setting : settings) {
     const std::string one = name(setting.peers, setting.crowd.entities);
     if (std::ranges::find(known, one) == known.end())
-      throw tools::UsageError(
-          fmt::format("--compare: {} has no exercise of {}, only {}; give --peers and --entities "
-                      "as it has them",
-                      file, one, fmt::join(known, "; ")));
+      throw tools::UsageError(fmt::format(
+          "--compare: {} has no exercise of {}, only {}; use its --peers and --entities", file, one,
+          fmt::join(known, "; ")));
   }
 }
 
 std::string comparison_text(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
   const auto matched =
       std::ranges::count_if(rows, [&](const ScaleRow& row) { return has_base(row, base); });
-  std::string out = fmt::format("{} of {} rows are in the base too", matched, rows.size());
+  std::string out = fmt::format("{} of {} rows are also in the base", matched, rows.size());
   const auto changes = changes_of(rows, base);
   if (changes.empty())
-    return out + fmt::format(": nothing differs by more than {:g} %, CPU by {:g} %\n",
+    return out + fmt::format(": no number differs by more than {:g} %, CPU by {:g} %\n",
                              100 * kNotable, 100 * kNotableCpu);
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"PEERS", kRight},

@@ -126,10 +126,10 @@ std::string hands_text(std::span<const HandsRow> rows) {
                newtons(row.error.p50), newtons(row.error.p99)});
   }
   return fmt::format(
-      "two whole peers whose hands touch, each sending where its force is off by so much\n{}"
-      "FEWER: datagrams than one in each servo step, {:g} a second. FORCE: felt against stiffness "
-      "x overlap at that\ninstant, while they touch.\n\n"
-      "the least of these errors at which a hand sends so many times fewer than a stream\n{}",
+      "two complete peers with touching hands; each sends when its force error exceeds the row's "
+      "value\n{}FEWER: reduction against one datagram in each servo step, {:g} a second. FORCE: "
+      "felt against stiffness x\noverlap at that instant, while they touch.\n\nthe least of these "
+      "errors for each reduction against a stream\n{}",
       table.text(), kRawPackets, bars_text(rows));
 }
 

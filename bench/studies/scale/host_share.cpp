@@ -65,8 +65,8 @@ std::optional<nanoseconds> asked_begin(const tools::Console& console) {
     if (const auto after = read_begin_word(*word)) return now + *after;
     if (*word != kClockWord)
       throw tools::UsageError(
-          fmt::format("--share: '{}' is no word of --whole hosts, which starts this by itself on "
-                      "each host; run that",
+          fmt::format("--share: unexpected '{}'; --whole hosts starts this verb itself on each "
+                      "host: run --whole hosts",
                       *word));
     say(console, kClockLine);
   }
@@ -84,8 +84,8 @@ HostShare read_host_share(const std::string& text) {
   const auto [rest, no_last] = std::from_chars(has_dash ? dash + 1 : end, end, last);
   if (no_last != std::errc() || rest != end || first < 1 || last < first)
     throw tools::UsageError(
-        fmt::format("--share: '{}' is not FIRST-LAST, as in 1-16; it is for --whole hosts, which "
-                    "starts this by itself on each host",
+        fmt::format("--share: '{}' is not FIRST-LAST, such as 1-16; --whole hosts starts this verb "
+                    "itself on each host",
                     text));
   return {first - 1, last, text.substr(std::min(equals + 1, text.size()))};
 }

@@ -37,19 +37,19 @@ struct Remote {
 /// The error for a command that ended. @param status of ssh, its shell or reckon, or 128 + signal
 tools::EnvironmentError failed(const ScaleHost& host, const std::string& ssh, int status) {
   constexpr int kNotReached = 255, kNotFound = 127, kUsage = 2, kEnvironment = 3;
-  std::string why = fmt::format("ended early, with status {} (its words are above)", status);
+  std::string why = fmt::format("ended early, with status {} (its output is above)", status);
   if (status == kNotReached)
     why = fmt::format(
-        "cannot be reached; `{} {} true` has to work without a question (its words are above)", ssh,
+        "cannot be reached; `{} {} true` must work without a question (its output is above)", ssh,
         host.name);
   if (status == kNotFound)
-    why = "has no reckon in the PATH of `ssh HOST COMMAND`; put it there, e.g. into /usr/local/bin";
-  if (status == kUsage)
     why =
-        "has a reckon that does not understand this one (its words are above); give both the same";
+        "has no reckon in the PATH of `ssh HOST COMMAND`; install it there, e.g. in /usr/local/bin";
+  if (status == kUsage)
+    why = "has an incompatible reckon (its output is above); install the same version";
   if (status == kEnvironment)
     why = fmt::format(
-        "cannot use its network (its words are above); name its interface: --hosts {}=NAME",
+        "cannot use its network (its output is above); write its interface: --hosts {}=NAME",
         host.name);
   return tools::EnvironmentError(fmt::format("host {}: {}", host.name, why));
 }
@@ -76,8 +76,9 @@ void check_versions(const HostsPlan& plan) {
     const std::string found = answer_of(*remote, plan.ssh);
     const std::string wanted = fmt::format("reckon {}", tools::program_version());
     if (found != wanted)
-      throw tools::EnvironmentError(fmt::format(
-          "host {}: has '{}', this is '{}'; give both the same", remote->host.name, found, wanted));
+      throw tools::EnvironmentError(
+          fmt::format("host {}: has '{}', but this host '{}'; install the same version",
+                      remote->host.name, found, wanted));
   }
 }
 
@@ -95,8 +96,8 @@ std::vector<std::unique_ptr<Remote>> start(const ScaleSetting& setting, const Ho
   for (const auto& remote : all)
     if (read_ready_line(answer_of(*remote, plan.ssh)) != scene)
       throw tools::EnvironmentError(
-          fmt::format("host {}: its reckon means another exercise by the same words, though its "
-                      "version is {}, too; give both the same build",
+          fmt::format("host {}: its reckon creates a different exercise, although its version is "
+                      "also {}; install the same build",
                       remote->host.name, tools::program_version()));
   return all;
 }
@@ -128,7 +129,7 @@ bool gather(Remote& remote, const std::string& ssh, std::vector<PeerProcess>& pr
     if (!line) throw failed(remote.host, ssh, remote.command.status());
     std::size_t peer = 0;
     if (!read_peer_line(*line, peer, processes[expected]) || peer != expected)
-      throw tools::EnvironmentError(fmt::format("host {}: what it tells of peer {} cannot be read",
+      throw tools::EnvironmentError(fmt::format("host {}: its result of peer {} is malformed",
                                                 remote.host.name, expected + 1));
   }
   return true;
@@ -146,9 +147,10 @@ std::vector<ScaleHost> read_hosts(std::string_view text) {
     if (host.name.empty() || host.name.starts_with('-') ||
         (equals != part.npos && host.interface.empty()))
       throw tools::UsageError(fmt::format(
-          "--hosts: '{}' is neither HOST nor HOST=INTERFACE; as in --hosts a,b=eth1", part));
+          "--hosts: '{}' is neither HOST nor HOST=INTERFACE; write for example --hosts a,b=eth1",
+          part));
     if (std::ranges::count(hosts, host.name, &ScaleHost::name) > 0)
-      throw tools::UsageError(fmt::format("--hosts: '{}' comes twice; once is enough", host.name));
+      throw tools::UsageError(fmt::format("--hosts: '{}' appears twice; remove one", host.name));
     hosts.push_back(std::move(host));
   }
   return hosts;
@@ -156,17 +158,17 @@ std::vector<ScaleHost> read_hosts(std::string_view text) {
 
 void check_hosts(const ScaleSetting& setting, const HostsPlan& plan) {
   if (plan.hosts.empty())
-    throw tools::UsageError("--whole hosts: say which, as in --hosts a,b=eth1");
+    throw tools::UsageError("--whole hosts needs hosts, for example --hosts a,b=eth1");
   const std::size_t hosts = plan.hosts.size();
   if (setting.peers < hosts)
     throw tools::UsageError(
-        fmt::format("--peers: {} leave some of {} hosts without any; take {} or more",
+        fmt::format("--peers: {} leave some of {} hosts without a peer; write {} or more",
                     setting.peers, hosts, hosts));
   if (setting.peers > hosts * kMostProcesses)
-    throw tools::UsageError(fmt::format("--peers: {} are more than {} a host; take more --hosts",
+    throw tools::UsageError(fmt::format("--peers: {} are more than {} a host; add --hosts",
                                         setting.peers, kMostProcesses));
   if (!setting.crowd.tracks.empty())
-    throw tools::UsageError("--whole hosts: FILE lies on this host alone; leave it out");
+    throw tools::UsageError("--whole hosts: FILE exists only on this host; remove it");
 }
 
 std::string share_command(const ScaleSetting& setting, const ScaleHost& host, std::size_t first,

@@ -121,10 +121,9 @@ std::string many_hands_text(std::span<const ManyHandsRow> rows) {
              fmt::format("{:.0f}", raw.octets_per_s), "1.0 x", "-", "-"});
   return fmt::format(
       "{} peers with a hand each, {} of them touching two by two for 8 of 22 s{}\n{}{}: without "
-      "dead reckoning of the force, each change of it is told. Each step: "
-      "pose and force in\na datagram of {:g} octets a servo step. FORCE: felt against stiffness x "
-      "overlap at that instant.\n",
-      peers, touching, touching < peers ? ", the others moving" : "", table.text(),
+      "dead reckoning of the force, each change is sent. Each step: pose and force in\na datagram "
+      "of {:g} octets a servo step. FORCE: felt against stiffness x overlap at that instant.\n",
+      peers, touching, touching < peers ? ", while the others move" : "", table.text(),
       millinewtons(kManyThresholds.back()), kRawDatagram);
 }
 

@@ -32,29 +32,25 @@ struct Mechanism {
 inline constexpr std::array kMechanisms{
     Mechanism{"every tick", "every tick",
               "each entity is sent at each tick, to all, one a datagram", [](ScaleDesign&) {}},
-    Mechanism{"+ dead reckoning", "+ dead reckoning",
-              "sent where peers' prediction is off by the threshold, and at the "
-              "heartbeat",
-              [](ScaleDesign& design) { design.dead_reckoning = true; }},
+    Mechanism{
+        "+ dead reckoning", "+ dead reckoning",
+        "sent when the error of the peers' prediction reaches the threshold, and at the heartbeat",
+        [](ScaleDesign& design) { design.dead_reckoning = true; }},
     Mechanism{"+ bundling", "+ bundling", "entities of one peer share datagrams",
               [](ScaleDesign& design) { design.bundling = true; }},
     Mechanism{"+ areas of interest", "+ areas",
-              "a multicast group for each cell, joined where it is in reach",
+              "a multicast group for each cell, joined within the radius",
               [](ScaleDesign& design) { design.areas = true; }},
-    Mechanism{
-        "+ channels", "+ channels",
-        "30 updates a second at most where a receiver is within 50 m, 10 and 4 times as coarse "
-        "within "
-        "200 m, else 1 and 16 times; of the rows that the radius reaches each but the last is said "
-        "by a "
-        "group of its own of each cell, where 1,000 groups do; else all hear what the nearest "
-        "needs",
-        [](ScaleDesign& design) { design.channels = true; }},
-    Mechanism{
-        "+ compression", "+ compression",
-        "what receivers cannot predict of a state, or with groups for near rows, what differs "
-        "from the last key, in one PDU a bundle",
-        [](ScaleDesign& design) { design.compression = true; }},
+    Mechanism{"+ channels", "+ channels",
+              "at most 30 updates a second if a receiver is within 50 m, 10 and 4 times as coarse "
+              "within 200 m, else 1 and 16 times; each row within the radius except the last uses "
+              "its own group of each cell, if 1,000 groups suffice; otherwise all receive what the "
+              "nearest receiver needs",
+              [](ScaleDesign& design) { design.channels = true; }},
+    Mechanism{"+ compression", "+ compression",
+              "the part of a state that receivers cannot predict, or with groups for near rows its "
+              "difference from the last key, in one PDU a bundle",
+              [](ScaleDesign& design) { design.compression = true; }},
 };
 
 /// The mechanisms of the rows up to and including `row`.

@@ -27,7 +27,7 @@ std::vector<std::size_t> counts_of(const std::string& text, double most, std::st
   std::vector<std::size_t> counts;
   for (const double value : read_values(text, {"", 1, most, false}, flag)) {
     if (value != std::floor(value))
-      throw tools::UsageError(fmt::format("{}: {} is no whole number", flag, value));
+      throw tools::UsageError(fmt::format("{}: {} is not a whole number", flag, value));
     counts.push_back(static_cast<std::size_t>(value));
   }
   return counts;
@@ -41,7 +41,7 @@ std::vector<std::size_t> entities_of(const ScaleWords& words, std::size_t peers)
 double single(const std::string& text, const ValueRule& rule, std::string_view flag) {
   const auto values = read_values(text, rule, flag);
   if (values.size() == 1) return values.front();
-  throw tools::UsageError(fmt::format("{}: '{}' is more than one value; give one", flag, text));
+  throw tools::UsageError(fmt::format("{}: '{}' is more than one value; write one", flag, text));
 }
 
 double share_of(const std::string& text, std::string_view flag) {
@@ -52,8 +52,8 @@ std::size_t read_pool(const std::string& text) {
   const double groups = single(text, {"", 1, aoim::kMaximumPool, false}, "--pool");
   const auto pool = static_cast<std::size_t>(groups);
   if (static_cast<double>(pool) != groups || !aoim::is_pool(pool))
-    throw tools::UsageError(
-        fmt::format("--pool: {} groups cannot be; give 1, or 4 to {}", text, aoim::kMaximumPool));
+    throw tools::UsageError(fmt::format("--pool: {} groups are not possible; write 1, or 4 to {}",
+                                        text, aoim::kMaximumPool));
   return pool;
 }
 
@@ -61,7 +61,7 @@ aoim::CellScheme read_scheme(const std::string& text) {
   const auto scheme = peer::value_of<aoim::CellScheme>(text);
   if (scheme && *scheme != aoim::CellScheme::locales) return *scheme;
   throw tools::UsageError(
-      fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
+      fmt::format("--scheme: '{}' is not one of square, hexagonal and quadtree", text));
 }
 
 /// Finds the interval of `length` [s] that most tracks cover. Returns these tracks cut to it; time
@@ -99,13 +99,13 @@ std::vector<Track> cut_out(const std::vector<Track>& tracks, double length) {
 std::vector<Track> read_tracks(const ScaleWords& words, double length) {
   if (words.file.empty()) return {};
   if (!words.movement.empty())
-    throw tools::UsageError("--movement: FILE has its own; leave one of the two out");
+    throw tools::UsageError("--movement: FILE has its own; remove one of them");
   if (!words.density.empty())
-    throw tools::UsageError("--density: FILE has its own; leave one of the two out");
+    throw tools::UsageError("--density: FILE has its own; remove one of them");
   std::vector<Track> tracks = cut_out(read_track_file(words.file).tracks, length);
   if (tracks.empty())
     throw tools::UsageError(
-        fmt::format("{}: no track of it lasts {:g} s; take a shorter --for", words.file, length));
+        fmt::format("{}: no track lasts {:g} s; shorten --for", words.file, length));
   return tracks;
 }
 
@@ -113,14 +113,14 @@ std::vector<Track> read_tracks(const ScaleWords& words, double length) {
 double length_of(const ScaleWords& words) {
   const double seconds = words.length ? pdu::to_seconds(*words.length) : ScaleSetting().seconds;
   if (!(seconds >= kShortest && seconds <= kLongest))
-    throw tools::UsageError("--for: bench scale takes 1s to 1h of simulated time");
+    throw tools::UsageError("--for: write 1s to 1h of simulated time");
   return seconds;
 }
 
 /// @throws UsageError if a flag is given that has no effect here
 void check_used(bool given, std::string_view flag, bool used, std::string_view by) {
   if (given && !used)
-    throw tools::UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
+    throw tools::UsageError(fmt::format("{0} needs {1}: add it, or remove {0}", flag, by));
 }
 
 /// Reads the flags for several hosts.
@@ -138,8 +138,8 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
                          !words.loss.empty() || !words.file.empty();
   if (runs_more)
     throw tools::UsageError(
-        "--share: --whole hosts starts this by itself on each host, with the words that it needs; "
-        "run that");
+        "--share: --whole hosts starts this verb itself on each host, with its arguments: run "
+        "--whole hosts");
 }
 
 /// Moves exercises of more than kMostWhole peers to `fitted`, unless peers run as processes.
@@ -154,10 +154,10 @@ void set_fitted_apart(ScalePlan& plan) {
     for (const ScaleSetting& run : plan.settings)
       if (are_alike(run, setting)) sizes.insert(run.peers);
     if (sizes.size() < kFewestSizes)
-      throw tools::UsageError(fmt::format(
-          "--peers: {} are fitted to {} exercises or more of {} at most with as many entities "
-          "each; give these too, as in --peers 64,128,{},{}",
-          setting.peers, kFewestSizes, kMostWhole, kMostWhole, setting.peers));
+      throw tools::UsageError(
+          fmt::format("--peers: {} need a fit to {} or more exercises of at most {} with as many "
+                      "entities each; add them, for example --peers 64,128,{},{}",
+                      setting.peers, kFewestSizes, kMostWhole, kMostWhole, setting.peers));
   }
 }
 
@@ -167,7 +167,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
   ScaleSetting base;
   base.seconds = length_of(words);
   if (!(words.rate >= 1 && words.rate <= 1000))
-    throw tools::UsageError("--rate: give 1 to 1000 ticks a second");
+    throw tools::UsageError("--rate: write 1 to 1000 ticks a second");
   base.rate = words.rate;
   base.radius = single(words.radius, {"m", 0, 1e5, true}, "--radius");
   if (!words.scheme.empty()) base.grid.scheme = read_scheme(words.scheme);
@@ -185,14 +185,14 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
   if (words.seed && !words.file.empty() && words.loss.empty() && words.jitter.empty())
     throw tools::UsageError(
-        "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+        "--seed: this run has no randomness; add --jitter or --loss, or remove --seed");
   base.seed = base.crowd.seed = words.seed.value_or(1);
 
   ScalePlan plan;
   plan.meeting = read_meeting(words.whole);
   read_hosts_plan(words, plan);
   if (words.port.value_or(base.port) > kMostPort)
-    throw tools::UsageError("--port: give 1 to 65535");
+    throw tools::UsageError("--port: write 1 to 65535");
   base.port = static_cast<std::uint16_t>(words.port.value_or(base.port));
   plan.tracks = read_tracks(words, kWarmUp + base.seconds);
   base.crowd.tracks = plan.tracks;
@@ -209,7 +209,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
     }
   set_fitted_apart(plan);
   if (words.many_hands && plan.hands < 2)
-    throw tools::UsageError("--many-hands: one peer touches nobody; take --peers 2 or more");
+    throw tools::UsageError("--many-hands: one peer cannot touch another; write --peers 2 or more");
   return plan;
 }
 

@@ -30,11 +30,11 @@ struct Picture {
   std::string_view measure, title, axis;
 };
 constexpr std::array kPictures{
-    Picture{"heard_packets_per_s", "Datagrams that a peer hears", "datagrams/s"},
-    Picture{"heard_bytes_per_s", "Octets that a peer hears", "B/s"},
-    Picture{"sent_packets_per_s", "Datagrams that a peer sends", "datagrams/s"},
-    Picture{"unwanted_updates_per_s", "Updates heard that nobody wanted", "updates/s"},
-    Picture{"pose_error_p99_m", "Error of what is shown, p99", "m"},
+    Picture{"heard_packets_per_s", "Datagrams received by a peer", "datagrams/s"},
+    Picture{"heard_bytes_per_s", "Octets received by a peer", "B/s"},
+    Picture{"sent_packets_per_s", "Datagrams sent by a peer", "datagrams/s"},
+    Picture{"unwanted_updates_per_s", "Unused updates received", "updates/s"},
+    Picture{"pose_error_p99_m", "Error of the shown pose, p99", "m"},
     Picture{"cpu_share", "CPU of a peer", "share of a core"},
 };
 
@@ -93,7 +93,7 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
 /// A curve for each scene, a point for each threshold.
 std::string hands_picture(std::span<const HandsRow> rows) {
   LogPlot plot;
-  plot.title = "Hands in contact: what they send against how far off the force is";
+  plot.title = "Hands in contact: datagrams against force error";
   plot.x = "error of the force while they touch, p99 [N]";
   plot.y = "datagrams/s of a hand, whole run";
   for (const HandsRow& row : rows) {
@@ -117,7 +117,7 @@ std::string scale_page(const ScaleReport& report) {
   std::string body = fmt::format("<p><code>{}</code></p>\n<p>{}</p>\n",
                                  html_escaped(report.command), html_escaped(report.circumstances));
   const auto found = capacities(report.rows, report.limits);
-  if (!found.empty()) body += table("What it carries", capacity_text(found, report.limits));
+  if (!found.empty()) body += table("Capacity", capacity_text(found, report.limits));
   body += table("Mechanism by mechanism", scale_summary(report.rows));
   std::string list;
   for (const Mechanism& mechanism : kMechanisms)
@@ -135,7 +135,7 @@ std::string scale_page(const ScaleReport& report) {
   if (!report.many_hands.empty())
     body += table("Hands among many", many_hands_text(report.many_hands));
   if (!report.base.empty())
-    body += table("Beside the base", comparison_text(report.rows, report.base));
+    body += table("Against the base", comparison_text(report.rows, report.base));
   return html_page("reckon bench scale", kStyle, body);
 }
 

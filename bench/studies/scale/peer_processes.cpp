@@ -113,8 +113,8 @@ void run_ip(const std::string& lines) {
   const bool is_said = ip != nullptr && std::fputs(lines.c_str(), ip) >= 0;
   if (ip == nullptr || pclose(ip) != 0 || !is_said)
     throw tools::EnvironmentError(
-        "ip could not make the network (its words are above); needs root and "
-        "the program ip (Debian: iproute2)");
+        "ip could not create the network (its output is above); it needs root and the program ip "
+        "(Debian: iproute2)");
 }
 
 void enter_own_network() {
@@ -160,7 +160,7 @@ class Family {
     const pid_t child = fork();
     if (child < 0)
       throw tools::EnvironmentError(
-          fmt::format("no process for a peer: {}; take fewer --peers", std::strerror(errno)));
+          fmt::format("no process for a peer: {}; lower --peers", std::strerror(errno)));
     if (child > 0) {
       children_.push_back(child);
       return child;
@@ -221,7 +221,7 @@ void join_by_switch(Family& family) {
   });
   hub.ready.close_end(1);
   bool is_there = false;
-  if (!get(hub.ready, is_there)) throw tools::EnvironmentError("the switch could not be made");
+  if (!get(hub.ready, is_there)) throw tools::EnvironmentError("the bridge could not be created");
   std::this_thread::sleep_for(kQuerier);
 }
 

@@ -161,9 +161,9 @@ int bench_scale(const ScaleWords& words, const std::string& command,
   if (!whole) report.base.clear();  // missing rows are no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)
-    fmt::print(console.err, "stopped{}\n",
-               out.empty() ? " before the first run had ended"
-                           : ": only runs that had ended are reported");
+    fmt::print(
+        console.err, "stopped{}\n",
+        out.empty() ? " before the first run was complete" : ": only completed runs are reported");
   fmt::print(console.out, "{}", out);
   if (!out.empty()) tools::write_output(words.report, scale_page(report), console);
   const bool differs = !changes_of(report.rows, report.base).empty();

@@ -63,7 +63,7 @@ class ScaleStudy final : public Study {
 
   StudyOutput run(const StudyCall& call) override {
     if (shared_.files.size() > 1)
-      throw tools::UsageError("bench scale reads one FILE of tracks; leave the others out");
+      throw tools::UsageError("bench scale reads one FILE of tracks: remove the others");
     if (!shared_.files.empty()) words_.file = shared_.files.front();
     words_.delay = shared_.delay;
     words_.jitter = shared_.jitter;

@@ -29,13 +29,12 @@ void check_scale_setting(const ScaleSetting& setting) {
         fmt::format("--peers: {} is not between 1 and {}", peers, kMostNumbers));
   if (entities < peers)
     throw tools::UsageError(
-        fmt::format("--entities: {} leave some of {} peers without any; take {} or more", entities,
+        fmt::format("--entities: {} leave some of {} peers without one; write {} or more", entities,
                     peers, peers));
   if (entities > peers * kMostNumbers)
     throw tools::UsageError(
-        fmt::format("--entities: {} are more than {} peers can number, {} each; take "
-                    "more peers",
-                    entities, peers, kMostNumbers));
+        fmt::format("--entities: {} are more than {} peers can have, {} each; add peers", entities,
+                    peers, kMostNumbers));
 }
 
 peer::AoimConfig scale_cells(const ScaleSetting& setting) {

@@ -124,8 +124,8 @@ namespace {
 std::string one_group_text(std::span<const ScaleRow> rows) {
   const auto one = [](const ScaleRow& row) { return shares_one_group(row.run.setting); };
   if (std::ranges::none_of(rows, one)) return {};
-  return "\n--pool 1: all cells are one group, so this is what grows without areas of\n"
-         "interest. Contact and near groups, which need a group of each cell, are off.\n";
+  return "\n--pool 1: all cells share one group, so this is the growth without areas of\ninterest. "
+         "Contact and near groups, which need a group of each cell, are off.\n";
 }
 
 }  // namespace
@@ -152,12 +152,12 @@ std::string scale_text(std::span<const ScaleRow> rows) {
   }
   out += one_group_text(all);
   out +=
-      "SENT, HEARD: datagrams with those of control; B with headers of UDP and IPv4. WANTED: "
-      "updates of others' entities\nthat are used: within the radius, or shown; UNWANTED: heard "
-      "beside them. POSE: shown against true. UNSEEN: of\nentities within the radius, at each "
-      "look, not shown; SHOWN: after coming in. LOST: of the datagrams for joined\ngroups. GROUPS: "
-      "joined at the end. CPU: of this machine's core; KERNEL: what it takes to read the datagrams "
-      "heard.\n";
+      "SENT, HEARD: datagrams, with control; B with headers of UDP and IPv4. WANTED: received "
+      "updates of remote entities\nthat are used: within the radius, or shown; UNWANTED: the "
+      "others. POSE: shown against true. UNSEEN: share of\nentities within the radius, at each "
+      "sample, not shown; SHOWN: time until shown. LOST: of the datagrams for\njoined groups. "
+      "GROUPS: joined at the end. CPU: of this machine's core; KERNEL: to read the received "
+      "datagrams.\n";
   return out;
 }
 
@@ -216,11 +216,11 @@ std::string knee_text(std::span<const ScaleRow> rows) {
     const double growth = ratio(row.entities(), last->entities());
     if (!(growth > 1) || std::log(heard.of(row) / heard.of(*last)) < kInStep * std::log(growth))
       continue;
-    return fmt::format("From {} entities on each peer hears {:.2g} times as much{}.\n",
+    return fmt::format("From {} entities on, each peer receives {:.2g} times as much{}.\n",
                        row.entities(), heard.of(row) / heard.of(*last),
                        groups_suffice(row.run.setting)
                            ? ""
-                           : ": cells\nshare the groups of the pool; --pool takes up to 1000");
+                           : ": cells\nshare the groups of the pool; --pool can be up to 1000");
   }
   return {};
 }
@@ -255,9 +255,9 @@ std::string scale_summary(std::span<const ScaleRow> rows) {
   if (count > 1)
     out += fmt::format("\nAll mechanisms together\n{}{}", sizes.text(), knee_text(rows));
   return out + one_group_text(rows) +
-         "\nHEARD: datagrams, with those of control; WANTED: of the updates heard;\n"
-         "POSE: error p99; SHOWN: after coming within the radius, p99;\n"
-         "CPU: of a core, with the kernel's part. --wide has all columns.\n";
+         "\nHEARD: received datagrams, with control; WANTED: of the received updates;\nPOSE: error "
+         "p99; SHOWN: time until shown, p99;\nCPU: of a core, including the kernel. --wide has all "
+         "columns.\n";
 }
 
 std::string scale_json(std::span<const ScaleRow> rows) {

@@ -171,19 +171,17 @@ WholeRun run_processes(const ScaleSetting& setting, Meeting meeting,
 void check_meeting(const ScaleSetting& setting, Meeting meeting) {
   if (meeting == Meeting::simulated) return;
   if (meeting != Meeting::hosts && setting.peers > kMostProcesses)
-    throw tools::UsageError(
-        fmt::format("--peers: {} processes are more than one machine's network has "
-                    "room for, {}; take fewer, or leave --whole out",
-                    setting.peers, kMostProcesses));
+    throw tools::UsageError(fmt::format(
+        "--peers: {} processes exceed the {} of one machine's network; lower it, or remove --whole",
+        setting.peers, kMostProcesses));
   const bool is_perfect = setting.network.delay == nanoseconds(0) && setting.network.loss == 0;
   if (!is_perfect)
     throw tools::UsageError(
-        "--delay, --jitter, --loss: a real network has its own; leave them out, or leave --whole "
-        "out");
+        "--delay, --jitter, --loss: a real network has its own; remove them, or --whole");
   if (meeting == Meeting::lan && geteuid() != 0)
     throw tools::EnvironmentError(
-        "--whole lan makes network namespaces, which needs root; run it with sudo, or "
-        "take --whole lo");
+        "--whole lan creates network namespaces, which needs root; run it with sudo, or write "
+        "--whole lo");
 }
 
 Meeting read_meeting(const std::string& text) {
@@ -191,7 +189,7 @@ Meeting read_meeting(const std::string& text) {
   if (text == "lo") return Meeting::lo;
   if (text == "lan") return Meeting::lan;
   if (text == "hosts") return Meeting::hosts;
-  throw tools::UsageError(fmt::format("--whole: '{}' is none of lo, lan, hosts", text));
+  throw tools::UsageError(fmt::format("--whole: '{}' is not one of lo, lan, hosts", text));
 }
 
 WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,

@@ -62,9 +62,8 @@ std::string lateness_of(const WholeRun& run) {
   constexpr double kLate = 0.2;  // [s]
   if (run.latest < kLate) return "";
   return fmt::format(
-      "a step came {:.1f} s late: this machine was too busy, and what is overdue or lost may be "
-      "its "
-      "fault\n",
+      "a step was {:.1f} s late: this machine was too busy, which may be the cause of overdue or "
+      "lost updates\n",
       run.latest);
 }
 
@@ -74,8 +73,8 @@ std::string limit_of(const WholeRun& run) {
   const bool has_one_address = run.meeting == Meeting::lo;  // of one address it stores half as many
   const std::size_t remembered = has_one_address ? capacity / 2 : capacity;
   if (run.setting.peers <= remembered + 1) return "";
-  return fmt::format("a peer remembers {} others{}: what the rest own is not shown\n", remembered,
-                     has_one_address ? " of one address" : "");
+  return fmt::format("a peer has room for {} others{}: entities of further peers are not shown\n",
+                     remembered, has_one_address ? " of one address" : "");
 }
 
 }  // namespace
@@ -95,12 +94,11 @@ std::string whole_text(std::span<const WholeRow> rows) {
     }
     const WholeCounts& counts = run.counts;
     out += fmt::format(
-        "{} peers with {} entities, {}, {:g} s\n{}"
-        "of {} looks at entities within the radius {} found one that is overdue (not shown {:g} s "
-        "after it came in)\nlost {} datagrams, {} for want of room; {} came of groups that were "
-        "not joined\neach {:.3f} % of a core ({} us for each update heard), {} KiB of memory, "
-        "{:.0f} "
-        "entities in its table, {:.1f} groups; the run took {:.1f} s\n{}\n",
+        "{} peers with {} entities, {}, {:g} s\n{}of {} samples of entities within the radius, {} "
+        "found one overdue (not shown after {:g} s)\nlost {} datagrams, {} because a buffer was "
+        "full; {} arrived from groups that were not joined\neach {:.3f} % of a core ({} us for "
+        "each update heard), {} KiB of memory, {:.0f} entities in its table, {:.1f} groups; the "
+        "run took {:.1f} s\n{}\n",
         run.setting.peers, run.setting.crowd.entities, name_of(run.meeting), counts.seconds,
         table.text(), counts.looks, counts.overdue, kShownWithin, counts.lost, counts.dropped,
         counts.foreign, 100 * share_of_core(run), number_text(1e6 * update_cpu(run)),

@@ -62,8 +62,7 @@ peer::DeviceConfig first_device(const peer::SceneFile& scene, const std::string&
     const auto devices = peer::devices_of(scene, number);
     if (!devices.empty()) return devices.front();
   }
-  throw tools::UsageError(
-      fmt::format("{}: no peer of it has a device, so no hand can touch", path));
+  throw tools::UsageError(fmt::format("{}: no peer has a device, so no hand can touch", path));
 }
 
 /// Settings of the scene that the study ignores.
@@ -103,14 +102,14 @@ void apply_scene(const std::string& path, StabilityOptions& options) {
 double read_peak(const std::string& text) {
   const auto values = read_values(text, {"N", 0, 1e6, true}, "--peak");
   if (values.size() == 1) return values.front();
-  throw tools::UsageError(fmt::format("--peak: '{}' is more than one force; give one", text));
+  throw tools::UsageError(fmt::format("--peak: '{}' is more than one force; write one", text));
 }
 
 double read_length(std::chrono::nanoseconds length) {
   const double seconds = pdu::to_seconds(length);
   if (seconds >= 3 && seconds <= 3600) return seconds;
   throw tools::UsageError(
-      "--for: a run takes 3s to 1h: hands touch after 1s, and its last third is judged");
+      "--for: write 3s to 1h: hands touch after 1s, and the last third is evaluated");
 }
 
 /// Position and speed along one axis of a recording.
@@ -204,7 +203,7 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   StabilityOptions options;
   StabilityPlan& plan = options.plan;
   if (words.files.size() > 1)
-    throw tools::UsageError("bench stability reads one FILE, the scene; leave the others out");
+    throw tools::UsageError("bench stability reads one FILE, the scene: remove the others");
   const bool has_scene = !words.files.empty();
   if (has_scene) apply_scene(words.files.front(), options);
   if (!words.modes.empty() || plan.modes.empty()) plan.modes = read_modes(words.modes);
@@ -216,7 +215,7 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   plan.gate = !words.no_gate;
   if (!plan.gate && std::ranges::count(plan.modes, CouplingMode::reckon) == 0)
     throw tools::UsageError(
-        "--no-gate is of the mode reckon; add it to --coupling, or leave --no-gate out");
+        "--no-gate needs the mode reckon: add it to --coupling, or remove --no-gate");
   if (!words.hand.empty()) {
     plan.base.recorded = recorded_operator(words.hand);
     plan.base.operator_number = kRecordedOperator;
@@ -226,11 +225,12 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
     if (!words.hand.empty() && axis.parameter->name == "operator" &&
         std::ranges::count(axis.values, static_cast<double>(kRecordedOperator)) == 0)
       throw tools::UsageError(
-          "--hand: operator is swept without trace; add it, as in operator=push,trace");
+          "--hand: the swept operators lack trace; add it, as in operator=push,trace");
   check(plan);
   if (words.seed && !draws(plan))
     throw tools::UsageError(
-        "--seed: nothing is drawn here; sweep loss, reorder or jitter_share, or leave --seed out");
+        "--seed: this run has no randomness; sweep loss, reorder or jitter_share, or remove "
+        "--seed");
   return options;
 }
 

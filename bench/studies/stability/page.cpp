@@ -249,11 +249,11 @@ std::vector<std::vector<std::size_t>> maps_of(const StabilityPlan& plan, const L
 void append_summary(std::string& out, const StabilityReport& report) {
   fmt::format_to(
       tools::end_of(out),
-      "<section>\n{2}<p class=\"note\">right: no energy made, at rest where it should be, force "
-      "off by {0:g} % at most (rms, of the right force's). makes energy: more than 1 nJ that "
-      "nobody put in. runs away: beyond 10 m or 1 MN. no rest: moves on at more than {1:g} m/s "
-      "under a constant push against what stands still. force off: by more than {0:g} %, of those "
-      "that did not run away. stiffness kept: median.</p>\n</section>\n",
+      "<section>\n{2}<p class=\"note\">right: no energy generated, at rest when expected, force "
+      "error at most {0:g} % (rms, of the correct force). makes energy: more than 1 nJ generated. "
+      "runs away: beyond 10 m or 1 MN. no rest: moves at more than {1:g} m/s under a constant push "
+      "against a fixed environment. force off: by more than {0:g} %, of runs that did not run "
+      "away. stiffness kept: median.</p>\n</section>\n",
       100 * kWrong, kRest, stability_page_table(report));
 }
 
@@ -273,8 +273,8 @@ void append_legend(std::string& out) {
 std::string stability_page(const StabilityReport& report) {
   const StabilityPlan& plan = report.plan;
   std::string body = fmt::format(
-      "<p>A hand touches through each coupling in turn, in every cell with the same fate of its "
-      "samples. Rest the pointer on a cell: all of its "
+      "<p>A hand touches through each coupling in turn; in each cell, the network treats the "
+      "samples equally. Point at a cell to see all of its "
       "numbers.</p>\n<dl><dt>command</dt><dd><code>{}</code></dd><dt>options</dt><dd>{}</dd></"
       "dl>\n",
       html_escaped(report.command), html_escaped(plan.text()));

@@ -53,7 +53,7 @@ constexpr StabilityParameter row(std::string_view name, std::string_view meaning
 
 constexpr std::array kParameters{
     row(
-        "hand.k1", "stiffness of what is touched", {"N/m", 0, 1e5, true},
+        "hand.k1", "stiffness of the environment", {"N/m", 0, 1e5, true},
         [](auto& s) -> auto& { return s.stiffness; }),
     row(
         "impairment.delay", "one way", {"s", 0, 10, false},
@@ -62,28 +62,28 @@ constexpr std::array kParameters{
         "impairment.loss", "share of the samples", {"", 0, 0.99, false},
         [](auto& s) -> auto& { return s.run.network.loss; }),
     row(
-        "impairment.jitter", "delay +- so long, never below 0 in sum", {"s", 0, 10, false},
+        "impairment.jitter", "delay +- this time, at least 0 in sum", {"s", 0, 10, false},
         [](auto& s) -> auto& { return s.run.network.jitter; }),
     row(
         "jitter_share", "delay +- this share of it", {"", 0, 1, false},
         [](auto& s) -> auto& { return s.jitter_share; }),
     row(
-        "impairment.reorder", "share held back", {"", 0, 1, false},
+        "impairment.reorder", "delayed share", {"", 0, 1, false},
         [](auto& s) -> auto& { return s.run.network.reorder; }),
     row(
-        "impairment.reorder_delay", "for so long", {"s", 0, 10, false},
+        "impairment.reorder_delay", "their additional delay", {"s", 0, 10, false},
         [](auto& s) -> auto& { return s.run.network.reorder_delay; }),
     row(
-        "environment", "what is touched", {}, [](auto& s) -> auto& { return s.environment; },
+        "environment", "the environment", {}, [](auto& s) -> auto& { return s.environment; },
         kEnvironments),
     row(
         "operator", "the hand at the device", {},
         [](auto& s) -> auto& { return s.operator_number; }, kOperators),
     row(
-        "counterpart", "what is at the other end", {},
-        [](auto& s) -> auto& { return s.run.counterpart; }, kCounterparts),
+        "counterpart", "the other end", {}, [](auto& s) -> auto& { return s.run.counterpart; },
+        kCounterparts),
     row(
-        "device.damping", "of the device, sure", {"N s/m", 0, 1000, true},
+        "device.damping", "of the device, guaranteed", {"N s/m", 0, 1000, true},
         [](auto& s) -> auto& { return s.run.device.damping; }),
     StabilityParameter{"device.rate",
                        "of the servo",
@@ -121,7 +121,7 @@ std::vector<double> word_values(const StabilityParameter& parameter, std::string
     const double value = word_value(parameter, word);
     if (std::ranges::count(values, value) > 0)
       throw tools::UsageError(
-          fmt::format("--sweep {}: '{}' is given twice; give each once", parameter.name, word));
+          fmt::format("--sweep {}: '{}' is given twice; write each once", parameter.name, word));
     values.push_back(value);
   }
   return values;
@@ -142,7 +142,7 @@ const StabilityParameter& stability_parameter(std::string_view name) {
   for (const std::string_view known : names) candidates.push_back(last_part(known));
   const std::string_view nearest = peer::nearest_word(name, candidates);
   throw tools::UsageError(
-      fmt::format("--sweep: nothing is called '{}'{}; known: {}", name,
+      fmt::format("--sweep: there is no '{}'{}; known: {}", name,
                   nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
                   fmt::join(names, ", ")));
 }
@@ -150,9 +150,10 @@ const StabilityParameter& stability_parameter(std::string_view name) {
 StabilityAxis read_stability_axis(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos)
-    throw tools::UsageError(fmt::format(
-        "--sweep: '{}' says no values; write NAME=A..B/N or NAME=A,B,C, as delay=0..200ms/5",
-        text));
+    throw tools::UsageError(
+        fmt::format("--sweep: '{}' has no values; write NAME=A..B/N or NAME=A,B,C, for example "
+                    "delay=0..200ms/5",
+                    text));
   const StabilityParameter& parameter = stability_parameter(text.substr(0, equals));
   const std::string_view values = text.substr(equals + 1);
   if (!parameter.words.empty()) return {&parameter, word_values(parameter, values)};

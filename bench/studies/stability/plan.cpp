@@ -47,32 +47,32 @@ void check_axes(const StabilityPlan& plan) {
   for (const StabilityAxis& axis : plan.axes)
     if (!names.insert(axis.parameter->name).second)
       throw tools::UsageError(fmt::format(
-          "--sweep: {} is swept twice; give all of its values at once", axis.parameter->name));
+          "--sweep: {} is swept twice; write all of its values at once", axis.parameter->name));
   const auto needs = [&](std::string_view name, std::string_view other, std::string_view example) {
     if (has_axis(plan, name) && !(most_of(plan, other) > 0))
       throw tools::UsageError(
-          fmt::format("--sweep: {} has no effect where {} is 0; sweep that too, as in --sweep {}",
+          fmt::format("--sweep: {} has no effect if {} is 0; sweep that too, as in --sweep {}",
                       name, other, example));
   };
   needs("jitter_share", "impairment.delay", "delay=50ms");
   needs("impairment.reorder_delay", "impairment.reorder", "reorder=10%");
   if (has_axis(plan, "jitter_share") && has_axis(plan, "impairment.jitter"))
     throw tools::UsageError(
-        "--sweep: jitter_share and impairment.jitter say the same; sweep one of them");
+        "--sweep: jitter_share and impairment.jitter set the same value; sweep one of them");
   const auto hand = static_cast<double>(Counterpart::hand);
   if (takes(plan, "counterpart", hand)) {
     for (const auto kind :
          {EnvironmentKind::hardening, EnvironmentKind::moving, EnvironmentKind::switching})
       if (takes(plan, "environment", static_cast<double>(kind)))
         throw tools::UsageError(
-            "--sweep: two hands have a linear spring between them; leave counterpart=hand out, or "
-            "all environments but linear");
+            "--sweep: two hands have a linear spring between them; remove counterpart=hand, or all "
+            "environments except linear");
     if (has_axis(plan, "uplink_rate") &&
         !takes(plan, "counterpart", static_cast<double>(Counterpart::server)))
-      throw tools::UsageError("--sweep: uplink_rate is of servers; leave counterpart=hand out");
+      throw tools::UsageError("--sweep: uplink_rate needs a server; remove counterpart=hand");
   }
   if (takes(plan, "operator", kRecordedOperator) && !plan.base.recorded)
-    throw tools::UsageError("--sweep: operator=trace needs the recording; name it by --hand");
+    throw tools::UsageError("--sweep: operator=trace needs a recording; add --hand");
 }
 
 }  // namespace
@@ -157,21 +157,21 @@ void check(const StabilityPlan& plan) {
   check_axes(plan);
   if (plan.runs() > kMostRuns)
     throw tools::UsageError(
-        fmt::format("--sweep: {} cells or more in {} modes; {} runs are the most", plan.cells(),
-                    plan.modes.size(), kMostRuns));
+        fmt::format("--sweep: {} or more cells in {} modes; reduce them to at most {} runs",
+                    plan.cells(), plan.modes.size(), kMostRuns));
   // simulate() refuses an impossible run at once, so the shortest run is enough for this check.
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
     CouplingRun run = plan.setting(cell).run;
     run.mode = plan.modes.front();
     if (run.duration > kMostCouplingSamples * run.device.period)
-      throw tools::UsageError(fmt::format(
-          "--for: {} samples in a run; {} are the most: take less time or a lower device.rate",
-          std::ceil(run.duration / run.device.period), kMostCouplingSamples));
+      throw tools::UsageError(
+          fmt::format("--for: {} samples in a run exceed {}: shorten it, or lower device.rate",
+                      std::ceil(run.duration / run.device.period), kMostCouplingSamples));
     run.duration = run.device.period;
     try {
       static_cast<void>(simulate(run));
     } catch (const std::invalid_argument& error) {
-      throw tools::UsageError(fmt::format("--sweep: a cell cannot be run: {}", error.what()));
+      throw tools::UsageError(fmt::format("--sweep: a cell is invalid: {}", error.what()));
     }
   }
 }

@@ -23,7 +23,7 @@ StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& pl
   for (std::size_t i = 0; i < journal.found().size(); ++i) {
     const auto row = read_stability_row(plan, journal.found()[i]);
     if (!row)
-      throw tools::UsageError(fmt::format("{}:{}: is no result of this study; name a new file",
+      throw tools::UsageError(fmt::format("{}:{}: not a result of this study; write a new file",
                                           path,
                                           i + 3));  // after two header lines
     results[row->first] = row->second;
@@ -50,8 +50,8 @@ std::string stop_note(const StabilityWords& words, const StabilityResults& resul
   return fmt::format("stopped after {} of {}; {}\n",
                      tools::counted(static_cast<std::size_t>(done), "run"), results.size(),
                      words.csv.empty()
-                         ? "with --csv FILE the next time could go on from here"
-                         : fmt::format("the same command goes on from {}", words.csv));
+                         ? "with --csv FILE, the next run could continue from here"
+                         : fmt::format("the same command continues from {}", words.csv));
 }
 
 class StabilityStudy final : public Study {

@@ -148,8 +148,8 @@ std::vector<StabilitySummary> summaries_of(const StabilityReport& report) {
 
 std::string_view gate_warning(const StabilityPlan& plan) {
   return plan.gate ? ""
-                   : "THE GATE IS OFF in this study: the mode reckon holds whatever is wanted and "
-                     "may make energy. No device but a simulated one runs so.";
+                   : "THE GATE IS OFF in this study: the mode reckon holds any requested force and "
+                     "may generate energy. Only simulated devices run like this.";
 }
 
 std::string stability_text(const StabilityReport& report) {
@@ -162,12 +162,11 @@ std::string stability_text(const StabilityReport& report) {
                  tools::counted(report.plan.modes.size(), "mode"),
                  table_of(summaries_of(report), fields_in(report.plan)));
   out += fmt::format(
-      "\nRIGHT: no energy made, at rest where it should be, force off by {:g} % at most (rms, of "
-      "the right\nforce's). MAKES ENERGY: more than 1 nJ that nobody put in. RUNS AWAY: beyond 10 "
-      "m or 1 MN. NO REST:\nmoves on at more than {:g} m/s under a constant push against what "
-      "stands still (- where no cell is so).\nFORCE OFF: by more than that, of those that did not "
-      "run away. KEPT: share of the stiffness, median.\nWORST: energy, of those that did not run "
-      "away.\n",
+      "\nRIGHT: no energy generated, at rest when expected, force error at most {:g} % (rms, of "
+      "the correct\nforce). MAKES ENERGY: more than 1 nJ generated. RUNS AWAY: beyond 10 m or 1 "
+      "MN. NO REST: moves at more\nthan {:g} m/s under a constant push against a fixed environment "
+      "(-: not applicable). FORCE OFF: by more\nthan that, of runs that did not run away. KEPT: "
+      "share of the stiffness, median. WORST: energy, of runs\nthat did not run away.\n",
       100 * kWrong, kRest);
   return out;
 }

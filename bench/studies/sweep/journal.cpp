@@ -29,13 +29,13 @@ std::vector<std::string_view> options_of(std::string_view text) {
 std::string difference(std::string_view there, std::string_view ours) {
   const auto old = options_of(there), now = options_of(ours);
   const auto [a, b] = std::ranges::mismatch(old, now);
-  return fmt::format("it has {}, this one {}", a == old.end() ? "no more" : *a,
+  return fmt::format("it has {}, this study {}", a == old.end() ? "no more" : *a,
                      b == now.end() ? "no more" : *b);
 }
 
 [[noreturn]] void cannot_write(const std::string& path) {
   throw tools::UsageError(
-      fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+      fmt::format("{}: cannot be written; name a file in a writable folder", path));
 }
 
 }  // namespace
@@ -71,17 +71,17 @@ void SweepJournal::read() {
   const std::string_view study = std::string_view(header_).substr(0, header_.find(": ") + 2);
   if (lines.empty() || !lines[0].starts_with(study))
     throw tools::UsageError(
-        fmt::format("{}: holds something else than this study; name a new file", path_));
+        fmt::format("{}: does not contain this study; write a new file", path_));
   if (lines[0] != header_)
     throw tools::UsageError(
-        fmt::format("{}: holds the study of other options: {}; name a new file, or give the "
-                    "options of that one to go on",
+        fmt::format("{}: contains the study with other options: {}; write a new file, or use its "
+                    "options to continue",
                     path_,
                     difference(std::string_view(lines[0]).substr(study.size()),
                                std::string_view(header_).substr(study.size()))));
   if (lines[1] != columns_)
     throw tools::UsageError(
-        fmt::format("{}: has the columns of another version; name a new file", path_));
+        fmt::format("{}: has the columns of another version; write a new file", path_));
   std::filesystem::resize_file(path_, whole);
   found_.assign(lines.begin() + 2, lines.end());
   file_.reset(std::fopen(path_.c_str(), "ab"));
@@ -99,7 +99,7 @@ void SweepJournal::append(const std::string& line) {
   // Flushed line by line: a killed program leaves complete lines and at most one partial line.
   fmt::print(file_.get(), "{}\n", line);
   if (std::fflush(file_.get()) != 0)
-    throw tools::UsageError(fmt::format("{}: takes no more; is the disk full?", path_));
+    throw tools::UsageError(fmt::format("{}: cannot be extended; is the disk full?", path_));
 }
 
 void SweepJournal::finish(const std::vector<std::string>& lines) {
@@ -111,7 +111,8 @@ void SweepJournal::finish(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) file << line << '\n';
   file.close();
   if (!file)
-    throw tools::UsageError(fmt::format("{}: could not be written whole; is the disk full?", next));
+    throw tools::UsageError(
+        fmt::format("{}: could not be written completely; is the disk full?", next));
   std::filesystem::rename(next, path_);
 }
 

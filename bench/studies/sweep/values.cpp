@@ -60,14 +60,14 @@ Part part_of(std::string_view text, std::string_view where) {
   if (error != std::errc() || end != count.data() + count.size() || part.count < 2 ||
       part.count > kMostValues)
     refuse(where, count,
-           fmt::format("is no number of values from 2 to {}, as in 0..1/5", kMostValues));
+           fmt::format("is not a count from 2 to {}; write for example 0..1/5", kMostValues));
   part.last = trimmed(part.last.substr(0, slash));
   return part;
 }
 
 double value_of(std::string_view text, std::string_view unit_if_none, const ValueRule& rule,
                 std::string_view where) {
-  if (text.empty()) refuse(where, text, "says no value; write A..B/N or A,B,C");
+  if (text.empty()) refuse(where, text, "has no value; write A..B/N or A,B,C");
   std::string whole(text);
   if (is_number(text) && !unit_if_none.empty()) whole += fmt::format(" {}", unit_if_none);
   const peer::Quantity quantity = peer::parse_quantity(whole, rule.unit);
@@ -121,10 +121,10 @@ std::vector<double> read_values(std::string_view text, const ValueRule& rule,
   std::reverse(values.begin(), values.end());
   if (values.size() > kMostValues)
     throw tools::UsageError(
-        fmt::format("{}: {} values; give {} at most", where, values.size(), kMostValues));
+        fmt::format("{}: {} values; write at most {}", where, values.size(), kMostValues));
   for (auto value = values.begin(); value != values.end(); ++value)
     if (std::find(values.begin(), value, *value) != value)
-      refuse(where, format_quantity(*value, rule.unit), "is given twice; give each value once");
+      refuse(where, format_quantity(*value, rule.unit), "is given twice; write each value once");
   return values;
 }
 

@@ -46,13 +46,13 @@ TouchSetting setting_of(double cell, double radius, std::uint64_t seed) {
 TouchCase cell_case(std::uint64_t seed) {
   TouchCase made;
   made.truth =
-      "two hands of 20 mm and 300 N/m that sweep into each other and past, 5 ms of delay: 300 N/m "
-      "x the true overlap at that instant";
+      "two hands of 20 mm and 300 N/m that sweep through each other, 5 ms of delay: 300 N/m x the "
+      "true overlap at that instant";
   made.remark =
-      "The first row hears all: its error is that of prediction and delay. Hands touch at 40 mm. A "
-      "peer joins every cell that it can sense, so small cells cost groups and lose nothing; "
-      "sensing less than the touch is what loses force. NS: median of whole servo steps, some 400 "
-      "ns of them the simulated device; those that hear the same differ by chance.";
+      "The first row receives all updates: its error is prediction and delay. Hands touch at 40 "
+      "mm. A peer joins every cell within its radius, so small cells cost groups and lose nothing; "
+      "a radius below the distance of touch loses force. NS: median of complete servo steps, about "
+      "400 ns of them for the simulated device; rows that receive the same differ by chance.";
   struct Choice {
     double cell, radius;
   };

@@ -39,7 +39,7 @@ class TemporaryFile {
     std::string name = (std::filesystem::temp_directory_path() / "reckon-slab-XXXXXX.obj").string();
     const int file = mkstemps(name.data(), 4);
     if (file < 0)
-      throw tools::EnvironmentError(name + ": cannot be made; set TMPDIR to a folder of yours");
+      throw tools::EnvironmentError(name + ": cannot be created; set TMPDIR to a writable folder");
     close(file);
     path_ = name;
     std::ofstream(path_) << text;
@@ -241,9 +241,9 @@ TouchCase effects_case(std::uint64_t seed) {
       "tremor: the servo with all effects",
       kHard, kSoft);
   made.remark =
-      "An error is what the hand misses without the effect. The limit of rate is always there; its "
-      "default, what the stiffest surface gives at 1 m/s, is not reached here. NS: whole servo "
-      "steps, with a device that plays back.";
+      "The error is the force that is missing without the effect. The rate limit is always active; "
+      "its default, the rate of the stiffest surface at 1 m/s, is not reached here. NS: complete "
+      "servo steps, with a device that plays back.";
   for (const auto& [name, declared, rate] : choices) {
     const auto plan = std::make_shared<const haptics::EffectPlan>(plan_of(file.path(), declared));
     TouchSetting setting{name, {}, {}};

@@ -163,12 +163,12 @@ TouchCase integrator_case(std::uint64_t seed) {
   const double phase = phase_of(seed, 1);
   TouchCase made;
   made.truth = fmt::format(
-      "tool of {} kg, {} N s/m, that a hand of {} N/m swings at 3 Hz in a wall of {} N/m: "
+      "tool of {0} kg, {1} N s/m, moved at 3 Hz in a wall of {3} N/m by a hand of {2} N/m: "
       "continuous time, matrix exponential",
       kMass, kDamping, kHand, kWall);
   made.remark =
-      "All sample the hand at the begin of a step. Held wall: its force is held over the step, as "
-      "a device holds what the servo wrote. Below 1 kHz the force between two steps is the last "
+      "All sample the hand at the start of a step. Held wall: its force is held over the step, as "
+      "a device holds the force of the servo. Below 1 kHz, the force between two steps is the last "
       "one.";
   made.force = truth(phase);
   const Targets targets = targets_of(phase);

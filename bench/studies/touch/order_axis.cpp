@@ -130,7 +130,7 @@ TouchCase order_case(std::uint64_t seed) {
   made.truth = fmt::format(
       "sheet of {0} x {0} masses through {1} N/m, pressed to 3.3 mm at 2 and 12 Hz: all {2} states",
       kSide, kContact, 2 * body.size());
-  made.remark = "The probe is held over each millisecond for all, so that the order alone differs.";
+  made.remark = "The probe is held over each millisecond for all, so only the order differs.";
   for (const int modes : {0, 1, 2, 4, 8, 12, 16}) {
     const StateSpace model = force_of_displacement(reduction.model(modes), kContact);
     made.settings.push_back(

@@ -111,10 +111,9 @@ TouchCase precision_case(std::uint64_t seed) {
       fmt::format("torus of {} and {} mm, {} N/m, stroked {} mm deep without friction: closed form",
                   1e3 * kRing, 1e3 * kTube, kStiffness, 1e3 * kDepth);
   made.remark =
-      "Triangles have their corners on the torus; what is off is mostly the direction, as facets "
-      "are flat. Searches: nearest point of the finest mesh, sought anew each step and ended where "
-      "no other can be nearer by more than is said: so near is its distance, but not its "
-      "direction.";
+      "Triangles have their corners on the torus; the error is mostly in the direction, because "
+      "facets are flat. Searches: nearest point of the finest mesh, searched in each step to the "
+      "stated distance: the tolerance applies to the distance, not to the direction.";
   for (const Place& place : *places) made.force.push_back(kStiffness * kDepth * place.outward);
   std::shared_ptr<const SurfaceMesh> finest;
   for (const std::uint32_t across : {8U, 16U, 32U, 64U, 128U, 256U}) {

@@ -120,19 +120,18 @@ TouchCase quantisation_case(std::uint64_t seed) {
   const double phase = phase_of(seed, 1);
   TouchCase made;
   made.truth = fmt::format(
-      "a hand of {} N/m that swings in a probe at 2 Hz, 1 to 7 mm deep, an update (DRM 4) each {} "
-      "ms: all in double",
+      "a hand of {} N/m that oscillates in a probe at 2 Hz, 1 to 7 mm deep, an update (DRM 4) "
+      "every {} ms: all in double",
       kStiffness, kUpdate);
-  made.remark = "Location: float64 and geocentric on the wire; the last two rows say why.";
+  made.remark = "Location: float64 and geocentric on the wire; the last two rows show the reason.";
   struct Choice {
     std::string_view name;
     Round round;
   };
   for (const auto& [name, round] :
        {Choice{"double", as_it_is}, Choice{"as on the wire", as_on_the_wire},
-        Choice{"fields of the wire alone", with_wire_fields},
-        Choice{"times to 1.68 us alone", with_wire_time},
-        Choice{"times to 1 ms", with_milliseconds},
+        Choice{"fields of the wire only", with_wire_fields},
+        Choice{"times to 1.68 us only", with_wire_time}, Choice{"times to 1 ms", with_milliseconds},
         Choice{"location float32, local", with_float_location},
         Choice{"location float32, geocentric", with_float_geocentric}}) {
     TouchSetting setting{std::string(name), {}, {}};

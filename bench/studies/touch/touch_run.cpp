@@ -25,9 +25,9 @@ namespace {
 constexpr std::string_view kLegend =
     "Errors in mN against the truth of the axis. FELT: share of the time with an error that a "
     "person may notice, above 10 % of the force and 50 mN; ! above 1 %. NS: one millisecond of "
-    "touch, a servo step at 1 kHz; median of blocks that took turns, then 10 and 90 % of them. OF "
-    "1 ms: share of the servo's time. <: another row of the axis takes no more time and errs no "
-    "more; =: the same as another.";
+    "touch, a servo step at 1 kHz; median of interleaved blocks, then their 10 and 90 % quantiles. "
+    "OF 1 ms: share of the servo's time. <: another row of the axis is no slower and no less "
+    "accurate; =: equal to another.";
 
 // Sizes of the picture and of the area inside the axes.
 constexpr double kWidth = 760, kHeight = 470;
@@ -201,7 +201,7 @@ void append_limits(std::string& out, const Axes& axes) {
   tools::append_svg_text(out, limit - 5, kTop + 14, " text-anchor=\"end\"", "1 ms, a servo step");
   tools::append_svg_line(out, "l", kLeft, felt, kRight, felt);
   tools::append_svg_text(out, std::min(limit, kRight) - 12, felt - 5, " text-anchor=\"end\"",
-                         "50 mN, the least force that is felt");
+                         "50 mN, the least noticeable force");
 }
 
 void append_marks(std::string& out, const TouchResult& result, const Axes& axes) {
@@ -233,9 +233,9 @@ void append_legend(std::string& out, std::span<const TouchResult> results) {
 std::string touch_svg(std::span<const TouchResult> results) {
   const Axes axes = axes_of(results);
   std::string inside(kStyle);
-  tools::append_svg_text(inside, kLeft, 24, " class=\"t\"",
-                         results.size() == 1 ? results.front().meaning
-                                             : "What accuracy of a force costs in the servo");
+  tools::append_svg_text(
+      inside, kLeft, 24, " class=\"t\"",
+      results.size() == 1 ? results.front().meaning : "Cost of force accuracy in the servo");
   append_log_grid(inside, {axes.time, "time for one millisecond of touch", time_tick},
                   {axes.error, "error of the force, 99 % below", force_tick});
   append_limits(inside, axes);
@@ -256,12 +256,12 @@ void append_result(std::string& out, const TouchResult& result) {
 
 std::string touch_page(const TouchReport& report) {
   std::string out = fmt::format(
-      "<p>What a servo step computes, how far the force is from the truth of each axis, and what "
-      "it takes.</p>\n<dl>\n<dt>command</dt><dd><code>{}</code></dd>\n<dt>ns</dt><dd>{}; one "
-      "millisecond of touch, a servo step at 1 kHz; median of blocks that took "
-      "turns</dd>\n<dt>felt</dt><dd>share of the time with an error above 10 % of the force and 50 "
-      "mN</dd>\n</dl>\n<p class=\"note\">In full colour: no other setting of the axis takes no "
-      "more time and errs no more. Errors below 1 uN lie on the axis.</p>\n{}",
+      "<p>Servo step, error of its force against the truth of each axis, and its "
+      "duration.</p>\n<dl>\n<dt>command</dt><dd><code>{}</code></dd>\n<dt>ns</dt><dd>{}; one "
+      "millisecond of touch, a servo step at 1 kHz; median of interleaved "
+      "blocks</dd>\n<dt>felt</dt><dd>share of the time with an error above 10 % of the force and "
+      "50 mN</dd>\n</dl>\n<p class=\"note\">In full colour: no other setting of the axis is as "
+      "fast and as accurate. Errors below 1 uN lie on the axis.</p>\n{}",
       html_escaped(report.command), html_escaped(report.processor), touch_svg(report.results));
   for (const TouchResult& result : report.results) append_result(out, result);
   out += "<h2>left out</h2>\n<dl>\n";

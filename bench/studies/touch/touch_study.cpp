@@ -29,18 +29,18 @@ constexpr std::array kAxes{
     TouchAxis{"precision", "precision of the contact with a curved surface", precision_case},
     TouchAxis{"integrator", "integrator and rate of a simulated tool at a wall", integrator_case},
     TouchAxis{"effects", "effects of the plan, each on and off", effects_case},
-    TouchAxis{"cell", "cells of the area of interest and how far a peer senses", cell_case},
-    TouchAxis{"quantisation", "numbers and times as the wire rounds them", quantisation_case},
+    TouchAxis{"cell", "cells and radius of the area of interest", cell_case},
+    TouchAxis{"quantisation", "numbers and times as rounded on the wire", quantisation_case},
 };
 
 constexpr std::array kLeftOut{
-    LeftOutAxis{"graphics rate", "no force is computed from what is drawn"},
-    LeftOutAxis{"mesh repair",
-                "welding and turning triangles changes the surface itself: there is no truth to "
-                "compare it with"},
-    LeftOutAxis{"energy port",
-                "what it holds back depends on what the hand does with it; see --force, and how "
-                "stiff a device may show things"},
+    LeftOutAxis{"graphics rate", "no force is computed from drawn poses"},
+    LeftOutAxis{
+        "mesh repair",
+        "welding and orienting triangles changes the surface itself: there is no truth to compare"},
+    LeftOutAxis{
+        "energy port",
+        "its limit depends on the hand's motion; see --force, and the stiffness limits of devices"},
     LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
 };
 

@@ -346,7 +346,7 @@ constexpr std::array kMotions{
     Motion{"corners", "10 m/s, turns of 54 to 90 degrees within half a second", kWalker, corners},
     Motion{"aircraft", "figure of eight at 140 to 200 m/s, climbing, banked up to 63 degrees",
            kVehicle, aircraft},
-    Motion{"hover", "at rest, with noise on the rates that are told", kWalker, hover},
+    Motion{"hover", "at rest, with noise on the sent rates", kWalker, hover},
     Motion{"hand", "reaches of 10 cm at up to 1 m/s, with pauses", kHand, hand},
     Motion{"jump", "5 m/s, moved by 50 m at once every 7 s", kVehicle, jump},
     Motion{"bounce", "a ball thrown at 3 to 7 m/s, bouncing; rates from its samples", kWalker,

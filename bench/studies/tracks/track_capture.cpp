@@ -83,9 +83,8 @@ class StateCollector {
       return;
     }
     if (++updates_ > TrackBuilder::kMostSamples)
-      throw tools::UsageError(
-          fmt::format("more than {} Entity States; `reckon cut` makes a part of it",
-                      TrackBuilder::kMostSamples));
+      throw tools::UsageError(fmt::format(
+          "more than {} Entity States; cut a part with `reckon cut`", TrackBuilder::kMostSamples));
     state.position -= origin_;
     add(pdu, state, pdu::to_seconds(tools::bounded_time(row.time) - start_));
   }
@@ -105,11 +104,12 @@ class StateCollector {
     std::size_t captured = 0;
     for (const auto& [key, entity] : entities_) captured += !stamps_run(entity.updates);
     std::string note =
-        "Recorded traffic is motion as it was told: what an entity did between two updates is not "
-        "in the file. Savings are those against sending the recorded updates again.";
+        "Recorded traffic contains only sent updates, not the motion between them. Savings are "
+        "against sending the recorded updates again.";
     if (captured > 0)
       note += fmt::format(
-          " The timestamps of {} of {} do not run with the capture: its arrival times are taken.",
+          " The timestamps of {} of {} do not advance with the capture: its arrival times are "
+          "used.",
           captured,
           entities_.size() == 1 ? "1 entity" : fmt::format("{} entities", entities_.size()));
     if (refused_ > 0)
@@ -162,9 +162,9 @@ TrackFile read_track_capture(const std::filesystem::path& path) {
   file.name = path.filename().string();
   file.tracks = builder.finish();
   if (file.tracks.empty())
-    throw tools::UsageError(fmt::format(
-        "{}: no Entity State in it, so nothing moves; `reckon info {}` says what it holds",
-        path.string(), path.string()));
+    throw tools::UsageError(
+        fmt::format("{}: no Entity State, so nothing moves; `reckon info {}` shows its contents",
+                    path.string(), path.string()));
   file.note = collector.note();
   file.has_orientation = true;
   file.is_capture = true;

@@ -73,7 +73,7 @@ struct Columns {
                                    std::string_view what) {
     std::vector<std::string_view> words(csv.columns().begin(), csv.columns().end());
     const std::string_view nearest = peer::nearest_word(name, words);
-    csv.fail(0, fmt::format("the first line names no column {}; add {}{}", name, what,
+    csv.fail(0, fmt::format("the first line has no column {}; add {}{}", name, what,
                             nearest.empty() ? "" : fmt::format(" (it has '{}')", nearest)));
   }
 };
@@ -112,7 +112,7 @@ class RowReader {
     motion.position = {csv_.required(*places[0]), csv_.required(*places[1]),
                        or_zero(csv_, places[2])};
     if (motion.position.cwiseAbs().maxCoeff() > kFarthest)
-      csv_.fail(*places[0], "the position is beyond 1e9 m; give metres from an origin nearby");
+      csv_.fail(*places[0], "the position is beyond 1e9 m; use metres from a nearby origin");
   }
 
   void read_geodetic(MotionSample& motion) {
@@ -196,10 +196,10 @@ class RowReader {
 std::string note_of(const TrackBuilder& builder) {
   std::string note;
   if (builder.repeated() > 0)
-    note += fmt::format("{} dropped for a later one of the same id and time. ",
+    note += fmt::format("{} dropped, because a later one has the same id and time. ",
                         tools::counted(builder.repeated(), "row"));
   if (builder.disordered() > 0)
-    note += fmt::format("{} behind a later one of the same id: sorted by time. ",
+    note += fmt::format("{} after a later one of the same id: sorted by time. ",
                         tools::counted(builder.disordered(), "row"));
   if (!note.empty()) note.pop_back();
   return note;
@@ -219,7 +219,7 @@ TrackFile read_track_table(const std::filesystem::path& path) {
   file.name = path.filename().string();
   file.tracks = builder.finish();
   if (file.tracks.empty())
-    throw tools::UsageError(fmt::format("{}: no rows behind the header", path.string()));
+    throw tools::UsageError(fmt::format("{}: no rows after the header", path.string()));
   file.note = note_of(builder);
   file.has_orientation = rows.has_orientation();
   return file;

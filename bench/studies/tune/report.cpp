@@ -77,8 +77,8 @@ void append_head(std::string& out, const TuneReport& report) {
   const bool often = report.options.heartbeat <= 2 * summary.interval && summary.interval > 0;
   if (often)
     out += fmt::format(
-        "The heartbeat of {} is due at nearly every sample, so that thresholds decide little; a "
-        "longer --heartbeat shows what they would.\n",
+        "The heartbeat of {} is due at nearly every sample, so thresholds have little effect; "
+        "write a longer --heartbeat to see it.\n",
         peer::format_quantity(report.options.heartbeat, "s"));
   out += '\n';
 }
@@ -167,10 +167,10 @@ void append_table(std::string& out, const TuneReport& report, bool all) {
   out += table_of(rows, [&](const MarkedRow& of) { return fields_of(of, unit, angle); });
   out +=
       "\n* on the front: no other setting has fewer packets and less p99 error. each: every sample "
-      "sent and\nheld. DIS: DRM 4 (rvw) with 1 m. Packets are those of all entities, octets with "
-      "UDP and IPv4.\n";
+      "sent and\nheld. DIS: DRM 4 (rvw) with 1 m. Packets of all entities, octets with UDP and "
+      "IPv4.\n";
   for (const auto& [twin, model] : report.table.twins)
-    out += fmt::format("{} sends what {} sends.\n", twin, model);
+    out += fmt::format("{} sends the same as {}.\n", twin, model);
   out += "\n";
 }
 
@@ -181,17 +181,17 @@ void append_advice(std::string& out, const TuneReport& report) {
     return;
   }
   const TuneRow& row = *report.advice.row;
-  out += fmt::format("Take {} with {}, {}: {} packets/s, {} kB/s, p99 error {}.\n", row.model,
+  out += fmt::format("Use {} with {}, {}: {} packets/s, {} kB/s, p99 error {}.\n", row.model,
                      metres(row.threshold), report.advice.why, short_number(row.packets_per_s),
                      short_number(row.octets_per_s / 1000), length_text(row.error()));
   out += fmt::format(
-      "Its packets are {} those of sending every sample, and {} those of DRM 4 with 1 m, whose p99 "
+      "It sends {} the packets of every sample, and {} the packets of DRM 4 with 1 m, whose p99 "
       "error is {}.\n",
       against(row, table.every_sample), against(row, table.common),
       length_text(table.common.error()));
   if (!table.matched || table.matched->threshold > kWidestMatch) return;
   out += fmt::format(
-      "At the p99 error of DRM 4 with 1 m: {} with {} sends {} packets/s, {} of what that sends.\n",
+      "At the p99 error of DRM 4 with 1 m: {} with {} sends {} packets/s, {} of its packets.\n",
       table.matched->model, length_text(table.matched->threshold),
       short_number(table.matched->packets_per_s), against(*table.matched, table.common));
 }
@@ -332,7 +332,7 @@ std::string force_text(std::span<const ForceRow> rows, bool contact) {
          (contact
               ? "\nAll packets of both peers, against an Entity State and an Attribute PDU each "
                 "millisecond of each.\nError: force between the hands after the gate, against the "
-                "owner's own model there. FOR FORCE: updates\nthat the force asked for.\n"
+                "owner's own model there. FOR FORCE: updates\ndue to the force.\n"
               : "\nOUTSIDE: samples where receivers were off by more than the deadband. Raw: each "
                 "sample sent.\n");
 }

@@ -46,7 +46,7 @@ constexpr std::size_t kMostThresholds = 100;
 constexpr std::array kWebers{0.05, 0.1, 0.2};
 
 constexpr const char* kNothingDrawn =
-    "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out";
+    "--seed: this run has no randomness; add --jitter or --loss, or remove --seed";
 
 /// The subject, one bit of the flags each: motion, a force signal, the hands of a scene in contact.
 constexpr unsigned kMotion = 1, kSignal = 2, kContact = 4;
@@ -83,7 +83,7 @@ double quantity_of(std::string_view flag, std::string_view text, std::string_vie
   if (!quantity.good())
     throw tools::UsageError(fmt::format("{} {}: {}", flag, text, quantity.error));
   if (!(quantity.value >= least && quantity.value <= most))
-    throw tools::UsageError(fmt::format("{} {}: out of range; give {} to {}", flag, text,
+    throw tools::UsageError(fmt::format("{} {}: out of range; write {} to {}", flag, text,
                                         peer::format_quantity(least, unit),
                                         peer::format_quantity(most, unit)));
   return quantity.value;
@@ -99,7 +99,7 @@ std::vector<PoseModel> models_of(const TuneWords& words) {
     if (found == names.end()) {
       const std::string_view nearest = peer::nearest_word(word, names);
       throw tools::UsageError(
-          fmt::format("--models {}: there is no such model{}; give some of {}", word,
+          fmt::format("--models {}: there is no such model{}; write some of {}", word,
                       nearest.empty() ? "" : fmt::format(", did you mean '{}'", nearest),
                       fmt::join(names, ",")));
     }
@@ -126,14 +126,15 @@ std::vector<double> thresholds_of(const TuneWords& words, const TuneGoal& goal, 
   const auto same = [](double a, double b) { return b <= a * (1 + 1e-9); };
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end(), same), thresholds.end());
   if (thresholds.size() > kMostThresholds)
-    throw tools::UsageError(fmt::format("--thresholds: more than {}; give fewer", kMostThresholds));
+    throw tools::UsageError(
+        fmt::format("--thresholds: more than {}; write fewer", kMostThresholds));
   return thresholds;
 }
 
 TuneGoal goal_of(const TuneWords& words) {
   TuneGoal goal;
   if (!words.error.empty() && !words.budget.empty())
-    throw tools::UsageError("--error and --budget are two goals; give one of them");
+    throw tools::UsageError("--error and --budget are two goals; remove one of them");
   if (!words.error.empty()) goal.error = quantity_of("--error", words.error, "m", 1e-6, 1e5, 0);
   if (words.budget.empty()) return goal;
   constexpr std::string_view kSecond = "/s";
@@ -147,7 +148,8 @@ TuneGoal goal_of(const TuneWords& words) {
     goal.packets_per_s = static_cast<double>(*octets) / kUpdateOctets;
   } else {
     throw tools::UsageError(
-        fmt::format("--budget {}: no rate; give octets a second as in 10kB/s, or packets as in 40",
+        fmt::format("--budget {}: not a rate; write octets a second, for example 10kB/s, or "
+                    "packets, for example 40",
                     words.budget));
   }
   return goal;
@@ -164,7 +166,7 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
                               has_orientation ? kThreeDegrees : kPi);
   options.heartbeat = pdu::to_seconds(words.heartbeat);
   if (!(options.heartbeat >= 0.1))
-    throw tools::UsageError("--heartbeat is too short; give 100ms or more");
+    throw tools::UsageError("--heartbeat is too short; write 100ms or more");
   options.network.law = peer::delayed_by(words.delay ? pdu::to_seconds(*words.delay) : 0,
                                          quantity_of("--jitter", words.jitter, "", 0, 1, 0),
                                          quantity_of("--loss", words.loss, "", 0, 0.99, 0));
@@ -182,45 +184,45 @@ Advice advice_of(const TuneTable& table, const TuneGoal& goal) {
       return {found, fmt::format("the cheapest whose p99 error is within {:g} m", *goal.error)};
     const TuneRow* best = row(best_within(table.rows, std::numeric_limits<double>::infinity()));
     return {nullptr, fmt::format("No setting keeps the p99 error within {:g} m; the best is {:.3g} "
-                                 "m. Samples that follow each other more closely would help.",
+                                 "m. Record more samples a second.",
                                  *goal.error, best->error())};
   }
   if (goal.packets_per_s) {
     const TuneRow* found = row(best_within(table.rows, *goal.packets_per_s));
     if (found != nullptr)
       return {found, fmt::format("the most accurate within {:.4g} packets/s", *goal.packets_per_s)};
-    return {nullptr, fmt::format("No setting keeps within {:.4g} packets/s; give wider "
+    return {nullptr, fmt::format("No setting stays within {:.4g} packets/s; write larger "
                                  "--thresholds or a longer --heartbeat.",
                                  *goal.packets_per_s)};
   }
   if (table.knee) return {row(table.knee), "the knee of the curve"};
   const auto price = price_of_half(table.rows);
-  return {nullptr,
-          fmt::format(
-              "The curve has no knee{}. Say what you need with --error or --budget.",
-              price ? fmt::format(": all along, half the error costs some {:.2g} times the packets",
-                                  *price)
-                    : "")};
+  return {
+      nullptr,
+      fmt::format(
+          "The curve has no knee{}. Set a goal with --error or --budget.",
+          price ? fmt::format(": everywhere, half the error costs about {:.2g} times the packets",
+                              *price)
+                : "")};
 }
 
 /// Rejects flags that exclude each other. @param given as CommandLine::given()
 void check_words(const TuneWords& words, std::span<const Flag> flags,
                  std::span<const std::string> given) {
   if (words.json && words.as_csv)
-    throw tools::UsageError("--json and --csv are two formats; give one of them");
+    throw tools::UsageError("--json and --csv are two formats; remove one of them");
   check_modes(flags, words.mode(), given, [&](std::string_view flag) {
     const unsigned modes = std::ranges::find(flags, flag, &Flag::name)->modes;
-    return fmt::format(
-        "{} is for {}", flag,
-        !words.force       ? "forces; add --force"
-        : modes == kMotion ? "motion; leave it out with --force"
-        : words.mode() == kContact
-            ? "a recorded force; leave it out with a scene"
-            : "motion and for hands of a scene; leave it out with --force and a table");
+    return fmt::format("{} is for {}", flag,
+                       !words.force       ? "forces; add --force"
+                       : modes == kMotion ? "motion; remove it with --force"
+                       : words.mode() == kContact
+                           ? "a recorded force; remove it with a scene"
+                           : "motion and for hands of a scene; remove it with --force and a table");
   });
   if (words.all && (words.json || words.as_csv))
     throw tools::UsageError(
-        "--all is for the table; --json and --csv have every row: leave --all out");
+        "--all is for the table; --json and --csv have every row: remove --all");
   if (!words.jitter.empty() && (!words.delay || words.delay->count() == 0))
     throw tools::UsageError(
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
@@ -246,7 +248,7 @@ std::vector<ForceRow> contact_rows(const TuneWords& words) {
   tools::SceneOptions options;
   options.scene = words.file;
   const double seconds = pdu::to_seconds(words.span());
-  if (!(seconds >= 1 && seconds <= 3600)) throw tools::UsageError("--for: give 1s to 1h");
+  if (!(seconds >= 1 && seconds <= 3600)) throw tools::UsageError("--for: write 1s to 1h");
   peer::SceneFile scene = tools::load_scene(options, "two_hands.toml", 2);
   impair(words, scene.impairment);
   return force_model_rows(scene, kForceThresholds, seconds);
@@ -255,7 +257,7 @@ std::vector<ForceRow> contact_rows(const TuneWords& words) {
 std::vector<ForceRow> signal_rows(const TuneWords& words) {
   const auto list = list_of(words.columns);
   const std::vector<std::string> columns(list.begin(), list.end());
-  if (columns.size() > 3) throw tools::UsageError("--columns: more than three; give one to three");
+  if (columns.size() > 3) throw tools::UsageError("--columns: more than three; write one to three");
   const double floor =
       quantity_of("--floor", words.floor, columns.empty() ? "N" : "", 0, 1e9, 0.05);
   return force_signal_rows(read_force_signal(words.file, columns), kWebers, floor);
@@ -315,12 +317,12 @@ class TuneStudy final : public Study {
     if (words_.seed && words_.jitter.empty() && words_.loss.empty())
       throw tools::UsageError(kNothingDrawn);
     if (words_.file.empty())
-      throw tools::UsageError("which FILE? Name a CSV table of motion or a capture");
+      throw tools::UsageError("write a FILE: a CSV table of motion, or a capture");
     const TrackFile file = read_track_file(words_.file);
     const TrackSummary summary = summary_of(file.tracks);
     if (!(summary.interval > 0))
       throw tools::UsageError(
-          fmt::format("{}: no entity has two samples, so nothing can be foretold", words_.file));
+          fmt::format("{}: no entity has two samples, so no motion can be predicted", words_.file));
     const TuneOptions options = options_of(words_, goal, summary.step, file.has_orientation);
     StudyWatch watch(console);
     const TuneTable table = tune(file.tracks, options, watch.of("settings"));
@@ -345,8 +347,8 @@ class TuneStudy final : public Study {
     if (!contact || std::ranges::any_of(rows, &ForceRow::samples)) return output;
     output.code = tools::ExitCode::findings;
     output.note =
-        "the hands never touched, so there is no error to tell; give a longer --for, a shorter "
-        "--delay, or operators whose ways meet\n";
+        "the hands never touched, so there is no error; write a longer --for, a shorter --delay, "
+        "or operators with crossing paths\n";
     return output;
   }
 

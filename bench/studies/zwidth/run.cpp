@@ -103,7 +103,7 @@ auto zwidth_fields(const ZWidthDevice& device) {
 
 std::string stiff_wall_text(const ZWidthDevice& device) {
   return fmt::format(
-      "A wall of {} needs a device with more than {:.4g} N s/m; this one has {:.4g}.",
+      "A wall of {} needs a device with more than {:.4g} N s/m; this device has {:.4g}.",
       format_quantity(kStiffWall, "N/m"),
       spring_damping(kStiffWall, device.period, device.delay_samples), device.damping);
 }
@@ -115,7 +115,7 @@ std::string agreement_text(const ZWidthReport& report) {
 }
 
 std::string title_of(const ZWidthReport& report) {
-  return report.subject.empty() ? "Stiffness and damping that a device can show"
+  return report.subject.empty() ? "Stiffness and damping that a device can render"
                                 : "Stiffness and damping that " + report.subject + " can show";
 }
 
@@ -139,7 +139,7 @@ std::string zwidth_svg(const ZWidthReport& report) {
                     Curve{"energy from (measured)", &ZWidthRow::energy, true},
                     Curve{"swings from (measured)", &ZWidthRow::unstable, true},
                     Curve{"thesis (3.8): no delay", &ZWidthRow::undelayed},
-                    Curve{"shown by the servo", &ZWidthRow::shown}};
+                    Curve{"rendered by the servo", &ZWidthRow::shown}};
   tools::SvgPlot plot;
   plot.value = "stiffness of the wall [N/m]";
   plot.across = "damping of the wall [N s/m]";
@@ -149,7 +149,7 @@ std::string zwidth_svg(const ZWidthReport& report) {
     most = std::max({most, row.passive, row.energy});
   }
   plot.range = {0, most > 0 ? kShownBeyond * most : 1};
-  plot.note = device_text(report.device) + ". What lies below (3.5) is passive.";
+  plot.note = device_text(report.device) + ". Points below (3.5) are passive.";
   for (Curve& curve : curves) {
     for (const ZWidthRow& row : report.rows) {
       if (!std::isfinite(row.*curve.member)) continue;
@@ -176,7 +176,7 @@ std::string zwidth_page(const ZWidthReport& report) {
 double one_value(const std::string& text, const ValueRule& rule, std::string_view flag) {
   const std::vector<double> values = read_values(text, rule, flag);
   if (values.size() == 1) return values.front();
-  throw tools::UsageError(fmt::format("{}: '{}' is more than one value; give one", flag, text));
+  throw tools::UsageError(fmt::format("{}: '{}' is more than one value; write one", flag, text));
 }
 
 class ZWidthStudy final : public Study {
@@ -202,8 +202,7 @@ class ZWidthStudy final : public Study {
   }
 
   StudyOutput run(const StudyCall& call) override {
-    if (device_ && scene_.empty())
-      throw tools::UsageError("--device names one of a SCENE; name the scene too");
+    if (device_ && scene_.empty()) throw tools::UsageError("--device needs a SCENE; add it");
     ZWidthReport report;
     report.command = call.command;
     if (!scene_.empty()) take_device_of_scene(report);
@@ -234,12 +233,11 @@ class ZWidthStudy final : public Study {
     }
     if (all.empty())
       throw tools::UsageError(fmt::format(
-          "{}: no peer of it has a device; leave SCENE out and say what yours is by flags",
-          scene_));
+          "{}: no peer has a device; remove SCENE, and describe the device by flags", scene_));
     const std::uint64_t number = device_.value_or(1);
     if (number < 1 || number > all.size())
-      throw tools::UsageError(fmt::format("--device: {} is not from 1 to {}, which {} has", number,
-                                          all.size(), scene_));
+      throw tools::UsageError(fmt::format("--device: {} is not from 1 to {}, the devices of {}",
+                                          number, all.size(), scene_));
     const peer::DeviceConfig& chosen = all[number - 1];
     report.device.damping = chosen.damping;
     report.device.period = pdu::to_seconds(chosen.period);
@@ -260,12 +258,12 @@ class ZWidthStudy final : public Study {
     const double samples = std::ceil(delay / device.period - 1e-9);
     if (!(samples <= haptics::SimulatedDevice::kMostDelay))
       throw tools::UsageError(fmt::format(
-          "--delay: {} are {:.0f} samples at {}; {} are the most", format_quantity(delay, "s"),
+          "--delay: {} are {:.0f} samples at {}; write at most {}", format_quantity(delay, "s"),
           samples, format_quantity(1 / device.period, "Hz"), haptics::SimulatedDevice::kMostDelay));
     device.delay_samples = static_cast<int>(samples);
     if (!(device.damping > 0))
-      throw tools::UsageError(fmt::format(
-          "{}: a device without damping shows no wall; give it some by --damping", scene_));
+      throw tools::UsageError(
+          fmt::format("{}: a device without damping can render no wall; add --damping", scene_));
   }
 
   std::string scene_, mass_, damping_, rate_, walls_;

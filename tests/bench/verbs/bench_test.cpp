@@ -246,7 +246,7 @@ TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
       {{"accuracy", "--motion", "circel"}, "did you mean 'circle'?"},
       {{"accuracy", "--models", "auto,rvww"}, "did you mean 'rvw'?"},
       {{"accuracy", "--curves", "cubik"}, "did you mean 'cubic'?"},
-      {{"accuracy", "--against", "rwv"}, "write MODEL:LENGTH as in rvw:1m"},
+      {{"accuracy", "--against", "rwv"}, "write MODEL:LENGTH, for example rvw:1m"},
       {{"accuracy", "--modles", "auto"}, "did you mean '--models'?"},
   };
   for (const auto& [words, remedy] : wrong) {
@@ -261,31 +261,31 @@ TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
 
 TEST_F(BenchAccuracy, ExplainsAWrongValueAndItsRemedy) {
   const std::map<std::vector<std::string>, std::string> wrong{
-      {{"--thresholds", "0"}, "--thresholds: '0' is not above 0; write it as in 50mm"},
+      {{"--thresholds", "0"}, "--thresholds: '0' is not above 0; write for example 50mm"},
       {{"--thresholds", "1m,3s"}, "--thresholds: "},
       {{"--thresholds", "1m,"}, "--thresholds: "},
-      {{"--loss", "120%"}, "write it as in 10%"},
+      {{"--loss", "120%"}, "write for example 10%"},
       {{"--jitter", "40%"}, "write --delay 80ms --jitter 40%"},
       {{"--delay", "80"}, "as in 10s"},
-      {{"--heartbeat", "0s"}, "write it as in 5s"},
-      {{"--angle", "0"}, "write 3deg, or none"},
+      {{"--heartbeat", "0s"}, "for example 5s"},
+      {{"--angle", "0"}, "write for example 3deg, or none"},
       {{"--seeds", "0"}, "not from 1 to 1000"},
-      {{"--for", "2h"}, "at most 1 h"},
-      {{"--against", "rvw:1m"}, "name files, or motions by --motion"},
+      {{"--for", "2h"}, "to 1 h"},
+      {{"--against", "rvw:1m"}, "write files, or motions with --motion"},
       {{"--circle", "--loss", "5%"}, "--circle is a fixed case"},
       {{"--circle", "--force"}, "--circle is a fixed case"},
-      {{"--against", "rvw:1m", "--force"}, "leave --force out"},
-      {{"--force", "--motion", "hand"}, "give --pose too"},
-      {{"--force", "--pose", "--csv", "/dev/null"}, "give --pose or --force alone"},
-      {{"--force", "--for", "0.5s"}, "at least 1 s"},
+      {{"--against", "rvw:1m", "--force"}, "remove --force"},
+      {{"--force", "--motion", "hand"}, "add --pose"},
+      {{"--force", "--pose", "--csv", "/dev/null"}, "write --pose or --force alone"},
+      {{"--force", "--for", "0.5s"}, "write 1 s to 1 h"},
       {{"--force", "--contact", "tip"}, "did you mean 'tap'?"},
-      {{"--force", "--send-at", "0N"}, "write it as in 15mN,50Hz"},
-      {{"--force", "--send-at", "1kHz"}, "no rate from 20 to 500 Hz"},
-      {{"--contact", "tap"}, "give --force too"},
-      {{"--axis", "order"}, "give --touch too"},
+      {{"--force", "--send-at", "0N"}, "write for example 15mN,50Hz"},
+      {{"--force", "--send-at", "1kHz"}, "a rate from 20 to 500 Hz"},
+      {{"--contact", "tap"}, "add --force"},
+      {{"--axis", "order"}, "add --touch"},
       {{"--touch", "--axis", "ordre"}, "did you mean 'order'?"},
       {{"--touch", "--axis", "energy port"}, "energy port is left out: "},
-      {{"--touch", "--force"}, "leave --force out"},
+      {{"--touch", "--force"}, "remove --force"},
       {{"--touch", "--plot", "/no/such/folder/a.svg"}, "cannot be written"},
       {{"/no/such/file.csv"}, "/no/such/file.csv"},
   };
@@ -301,10 +301,10 @@ TEST_F(BenchAccuracy, ExplainsAWrongValueAndItsRemedy) {
 TEST_F(BenchAccuracy, RefusesArgumentsThatOtherStudiesCannotUse) {
   const auto file = run_bench({"bench", "latency", "cars.csv"});
   EXPECT_EQ(file.status, 2);
-  EXPECT_THAT(file.err, HasSubstr("reads no FILE"));
+  EXPECT_THAT(file.err, HasSubstr("takes no FILE"));
   const auto brief = run_bench({"bench", "latency", "--for", "1s"});
   EXPECT_EQ(brief.status, 2);
-  EXPECT_THAT(brief.err, HasSubstr("4s at least"));
+  EXPECT_THAT(brief.err, HasSubstr("at least 4s"));
   const auto nowhere = run_bench({"bench", "latency", "--iface", "no_such_interface"});
   EXPECT_EQ(nowhere.status, 3);
   EXPECT_THAT(nowhere.err, HasSubstr("no_such_interface"));
@@ -320,15 +320,15 @@ TEST_F(BenchAccuracy, RefusesFlagsOfTheOtherStudyByName) {
     all.insert(all.end(), words.begin(), words.end());
     const auto result = run_bench(all);
     EXPECT_EQ(result.status, 2) << words.front();
-    EXPECT_THAT(result.err, HasSubstr(words.front() + " belongs to reckon bench accuracy"));
+    EXPECT_THAT(result.err, HasSubstr(words.front() + " is a flag of reckon bench accuracy"));
     EXPECT_TRUE(result.out.empty());
   }
   const auto iface = run_bench({"bench", "accuracy", "--iface", "lo"});
   EXPECT_EQ(iface.status, 2);
-  EXPECT_THAT(iface.err, HasSubstr("--iface belongs to reckon bench latency"));
+  EXPECT_THAT(iface.err, HasSubstr("--iface is a flag of reckon bench latency"));
   const auto apart = run_bench({"bench", "accuracy", "--contact-groups"});
   EXPECT_EQ(apart.status, 2);
-  EXPECT_THAT(apart.err, HasSubstr("--contact-groups belongs to reckon bench latency"));
+  EXPECT_THAT(apart.err, HasSubstr("--contact-groups is a flag of reckon bench latency"));
 }
 
 TEST_F(BenchAccuracy, StopsOnRequest) {

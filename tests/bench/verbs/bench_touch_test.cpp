@@ -45,7 +45,7 @@ TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
     EXPECT_THAT(all.out, HasSubstr("Left out: " + std::string(axis.name)));
   EXPECT_EQ(unbalanced(content(page)), "");
   EXPECT_EQ(unbalanced(content(picture)), "");
-  for (const char* needed : {"1 ms, a servo step", "50 mN, the least force that is felt"})
+  for (const char* needed : {"1 ms, a servo step", "50 mN, the least noticeable force"})
     EXPECT_THAT(content(picture), HasSubstr(needed));
   const auto titles = cells_of(lines_of(content(csv)).front());
   for (const std::string& line : lines_of(content(csv)))

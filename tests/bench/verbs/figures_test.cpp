@@ -114,14 +114,14 @@ TEST(FiguresVerb, NamesTheUnwritableFolder) {
   std::ofstream(scratch.file("file")) << "in the way";
   const auto blocked = run_bench({"figures", "3.1", "--out", scratch.file("file/below")});
   EXPECT_EQ(blocked.status, 2);
-  EXPECT_THAT(blocked.err, HasSubstr(scratch.file("file/below") + ": cannot be made"));
-  EXPECT_THAT(blocked.err, HasSubstr("name a folder of yours by --out"));
+  EXPECT_THAT(blocked.err, HasSubstr(scratch.file("file/below") + ": cannot be created"));
+  EXPECT_THAT(blocked.err, HasSubstr("choose a writable folder by --out"));
   const auto taken = run_bench({"figures", "3.1", "--out", scratch.file("file")});
   EXPECT_EQ(taken.status, 2);
   std::filesystem::create_directory(scratch.file("figure_3.1.csv"));
   const auto file = run_bench({"figures", "3.1", "--out", scratch.file("")});
   EXPECT_EQ(file.status, 2);
-  EXPECT_THAT(file.err, HasSubstr("figure_3.1.csv: cannot be written; name a folder"));
+  EXPECT_THAT(file.err, HasSubstr("figure_3.1.csv: cannot be written; choose a writable folder"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(StabilityVerb, StopsWithItsResultsAndCanContinue) {
   const auto result = run_bench(study({"--sweep", "delay=0..1s/50", "--csv", file}), &stop);
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "");
-  EXPECT_THAT(result.err, HasSubstr("of 100; the same command goes on from"));
+  EXPECT_THAT(result.err, HasSubstr("of 100; the same command continues from"));
   EXPECT_THAT(content(file), ::testing::StartsWith("# reckon bench stability: modes="));
 }
 
@@ -122,7 +122,7 @@ TEST(StabilityVerb, HandFollowsARecording) {
   EXPECT_GT(recorded["truth_rms_N"].get<double>(), 0.0) << "it touches";
   const auto none = run_bench(study({"--hand", trace, "--sweep", "operator=push"}));
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.err, HasSubstr("operator is swept without trace"));
+  EXPECT_THAT(none.err, HasSubstr("the swept operators lack trace"));
   EXPECT_THAT(run_bench(study({"--hand", "nowhere.csv"})).err, HasSubstr("--hand: nowhere.csv"));
 }
 
@@ -137,7 +137,7 @@ TEST(StabilityVerb, RefusesAnotherRecordingOfTheSameName) {
   EXPECT_EQ(run(0.0).status, 0);
   const auto other = run(0.002);
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("holds the study of other options: it has hand="));
+  EXPECT_THAT(other.err, HasSubstr("contains the study with other options: it has hand="));
 }
 
 TEST(StabilityVerb, ReportsEverywhereThatTheGateIsOff) {
@@ -180,7 +180,7 @@ TEST(StabilityVerb, RefusesFlagsOfOtherStudies) {
     EXPECT_EQ(result.out, "");
   }
   EXPECT_THAT(run_bench({"bench", "latency", "--csv", "x.csv"}).err,
-              HasSubstr("--csv belongs to reckon bench accuracy"));
+              HasSubstr("--csv is a flag of reckon bench accuracy"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(Tune, ShowsCurveKneeAndSceneLines) {
   EXPECT_THAT(result.out, HasSubstr("1 entity, 600 samples in 599 s"));
   EXPECT_THAT(result.out, HasSubstr("knee  "));
   EXPECT_THAT(result.out, HasSubstr("the knee of the curve"));
-  EXPECT_THAT(result.out, HasSubstr("those of sending every sample"));
+  EXPECT_THAT(result.out, HasSubstr("the packets of every sample"));
   EXPECT_THAT(result.out, HasSubstr("[dead_reckoning]\nalgorithm = \""));
   EXPECT_TRUE(result.err.empty()) << result.err;
 }
@@ -168,7 +168,7 @@ TEST_F(Tune, NamesTheMistake) {
   EXPECT_THAT(error_of({"--json", "--csv"}), HasSubstr("two formats"));
   EXPECT_THAT(error_of({"--columns", "x"}), HasSubstr("add --force"));
   EXPECT_THAT(error_of({"--force", "--error", "1m"}), HasSubstr("is for motion"));
-  EXPECT_THAT(run_bench({"tune"}).err, HasSubstr("which FILE"));
+  EXPECT_THAT(run_bench({"tune"}).err, HasSubstr("write a FILE"));
   const ProgramResult missing = run_bench({"tune", "/nowhere/a.csv"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("/nowhere/a.csv"));

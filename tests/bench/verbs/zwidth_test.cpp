@@ -88,11 +88,11 @@ TEST(ZWidthVerb, RefusesInvalidArguments) {
     EXPECT_EQ(result.status, 2) << result.out;
     return result.err;
   };
-  EXPECT_THAT(refusal({"--device", "2"}), HasSubstr("name the scene too"));
+  EXPECT_THAT(refusal({"--device", "2"}), HasSubstr("--device needs a SCENE"));
   EXPECT_THAT(refusal({"--damping", "0"}), HasSubstr("--damping: '0' is not above 0"));
-  EXPECT_THAT(refusal({"--damping", "1,2"}), HasSubstr("give one"));
+  EXPECT_THAT(refusal({"--damping", "1,2"}), HasSubstr("write one"));
   EXPECT_THAT(refusal({"--rate", "50Hz"}), HasSubstr("--rate: '50Hz' is not from 100 Hz"));
-  EXPECT_THAT(refusal({"--delay", "2s"}), HasSubstr("2000 samples at 1 kHz; 1000 are the most"));
+  EXPECT_THAT(refusal({"--delay", "2s"}), HasSubstr("2000 samples at 1 kHz; write at most 1000"));
   EXPECT_THAT(refusal({"--walls", "-1..1"}), HasSubstr("--walls"));
   EXPECT_THAT(refusal({"nowhere.toml"}), HasSubstr("nowhere.toml"));
   EXPECT_THAT(refusal({"--csv", "/nowhere/z.csv"}), HasSubstr("cannot be written"));

@@ -144,7 +144,7 @@ TEST_F(PoseTraceFile, SendsAtAPeriodOrByAThreshold) {
   const std::vector<std::string> run{"--motion", "weave", "--models", "fpw", "--curves", "cubic"};
   auto both = run;
   both.insert(both.end(), {"--period", "1s", "--thresholds", "1m"});
-  EXPECT_THAT(trace(both).err, HasSubstr("takes the place of --thresholds"));
+  EXPECT_THAT(trace(both).err, HasSubstr("it replaces --thresholds"));
   const auto alone = run_bench({"bench", "accuracy", "--period", "1s"});
   EXPECT_EQ(alone.status, 2);
   EXPECT_THAT(alone.err, HasSubstr("with --trace FILE.csv only"));

@@ -114,9 +114,10 @@ ContactRow row_of(double threshold, double packets, double p99) {
 TEST(ContactReport, ReportsAWideThresholdThatIsWorse) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[1].beaten = true;
-  EXPECT_THAT(contact_text(rows, {}),
-              HasSubstr("200 mN is worse than 10 mN here in both: 25 packets/s for 20, P99 300 mN "
-                        "for 100."));
+  EXPECT_THAT(
+      contact_text(rows, {}),
+      HasSubstr(
+          "200 mN is worse than 10 mN in both: 25 packets/s against 20, P99 300 mN against 100."));
   rows[1] = row_of(0.2, 10, 0.3);
   EXPECT_THAT(contact_text(rows, {}), Not(HasSubstr("worse")));
 }

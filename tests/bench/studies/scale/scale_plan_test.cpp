@@ -62,7 +62,7 @@ TEST(ScalePlan, RefusesByNameWhatCannotBe) {
 TEST(ScalePlan, FitsWhatIsTooLargeToRun) {
   ScaleWords words;
   words.peers = "64,1000";
-  EXPECT_THAT(refusal(words), HasSubstr("--peers: 1000 are fitted to 3 exercises"));
+  EXPECT_THAT(refusal(words), HasSubstr("--peers: 1000 need a fit to 3 or more exercises"));
   words.peers = "64,1000,128,256";
   const ScalePlan plan = read_scale_plan(words);
   ASSERT_EQ(plan.settings.size(), 3U);

@@ -224,7 +224,8 @@ TEST(ScaleSummary, TableFitsInto80Columns) {
   EXPECT_THAT(text, HasSubstr("+ compression: heard 2 x less"));
   EXPECT_THAT(text, HasSubstr("pose 123 m"));
   EXPECT_THAT(text, HasSubstr("All mechanisms together"));
-  EXPECT_THAT(text, HasSubstr("From 100000 entities on each peer hears 1.3e+02 times as much.\n"));
+  EXPECT_THAT(text,
+              HasSubstr("From 100000 entities on, each peer receives 1.3e+02 times as much.\n"));
   for (ScaleRow& row : rows) row.run.setting.grid.cell_size = 10;
   EXPECT_THAT(scale_summary(rows), HasSubstr("cells\nshare the groups"));
 }
@@ -253,7 +254,7 @@ TEST(ScaleBench, StopAtOnceReportsThatNothingRan) {
       reckon::test::run_bench({"bench", "scale", "--peers", "4", "--for", "1s"}, &stop);
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "");
-  EXPECT_THAT(result.err, HasSubstr("stopped before the first run had ended"));
+  EXPECT_THAT(result.err, HasSubstr("stopped before the first run was complete"));
 }
 
 TEST(ScalePage, HoldsTheWholeReport) {
@@ -270,7 +271,7 @@ TEST(ScalePage, HoldsTheWholeReport) {
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("'<b>'")));
   EXPECT_THAT(page, HasSubstr("2026-11-26 12:00 UTC, reckon 0.1.0"));
-  EXPECT_THAT(page, HasSubstr("Datagrams that a peer hears"));
+  EXPECT_THAT(page, HasSubstr("Datagrams received by a peer"));
   EXPECT_THAT(page, HasSubstr("press-20, sent at 50 mN: 23 a second, 112 mN"));
   for (const std::string_view foreign : {"src=\"http", "href=\"http", "@import"})
     EXPECT_THAT(page, Not(HasSubstr(std::string(foreign))));

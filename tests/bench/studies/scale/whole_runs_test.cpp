@@ -186,7 +186,7 @@ TEST(WholeText, SaysWhereAPeerCannotKnowAll) {
     row.run.meeting = meeting;
     row.run.setting.peers = peers;
     row.run.counts.seconds = row.simulated.counts.seconds = 1;
-    return whole_text(std::span(&row, 1)).find("a peer remembers") != std::string::npos;
+    return whole_text(std::span(&row, 1)).find("a peer has room for") != std::string::npos;
   };
   EXPECT_FALSE(says_so(Meeting::hosts, 1025));
   EXPECT_TRUE(says_so(Meeting::hosts, 1026));

@@ -115,28 +115,27 @@ TEST(StabilityPlan, DefaultSweepsStiffnessDelayLossJitterAndEnvironment) {
 TEST(StabilityPlan, RefusesBadAxesWithTheRemedy) {
   EXPECT_THAT(refused_sweep("dely=0..1s"), HasSubstr("did you mean 'delay'?"));
   EXPECT_THAT(refused_sweep("hand.k2=5"), HasSubstr("did you mean 'hand.k1'?"));
-  EXPECT_THAT(refused_sweep("delay"), HasSubstr("says no values; write NAME=A..B/N"));
+  EXPECT_THAT(refused_sweep("delay"), HasSubstr("has no values; write NAME=A..B/N"));
   EXPECT_THAT(refused_sweep("delay=5 N"), HasSubstr("--sweep impairment.delay: unit 'N'"));
   EXPECT_THAT(refused_sweep("environment=linar"), HasSubstr("did you mean 'linear'?"));
   EXPECT_THAT(refused_sweep("environment=linear,linear"), HasSubstr("given twice"));
   EXPECT_THAT(refused_sweep("delay=0,1s", "impairment.delay=2s"), HasSubstr("swept twice"));
   EXPECT_THAT(refused_sweep("jitter_share=0,30%"),
-              HasSubstr("has no effect where impairment.delay is 0"));
-  EXPECT_THAT(refused_sweep("reorder_delay=1,2ms"),
-              HasSubstr("no effect where impairment.reorder"));
+              HasSubstr("has no effect if impairment.delay is 0"));
+  EXPECT_THAT(refused_sweep("reorder_delay=1,2ms"), HasSubstr("no effect if impairment.reorder"));
   EXPECT_THAT(refused_sweep("counterpart=server,hand", "environment=linear,moving"),
               HasSubstr("two hands have a linear spring"));
-  EXPECT_THAT(refused_sweep("operator=trace"), HasSubstr("name it by --hand"));
-  EXPECT_THAT(refused_sweep("update_rate=2kHz"), HasSubstr("a cell cannot be run"));
+  EXPECT_THAT(refused_sweep("operator=trace"), HasSubstr("add --hand"));
+  EXPECT_THAT(refused_sweep("update_rate=2kHz"), HasSubstr("a cell is invalid"));
   EXPECT_THAT(refused_sweep("delay=0..1s/1000", "hand.k1=1..1000/1000"),
-              HasSubstr("runs are the most"));
+              HasSubstr("reduce them to at most"));
 }
 
 TEST(StabilityPlan, RefusesWordsWithoutEffect) {
   StabilityWords words;
   words.modes = {"gain_cut"};
   words.no_gate = true;
-  EXPECT_THAT(refusal(words), HasSubstr("--no-gate is of the mode reckon"));
+  EXPECT_THAT(refusal(words), HasSubstr("--no-gate needs the mode reckon"));
   words = {};
   words.modes = {"recon"};
   EXPECT_THAT(refusal(words), HasSubstr("did you mean 'reckon'?"));

@@ -65,20 +65,20 @@ TEST_F(Journal, DropsATruncatedLine) {
 
 TEST_F(Journal, NamesTheFirstOptionThatDiffers) {
   EXPECT_THAT(found(), IsEmpty());
-  EXPECT_THAT(refusal("a=1; b=3"),
-              HasSubstr("other options: it has b=2, this one b=3; name a new file, or give the "
-                        "options of that one"));
-  EXPECT_THAT(refusal("a=1"), HasSubstr("it has b=2, this one no more"));
-  EXPECT_THAT(refusal("a=1; b=2; c=3"), HasSubstr("it has no more, this one c=3"));
+  EXPECT_THAT(
+      refusal("a=1; b=3"),
+      HasSubstr("other options: it has b=2, this study b=3; write a new file, or use its options"));
+  EXPECT_THAT(refusal("a=1"), HasSubstr("it has b=2, this study no more"));
+  EXPECT_THAT(refusal("a=1; b=2; c=3"), HasSubstr("it has no more, this study c=3"));
   EXPECT_EQ(content(path), head) << "left as it was";
 }
 
 TEST_F(Journal, TouchesNoForeignFile) {
   write("t_s,px_m\n0,1\n");
-  EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("holds something else than this study"));
+  EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("does not contain this study"));
   EXPECT_EQ(content(path), "t_s,px_m\n0,1\n");
   write("no end of line");
-  EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("holds something else"));
+  EXPECT_THAT(refusal("a=1; b=2"), HasSubstr("does not contain this study"));
 }
 
 TEST_F(Journal, RefusesUnwritablePlaces) {

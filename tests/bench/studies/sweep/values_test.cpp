@@ -54,14 +54,14 @@ TEST(AxisValues, ListsMayHoldRanges) {
 }
 
 TEST(AxisValues, RefusesWithPlaceAndRemedy) {
-  EXPECT_THAT(refusal(""), HasSubstr("--sweep delay: '' says no value; write A..B/N or A,B,C"));
-  EXPECT_THAT(refusal("0..,1"), HasSubstr("says no value"));
+  EXPECT_THAT(refusal(""), HasSubstr("--sweep delay: '' has no value; write A..B/N or A,B,C"));
+  EXPECT_THAT(refusal("0..,1"), HasSubstr("has no value"));
   EXPECT_THAT(refusal("fast"), HasSubstr("does not start with a number"));
   EXPECT_THAT(refusal("5 mm"), HasSubstr("unit 'mm' does not fit here: write one of"));
   EXPECT_THAT(refusal("0..3s"), HasSubstr("'3s' is not from 0 s to 2 s"));
   EXPECT_THAT(refusal("-1..1s"), HasSubstr("is not from 0 s to 2 s"));
-  EXPECT_THAT(refusal("0..1s/1"), HasSubstr("'1' is no number of values from 2 to 1000"));
-  EXPECT_THAT(refusal("0..1s/99999"), HasSubstr("no number of values"));
+  EXPECT_THAT(refusal("0..1s/1"), HasSubstr("'1' is not a count from 2 to 1000"));
+  EXPECT_THAT(refusal("0..1s/99999"), HasSubstr("is not a count"));
   EXPECT_THAT(refusal("0,50ms,0.05"), HasSubstr("'50 ms' is given twice"));
   EXPECT_THAT(refusal("0", {"", 0, 1, true}), HasSubstr("is not above 0 to 1"));
 }

@@ -146,10 +146,10 @@ TEST(TouchQuantisation, IsWithinTheUnitsOfTheWire) {
   EXPECT_EQ(errors.at("double").max, 0);
   // Half a unit of 3600 s / 2^31, and a small margin for the acceleration.
   const double unit = 3600.0 / 2147483648.0;
-  EXPECT_LE(errors.at("times to 1.68 us alone").max, 1.01 * stiffness * speed * unit / 2);
-  EXPECT_GT(errors.at("times to 1.68 us alone").max, 0.5 * stiffness * speed * unit / 2);
+  EXPECT_LE(errors.at("times to 1.68 us only").max, 1.01 * stiffness * speed * unit / 2);
+  EXPECT_GT(errors.at("times to 1.68 us only").max, 0.5 * stiffness * speed * unit / 2);
   EXPECT_NEAR(errors.at("times to 1 ms").max, stiffness * speed * 0.00037, 1.5e-3);
-  EXPECT_LT(errors.at("fields of the wire alone").max, 5e-6);
+  EXPECT_LT(errors.at("fields of the wire only").max, 5e-6);
   EXPECT_LT(errors.at("as on the wire").max, 1.1 * stiffness * speed * unit / 2 + 5e-6);
   // A float32 there has steps of half a metre: the hand is displaced.
   EXPECT_GT(errors.at("location float32, geocentric").max, 1);

@@ -139,7 +139,7 @@ TEST_F(TrackTable, SortsTimesAndKeepsTheLastDuplicate) {
   EXPECT_EQ(samples[1].position.x(), 11);
   EXPECT_EQ(samples[2].position.x(), 20);
   EXPECT_THAT(file.note, HasSubstr("1 row dropped"));
-  EXPECT_THAT(file.note, HasSubstr("2 rows behind a later one"));
+  EXPECT_THAT(file.note, HasSubstr("2 rows after a later one"));
 }
 
 TEST_F(TrackTable, AcceptsQuotesLineEndsAndByteOrderMark) {
@@ -153,7 +153,7 @@ TEST_F(TrackTable, AcceptsQuotesLineEndsAndByteOrderMark) {
 }
 
 TEST_F(TrackTable, NamesFileLineAndColumnOfAnError) {
-  EXPECT_THAT(error_of("0,1,2\n1,2,3\n"), HasSubstr("names no column t_s"));
+  EXPECT_THAT(error_of("0,1,2\n1,2,3\n"), HasSubstr("has no column t_s"));
   EXPECT_THAT(error_of("t_s,x,y\n0,0,0\n"), HasSubstr("x_m,y_m[,z_m]"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,1,2\n1,2\n"), HasSubstr(":3:"));
   EXPECT_THAT(error_of("t_s,x_m,y_m\n0,1,2\n1,2\n"), HasSubstr("2 cells, but the header has 3"));
@@ -263,7 +263,7 @@ TEST_F(TrackCapture, HasATrackPerEntityWithSentRates) {
   EXPECT_NEAR((samples[1].velocity - Vector3d(0, 0, 3)).norm(), 0, 1e-6);
   EXPECT_NEAR(samples[1].acceleration.z(), 0.5, 1e-6);
   EXPECT_TRUE(file.is_capture);
-  EXPECT_THAT(file.note, HasSubstr("not in the file"));
+  EXPECT_THAT(file.note, HasSubstr("contains only sent updates"));
   EXPECT_FALSE(file.damaged);
 }
 
@@ -272,7 +272,7 @@ TEST_F(TrackCapture, TakesArrivalTimesIfTimestampsStandStill) {
       capture_of(folder_, {{7, 0, 0, 6.4e6}, {7, 0, 1, 6.4e6 + 1}, {7, 0, 2.5, 6.4e6 + 2}}));
   ASSERT_EQ(file.tracks[0].samples.size(), 3U);
   EXPECT_NEAR(file.tracks[0].samples[2].time - file.tracks[0].samples[0].time, 2.5, 1e-9);
-  EXPECT_THAT(file.note, HasSubstr("do not run with the capture"));
+  EXPECT_THAT(file.note, HasSubstr("do not advance with the capture"));
 }
 
 TEST_F(TrackCapture, ContinuesAcrossTheHour) {
