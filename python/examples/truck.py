@@ -11,7 +11,7 @@ import reckon
 def main() -> None:
     with reckon.Federate(reckon.Exercise(1, 47.05, 8.31), iface=(sys.argv[1:] or ["lo"])[0], name="TRUCK") as federate:
         truck = federate.own("TRUCK", type="1.1.206.7", force_id=1)
-        federate.on(reckon.Fire, lambda fire, owns: print("hears", fire.firing_entity_id, flush=True))
+        federate.on(reckon.Fire, lambda fire, owns: print("received", fire.firing_entity_id, flush=True))
         for step in range(int(float((sys.argv[2:] or ["10"])[0]) * 50)):
             angle = 0.2 * step / 50  # 10 m/s on a circle of 50 m
             east, north = math.cos(angle), math.sin(angle)

@@ -47,9 +47,8 @@ void bind_seen(py::module_& module) {
 std::unique_ptr<Session> join(const std::string& scene, unsigned exercise, double latitude,
                               double longitude, const std::string& interface,
                               const std::string& name, std::optional<std::uint16_t> site,
-                              std::optional<std::uint16_t> application,
-                              const py::object& effects) {
-  if (exercise > 0xFF) throw py::value_error("exercise has to be 0 to 255");
+                              std::optional<std::uint16_t> application, const py::object& effects) {
+  if (exercise > 0xFF) throw py::value_error("exercise must be 0 to 255");
   return std::make_unique<Session>(JoinOptions{scene, static_cast<std::uint8_t>(exercise), latitude,
                                                longitude, interface, name, site, application,
                                                effects_of(effects)});

@@ -59,7 +59,7 @@ void Session::send(std::span<const std::byte> octets) {
         },
         pdu::PduTypes{});
   if (error != pdu::DecodeError::none)
-    throw std::invalid_argument("a federate sends PDUs whose fields it knows: " +
+    throw std::invalid_argument("a federate can send only PDUs with known fields: " +
                                 std::string(pdu::sentence(error)));
 }
 

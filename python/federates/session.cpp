@@ -28,7 +28,7 @@ peer::EntityTruth truth_of(const Motion& motion) {
   const double norm = truth.orientation.norm();
   if (!(norm > 0.99 && norm < 1.01))
     throw std::invalid_argument("orientation has a length of " + std::to_string(norm) +
-                                ": give a unit quaternion w, x, y, z");
+                                ": write a unit quaternion w, x, y, z");
   truth.orientation.normalize();
   return truth;
 }
@@ -61,7 +61,8 @@ peer::Federate& Session::federate() {
   if (federate_ == nullptr)
     throw std::runtime_error("the federate has left the exercise: join again with a new Federate");
   if (std::this_thread::get_id() != thread_)
-    throw std::runtime_error("a federate is used by the thread that made it alone: call it there");
+    throw std::runtime_error(
+        "a federate may be used only by the thread that created it: call it there");
   return *federate_;
 }
 
@@ -76,7 +77,7 @@ void Session::resign() {
 std::uint16_t Session::own(const std::string& marking, const std::string& type, unsigned force_id,
                            const Motion& motion) {
   const pdu::EntityType parsed = peer::entity_type(type);
-  if (force_id > 0xFF) throw std::invalid_argument("force_id has to be 0 to 255");
+  if (force_id > 0xFF) throw std::invalid_argument("force_id must be 0 to 255");
   peer::EntityDescription description;
   description.marking = marking;
   description.type = parsed;

@@ -95,10 +95,11 @@ py::tuple predict_columns(Column<double> location, Column<float> orientation,
   };
   if (!is_of(location) || !is_of(orientation) || !is_of(velocity) || !is_of(acceleration) ||
       !is_of(angular_velocity) || static_cast<std::size_t>(appearance.size()) != states)
-    throw py::value_error("the columns of the states differ in length: take rows of all");
+    throw py::value_error(
+        "the columns of the states differ in length: select the same rows of all");
   if (states != times && states != 1)
     throw py::value_error(std::to_string(times) + " times for " + std::to_string(states) +
-                          " states: give one time for each state, or one state");
+                          " states: pass one time for each state, or one state");
   const Inputs inputs{std::move(location),     std::move(orientation),      std::move(velocity),
                       std::move(acceleration), std::move(angular_velocity), std::move(algorithm),
                       std::move(appearance)};

@@ -17,7 +17,7 @@ if typing.TYPE_CHECKING:
 
 
 class CaptureError(RuntimeError):
-    """A file is no capture, or cannot be read: the message has its path and the remedy."""
+    """A file is not a capture, or cannot be read: the message has its path and the remedy."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -69,10 +69,10 @@ class States:
 
 
 def read_capture(path: str | os.PathLike[str]) -> States:
-    """All Entity States of a pcap or pcapng file, plain or compressed, by columns.
+    """Reads all Entity States of a pcap or pcapng file, plain or compressed, by columns.
 
-    Other threads of Python run meanwhile. Damaged PDUs are counted (`damaged`) and left out; where the file itself is
-    damaged, `problem` says where it ended. CaptureError if it is no capture.
+    Other threads of Python run meanwhile. Damaged PDUs are counted (`damaged`) and left out; if the file itself is
+    damaged, `problem` has the place of the damage. Raises CaptureError if it is not a capture.
     """
     try:
         return States(**_native.columns_of(os.fspath(path)))
@@ -91,7 +91,7 @@ class Datagram(typing.NamedTuple):
 
 
 class Capture:
-    """A pcap or pcapng file, plain or compressed: iterate it for its datagrams, `pdus()` for what is in them.
+    """A pcap or pcapng file, plain or compressed: iterate it for its datagrams, `pdus()` for their PDUs.
 
         for datagram, pdu in reckon.Capture("exercise.pcap").pdus(): ...
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Taking part in an exercise."""
+"""Federates of an exercise."""
 from __future__ import annotations
 
 import math
@@ -35,7 +35,7 @@ def heading(degrees: float) -> tuple[float, float, float, float]:
 
 
 def heading_of(velocity: Vector) -> tuple[float, float, float, float]:
-    """A level body's orientation along a velocity of frame S, to the east if it stands."""
+    """A level body's orientation along a velocity in frame S; east if the velocity is zero."""
     return heading(math.degrees(math.atan2(velocity[0], velocity[1])) if any(velocity) else 90.0)
 
 
@@ -47,12 +47,12 @@ class Entity:
 
     @property
     def id(self) -> Id:
-        """(site, application, entity); it changes if another peer has the same."""
+        """(site, application, entity); it changes if another peer uses the same."""
         return self._session.id_of(self._number)
 
     def move(self, position: Vector, velocity: Vector = STILL, orientation: Vector | None = None,
              acceleration: Vector = STILL, angular_velocity: Vector = STILL) -> None:
-        """States where it truly is, at any rate: what is sent, and when, is decided by the thresholds.
+        """Sets its true state, at any rate; the thresholds decide when an update is sent.
 
         position [m], velocity [m/s], acceleration [m/s^2]: frame S; orientation: w, x, y, z, B to S, by default level
         and along the velocity; angular_velocity: frame B [rad/s]
@@ -65,7 +65,7 @@ class Entity:
         self._session.set_appearance(self._number, appearance)
 
     def remove(self) -> None:
-        """Takes it out of the exercise."""
+        """Removes it from the exercise."""
         self._session.remove(self._number)
 
 
@@ -80,16 +80,16 @@ class Federate:
                 federate.tick()
                 time.sleep(0.01)
 
-    One thread makes all calls. Callbacks run within tick(), on that thread, and may call anything but tick() and
-    resign(); what they raise, tick() raises. Frame S: east, north, up from the origin of the scene [m].
+    One thread makes all calls. Callbacks run within tick(), on that thread, and may call anything except tick() and
+    resign(); tick() raises their exceptions. Frame S: east, north, up from the origin of the scene [m].
     """
 
     def __init__(self, scene: Exercise | str | os.PathLike[str] = Exercise(), iface: str = "", name: str = "federate",
                  site: int | None = None, application: int | None = None, effects: object = None) -> None:
         """scene: a scene file, or an Exercise; iface: name, address or index, "": chosen; name: of this peer
 
-        site, application: of its entities' IDs, by default free ones; effects: as of run_scene(). RuntimeError, or
-        ValueError, with the remedy where it cannot join.
+        site, application: of its entities' IDs, by default free ones; effects: as for run_scene(). Raises RuntimeError or
+        ValueError with the remedy if it cannot join.
         """
         plain = scene if isinstance(scene, Exercise) else Exercise()
         path = "" if isinstance(scene, Exercise) else os.fspath(scene)
@@ -104,50 +104,50 @@ class Federate:
         self.resign()
 
     def resign(self) -> None:
-        """Leaves: its entities are deactivated, its end is announced. Nothing may be called after it."""
+        """Leaves the exercise: deactivates its entities and announces the end. No call may follow."""
         self._end()
 
     def own(self, marking: str, type: str = "1.1", position: Vector = STILL, force_id: int = 0,
             velocity: Vector = STILL, orientation: Vector | None = None) -> Entity:
-        """Brings an entity into the exercise; an Entity.
+        """Registers an entity of this federate and returns it.
 
         marking: at most 11 ASCII characters; type: kind.domain.country.category.. of SISO-REF-010; force_id: 1 friendly,
-        2 opposing, 3 neutral; the others: as of Entity.move()
+        2 opposing, 3 neutral; the others: as for Entity.move()
         """
         faces = heading_of(velocity) if orientation is None else orientation
         motion = _native.Motion(position, velocity, STILL, faces, STILL)
         return Entity(self._session, self._session.own(marking, type, force_id, motion))
 
     def on_discover(self, callback: typing.Callable[[RemoteEntity], object]) -> None:
-        """Calls back with a RemoteEntity that is new."""
+        """Sets the callback for each new RemoteEntity."""
         self._session.on_discover(callback)
 
     def on_update(self, callback: typing.Callable[[RemoteEntity], object]) -> None:
-        """Calls back with each RemoteEntity that was updated, once a tick()."""
+        """Sets the callback for each updated RemoteEntity, once a tick()."""
         self._session.on_update(callback)
 
     def on_remove(self, callback: typing.Callable[[RemoteEntity, str], object]) -> None:
-        """Calls back with a RemoteEntity that is gone, as it was last, and why: "deactivated", "owner left", "owner changed",
-        "out of sight", "silent" or "no room"."""
+        """Sets the callback for each removed RemoteEntity, with its last state and the reason: "deactivated", "owner left",
+        "owner changed", "out of sight", "silent" or "no room"."""
         self._session.on_remove(callback)
 
     def on(self, kind: type[P], callback: typing.Callable[[P, bool], object]) -> None:
-        """Calls back with each PDU of a class, such as reckon.Fire, and whether its sender owns the entity that issued it.
+        """Sets the callback for each PDU of a class, such as reckon.Fire, and whether its sender owns the issuing entity.
 
-        One in the name of another owner's entity is refused before. A second call replaces the first.
+        A PDU in the name of another owner's entity is refused. A second call replaces the first.
         """
         self._session.on_interaction(kind().header.pdu_type, callback)
 
     def send(self, pdu: Pdu) -> None:
-        """Sends a PDU; exercise and timestamp are filled in. One with a location goes to those who can sense the place."""
+        """Sends a PDU and sets its exercise and timestamp. A PDU with a location goes to peers with that location in reach."""
         self._session.send(pdu)
 
     def tick(self) -> None:
-        """Runs what is due, and calls back. Never waits: call it at 30 Hz or more."""
+        """Runs due work and the callbacks. Never waits: call it at 30 Hz or more."""
         self._session.tick()
 
     def entities(self) -> list[RemoteEntity]:
-        """All remote entities as RemoteEntity, where they are shown now."""
+        """All remote entities as RemoteEntity, at their present shown poses."""
         return self._session.entities()
 
     def find(self, entity_id: Id) -> RemoteEntity | None:
@@ -155,13 +155,13 @@ class Federate:
         return self._session.find(entity_id)
 
     def utc(self) -> float:
-        """[s] since 1970, without the leaps of the host's clock."""
+        """[s] since 1970, without the jumps of the host's clock."""
         return self._session.utc()
 
     def position(self, latitude_deg: float, longitude_deg: float, height: float = 0.0) -> Vector:
-        """A place in frame S [m]. height: above the ellipsoid [m]"""
+        """A position in frame S [m]. height: above the ellipsoid [m]"""
         return self._session.position(math.radians(latitude_deg), math.radians(longitude_deg), height)
 
     def world(self, position: Vector) -> Vector:
-        """A position of frame S in frame W [m], as PDUs have it."""
+        """A position of frame S in frame W [m], as in PDUs."""
         return self._session.world(position)

@@ -25,10 +25,10 @@ class Poses(typing.NamedTuple):
 
 
 def predict(states: States | EntityState, times: ArrayLike) -> Poses:
-    """Where receivers show entities, by the models of IEEE 1278.1, without convergence.
+    """Poses at which receivers show entities, by the models of IEEE 1278.1, without convergence.
 
-    states: rows of a capture (`States`); then `times` [s since 1970 UTC] is one number, or one for each row; of a
-    single row any number. Or one EntityState; then `times` [s] counts from its update.
+    states: rows of a capture (`States`); then `times` [s since 1970 UTC] is one number, or one for each row; for a
+    single row, any number of times. Or one EntityState; then `times` [s] counts from its update.
     A state that receivers refuse (not finite, out of range) gives NaN. Other threads of Python run meanwhile.
     """
     at = numpy.asarray(times, dtype=float)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bases of the classes that the field tables make."""
+"""Base classes of the classes made from the field tables."""
 from __future__ import annotations
 
 import typing
@@ -11,14 +11,14 @@ if typing.TYPE_CHECKING:
     from reckon._pdus import PduHeader
 
 class DecodeError(ValueError):
-    """Octets are no PDU. `rule` names the reason as `reckon inspect` does, `octet` is where the PDU begins."""
+    """Octets are not a PDU. `rule` is the reason, as in `reckon inspect`; `octet` is the start of the PDU."""
 
     rule = ""
     octet = 0
 
 
 class Record:
-    """A record of the wire format. Fields are attributes, which may be set.
+    """A record of the wire format. Fields are attributes and can be set.
 
     Without arguments every field has its initial value:
 
@@ -55,7 +55,7 @@ class Record:
         return made
 
     def __reduce__(self) -> typing.Any:
-        raise TypeError(f"{type(self).__name__} is pickled with its PDU, not alone")
+        raise TypeError(f"{type(self).__name__} cannot be pickled alone: pickle its PDU")
 
 
 class Pdu(Record):
@@ -66,7 +66,7 @@ class Pdu(Record):
 
     @property
     def trailing(self) -> bytes:
-        """Octets behind the last field, which decode() found and encode() writes again.
+        """Octets after the last field; decode() keeps them and encode() writes them.
 
         A vendor extension, or data that a wrong count or length omits; b"" in nearly all PDUs.
         """

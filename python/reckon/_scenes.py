@@ -16,7 +16,7 @@ if typing.TYPE_CHECKING:
 
 
 class SceneError(ValueError):
-    """A scene cannot be run: the message has file, line and column, what is wrong and the remedy."""
+    """A scene cannot be run: the message has file, line and column, the fault and the remedy."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,10 +24,10 @@ class SceneRun:
     """Every servo step of every device, as `reckon demo --trace` writes it: n rows, SI units, frame S.
 
     time [s]; peer, device: from 1; contacts: hands touched; patch: of the object, below the surface point
-    handle, surface_point [m], velocity [m/s], force and its parts of the object, of hands, and of hands as their records
-    say [N]: (n, 3); of a device of six axes torque [N m], orientation (n, 4: w x y z, tool to S), turn_rate [rad/s], of
+    handle, surface_point [m], velocity [m/s], force and its parts from the object, from hands, and from hands by their force
+    models [N]: (n, 3); of a device of six axes torque [N m], orientation (n, 4: w x y z, tool to S), turn_rate [rad/s], of
     others 0 and no turn; ledger, need, energy [J]
-    numbers: what the whole run cost, by name: pose_error [m] and force_error [N] with p50, p99, max; datagrams, octets,
+    numbers: costs of the whole run, by name: pose_error [m] and force_error [N] with p50, p99, max; datagrams, octets,
     hand_contact [s], scene_contact [s], peak_force [N], least_energy [J]
     """
 
@@ -62,12 +62,12 @@ class SceneRun:
 
 def run_scene(path: str | os.PathLike[str], duration: float, seed: int | None = None, peers: int = 2,
               impair: str = "", effects: object = None) -> SceneRun:
-    """Runs a scene file as `reckon demo --simulated-time` does: no sockets, no waiting, the same result each time.
+    """Runs a scene file as `reckon demo --simulated-time` does: without sockets and waiting, with the same result each time.
 
-    duration [s]; seed: of the network's impairment, which the scene or `impair` has to have; peers: 1 to 64; impair: as
-    the option of `reckon demo`, "delay=200ms jitter=100ms loss=20%"; effects: of a module of your own, which the scene
-    may then declare. Other threads of Python run meanwhile, and Ctrl-C ends it. SceneError where the scene or an
-    argument is wrong.
+    duration [s]; seed: of the network impairment, which the scene or `impair` must have; peers: 1 to 64; impair: as the
+    option of `reckon demo`, "delay=200ms jitter=100ms loss=20%"; effects: of your own module, which the scene may then
+    declare. Other threads of Python run meanwhile, and Ctrl-C ends it. Raises SceneError if the scene or an argument
+    is invalid.
     """
     try:
         columns, numbers = _native.run_scene(os.fspath(path), duration, seed, peers, impair, effects)

@@ -15,7 +15,7 @@ if typing.TYPE_CHECKING:
 
 
 class StudyError(RuntimeError):
-    """A study did not run: the message is that of the program."""
+    """A study did not run: the message comes from the program."""
 
 
 def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = "") -> dict[str, NDArray[typing.Any]]:
@@ -24,11 +24,11 @@ def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = 
         table = reckon.study("bench", "accuracy", "--touch", "--axis", "integrator")
         table["step_ns"], table["error_rms_n"]
 
-    Columns of numbers are of dtype float64, where NaN is a cell without one; others are of text. program: `reckon`, by
-    default that of PATH. It takes as long as on the command line, and other threads of Python run meanwhile. StudyError
+    Columns of numbers have dtype float64, with NaN for empty cells; others are text. program: path of `reckon`, by
+    default from PATH. It takes as long as on the command line, and other threads of Python run meanwhile. StudyError
     where the program fails or is not there.
     """
-    # Imported here, so that an import of reckon does not wait for them.
+    # Imported here, because an import of reckon should not wait for them.
     import csv
     import pathlib
     import shutil
@@ -37,7 +37,7 @@ def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = 
 
     found = os.fspath(program) or shutil.which("reckon")
     if not found:
-        raise StudyError("reckon is not in PATH: give program=\"build/release/reckon\", or install the package reckon")
+        raise StudyError("reckon is not in PATH: write program=\"build/release/reckon\", or install the package reckon")
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "table.csv"
         ran = subprocess.run([found, *map(os.fspath, arguments), "--csv", str(file)], stdout=subprocess.DEVNULL,
@@ -50,7 +50,7 @@ def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = 
 
 
 def columns_of(rows: csv.DictReader[str]) -> dict[str, NDArray[typing.Any]]:
-    """Columns of a CSV file, of numbers where all cells are."""
+    """Columns of a CSV file; a column is numeric if all of its cells are."""
     names = list(rows.fieldnames or [])
     cells: dict[str, list[str]] = {name: [] for name in names}
     for row in rows:

@@ -43,7 +43,8 @@ py::bytes trailing_of(const py::object& given) {
 py::object initial(const py::type& kind) {
   const Shape* const shape = shape_of_class(reinterpret_cast<PyTypeObject*>(kind.ptr()));
   if (shape == nullptr || shape->make_initial == nullptr)
-    raise(PyExc_TypeError, py::repr(kind).cast<std::string>() + " is no class of PDUs or records");
+    raise(PyExc_TypeError,
+          py::repr(kind).cast<std::string>() + " is not a class of PDUs or records");
   return py::reinterpret_steal<py::object>(shape->make_initial());
 }
 
@@ -62,7 +63,7 @@ py::dict fields_of_classes() {
 OctetBuffer::OctetBuffer(const py::object& object) {
   if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) == 0) return;
   PyErr_Clear();
-  raise(PyExc_TypeError, "octets have to be bytes or a contiguous buffer, not " +
+  raise(PyExc_TypeError, "octets must be bytes or a contiguous buffer, not " +
                              py::repr(py::type::of(object)).cast<std::string>());
 }
 

@@ -44,13 +44,13 @@ constexpr std::array<Decode, 256> decoders(pdu::TypeList<T...>) {
 const char* remedy(pdu::DecodeError error) {
   switch (error) {
     case pdu::DecodeError::truncated:
-      return "give all octets that its length field states";
+      return "pass all octets of its length field";
     case pdu::DecodeError::version:
-      return "versions 5, 6 and 7 are read";
+      return "versions 5, 6 and 7 are supported";
     case pdu::DecodeError::stray:
-      return "give one PDU to decode(), several to decode_datagram()";
+      return "pass one PDU to decode(), several to decode_datagram()";
     default:
-      return "ask its sender, or see what `reckon inspect --check` says of it";
+      return "correct the sender; `reckon inspect FILE check` lists its faults";
   }
 }
 

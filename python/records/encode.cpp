@@ -47,7 +47,7 @@ void encode_as(PyObject* object, std::vector<std::byte>& out) {
   if (out.size() > pdu::kMaxPduSize) set_length(out, shape);
   if (pdu::encode(pdu, out) != out.size())
     raise(PyExc_ValueError,
-          shape.name() + " has a list longer than its count field can say; shorten it");
+          shape.name() + " has a list that is too long for its count field; shorten it");
   put_padding(object, shape,
               std::is_same_v<Pdu, pdu::Signal> || std::is_same_v<Pdu, pdu::IntercomSignal>, out);
   set_length(out, shape);
@@ -57,7 +57,7 @@ void encode_as(PyObject* object, std::vector<std::byte>& out) {
   if (error != pdu::DecodeError::none)
     raise(PyExc_ValueError,
           shape.name() + " would be refused by receivers: " + std::string(pdu::sentence(error)) +
-              " Set the counts and lengths in its records to what they hold");
+              " Set the counts and lengths in its records to their contents");
 }
 
 void encode_unknown(PyObject* object, std::vector<std::byte>& out) {

@@ -24,7 +24,7 @@ void put_number(PyObject* value, bool is_signed, std::size_t size, const std::st
   const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value));
   if (!index) {
     PyErr_Clear();
-    raise(PyExc_TypeError, where + " has to be a whole number, not " + text_of(value));
+    raise(PyExc_TypeError, where + " must be a whole number, not " + text_of(value));
   }
   const unsigned bits = static_cast<unsigned>(8 * size);
   std::uint64_t number = 0;
@@ -41,7 +41,7 @@ void put_number(PyObject* value, bool is_signed, std::size_t size, const std::st
   }
   if (!fits) {
     PyErr_Clear();
-    raise(PyExc_ValueError, where + " is " + text_of(value) + ": it has to fit " +
+    raise(PyExc_ValueError, where + " is " + text_of(value) + ": it must fit " +
                                 std::to_string(bits) + " bits" +
                                 (is_signed ? " with a sign" : ", 0 or more"));
   }
@@ -53,11 +53,11 @@ void put_real(PyObject* value, std::size_t size, const std::string& where,
   const double number = PyFloat_AsDouble(value);
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
-    raise(PyExc_TypeError, where + " has to be a number, not " + text_of(value));
+    raise(PyExc_TypeError, where + " must be a number, not " + text_of(value));
   }
   if (size == sizeof(double)) return put_big_endian(std::bit_cast<std::uint64_t>(number), 8, out);
   if (std::isfinite(number) && std::abs(number) > std::numeric_limits<float>::max())
-    raise(PyExc_ValueError, where + " is " + text_of(value) + ": it has to fit 32 bits");
+    raise(PyExc_ValueError, where + " is " + text_of(value) + ": it must fit 32 bits");
   put_big_endian(std::bit_cast<std::uint32_t>(static_cast<float>(number)), 4, out);
 }
 
@@ -66,16 +66,16 @@ void put_array(PyObject* value, WireKind kind, std::size_t size, const std::stri
   const bool is_text = kind == WireKind::text;
   if (is_text ? !PyUnicode_Check(value) : !PyBytes_Check(value))
     raise(PyExc_TypeError,
-          where + " has to be " + (is_text ? "str" : "bytes") + ", not " + text_of(value));
+          where + " must be " + (is_text ? "str" : "bytes") + ", not " + text_of(value));
   py::object octets = py::reinterpret_borrow<py::object>(value);
   if (is_text) octets = py::reinterpret_steal<py::object>(PyUnicode_AsLatin1String(value));
   if (!octets) {
     PyErr_Clear();
-    raise(PyExc_ValueError, where + " is " + text_of(value) + ": a character takes one octet");
+    raise(PyExc_ValueError, where + " is " + text_of(value) + ": a character must fit one octet");
   }
   const auto given = static_cast<std::size_t>(PyBytes_GET_SIZE(octets.ptr()));
   if (given > size || (!is_text && given != size))
-    raise(PyExc_ValueError, where + " has " + std::to_string(given) + " octets: it has to have " +
+    raise(PyExc_ValueError, where + " has " + std::to_string(given) + " octets: it must have " +
                                 (is_text ? "at most " : "") + std::to_string(size));
   const auto* const at = reinterpret_cast<const std::byte*>(PyBytes_AS_STRING(octets.ptr()));
   out.insert(out.end(), at, at + given);
@@ -139,7 +139,7 @@ void put_octets(PyObject* value, const std::string& where, std::vector<std::byte
     put_record(value, 0, out);
   } else {
     raise(PyExc_TypeError,
-          where + " has to be a record, a list of records or bytes, not " + text_of(value));
+          where + " must be a record, a list of records or bytes, not " + text_of(value));
   }
 }
 
@@ -148,7 +148,7 @@ const Form& form_of(PyObject* object, const Shape& shape) {
   const Form* const form = token == nullptr ? nullptr : Form::of_token(token);
   if (form == nullptr) {
     PyErr_Clear();
-    raise(PyExc_ValueError, shape.name() + " has no fields: make it with " + shape.name() + "()");
+    raise(PyExc_ValueError, shape.name() + " has no fields: create it with " + shape.name() + "()");
   }
   return *form;
 }

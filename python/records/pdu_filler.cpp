@@ -26,9 +26,8 @@ std::string PduFiller::where(std::string_view name) const {
 }
 
 void PduFiller::refuse_size(std::string_view name, std::size_t is, std::size_t wanted) const {
-  raise(PyExc_ValueError, where(name) + " has a size of " + std::to_string(is) +
-                              ": it has to be of " + std::to_string(wanted) +
-                              ", or of records of that size");
+  raise(PyExc_ValueError, where(name) + " has a size of " + std::to_string(is) + ": it must be " +
+                              std::to_string(wanted) + ", or of records of that size");
 }
 
 std::span<const std::byte> PduFiller::octets_of(std::string_view name, PyObject* given) {

@@ -51,7 +51,7 @@ Py_ssize_t slot_offset(PyTypeObject* type, const std::string& name) {
   const py::object slot =
       py::reinterpret_borrow<py::object>(reinterpret_cast<PyObject*>(type)).attr(name.c_str());
   if (!PyObject_TypeCheck(slot.ptr(), &PyMemberDescr_Type))
-    throw std::logic_error(name + " is no slot");
+    throw std::logic_error(name + " is not a slot");
   return reinterpret_cast<PyMemberDescrObject*>(slot.ptr())->d_member->offset;
 }
 

@@ -132,7 +132,7 @@ py::tuple run_scene(const std::string& path, double duration, std::optional<std:
   constexpr double kLongest = 1e6;
   if (!(duration > 0) || duration > kLongest)
     throw py::value_error("duration is " + std::to_string(duration) +
-                          " s: it has to be more than 0 and at most 1e6");
+                          " s: it must be more than 0 and at most 1e6");
   tools::SceneOptions options;
   options.scene = path;
   options.seed = seed;

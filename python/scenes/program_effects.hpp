@@ -17,7 +17,7 @@ inline constexpr const char* kEffectsCapsule = "reckon.CustomEffects";
   if (effects.is_none()) return {};
   if (PyCapsule_IsValid(effects.ptr(), kEffectsCapsule) == 0)
     throw pybind11::type_error(
-        "effects has to be what a module of effects returns: a capsule reckon.CustomEffects");
+        "effects must be the capsule reckon.CustomEffects that a module of effects returns");
   return *static_cast<const haptics::CustomEffects*>(
       PyCapsule_GetPointer(effects.ptr(), kEffectsCapsule));
 }

@@ -81,7 +81,7 @@ class Federates(unittest.TestCase):
             thread.start()
             thread.join()
             self.assertEqual(len(faults), 1)
-            self.assertIn("thread that made it", faults[0])
+            self.assertIn("thread that created it", faults[0])
 
     def test_what_cannot_be_is_told_with_the_remedy(self):
         with self.assertRaisesRegex((RuntimeError, ValueError), "nolan"):
@@ -105,7 +105,7 @@ class Federates(unittest.TestCase):
         heard = [truck.communicate(timeout=120)[0] for truck in trucks]
         for truck, words in zip(trucks, heard):
             self.assertEqual(truck.returncode, 0)
-            self.assertIn("hears EntityId(", words)
+            self.assertIn("received EntityId(", words)
 
 
 if __name__ == "__main__":

@@ -158,10 +158,10 @@ class Encoding(unittest.TestCase):
     def test_what_does_not_fit_is_told_by_its_field(self):
         for change, sentence in (
                 (lambda pdu: setattr(pdu.header, "exercise_id", 256), "PduHeader.exercise_id is 256"),
-                (lambda pdu: setattr(pdu.header, "exercise_id", "one"), "PduHeader.exercise_id has to be a whole number"),
-                (lambda pdu: setattr(pdu.entity_location, "x", "far"), "WorldCoordinates.x has to be a number"),
+                (lambda pdu: setattr(pdu.header, "exercise_id", "one"), "PduHeader.exercise_id must be a whole number"),
+                (lambda pdu: setattr(pdu.entity_location, "x", "far"), "WorldCoordinates.x must be a number"),
                 (lambda pdu: setattr(pdu.entity_marking, "entity_marking_string", "twelve chars"), "at most 11"),
-                (lambda pdu: setattr(pdu, "entity_location", None), "EntityState.entity_location has to be a record"),
+                (lambda pdu: setattr(pdu, "entity_location", None), "EntityState.entity_location must be a record"),
                 (lambda pdu: setattr(pdu, "variable_parameters", [b"short"]), "EntityState.variable_parameters"),
                 (lambda pdu: delattr(pdu, "entity_location"), "EntityState.entity_location is missing")):
             pdu = reckon.EntityState()

@@ -96,7 +96,7 @@ class Scenes(unittest.TestCase):
             self.assertGreater(forces[1], forces[0] + 0.3)
             with self.assertRaisesRegex(reckon.SceneError, "unknown key 'honey'.*exists only in its own program"):
                 reckon.run_scene(scene, 1.0)
-            with self.assertRaisesRegex(TypeError, "a capsule reckon.CustomEffects"):
+            with self.assertRaisesRegex(TypeError, "the capsule reckon.CustomEffects"):
                 reckon.run_scene(scene, 1.0, effects="honey")
 
 
