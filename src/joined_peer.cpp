@@ -138,7 +138,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   if (hold_ && !hold_->report().empty())
     static_cast<void>(
         peer_->notices().push(make_notice(NoticeKind::number_held, "{}", hold_->report())));
-  peer_->model().receive(guest);
+  peer_->model().set_guest(guest);
   begun_ = clock_->now();
   peer_->start(begun_);
   if (roll) {
@@ -200,7 +200,7 @@ void JoinedPeer::resign() noexcept {
   resigned_ = true;
   stop_loops();
   peer_->stop(clock_->now(), clock_->utc_now());
-  peer_->model().receive(nullptr);
+  peer_->model().set_guest(nullptr);
   hold_.reset();
 }
 

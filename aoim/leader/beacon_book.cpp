@@ -6,7 +6,7 @@
 
 namespace reckon::aoim {
 
-bool BeaconBook::hear(std::uint32_t tag, CellId cell, std::uint32_t owner, Nanoseconds now) {
+bool BeaconBook::receive(std::uint32_t tag, CellId cell, std::uint32_t owner, Nanoseconds now) {
   const auto known = beacons_.find(tag);
   if (known == beacons_.end()) {
     const auto of_owner = static_cast<std::size_t>(

@@ -34,7 +34,7 @@ class BeaconBook {
   explicit BeaconBook(Nanoseconds patience) : patience_(patience) {}
 
   /// Records that the peer with the epoch `owner` has its beacon in this cell. True if that is new.
-  bool hear(std::uint32_t tag, CellId cell, std::uint32_t owner, Nanoseconds now);
+  bool receive(std::uint32_t tag, CellId cell, std::uint32_t owner, Nanoseconds now);
   /// Records that this owner has left the cell. True if a beacon was removed.
   bool leave(CellId cell, std::uint32_t owner);
   /// Records that this epoch has ended. True if it had a beacon.

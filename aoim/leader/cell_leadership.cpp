@@ -11,8 +11,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr int kFarewells = 3;
-constexpr milliseconds kFarewellGap{50};
+constexpr int kLeaveRepeats = 3;
+constexpr milliseconds kLeaveGap{50};
 // A challenged leader repeats its claim, but not more often than this.
 constexpr milliseconds kLeastGap{100};
 // Limit of the candidates before us for which we wait.
@@ -31,7 +31,7 @@ CellLeadership::CellLeadership(const LeaderConfig& config, std::uint32_t epoch)
 
 CellLeadership::Cell* CellLeadership::find(CellId id) noexcept {
   const auto found = std::find_if(cells_.begin(), cells_.end(), [id](const Cell& cell) {
-    return cell.id == id && cell.farewells == 0;
+    return cell.id == id && cell.leave_repeats == 0;
   });
   return found == cells_.end() ? nullptr : &*found;
 }
@@ -47,7 +47,7 @@ bool CellLeadership::enter(CellId id, nanoseconds utc, nanoseconds now) {
   Cell cell;
   cell.id = id;
   cell.entered = static_cast<std::uint64_t>(utc.count());
-  cell.since = cell.next_say = now;
+  cell.since = cell.next_send = now;
   cell.said = now - config_.heartbeat;
   cells_.push_back(cell);
   return true;
@@ -57,8 +57,8 @@ void CellLeadership::leave(CellId id, nanoseconds now) {
   Cell* cell = find(id);
   if (cell == nullptr) return;
   cell->leader.successor = successor_of(*cell, now);
-  cell->farewells = kFarewells;
-  cell->next_say = now;
+  cell->leave_repeats = kLeaveRepeats;
+  cell->next_send = now;
 }
 
 void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, nanoseconds now) {
@@ -70,10 +70,10 @@ void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, na
     // A leader may leave as we enter. Its leave message can then arrive before we have received its
     // claim.
     const bool led = cell->leader.epoch == sender || (leads && cell->leader.epoch == 0);
-    return hear_farewell(*cell, sender, led, role.successor, now);
+    return receive_leave(*cell, sender, led, role.successor, now);
   }
   note_member(*cell, role, sender, now);
-  if (leads) hear_claim(*cell, role, sender, now);
+  if (leads) receive_claim(*cell, role, sender, now);
 }
 
 void CellLeadership::note_member(Cell& cell, const pdu::CellRole& role, std::uint32_t sender,
@@ -88,14 +88,14 @@ void CellLeadership::note_member(Cell& cell, const pdu::CellRole& role, std::uin
   }
 }
 
-void CellLeadership::hear_claim(Cell& cell, const pdu::CellRole& role, std::uint32_t sender,
-                                nanoseconds now) {
+void CellLeadership::receive_claim(Cell& cell, const pdu::CellRole& role, std::uint32_t sender,
+                                   nanoseconds now) {
   const Leader claimed{sender, role.successor, role.entered, now};
   Leader& leader = cell.leader;
   const bool older = precedes(role.entered, sender, leader.entered, leader.epoch);
   if (leader.epoch == epoch_) {
     if (older) return follow(cell, claimed, now);
-    cell.next_say = std::min(cell.next_say, std::max(now, cell.said + kLeastGap));
+    cell.next_send = std::min(cell.next_send, std::max(now, cell.said + kLeastGap));
     return;
   }
   const bool lost = leader.epoch == 0 || now - leader.heard >= patience();
@@ -109,15 +109,15 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
   if (!cell.ranked) {
     cell.ranked = true;
     cell.entered = std::max(cell.entered, leader.entered + 1);
-    cell.next_say = now;
+    cell.next_send = now;
   }
-  if (led) cell.next_say = now;  // it may not have received our role and rank
+  if (led) cell.next_send = now;  // it may not have received our role and rank
   if (is_new) tell(cell, led);
 }
 
 // The successor leads at once. The others wait for its claim as long as for the claim of a leader
 // that was just received.
-void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
+void CellLeadership::receive_leave(Cell& cell, std::uint32_t sender, bool led,
                                    std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });
   if (!led) return;
@@ -134,7 +134,7 @@ void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
 void CellLeadership::forget(std::uint32_t epoch, nanoseconds now) {
   for (Cell& cell : cells_) {
     const bool led = cell.leader.epoch == epoch;
-    if (cell.farewells == 0) hear_farewell(cell, epoch, led, cell.leader.successor, now);
+    if (cell.leave_repeats == 0) receive_leave(cell, epoch, led, cell.leader.successor, now);
   }
 }
 
@@ -143,7 +143,7 @@ void CellLeadership::take_lead(Cell& cell, nanoseconds now) {
   std::erase_if(cell.members, [lost](const Member& m) { return m.epoch == lost; });
   cell.leader = {epoch_, 0, cell.entered, now};
   cell.ranked = true;
-  cell.next_say = now;
+  cell.next_send = now;
   tell(cell, false);
 }
 
@@ -197,7 +197,7 @@ void CellLeadership::step(nanoseconds now) {
   if (stepped_ != nanoseconds::min() && now - stepped_ >= patience()) wake(now);
   stepped_ = now;
   for (Cell& cell : cells_) {
-    if (cell.farewells > 0) continue;
+    if (cell.leave_repeats > 0) continue;
     std::erase_if(cell.members, [&](const Member& member) {
       return now - member.heard > 7 * config_.member_beat / 2;
     });
@@ -207,12 +207,12 @@ void CellLeadership::step(nanoseconds now) {
 
 bool CellLeadership::take_role(nanoseconds now, pdu::CellRole& role) {
   const auto due = std::find_if(cells_.begin(), cells_.end(),
-                                [now](const Cell& cell) { return cell.next_say <= now; });
+                                [now](const Cell& cell) { return cell.next_send <= now; });
   if (due == cells_.end()) return false;
   Cell& cell = *due;
   const bool leads = cell.leader.epoch == epoch_;
   const std::uint32_t successor =
-      cell.farewells > 0 ? cell.leader.successor : successor_of(cell, now);
+      cell.leave_repeats > 0 ? cell.leader.successor : successor_of(cell, now);
   role = {};
   role.column = cell.id.q;
   role.row = cell.id.r;
@@ -220,23 +220,24 @@ bool CellLeadership::take_role(nanoseconds now, pdu::CellRole& role) {
   role.successor = leads ? successor : 0;
   role.flags = leads ? pdu::kRoleLeads : 0;
   cell.said = now;
-  cell.next_say = now + (leads ? config_.heartbeat : config_.member_beat);
-  if (cell.farewells == 0) return true;
+  cell.next_send = now + (leads ? config_.heartbeat : config_.member_beat);
+  if (cell.leave_repeats == 0) return true;
   role.flags |= pdu::kRoleLeaves;
-  cell.next_say = now + kFarewellGap;
-  if (--cell.farewells == 0) cells_.erase(due);
+  cell.next_send = now + kLeaveGap;
+  if (--cell.leave_repeats == 0) cells_.erase(due);
   return true;
 }
 
 void CellLeadership::say_soon(CellId id, nanoseconds now) noexcept {
-  if (Cell* cell = find(id)) cell->next_say = std::min(cell->next_say, now);
+  if (Cell* cell = find(id)) cell->next_send = std::min(cell->next_send, now);
 }
 
 nanoseconds CellLeadership::next_step() const noexcept {
   nanoseconds next = nanoseconds::max();
   for (const Cell& cell : cells_) {
-    next = std::min(next, cell.next_say);
-    if (cell.farewells == 0 && cell.leader.epoch != epoch_) next = std::min(next, leads_at(cell));
+    next = std::min(next, cell.next_send);
+    if (cell.leave_repeats == 0 && cell.leader.epoch != epoch_)
+      next = std::min(next, leads_at(cell));
   }
   return next;
 }

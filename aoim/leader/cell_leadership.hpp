@@ -31,11 +31,10 @@ class CellLeadership {
   /// @param epoch ours, not 0
   CellLeadership(const LeaderConfig& config, std::uint32_t epoch);
 
-  /// Enters this cell.
-  /// @param utc our time since 1970, which ranks us. Returns false and does nothing if we are
-  /// already in the maximum number of cells.
+  /// Enters this cell; false if we are already in the maximum number of cells.
+  /// @param utc our time since 1970, which ranks us
   bool enter(CellId cell, std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
-  /// Leaves the cell, and sends a role with kRoleLeaves three times.
+  /// Leaves the cell: its role is sent three more times, with kRoleLeaves.
   void leave(CellId cell, std::chrono::nanoseconds now);
 
   /// Takes the role of a known peer in one cell.  @param sender its epoch, from its datagram
@@ -68,7 +67,7 @@ class CellLeadership {
   template <typename Visit>
   void for_each_cell(Visit&& visit) const {
     for (const Cell& cell : cells_) {
-      if (cell.farewells == 0) visit(cell.id, cell.leader.epoch);
+      if (cell.leave_repeats == 0) visit(cell.id, cell.leader.epoch);
     }
   }
   /// Events since the last call; valid until the next one.
@@ -92,9 +91,9 @@ class CellLeadership {
     std::uint64_t entered = 0;
     bool ranked = false;  ///< our rank is fixed: we have led or received a leader
     bool other_led = false;
-    int farewells = 0;  ///< farewells still to send; 0: we stay
+    int leave_repeats = 0;  ///< roles of leaving still to send; 0: we stay
     Leader leader;
-    Nanoseconds since{}, next_say{}, said{};
+    Nanoseconds since{}, next_send{}, said{};
     std::vector<Member> members;
   };
   [[nodiscard]] Cell* find(CellId id) noexcept;
@@ -103,8 +102,8 @@ class CellLeadership {
   [[nodiscard]] Nanoseconds leads_at(const Cell& cell) const noexcept;
   [[nodiscard]] std::uint32_t successor_of(const Cell& cell, Nanoseconds now) const noexcept;
   void note_member(Cell& cell, const pdu::CellRole& role, std::uint32_t sender, Nanoseconds now);
-  void hear_claim(Cell& cell, const pdu::CellRole& role, std::uint32_t sender, Nanoseconds now);
-  void hear_farewell(Cell& cell, std::uint32_t sender, bool led, std::uint32_t successor,
+  void receive_claim(Cell& cell, const pdu::CellRole& role, std::uint32_t sender, Nanoseconds now);
+  void receive_leave(Cell& cell, std::uint32_t sender, bool led, std::uint32_t successor,
                      Nanoseconds now);
   void follow(Cell& cell, const Leader& leader, Nanoseconds now);
   void take_lead(Cell& cell, Nanoseconds now);

@@ -106,7 +106,7 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
     if (cell != kWholeScene && !leaves) {
       note_populated(cell, now);
-      changed_ |= beacons_.hear(role.beacon, cell, sender, now);
+      changed_ |= beacons_.receive(role.beacon, cell, sender, now);
     } else if (leaves) {
       changed_ |= beacons_.leave(cell, sender);
     }

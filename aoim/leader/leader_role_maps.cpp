@@ -21,7 +21,7 @@ void LeaderRole::note_own_cells(nanoseconds now) {
   for (const auto& [cell, group] : entered_) note_populated(cell, now);
   for (const CarriedBeacon& beacon : carried_) {
     if (entered_.count(beacon.cell) == 0) continue;
-    changed_ |= beacons_.hear(beacon.tag, beacon.cell, leadership_.epoch(), now);
+    changed_ |= beacons_.receive(beacon.tag, beacon.cell, leadership_.epoch(), now);
   }
 }
 

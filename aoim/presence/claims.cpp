@@ -27,7 +27,7 @@ bool announces_established(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceEstablished) != 0;
 }
 
-void Claimant::hear(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+void Claimant::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   if (id() != heard.simulation) {
     since = now;
     reported = false;

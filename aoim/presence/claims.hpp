@@ -37,7 +37,7 @@ struct Claimant {
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
   [[nodiscard]] std::uint32_t epoch() const noexcept { return announced.epoch; }
   /// It has announced itself again, perhaps with another ID.
-  void hear(const pdu::Presence& heard, std::chrono::nanoseconds now, const SourceAddress& from);
+  void receive(const pdu::Presence& heard, std::chrono::nanoseconds now, const SourceAddress& from);
 };
 
 /// All claimants, unordered. One thread; allocates nothing after construction.

@@ -39,7 +39,7 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
   config.check();
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
   outgoing_.reserve(8);
-  farewells_.reserve(8);
+  leaving_.reserve(8);
 }
 
 void Presence::start(nanoseconds now) {
@@ -50,7 +50,7 @@ void Presence::start(nanoseconds now) {
 void Presence::stop() {
   if (!pace_.is_running()) return;
   pace_.stop();
-  farewells_.push_back(own());
+  leaving_.push_back(own());
 }
 
 // The others have dropped us after this time, and one may have taken our ID.
@@ -170,7 +170,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
     claimant = &claims_.add({heard, now, now, from, {}, {}});
     pace_.insist(now);
   }
-  claimant->hear(heard, now, from);
+  claimant->receive(heard, now, from);
   if (heard.simulation != id()) return;
   ++counts_.conflicts;
   own_.resolve_conflict_with(*claimant, now);
@@ -346,9 +346,9 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now, nanoseconds utc,
     fill_free_ids(now);
     settle(now);  // other claimants of the ID that we gave up
   }
-  std::swap(outgoing_, farewells_);
-  farewells_.clear();
-  for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
+  std::swap(outgoing_, leaving_);
+  leaving_.clear();
+  for (pdu::Presence& leaving : outgoing_) leaving.flags |= pdu::kPresenceLeaving;
   const bool announces = is_due(now);
   if (announces) {
     outgoing_.push_back(own_.announce(now));
@@ -388,7 +388,7 @@ PresenceCounts Presence::counts() const noexcept {
 }
 
 nanoseconds Presence::next_step() const noexcept {
-  if (!farewells_.empty()) return nanoseconds::min();
+  if (!leaving_.empty()) return nanoseconds::min();
   nanoseconds next = nanoseconds::max();
   if (pace_.is_running()) next = lists_.next_step();
   if (pace_.is_running() && !own_.is_yielding()) next = std::min(next, pace_.next());

@@ -224,7 +224,7 @@ class Presence {
   OwnIdentity own_;
   MutualHearing hearing_;
   HeardListSender lists_;
-  std::vector<pdu::Presence> outgoing_, farewells_;
+  std::vector<pdu::Presence> outgoing_, leaving_;
 };
 
 }  // namespace reckon::aoim

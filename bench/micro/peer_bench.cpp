@@ -77,13 +77,13 @@ void hear_a_peer(benchmark::State& state) {
   PeerClocks clocks;
   pdu::DatagramTrailer trailer;
   for (trailer.epoch = 1; trailer.epoch < peers; ++trailer.epoch) {
-    clocks.hear(trailer, kUtc, seconds(1));
+    clocks.receive(trailer, kUtc, seconds(1));
   }
   nanoseconds now = seconds(1);
   for (auto _ : state) {
     now += milliseconds(1);
     trailer.send_time = pdu::trailer_time(kUtc + now - milliseconds(1));
-    clocks.hear(trailer, kUtc + now, now);
+    clocks.receive(trailer, kUtc + now, now);
     benchmark::DoNotOptimize(clocks.ahead(trailer.epoch, true, now));
   }
 }

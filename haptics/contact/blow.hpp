@@ -20,8 +20,8 @@ class Blow {
   [[nodiscard]] bool is_on() const noexcept { return left_ > 0; }
 
   /// Stores the state of the hand that its owner states for this time.
-  void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept {
-    playback_.hear(state, time);
+  void receive(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept {
+    playback_.receive(state, time);
   }
   /// Detects a blow from stated states, before extrapolation leads the hand into ours. @param
   /// closing [m/s], towards ours  @param age [s], of updates on arrival

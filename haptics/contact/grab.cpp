@@ -25,7 +25,7 @@ void Grab::take(std::size_t body, const GrabSpring& spring, const Vector3d& prob
   place_ = motion.orientation.conjugate() * (probe - motion.position);
 }
 
-void Grab::let_go(EnergyLedger& ledger) noexcept {
+void Grab::release(EnergyLedger& ledger) noexcept {
   if (!holds_) return;
   // The energy lent for the body's motion is no storage.
   ledger.book(-gain_ * lent_);
@@ -49,7 +49,7 @@ void Grab::settle(double dt, EnergyLedger& ledger) noexcept {
   if (!holds_) return;
   const double debt = ledger.debt();
   if (debt > 0) scale_gain(debt < booked() ? 1.0 - debt / booked() : 0.0, ledger);
-  if (gain_ < kLeastGain) return let_go(ledger);
+  if (gain_ < kLeastGain) return release(ledger);
   const double wanted = std::min(1.0 - gain_, dt / kRampSeconds);
   const double rise = stored_ > 0 ? std::clamp(ledger.level() / stored_, 0.0, std::max(0.0, wanted))
                                   : std::max(0.0, wanted);

@@ -25,7 +25,7 @@ class Grab {
   void take(std::size_t body, const GrabSpring& spring, const Eigen::Vector3d& probe,
             const ObjectMotion& motion) noexcept;
   /// Releases the body; the energy of the spring is lost.
-  void let_go(EnergyLedger& ledger) noexcept;
+  void release(EnergyLedger& ledger) noexcept;
   [[nodiscard]] bool holds() const noexcept { return holds_; }
   [[nodiscard]] std::size_t body() const noexcept { return body_; }
   /// Whether the pull exceeds the limit of the spring.

@@ -22,7 +22,7 @@ void PairAccount::open(const pdu::EntityId& whose, std::uint32_t life, double to
   stated = seen = std::isfinite(total) ? std::max(0.0, total) : 0.0;
 }
 
-void PairAccount::hear(std::uint32_t life, double total) noexcept {
+void PairAccount::receive(std::uint32_t life, double total) noexcept {
   const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
   if (life != epoch) {
     epoch = life;

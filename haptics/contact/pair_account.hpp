@@ -32,7 +32,7 @@ struct PairAccount {
   void open(const pdu::EntityId& whose, std::uint32_t life, double total) noexcept;
   /// Receives a total from the owner. Totals only grow, so that loss and reordering of updates can
   /// lose energy but not create any. With a new epoch of the owner the total restarts.
-  void hear(std::uint32_t life, double total) noexcept;
+  void receive(std::uint32_t life, double total) noexcept;
   /// Credits pending energy, as far as the ledger accepts it now. Energy beyond the bound is lost.
   void claim(EnergyLedger& ledger) noexcept;
   /// Adds observed work [J] of the surface on our spring; negative if the spring gave it back.

@@ -51,8 +51,8 @@ deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) 
   return carry_on(pose, stated, age - trusted);
 }
 
-void Playback::hear(const deadreckon::KinematicState& state,
-                    std::chrono::nanoseconds time) noexcept {
+void Playback::receive(const deadreckon::KinematicState& state,
+                       std::chrono::nanoseconds time) noexcept {
   if (time < heard_[newest_].time) count_ = 0;
   newest_ = (newest_ + 1) % kKept;
   count_ = std::min(count_ + 1, kKept);

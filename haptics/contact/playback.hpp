@@ -28,7 +28,7 @@ class Playback {
   static constexpr std::size_t kKept = 32;
 
   /// Stores a received state of this time. A time before the last one discards the older states.
-  void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
+  void receive(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
 
   /// Whether extrapolation would move an approaching hand deep into ours before an update can show
   /// the touch.

@@ -20,7 +20,7 @@ constexpr double kNearAge = 0.018;       // [s], with a lower delay a shortage i
 constexpr double kSpareShare = 0.001;   // [J], beyond a contact's greatest need: passed on, or lost
 constexpr double kDeepestGuess = 0.75;  // of the reach, for extrapolation alone
 constexpr double kCalmRate = 200.0;     // [N/s], for a surface that is not where it is shown
-constexpr double kLetGoRate = 400.0;    // [N/s], for a surface that is elsewhere
+constexpr double kReleaseRate = 400.0;  // [N/s], for a surface that is elsewhere
 constexpr double kShallow = 0.001;      // [m], below which a change of a spring is hardly felt
 constexpr double kReshape = 0.1;        // [s], time constant of a change of the spring
 constexpr double kReshaped = 0.3;       // [s], after which the old spring has gone
@@ -45,7 +45,7 @@ void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
 }
 
 void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noexcept {
-  account_->hear(hand.epoch, hand.given_to_us);
+  account_->receive(hand.epoch, hand.given_to_us);
   answer_ = true;
   hand_.version = hand.version;
   hand_.need = hand.need;
@@ -63,7 +63,7 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   usable_ = true;
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
-  blow_.hear(hand.state, hand.state_time);
+  blow_.receive(hand.state, hand.state_time);
   const ContactParameters stated = target_at(stated_pose(), step);
   stated_point_ = stated.point;
   if (!touching() || haptics::geometry(stated, step.probe).depth < 0) expect_blow(step);
@@ -229,7 +229,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   const bool apart = !touching() && !(there_.depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
   const bool elsewhere = !fresh && is_elsewhere(shown);
-  if (elsewhere && !let_go(step)) return;
+  if (elsewhere && !release(step)) return;
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   blow_.pass(step.dt);
   if (apart) {
@@ -286,8 +286,8 @@ void RemoteContact::follow(const StepContext& step) noexcept {
 
 // Removes the force of a surface that is no longer there within some ms. Returns whether it is
 // gone.
-bool RemoteContact::let_go(const StepContext& step) noexcept {
-  const double felt = spring_.force().norm(), most = kLetGoRate * step.dt;
+bool RemoteContact::release(const StepContext& step) noexcept {
+  const double felt = spring_.force().norm(), most = kReleaseRate * step.dt;
   if (felt <= most) {
     spring_.release();
     return true;

@@ -148,7 +148,7 @@ class RemoteContact {
                                   const StepContext& step) const noexcept;
   void fade_out(const StepContext& step) noexcept;
   void fade_to(double gain) noexcept;
-  [[nodiscard]] bool let_go(const StepContext& step) noexcept;
+  [[nodiscard]] bool release(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   [[nodiscard]] Eigen::Vector3d slip(
       const StepContext& step) const noexcept;  // velocity of our hand over its surface [m/s]

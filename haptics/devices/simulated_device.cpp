@@ -65,10 +65,10 @@ DeviceLimits SimulatedDevice::limits() const noexcept {
 
 void SimulatedDevice::plug(bool in) noexcept {
   plugged_ = in;
-  if (!in) let_go();
+  if (!in) drop_force();
 }
 
-void SimulatedDevice::let_go() noexcept {
+void SimulatedDevice::drop_force() noexcept {
   force_.setZero();
   torque_.setZero();
   for (Wrench& wrench : under_way_) wrench.setZero();
@@ -79,7 +79,7 @@ void SimulatedDevice::restart(const Eigen::Vector3d& position, const Eigen::Vect
   if (started_) time_ += pdu::to_seconds(std::max(now - read_at_, nanoseconds(0)));
   started_ = true;
   read_at_ = written_at_ = now;
-  let_go();
+  drop_force();
   position_ = position;
   velocity_ = velocity;
   if (turn_) turn_->restart(turn_->orientation(), turn_->rate());
@@ -102,7 +102,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   if (now > deadline && holds_force()) {
     const nanoseconds held = std::clamp(deadline - read_at_, nanoseconds(0), elapsed);
     run(pdu::to_seconds(held));
-    let_go();
+    drop_force();
     sample.watchdog = true;
     sample.released_at = position_;
     if (turn_) sample.released_turned = turn_->orientation();
@@ -129,7 +129,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
 
 void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexcept {
   written_at_ = now;
-  if (!plugged_ || !force.allFinite()) return let_go();
+  if (!plugged_ || !force.allFinite()) return drop_force();
   if (under_way_.empty()) {
     force_ = force;
     return;
@@ -142,7 +142,7 @@ void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexc
 
 void SimulatedDevice::write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
                                    nanoseconds now) noexcept {
-  if (!torque.allFinite()) return let_go();
+  if (!torque.allFinite()) return drop_force();
   torque_ = torque;
   if (!under_way_.empty()) {
     torque_ = under_way_[next_].tail<3>();

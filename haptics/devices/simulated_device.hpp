@@ -119,7 +119,7 @@ class SimulatedDevice : public HapticDevice {
  private:
   using Wrench = Eigen::Matrix<double, 6, 1>;  // force, then torque
 
-  void let_go() noexcept;
+  void drop_force() noexcept;
   [[nodiscard]] bool holds_force() const noexcept;
   void run(double duration) noexcept;
   void substep(double h) noexcept;

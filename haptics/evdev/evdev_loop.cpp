@@ -42,7 +42,7 @@ EvdevLoop::EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
   static_cast<void>(evdev_limits(settings));
 }
 
-EvdevLoop::~EvdevLoop() { let_go(); }
+EvdevLoop::~EvdevLoop() { close_device(); }
 
 std::string EvdevLoop::name() const { return facts_.name.empty() ? "evdev" : facts_.name; }
 
@@ -137,14 +137,14 @@ void EvdevLoop::publish(nanoseconds now) noexcept {
   exchange_.reading.publish();
 }
 
-void EvdevLoop::let_go() noexcept {
+void EvdevLoop::close_device() noexcept {
   if (file_ < 0) return;
   walls_.end();
   calls_->close(std::exchange(file_, -1));
 }
 
 void EvdevLoop::detach(const std::string& why) {
-  let_go();
+  close_device();
   clear_problem();
   retry_after(kRetry);
   publish(now());
@@ -223,7 +223,7 @@ std::string EvdevLoop::open() {
   for (const std::string& path : calls_->paths()) {
     std::string fault = open_one(path, false);
     if (fault.empty()) return {};
-    let_go();
+    close_device();
     if (fault != "none") nearest = std::move(fault);
   }
   if (!nearest.empty()) return nearest;
@@ -234,7 +234,7 @@ std::string EvdevLoop::open() {
 
 void EvdevLoop::opened(nanoseconds now, std::string& problem) {
   if (!problem.empty()) {
-    let_go();
+    close_device();
     return publish(now);
   }
   clear_problem();

@@ -45,7 +45,7 @@ class EvdevLoop final : public DeviceSession {
   [[nodiscard]] std::string open_one(const std::string& path, bool by_path);
   [[nodiscard]] bool is_gone(int file) noexcept;
   [[nodiscard]] std::string set_up();
-  void let_go() noexcept;
+  void close_device() noexcept;
   void detach(const std::string& why);
   [[nodiscard]] bool read_events() noexcept;
   [[nodiscard]] int look(std::chrono::nanoseconds& now) noexcept;

@@ -47,18 +47,18 @@ struct ServoTally {
   /// The shown force against the force of springs at their received stiffness: energy has been
   /// short for longer, and both ends show the contact softer.
   Shortfall softened;
-  Shortfall rate;            ///< all forces that grow or rotate faster than the limit
-  Shortfall walls;           ///< springs of the static scene, for lack of energy
-  Shortfall effects;         ///< dampers and effects, for lack of energy
-  Shortfall limit;           ///< all forces: more than the device, or the servo's setting, allows
-  double hidden = 0.0;       ///< [m], greatest depth of a wall that no loan could pay for
-  double refused = 0.0;      ///< [s] in which a nearby record could not be used
-  std::uint64_t late = 0;    ///< steps more than half a period late
-  std::uint64_t let_go = 0;  ///< steps in which the device had dropped the force by itself
-  std::uint64_t failed = 0;  ///< readings that failed
-  double stopped = 0.0;      ///< [s] in which the software stop held the force at zero
-  std::uint32_t stops = 0;   ///< times that the software stop began
-  std::uint32_t passed = 0;  ///< objects that moved through the hand with more than its force
+  Shortfall rate;          ///< all forces that grow or rotate faster than the limit
+  Shortfall walls;         ///< springs of the static scene, for lack of energy
+  Shortfall effects;       ///< dampers and effects, for lack of energy
+  Shortfall limit;         ///< all forces: more than the device, or the servo's setting, allows
+  double hidden = 0.0;     ///< [m], greatest depth of a wall that no loan could pay for
+  double refused = 0.0;    ///< [s] in which a nearby record could not be used
+  std::uint64_t late = 0;  ///< steps more than half a period late
+  std::uint64_t force_drops = 0;  ///< steps in which the device had dropped the force by itself
+  std::uint64_t failed = 0;       ///< readings that failed
+  double stopped = 0.0;           ///< [s] in which the software stop held the force at zero
+  std::uint32_t stops = 0;        ///< times that the software stop began
+  std::uint32_t passed = 0;       ///< objects that moved through the hand with more than its force
 };
 
 }  // namespace reckon::haptics

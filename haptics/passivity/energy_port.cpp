@@ -148,11 +148,11 @@ void EnergyPortOf<axes>::clear() noexcept {
   level_ = booked_ = unearned_ = 0.0;
   region_loan().forget_due();
   sure_.begin();
-  let_go();
+  drop_force();
 }
 
 template <int axes>
-void EnergyPortOf<axes>::let_go() noexcept {
+void EnergyPortOf<axes>::drop_force() noexcept {
   held_.drop();
   shaken_.drop();
   chosen_.setZero();

@@ -124,7 +124,7 @@ class EnergyPortOf : public EnergyLedger {
     shaking_ *= factor;
   }
   /// The device dropped its force and all pending forces by itself.
-  void let_go() noexcept;
+  void drop_force() noexcept;
   /// Discards all energy, because the hand may have taken it; absorbed() falls by it. The debt
   /// stays.
   void clear() noexcept;

@@ -41,16 +41,16 @@ typedef struct {
   /* Its own. */
   uint8_t in[RECKON_CARRIED + 3];
   uint8_t in_length;
-  uint8_t is_asked; /* since the host was last silent for a second */
-  uint8_t was_told; /* a frame came since the last tick */
-  uint8_t has_next; /* a force that the next tick takes up */
-  uint8_t drops;    /* the next tick lets go */
-  uint8_t holds;         /* a force of the host's */
-  uint8_t let_go;        /* how often it did */
+  uint8_t is_asked;    /* since the host was last silent for a second */
+  uint8_t has_frame;   /* a frame came since the last tick */
+  uint8_t has_next;    /* a force that the next tick takes up */
+  uint8_t drops;       /* the next tick drops the force */
+  uint8_t holds;       /* a force of the host's */
+  uint8_t force_drops; /* number of drops, modulo 16 in reports */
   uint16_t next_number, number;
   int16_t next_force[RECKON_AXES], force[RECKON_AXES];
   uint16_t sequence;
-  uint32_t told_at; /* [us] of the last frame */
+  uint32_t frame_at; /* [us] of the last frame */
 } reckon_board;
 
 static inline uint16_t reckon_crc(const uint8_t* octets, uint8_t length) {
@@ -120,12 +120,12 @@ static inline void reckon_obey(reckon_board* board, const uint8_t* frame, uint8_
   uint8_t i;
   if (length == 4 && frame[0] == 0x01) {
     board->is_asked = 1;
-    board->was_told = 1;
+    board->has_frame = 1;
     board->has_next = 0;
     board->drops = 1;
     reckon_greet(board, reckon_word(frame + 2));
   } else if (length == 3 + 2 * board->axes && frame[0] == 0x02) {
-    board->was_told = 1;
+    board->has_frame = 1;
     board->has_next = 1;
     board->next_number = reckon_word(frame + 1);
     for (i = 0; i < board->axes; ++i)
@@ -166,8 +166,8 @@ static inline void reckon_board_tick(reckon_board* board, uint32_t now, const in
   const uint16_t until = board->number;
   uint8_t i, flags;
 
-  if (board->was_told) board->told_at = now;
-  board->was_told = 0;
+  if (board->has_frame) board->frame_at = now;
+  board->has_frame = 0;
   if (board->drops) board->holds = 0;
   board->drops = 0;
   if (board->has_next) {
@@ -176,14 +176,14 @@ static inline void reckon_board_tick(reckon_board* board, uint32_t now, const in
     memcpy(board->force, board->next_force, sizeof board->force);
   }
   board->has_next = 0;
-  if (!is_homed || (uint32_t)(now - board->told_at) >= 1000uL * board->watchdog) board->holds = 0;
-  if (held && !board->holds) ++board->let_go;
-  if ((uint32_t)(now - board->told_at) > 1000000uL) board->is_asked = 0;
+  if (!is_homed || (uint32_t)(now - board->frame_at) >= 1000uL * board->watchdog) board->holds = 0;
+  if (held && !board->holds) ++board->force_drops;
+  if ((uint32_t)(now - board->frame_at) > 1000000uL) board->is_asked = 0;
   for (i = 0; i < board->axes; ++i) force[i] = board->holds ? board->force[i] : 0;
   if (!board->is_asked) return;
 
   flags = (uint8_t)((held ? 1 : 0) | (board->holds ? 2 : 0) | (is_homed ? 0 : 4) |
-                    (uint8_t)(board->let_go << 4));
+                    (uint8_t)(board->force_drops << 4));
   at = reckon_put(at, 0x82, 1);
   at = reckon_put(at, ++board->sequence, 2);
   at = reckon_put(at, now, 4);

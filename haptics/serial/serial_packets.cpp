@@ -110,7 +110,7 @@ std::optional<SerialReport> serial_report(Octets carried, std::size_t axes) noex
   report.stamp = read32(carried, 3);
   if ((flags & kHeldUntil) != 0) report.until = static_cast<std::uint16_t>(read16(carried, 7));
   if ((flags & kHoldsFrom) != 0) report.from = static_cast<std::uint16_t>(read16(carried, 9));
-  report.let_go = static_cast<std::uint8_t>(flags >> 4);
+  report.force_drops = static_cast<std::uint8_t>(flags >> 4);
   report.homed = (flags & kNotHomed) == 0;
   report.buttons = carried[12];
   for (std::size_t i = 0; i < axes; ++i)

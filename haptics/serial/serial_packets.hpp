@@ -54,9 +54,9 @@ struct SerialReport {
   std::optional<std::uint16_t> until =
       {};  ///< number of the force held until then; std::nullopt: none
   std::optional<std::uint16_t> from =
-      {};                   ///< number of the force held from then on; std::nullopt: none
-  std::uint8_t let_go = 0;  ///< how often its watchdog has set zero force, modulo 16
-  bool homed = true;        ///< its counts are valid positions
+      {};                        ///< number of the force held from then on; std::nullopt: none
+  std::uint8_t force_drops = 0;  ///< how often its watchdog has set zero force, modulo 16
+  bool homed = true;             ///< its counts are valid positions
   std::uint8_t buttons = 0;
   std::array<std::int32_t, kSerialAxes> counts{};
 

@@ -43,7 +43,7 @@ void SerialSession::take(std::span<const std::uint8_t> octets, nanoseconds now) 
     if (stage_ == SerialStage::asked) {
       greet(carried, now);
     } else if (stage_ >= SerialStage::greeted) {
-      if (const auto report = serial_report(carried, greeting_.axes)) hear(*report, now);
+      if (const auto report = serial_report(carried, greeting_.axes)) receive(*report, now);
     }
   }
 }
@@ -95,7 +95,7 @@ bool SerialSession::keeps_time(nanoseconds now) {
   return false;
 }
 
-void SerialSession::hear(const SerialReport& report, nanoseconds now) {
+void SerialSession::receive(const SerialReport& report, nanoseconds now) {
   if (!follows(report)) return;
   const bool is_late = now - heard_at_ > kLate;
   last_ = report;
@@ -117,13 +117,13 @@ void SerialSession::read(const SerialReport& report, nanoseconds now) noexcept {
   if (held_) {
     const auto until = report.until ? frame_at(*report.until) : std::nullopt;
     const bool joins = until && *until >= *held_ && *until <= *from && are_its(*held_, *until) &&
-                       report.let_go == let_go_;
+                       report.force_drops == drops_;
     if (!joins) return leave();
     reading.before = sent(*until).number;
     if (sent(*from).number > sent(*held_).number) time(sent(*held_), sent(*from), now);
   }
   held_ = *from;
-  let_go_ = report.let_go;
+  drops_ = report.force_drops;
   reading.position = place_of(report);
   reading.at = clock_;
   reading.heard = now;

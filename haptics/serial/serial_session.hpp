@@ -115,7 +115,7 @@ class SerialSession {
   static constexpr std::int64_t kKept = 256;  // frames
 
   void greet(std::span<const std::uint8_t> carried, std::chrono::nanoseconds now);
-  void hear(const SerialReport& report, std::chrono::nanoseconds now);
+  void receive(const SerialReport& report, std::chrono::nanoseconds now);
   [[nodiscard]] bool follows(const SerialReport& report) noexcept;
   [[nodiscard]] bool keeps_time(std::chrono::nanoseconds now);
   void read(const SerialReport& report, std::chrono::nanoseconds now) noexcept;
@@ -151,7 +151,7 @@ class SerialSession {
   std::chrono::nanoseconds clock_{0};        // board's clock at that report
   std::chrono::nanoseconds first_heard_{0};  // time of the first report
   bool is_timed_ = false;                    // the board's clock has been checked
-  int let_go_ = 0;                           // let_go of the last reading
+  int drops_ = 0;                            // force_drops of the last reading
   std::optional<std::int64_t>
       held_;  // frame of the last reading of this run; std::nullopt: none yet
   std::uint64_t lost_ = 0, strange_ = 0;

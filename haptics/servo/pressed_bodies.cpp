@@ -147,7 +147,7 @@ void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>
   const bool is_pressed = (pressed & buttons_) != 0;
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     Grab& grab = contacts.grab(probe);
-    if (grab.tears() || (grab.holds() && by_[probe] && !is_pressed)) grab.let_go(ledger);
+    if (grab.tears() || (grab.holds() && by_[probe] && !is_pressed)) grab.release(ledger);
     if (!grab.holds()) take(tool, contacts, probe, is_pressed);
   }
 }

@@ -185,7 +185,7 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
     forfeit(pose);
   }
   took_ = reading.took ? pdu::to_seconds(*reading.took) : elapsed_;
-  if (reading.watchdog) let_go(reading, pose);
+  if (reading.watchdog) drop_force(reading, pose);
   tool_.move(pose);
   step_.probe = tool_.place();
   handle_.follow(reading, pdu::to_seconds(step_.now), tool_);
@@ -210,13 +210,13 @@ void ServoStepOf<axes>::note_pose(const DeviceSample& reading) noexcept {
 // the hand moved without a force. If the position is unknown, so is the energy exchanged with the
 // hand.
 template <int axes>
-void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& pose) noexcept {
-  ++tally_.let_go;
+void ServoStepOf<axes>::drop_force(const DeviceSample& reading, const HandlePose& pose) noexcept {
+  ++tally_.force_drops;
   if (const auto released = handle_.released_at(reading)) {
     tool_.move(*released);
     step_.probe = tool_.place();
     settle();
-    port_.let_go();
+    port_.drop_force();
   } else {
     tool_.reset(pose);  // the duration of that motion is unknown
     forfeit(pose);

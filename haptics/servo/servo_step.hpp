@@ -47,7 +47,7 @@ class ServoStepOf final : public ServoCore {
   [[nodiscard]] bool at_rest() noexcept;
   [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
   void note_limit(const Force& force, double scale) noexcept;
-  void let_go(const DeviceSample& reading, const HandlePose& pose) noexcept;
+  void drop_force(const DeviceSample& reading, const HandlePose& pose) noexcept;
   void forfeit(const HandlePose& pose) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
   void note_pose(const DeviceSample& reading) noexcept;

@@ -15,13 +15,13 @@ using Hear = std::function<void(std::span<const std::byte>, bool owns)>;
 
 /// False if the type is not in the list.
 template <typename... T>
-bool subscribe(peer::Federate& federate, unsigned type, const Hear& hear, pdu::TypeList<T...>) {
+bool subscribe(peer::Federate& federate, unsigned type, const Hear& deliver, pdu::TypeList<T...>) {
   const auto attempt = [&]<typename Pdu>(std::type_identity<Pdu>) {
     if (static_cast<unsigned>(Pdu::kPduType) != type) return false;
-    federate.subscribe<Pdu>([hear](const Pdu& pdu, const peer::InteractionSender& sender) {
+    federate.subscribe<Pdu>([deliver](const Pdu& pdu, const peer::InteractionSender& sender) {
       std::vector<std::byte> octets(pdu::wire_size(pdu));
       octets.resize(pdu::encode(pdu, octets));
-      hear(octets, sender.owns);
+      deliver(octets, sender.owns);
     });
     return true;
   };
@@ -32,7 +32,7 @@ bool subscribe(peer::Federate& federate, unsigned type, const Hear& hear, pdu::T
 
 void Session::on_interaction(unsigned pdu_type, py::function callback) {
   callbacks_.push_back(callback);
-  const Hear hear = [this, of = callback.ptr()](std::span<const std::byte> octets, bool owns) {
+  const Hear deliver = [this, of = callback.ptr()](std::span<const std::byte> octets, bool owns) {
     const py::gil_scoped_acquire python;
     try {
       pdu::DecodeError error = pdu::DecodeError::none;
@@ -42,7 +42,7 @@ void Session::on_interaction(unsigned pdu_type, py::function callback) {
       if (!first_fault_) first_fault_ = std::current_exception();
     }
   };
-  if (!subscribe(federate(), pdu_type, hear, pdu::PduTypes{}))
+  if (!subscribe(federate(), pdu_type, deliver, pdu::PduTypes{}))
     throw std::invalid_argument("no PDU type " + std::to_string(pdu_type) + " is known");
 }
 

@@ -32,7 +32,7 @@ nanoseconds between(std::uint32_t from, std::uint32_t to) noexcept {
 
 // ------------------------------------------------------------------------------------- one peer
 
-void PeerClock::hear(std::uint32_t sent, nanoseconds utc, nanoseconds now) noexcept {
+void PeerClock::receive(std::uint32_t sent, nanoseconds utc, nanoseconds now) noexcept {
   note(from_it_, watch_from_, pdu::trailer_age(sent, utc), now);
 }
 
@@ -109,10 +109,10 @@ std::size_t PeerClocks::find_or_add(std::uint32_t epoch) noexcept {
   return place;
 }
 
-void PeerClocks::hear(const pdu::DatagramTrailer& trailer, nanoseconds utc,
-                      nanoseconds now) noexcept {
+void PeerClocks::receive(const pdu::DatagramTrailer& trailer, nanoseconds utc,
+                         nanoseconds now) noexcept {
   Row& row = rows_[find_or_add(trailer.epoch)];
-  row.clock.hear(trailer.send_time, utc, now);
+  row.clock.receive(trailer.send_time, utc, now);
   row.sent = trailer.send_time;
   row.heard = pdu::trailer_time(utc);
   row.last_heard = now;

@@ -41,8 +41,8 @@ class PeerClock {
   static constexpr std::chrono::nanoseconds kMostRoundTrip = std::chrono::seconds(2);
 
   /// Records a datagram of the peer: its send time, from its trailer, and its arrival on our clock.
-  void hear(std::uint32_t sent, std::chrono::nanoseconds utc,
-            std::chrono::nanoseconds now) noexcept;
+  void receive(std::uint32_t sent, std::chrono::nanoseconds utc,
+               std::chrono::nanoseconds now) noexcept;
   /// Takes the peer's echo of a datagram of ours, in a datagram that it sent at `answered` and that
   /// arrived at `utc`. False if it is refused: its times are impossible, or the transit was too
   /// long.
@@ -76,8 +76,8 @@ class PeerClocks {
   PeerClocks();
 
   /// Records a datagram of another peer, which arrived at steady time `now` = UTC `utc`.
-  void hear(const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
-            std::chrono::nanoseconds now) noexcept;
+  void receive(const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
+               std::chrono::nanoseconds now) noexcept;
   /// Takes an exchange for the process of epoch `own` from a datagram that was already recorded;
   /// counts good echoes and refused ones.
   void take(const pdu::TimeExchange& exchange, std::uint32_t own,

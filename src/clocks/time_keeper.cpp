@@ -34,11 +34,12 @@ std::optional<double> TimeKeeper::leap() const noexcept {
   return leap ? std::optional(pdu::to_seconds(*leap)) : std::nullopt;
 }
 
-ClockEvidence TimeKeeper::hear(const pdu::DatagramTrailer& trailer,
-                               std::span<const std::byte> datagram, nanoseconds arrival) noexcept {
+ClockEvidence TimeKeeper::receive(const pdu::DatagramTrailer& trailer,
+                                  std::span<const std::byte> datagram,
+                                  nanoseconds arrival) noexcept {
   if (trailer.epoch == 0) return {is_aligned(), std::nullopt};
   const nanoseconds utc = utc_ - (now_ - arrival);
-  peers_.hear(trailer, utc, arrival);
+  peers_.receive(trailer, utc, arrival);
   transits_.add(pdu::trailer_age(trailer.send_time, utc));
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
     pdu::TimeExchange exchange;

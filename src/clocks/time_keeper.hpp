@@ -42,8 +42,8 @@ class TimeKeeper {
   /// Records a datagram that arrived at steady time `arrival`, at or before this pass. Returns the
   /// knowledge of its sender's clock.  @param trailer epoch 0 = plain DIS.
   /// @param datagram its octets if it may contain an exchange (base group), else empty.
-  ClockEvidence hear(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
-                     std::chrono::nanoseconds arrival) noexcept;
+  ClockEvidence receive(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
+                        std::chrono::nanoseconds arrival) noexcept;
 
   /// Knowledge of a peer's clock, for its states that another peer relays.
   [[nodiscard]] ClockEvidence evidence(std::uint32_t epoch) const noexcept;

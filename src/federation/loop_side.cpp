@@ -48,16 +48,16 @@ void LoopSide::grant(Wishes& wishes, ModelLoop& loop) {
   for (const EntityNumber number : wishes.removed) loop.remove(number);
 }
 
-void LoopSide::say(Wishes& wishes, ModelLoop& loop) {
+void LoopSide::send(Wishes& wishes, ModelLoop& loop) {
   for (const Wishes::Say& wish : wishes.said) {
     const std::span<std::byte> octets = std::span(wishes.octets).subspan(wish.offset, wish.size);
     pdu::store_big_endian(octets.data() + kTimestampOffset, loop.time().stamp(loop.pass().utc));
-    static_cast<void>(loop.say(octets, wish.place));
+    static_cast<void>(loop.send(octets, wish.place));
   }
 }
 
-void LoopSide::hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
-                    const InteractionSender& sender) noexcept {
+void LoopSide::receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
+                       const InteractionSender& sender) noexcept {
   if (!wanted_[static_cast<std::uint8_t>(header.pdu_type)].load(std::memory_order_relaxed)) return;
   News& news = news_.letter();
   if (news.octets.size() + octets.size() > kMostWaiting) {

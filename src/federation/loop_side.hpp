@@ -23,8 +23,8 @@ class LoopSide final : public ModelGuest {
   static constexpr std::size_t kMostWaiting = std::size_t{8} << 20;
 
   void begin_pass(ModelLoop& loop) noexcept override;
-  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
-            const InteractionSender& sender) noexcept override;
+  void receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
+               const InteractionSender& sender) noexcept override;
   void end_pass(ModelLoop& loop) noexcept override;
 
   [[nodiscard]] LetterBox<Wishes>& wishes() noexcept { return wishes_; }
@@ -36,7 +36,7 @@ class LoopSide final : public ModelGuest {
 
  private:
   static void grant(Wishes& wishes, ModelLoop& loop);
-  static void say(Wishes& wishes, ModelLoop& loop);
+  static void send(Wishes& wishes, ModelLoop& loop);
 
   LetterBox<Wishes> wishes_;
   LetterBox<News> news_;

@@ -151,7 +151,8 @@ bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
   if (tap_ != nullptr) report_judged(datagram, incoming, lost_before);
   if (!aoim::is_usable(incoming.verdict)) return counted_.datagrams_refused.add(), false;
 
-  const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
+  const ClockEvidence clock =
+      time_.receive(incoming.trailer, index ? octets.first(0) : octets, came);
   const bool of_cell = group.value <= scene_.aoim.pool;
   admitted = {octets,
               {pass.now, pass.utc, came, incoming.trailer.epoch, clock, from,

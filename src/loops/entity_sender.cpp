@@ -99,7 +99,7 @@ bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds a
                             std::span<const EnergyAccount> accounts) noexcept {
   Decision decision{entity, pass, at};
   const bool is_asked = note_asked(decision);
-  entity.let_go(pass.now);
+  entity.note_check(pass.now);
   counters_.checks.add();
   const SendReason inmost = entity.decide(at, probes);
   const bool has_urgent = urgent_of(entity.audiences()) > 0;

@@ -101,7 +101,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
 void ModelLoop::read_sensors() noexcept {
   intake_.read(pass_, owned_.simulation().simulation(), *this);
   deliver_events(aoim_, *this, pass_.now);
-  doubt_the_silent();
+  doubt_silent_peers();
   remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
   bodies_.move_own(owned_,
@@ -111,7 +111,7 @@ void ModelLoop::read_sensors() noexcept {
 void ModelLoop::do_tasks() noexcept {
   tracked_.advance(pass_.now,
                    [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
-  send_what_is_felt();
+  resend_touchable();
   touch_.answer_bodies(pass_);
   touch_.find_near(pass_);
   touch_.consider(pass_);
@@ -222,8 +222,8 @@ bool ModelLoop::remove(EntityNumber number) noexcept {
   return true;
 }
 
-aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
-                               const std::optional<aoim::Position>& place) {
+aoim::AddResult ModelLoop::send(std::span<const std::byte> pdu,
+                                const std::optional<aoim::Position>& place) {
   const std::size_t tier = place ? aoim::kCellTier : aoim::kEverybody;
   return aoim_.send(tier, aoim::PduPayload{pdu}, place.value_or(aoim::Position{}), pass_.now);
 }
@@ -301,7 +301,7 @@ void ModelLoop::publish_view() noexcept {
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind == Inbound::Kind::claim) {
-    static_cast<void>(remote_.hear(std::span(&update.entity, 1), arrival));
+    static_cast<void>(remote_.sender_right(std::span(&update.entity, 1), arrival));
     return;
   }
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
@@ -315,15 +315,16 @@ void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) 
   const bool order = update.kind != Inbound::Kind::other;
   if (order && !orders_.obeys(update, arrival, pass_)) return;
   const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);
-  const Voice voice = remote_.hear(issuers.ids(), arrival);
-  if (voice == Voice::refused) return counted_.interactions_refused.add();
+  const SenderRight right = remote_.sender_right(issuers.ids(), arrival);
+  if (right == SenderRight::refused) return counted_.interactions_refused.add();
   if (guest_ != nullptr) {
     const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
-    guest_->hear(update.pdu.header, update.pdu.bytes, {arrival.from, peer, voice == Voice::owner});
+    guest_->receive(update.pdu.header, update.pdu.bytes,
+                    {arrival.from, peer, right == SenderRight::owner});
   }
   if (order) return orders_.carry_out(update, arrival, own_id(), pass_);
   emissions_.take(update.pdu.bytes,
-                  {arrival.from, arrival.arrival, arrival.epoch == 0, voice == Voice::owner});
+                  {arrival.from, arrival.arrival, arrival.epoch == 0, right == SenderRight::owner});
 }
 
 void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
@@ -362,7 +363,7 @@ void ModelLoop::receive(const aoim::RelayedState& relayed,
   take_update(update, arrival);
 }
 
-void ModelLoop::doubt_the_silent() noexcept {
+void ModelLoop::doubt_silent_peers() noexcept {
   std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
   const std::size_t count = touch_.copy_touched(touched);
   for (const Touched& hand : std::span(touched).first(count)) {
@@ -375,7 +376,7 @@ void ModelLoop::doubt_the_silent() noexcept {
 
 // A peer that was disconnected does not feel our entities until it receives a new state. Even if
 // many peers return, the rate is limited to the rate of hands in contact.
-void ModelLoop::send_what_is_felt() noexcept {
+void ModelLoop::resend_touchable() noexcept {
   if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
   for (const EntityNumber number : owned_.touchable()) {
     OwnedEntity& entity = *owned_.find(number);

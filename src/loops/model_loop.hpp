@@ -49,8 +49,8 @@ class ModelGuest {
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
   /// Receives PDUs for the program: fires, detonations, comments, and orders too; none with a
   /// forged issuer.  @param octets of the whole PDU, valid until the call returns
-  virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
-                    const InteractionSender& sender) noexcept = 0;
+  virtual void receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
+                       const InteractionSender& sender) noexcept = 0;
   /// Publish stage of a pass: remote() contains all received updates, and due updates were sent.
   virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
@@ -86,9 +86,9 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   [[nodiscard]] OwnedEntity* find_own(EntityNumber number) noexcept { return owned_.find(number); }
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
   /// Queues an encoded PDU, for the peers that can sense `place` [m, S] or for all.
-  aoim::AddResult say(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
+  aoim::AddResult send(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
   /// @param guest outlives the loop, or the next call; nullptr: none.
-  void receive(ModelGuest* guest) noexcept { guest_ = guest; }
+  void set_guest(ModelGuest* guest) noexcept { guest_ = guest; }
 
   /// See Peer::trace_contacts().
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
@@ -145,8 +145,8 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   void receive(const aoim::RelayedState& relayed,
                const aoim::SourceAddress& from) noexcept override;
   void report(const aoim::PresenceEvent& event) noexcept override;
-  void doubt_the_silent() noexcept;
-  void send_what_is_felt() noexcept;
+  void doubt_silent_peers() noexcept;
+  void resend_touchable() noexcept;
   void consider_others() noexcept;
   [[nodiscard]] bool consider_other(OwnedEntity& entity, EntityNumber number) noexcept;
   [[nodiscard]] Eigen::Vector3d middle_of_interest() const noexcept;

@@ -54,8 +54,9 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   return false;
 }
 
-// The owner of a hand that has sent a state since the touch began is aware of the touch, and should
-// have sent the next one by now.
+// If its owner has updated the touched hand since the touch began, and then sends for kNoNews
+// without updating it, the force of the hand ends. If its owner is silent, the hand is doubted
+// after kContactPatience, or after twice that time if the owner was silent since the touch began.
 void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
                                    const Look& look) noexcept {
   const RemoteEntity* row = look.remote.find(touched.id);
@@ -69,7 +70,7 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
   if (peer == peers.end()) return;
   const nanoseconds news = std::max(row->last_heard, listening_since_);
   if (row->last_heard > touched.since && peer->last_heard - news > kNoNews)
-    return look.remote.let_go(touched.id);
+    return look.remote.end_force(touched.id);
   const nanoseconds last = heard(*peer);
   const nanoseconds due =
       last > touched.since ? last + kContactPatience : touched.since + 2 * kContactPatience;

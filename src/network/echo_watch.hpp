@@ -34,7 +34,7 @@ class EchoWatch {
     return hash(to) == watched_.load(std::memory_order_relaxed);
   }
   /// Records an echo.
-  void hear(const GroupAddress& group) noexcept {
+  void receive(const GroupAddress& group) noexcept {
     if (hash(group) != watched_.load(std::memory_order_relaxed)) return;
     heard_ = true;
     restart();

@@ -85,7 +85,7 @@ void UdpReceiver::accept(UdpSlot& slot, std::size_t buffer, nanoseconds now,
     counts_.truncated.add(out.left);
     out.left = 0;
   } else if (out.sender == local_.value()) {
-    echo_.hear(slot.group);
+    echo_.receive(slot.group);
     if (deliver_own_) return;
     counts_.own.add(out.left);
     pass_over(out, start_of(buffer), DatagramFate::own);

@@ -84,7 +84,8 @@ void Greeter::meet(const SealedSenders& senders, nanoseconds now) noexcept {
   hurry_for_stranger(now);
 }
 
-bool Greeter::hear(const OpenedDatagram& greeting, nanoseconds received, nanoseconds now) noexcept {
+bool Greeter::receive(const OpenedDatagram& greeting, nanoseconds received,
+                      nanoseconds now) noexcept {
   Hello hello;
   if (!hello.read(greeting.plain)) return false;
   SealedSender& sender = *greeting.sender;

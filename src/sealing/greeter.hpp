@@ -46,8 +46,8 @@ class Greeter {
 
   /// Takes a greeting of a sender, which becomes trusted if it contains our nonce. False if the
   /// octets are no greeting.  @param received time of arrival
-  [[nodiscard]] bool hear(const OpenedDatagram& greeting, std::chrono::nanoseconds received,
-                          std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] bool receive(const OpenedDatagram& greeting, std::chrono::nanoseconds received,
+                             std::chrono::nanoseconds now) noexcept;
 
   /// A trusted sender has sent its latest datagram at an implausible time: a clock has jumped. All
   /// senders have to prove again that they are live.

@@ -267,7 +267,7 @@ void SealedLink::Session::take_hello(const OpenedDatagram& opened, nanoseconds r
                                      nanoseconds now) noexcept {
   const SealedSender& sender = *opened.sender;
   const bool before = sender.trusted;
-  if (!greeter.hear(opened, received, now)) return;
+  if (!greeter.receive(opened, received, now)) return;
   counts->hellos_in.add();
   if (!sender.trusted || before) return;
   counts->trusted.add();

@@ -15,50 +15,52 @@ nanoseconds patience_with(const RemoteEntity& row) {
 }  // namespace
 
 // @param row of the entity, null if it has none  @param owner set if the sender is refused
-Voice EntityOwnership::voice_of(const pdu::EntityId& id, const Arrival& arrival,
-                                const RemoteEntity* row,
-                                aoim::SourceAddress& owner) const noexcept {
+SenderRight EntityOwnership::right_of(const pdu::EntityId& id, const Arrival& arrival,
+                                      const RemoteEntity* row,
+                                      aoim::SourceAddress& owner) const noexcept {
   // RemoteEntities::claim() ensures this
-  if (row != nullptr && is_owner(*row, arrival)) return Voice::owner;
+  if (row != nullptr && is_owner(*row, arrival)) return SenderRight::owner;
   const aoim::Presence& presence = aoim_.presence();
   if (const auto epoch = presence.epoch_of(id.simulation())) {
-    if (*epoch == arrival.epoch) return Voice::owner;
+    if (*epoch == arrival.epoch) return SenderRight::owner;
     owner = presence.source_of(*epoch).value_or(aoim::SourceAddress());
-    return Voice::refused;
+    return SenderRight::refused;
   }
   if (row == nullptr) {
     const aoim::SourceAddress* guest = outside_.guest_of(id, arrival.now);
-    if (guest == nullptr) return Voice::nobody;
-    if (arrival.epoch == 0 && same(*guest, arrival.from)) return Voice::owner;
+    if (guest == nullptr) return SenderRight::unknown;
+    if (arrival.epoch == 0 && same(*guest, arrival.from)) return SenderRight::owner;
     owner = *guest;
-    return Voice::refused;
+    return SenderRight::refused;
   }
   const std::size_t place = table_.place_of(*row);
-  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return Voice::nobody;
+  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return SenderRight::unknown;
   owner = owners_.owner(place);
-  return Voice::refused;
+  return SenderRight::refused;
 }
 
-bool EntityOwnership::may_speak(const pdu::EntityId& id, const Arrival& arrival,
-                                const RemoteEntity* row) noexcept {
+bool EntityOwnership::may_update(const pdu::EntityId& id, const Arrival& arrival,
+                                 const RemoteEntity* row) noexcept {
   aoim::SourceAddress owner;
-  if (voice_of(id, arrival, row, owner) != Voice::refused) return true;
+  if (right_of(id, arrival, row, owner) != SenderRight::refused) return true;
   refuse(id, arrival, owner);
   return false;
 }
 
-Voice EntityOwnership::hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept {
+SenderRight EntityOwnership::sender_right(std::span<const pdu::EntityId> ids,
+                                          const Arrival& arrival) noexcept {
   const pdu::EntityId* other = nullptr;
   aoim::SourceAddress owner;
   for (const pdu::EntityId& id : ids) {
-    const Voice voice =
-        aoim_.presence().is_own(id) ? Voice::refused : voice_of(id, arrival, table_.find(id), owner);
-    if (voice == Voice::owner) return voice;
-    if (voice == Voice::refused && other == nullptr) other = &id;
+    const SenderRight right = aoim_.presence().is_own(id)
+                                  ? SenderRight::refused
+                                  : right_of(id, arrival, table_.find(id), owner);
+    if (right == SenderRight::owner) return right;
+    if (right == SenderRight::refused && other == nullptr) other = &id;
   }
-  if (other == nullptr) return Voice::nobody;
+  if (other == nullptr) return SenderRight::unknown;
   refuse(*other, arrival, owner);
-  return Voice::refused;
+  return SenderRight::refused;
 }
 
 void EntityOwnership::refuse(const pdu::EntityId& id, const Arrival& arrival,

@@ -21,9 +21,9 @@
 namespace reckon::peer {
 
 /// Relation of a sender to the entity in whose name it sends, as far as this peer knows.
-enum class Voice : std::uint8_t {
+enum class SenderRight : std::uint8_t {
   owner,    ///< its own: it owns the entity, or its site and application
-  nobody,   ///< an entity that no known sender owns
+  unknown,  ///< an entity that no known sender owns
   refused,  ///< another owner's
 };
 
@@ -46,10 +46,11 @@ class EntityOwnership {
   }
   /// Whether a state of this entity may be taken; else it is counted as a dispute.
   /// @param row of the entity; null if it has none
-  [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row) noexcept;
-  /// See RemoteEntities::hear.
-  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
+  [[nodiscard]] bool may_update(const pdu::EntityId& id, const Arrival& arrival,
+                                const RemoteEntity* row) noexcept;
+  /// See RemoteEntities::sender_right.
+  [[nodiscard]] SenderRight sender_right(std::span<const pdu::EntityId> ids,
+                                         const Arrival& arrival) noexcept;
   /// Impostors, see Disputes::take_news.
   [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
     return disputes_.take_news(now);
@@ -65,8 +66,9 @@ class EntityOwnership {
     const auto left = std::bit_cast<Words>(a.octets), right = std::bit_cast<Words>(b.octets);
     return ((left[0] ^ right[0]) | (left[1] ^ right[1])) == 0 && a.port == b.port;
   }
-  [[nodiscard]] Voice voice_of(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row, aoim::SourceAddress& owner) const noexcept;
+  [[nodiscard]] SenderRight right_of(const pdu::EntityId& id, const Arrival& arrival,
+                                     const RemoteEntity* row,
+                                     aoim::SourceAddress& owner) const noexcept;
   void refuse(const pdu::EntityId& id, const Arrival& arrival,
               const aoim::SourceAddress& owner) noexcept;
 

@@ -199,7 +199,7 @@ class OwnedEntity {
     held_until_ = std::min(held_until_, time);
   }
   /// Records a check: ends a deferral until `now`, unless the update is deferred again.
-  void let_go(std::chrono::nanoseconds now) noexcept {
+  void note_check(std::chrono::nanoseconds now) noexcept {
     if (held_until_ <= now) held_until_ = std::chrono::nanoseconds::max();
   }
 

@@ -72,12 +72,12 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
   if (aoim_.presence().is_own(update.entity)) {
     // presence settles a conflict with a peer; plain DIS has no such mechanism
-    if (arrival.epoch == 0) static_cast<void>(hear(std::span(&update.entity, 1), arrival));
+    if (arrival.epoch == 0) static_cast<void>(sender_right(std::span(&update.entity, 1), arrival));
     return false;
   }
   if (!is_nameable(update.entity)) return counts_.reserved.add(), false;
   RemoteEntity* row = table_.find(update.entity);
-  if (!ownership_.may_speak(update.entity, arrival, row)) return false;
+  if (!ownership_.may_update(update.entity, arrival, row)) return false;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=

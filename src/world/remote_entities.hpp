@@ -62,8 +62,9 @@ class RemoteEntities {
   /// In whose name a PDU other than a state was sent, by the same rule as for states: the owner's,
   /// if the sender owns one of `ids`. A refused PDU is counted in `disputed_in` and reported. An
   /// entity number without an entity means its site and application. Some 20 ns each.
-  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept {
-    return ownership_.hear(ids, arrival);
+  [[nodiscard]] SenderRight sender_right(std::span<const pdu::EntityId> ids,
+                                         const Arrival& arrival) noexcept {
+    return ownership_.sender_right(ids, arrival);
   }
   /// Records an accepted datagram from this address, so that its rows are not given to other
   /// senders.
@@ -83,7 +84,7 @@ class RemoteEntities {
   void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds silent,
                     std::chrono::nanoseconds now) noexcept;
   /// Removes the force of this entity until it is updated.
-  void let_go(const pdu::EntityId& id) noexcept;
+  void end_force(const pdu::EntityId& id) noexcept;
   /// Records that it presses a hand of ours.  @return since when, after its last state
   std::chrono::nanoseconds note_pressed(const pdu::EntityId& id,
                                         std::chrono::nanoseconds now) noexcept;
@@ -232,7 +233,7 @@ class RemoteEntities {
   void take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept;
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
-  static void let_go(RemoteEntity& row) noexcept;
+  static void end_force(RemoteEntity& row) noexcept;
   void drop(std::size_t place, Removal cause) noexcept;
   [[nodiscard]] Counter& counter_of(Removal cause) noexcept;
 

@@ -42,14 +42,14 @@ void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds silent,
     if (row.epoch != epoch) continue;
     const bool doubted = row.doubted_at != RemoteEntity::kTrusted;
     const bool is_hand = row.haptic && row.type.kind == pdu::EntityKind::life_form;
-    if (doubted || (is_hand && row.last_heard < silent)) let_go(row);
+    if (doubted || (is_hand && row.last_heard < silent)) end_force(row);
     if (doubted) believe_row(i, now);
   }
 }
 
-void RemoteEntities::let_go(const pdu::EntityId& id) noexcept {
+void RemoteEntities::end_force(const pdu::EntityId& id) noexcept {
   RemoteEntity* row = table_.find(id);
-  if (row != nullptr) let_go(*row);
+  if (row != nullptr) end_force(*row);
 }
 
 nanoseconds RemoteEntities::note_pressed(const pdu::EntityId& id, nanoseconds now) noexcept {
@@ -66,7 +66,7 @@ void RemoteEntities::fade(const pdu::EntityId& id, nanoseconds now) noexcept {
 }
 
 // Sets a time long ago, so that no force remains to fade: the owner had time to send a state.
-void RemoteEntities::let_go(RemoteEntity& row) noexcept {
+void RemoteEntities::end_force(RemoteEntity& row) noexcept {
   row.felt_until = std::min(row.felt_until, row.last_heard);
 }
 

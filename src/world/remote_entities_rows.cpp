@@ -99,7 +99,7 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
 // As if the entity had been within the radius when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
-  if (!ownership_.may_speak(entity.id(), entity.arrival(), nullptr)) return;
+  if (!ownership_.may_update(entity.id(), entity.arrival(), nullptr)) return;
   Arrival arrival = entity.arrival();
   arrival.now = owner_heard;
   RemoteEntity* row = add_row(entity.id(), arrival);

@@ -24,8 +24,8 @@ class Program final : public peer::ModelGuest {
     calls.emplace_back("act");
     hand = loop.find_own(1)->truth().time;
   }
-  void hear(const pdu::PduHeader&, std::span<const std::byte>,
-            const peer::InteractionSender&) noexcept override {
+  void receive(const pdu::PduHeader&, std::span<const std::byte>,
+               const peer::InteractionSender&) noexcept override {
     calls.emplace_back("hear");
   }
   void end_pass(peer::ModelLoop&) noexcept override { calls.emplace_back("publish"); }
@@ -34,12 +34,12 @@ class Program final : public peer::ModelGuest {
 class LoopOrder : public testing::Test {
  protected:
   LoopOrder() {
-    world_.start(0, scene_).model().receive(&program_);
+    world_.start(0, scene_).model().set_guest(&program_);
     world_.start(1, scene_);
     world_.run(2000);
     program_.calls.clear();
   }
-  ~LoopOrder() override { world_.peer(0).model().receive(nullptr); }
+  ~LoopOrder() override { world_.peer(0).model().set_guest(nullptr); }
 
   const peer::SceneFile scene_ = scene_of(kTwoHandsOnAWall);
   Program program_;

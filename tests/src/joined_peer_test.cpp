@@ -27,8 +27,8 @@ class PassCount final : public ModelGuest {
  public:
   int passes = 0;
   void begin_pass(ModelLoop&) noexcept override { ++passes; }
-  void hear(const pdu::PduHeader&, std::span<const std::byte>,
-            const InteractionSender&) noexcept override {}
+  void receive(const pdu::PduHeader&, std::span<const std::byte>,
+               const InteractionSender&) noexcept override {}
   void end_pass(ModelLoop&) noexcept override {}
 };
 

@@ -104,7 +104,7 @@ std::vector<std::string> SilenceWatch::look(const peer::SourceReport& report, na
   }
   if (now - start_ < kPatience) return out;
   if (!begun_) begin(report, out);
-  if (elsewhere_) hear(out);
+  if (elsewhere_) listen(out);
   if (now - start_ < kPatience + kTried && stated_.size() < kMostStated) return out;
   over_ = true;
   if (stated_.empty() && elsewhere_)
@@ -130,7 +130,7 @@ void SilenceWatch::begin(const peer::SourceReport& report, std::vector<std::stri
   }
 }
 
-void SilenceWatch::hear(std::vector<std::string>& out) {
+void SilenceWatch::listen(std::vector<std::string>& out) {
   constexpr int kMostAtOnce = 256;
   peer::SourceDatagram datagram;
   for (int i = 0; i < kMostAtOnce && stated_.size() < kMostStated; ++i) {

@@ -45,7 +45,7 @@ class SilenceWatch {
 
  private:
   void begin(const peer::SourceReport& report, std::vector<std::string>& out);
-  void hear(std::vector<std::string>& out);
+  void listen(std::vector<std::string>& out);
 
   const SourceChoice& choice_;
   nanoseconds start_;

@@ -19,8 +19,8 @@ EntityEvents::Letter::Letter() {
 
 void EntityEvents::begin_pass(peer::ModelLoop&) noexcept {}
 
-void EntityEvents::hear(const pdu::PduHeader&, std::span<const std::byte>,
-                        const peer::InteractionSender&) noexcept {}
+void EntityEvents::receive(const pdu::PduHeader&, std::span<const std::byte>,
+                           const peer::InteractionSender&) noexcept {}
 
 // While the reader holds the last letter, changes gather in the table: the newest of each entity.
 // Updates are reported too, so that the update count is known when the entity goes.

@@ -21,14 +21,14 @@ namespace reckon::tools {
 /// entity that comes and goes between two calls of report() is not reported. The model loop's
 /// thread gathers the changes, another thread reports them; neither waits for the other.
 ///
-/// peer.model().receive(&events);  // while the loops are stopped
+/// peer.model().set_guest(&events);  // while the loops are stopped
 ///   ...
 ///   events.report(elapsed, stdout);
 class EntityEvents final : public peer::ModelGuest {
  public:
   void begin_pass(peer::ModelLoop& loop) noexcept override;
-  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
-            const peer::InteractionSender& sender) noexcept override;
+  void receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
+               const peer::InteractionSender& sender) noexcept override;
   void end_pass(peer::ModelLoop& loop) noexcept override;
 
   /// Writes the entities that came and went since the last call as JSON Lines: first the ones that

@@ -174,17 +174,18 @@ void print_stops(std::FILE* out, const Hands& hands) {
 }
 
 void print_steps(std::FILE* out, const Hands& hands) {
-  std::uint64_t late = 0, let_go = 0, failed = 0;
+  std::uint64_t late = 0, force_drops = 0, failed = 0;
   double late_cost = 0.0;
   for (const HandView* hand : hands) {
     late += hand->servo.tally.late;
-    let_go += hand->servo.tally.let_go;
+    force_drops += hand->servo.tally.force_drops;
     failed += hand->servo.tally.failed;
     late_cost += hand->servo.late_cost;
   }
-  if (late > 0 || let_go > 0)
-    print_line(out, "late servo steps",
-               fmt::format("{}; in {} of them, the device had dropped its force", late, let_go));
+  if (late > 0 || force_drops > 0)
+    print_line(
+        out, "late servo steps",
+        fmt::format("{}; in {} of them, the device had dropped its force", late, force_drops));
   if (late_cost > 1e-9)
     print_line(out, "energy of late steps",
                fmt::format("up to {:.1e} J; the energy may be below 0 by this", late_cost));
@@ -233,7 +234,7 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("walls_hidden_m", number(tally.hidden))
       .value("refused_s", number(tally.refused))
       .value("late_steps", tally.late)
-      .value("let_go", tally.let_go)
+      .value("let_go", tally.force_drops)
       .value("failed_readings", tally.failed)
       .value("let_through", tally.passed)
       .value("stops", tally.stops)

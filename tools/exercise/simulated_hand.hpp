@@ -78,7 +78,7 @@ struct PointerHand {
   bool lead(const Eigen::Vector3d& p_S, bool grabs = false) const noexcept {
     return put({orientation.conjugate() * (p_S - origin), true, grabs});
   }
-  void let_go() const noexcept { static_cast<void>(put({{}, false, false})); }
+  void release() const noexcept { static_cast<void>(put({{}, false, false})); }
 
  private:
   bool put(const haptics::PointerSample& sample) const noexcept {

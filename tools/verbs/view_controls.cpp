@@ -56,7 +56,7 @@ ViewerControls::HandAnswer ViewControls::take_hand(Watcher watcher) {
 void ViewControls::give_hand(Watcher watcher) {
   for (Hand& hand : hands_) {
     if (hand.owner != watcher) continue;
-    hand.pointer.let_go();
+    hand.pointer.release();
     hand.owner = kNobody;
   }
 }
@@ -67,7 +67,7 @@ void ViewControls::point(Watcher watcher, const PointerRequest& request, std::ch
     if (request.held) {
       static_cast<void>(hand.pointer.lead(request.position.cast<double>(), request.grabs));
     } else {
-      hand.pointer.let_go();
+      hand.pointer.release();
     }
   }
 }

@@ -104,8 +104,9 @@ HandMark OwnHands::mark(std::size_t index) {
     flags |= kHandSoftened;
   if (std::exchange(hand.rate_limited, step.tally.rate.seconds) < step.tally.rate.seconds)
     flags |= kHandRateLimited;
-  const std::uint64_t let_go = step.tally.let_go + step.trips;
-  if (std::exchange(hand.let_go, let_go) < let_go || (!step.enabled && !step.stopped))
+  const std::uint64_t force_drops = step.tally.force_drops + step.trips;
+  if (std::exchange(hand.force_drops, force_drops) < force_drops ||
+      (!step.enabled && !step.stopped))
     flags |= kHandLetGo;
   if (step.stopped) flags |= kHandStopped;
   if (hand.pointer_free)

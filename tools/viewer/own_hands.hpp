@@ -62,7 +62,7 @@ class OwnHands {
     double limit = 0;  // [N]
     haptics::ServoSnapshot step;
     double rate_limited = 0;  // [s], total at the last call of frame()
-    std::uint64_t let_go = 0;
+    std::uint64_t force_drops = 0;
   };
   [[nodiscard]] HandMark mark(std::size_t index);
   [[nodiscard]] std::optional<double> true_force(std::size_t index) const;

@@ -29,9 +29,9 @@ std::vector<std::pair<std::uint32_t, CellId>> all_of(const BeaconBook& book) {
 
 TEST(BeaconBook, FollowsABeaconFromCellToCell) {
   BeaconBook book(seconds(5));
-  EXPECT_TRUE(book.hear(kGate, {1, 0}, 7, seconds(1)));
-  EXPECT_FALSE(book.hear(kGate, {1, 0}, 7, seconds(2))) << "no news";
-  EXPECT_TRUE(book.hear(kGate, {2, 0}, 7, seconds(3)));
+  EXPECT_TRUE(book.receive(kGate, {1, 0}, 7, seconds(1)));
+  EXPECT_FALSE(book.receive(kGate, {1, 0}, 7, seconds(2))) << "no news";
+  EXPECT_TRUE(book.receive(kGate, {2, 0}, 7, seconds(3)));
   EXPECT_FALSE(book.leave({1, 0}, 7)) << "it is there no more";
   EXPECT_EQ(all_of(book).size(), 1U);
   EXPECT_TRUE(book.leave({2, 0}, 7));
@@ -40,11 +40,11 @@ TEST(BeaconBook, FollowsABeaconFromCellToCell) {
 
 TEST(BeaconBook, KeepsTheFirstOwnerUntilItIsSilent) {
   BeaconBook book(seconds(5));
-  book.hear(kGate, {1, 0}, 7, seconds(1));
-  EXPECT_FALSE(book.hear(kGate, {9, 0}, 8, seconds(2)));
+  book.receive(kGate, {1, 0}, 7, seconds(1));
+  EXPECT_FALSE(book.receive(kGate, {9, 0}, 8, seconds(2)));
   EXPECT_FALSE(book.forget(8));
   EXPECT_EQ(all_of(book).front().second, (CellId{1, 0}));
-  EXPECT_TRUE(book.hear(kGate, {9, 0}, 8, seconds(6)));
+  EXPECT_TRUE(book.receive(kGate, {9, 0}, 8, seconds(6)));
   EXPECT_EQ(all_of(book).front().second, (CellId{9, 0}));
   EXPECT_TRUE(book.forget(8));
   EXPECT_EQ(book.size(), 0U);
@@ -52,7 +52,7 @@ TEST(BeaconBook, KeepsTheFirstOwnerUntilItIsSilent) {
 
 TEST(BeaconBook, ForgetsBeaconsWithoutReports) {
   BeaconBook book(seconds(5));
-  book.hear(kGate, {1, 0}, 7, seconds(1));
+  book.receive(kGate, {1, 0}, 7, seconds(1));
   EXPECT_FALSE(book.expire(milliseconds(5999)));
   EXPECT_TRUE(book.expire(seconds(6)));
   EXPECT_EQ(book.size(), 0U);
@@ -60,11 +60,11 @@ TEST(BeaconBook, ForgetsBeaconsWithoutReports) {
 
 TEST(BeaconBook, LimitsBeaconsInTotalAndPerOwner) {
   BeaconBook book(seconds(5));
-  for (std::uint32_t tag = 1; tag <= 1000; ++tag) book.hear(tag, {1, 0}, 7, seconds(1));
+  for (std::uint32_t tag = 1; tag <= 1000; ++tag) book.receive(tag, {1, 0}, 7, seconds(1));
   EXPECT_EQ(book.size(), BeaconBook::kMostOfOne);
-  for (std::uint32_t tag = 1001; tag <= 2000; ++tag) book.hear(tag, {1, 0}, tag, seconds(1));
+  for (std::uint32_t tag = 1001; tag <= 2000; ++tag) book.receive(tag, {1, 0}, tag, seconds(1));
   EXPECT_EQ(book.size(), BeaconBook::kMost);
-  EXPECT_FALSE(book.hear(0, {1, 0}, 9, seconds(1))) << "no tag";
+  EXPECT_FALSE(book.receive(0, {1, 0}, 9, seconds(1))) << "no tag";
 }
 
 // For each peer, the beacons that it follows.

@@ -26,7 +26,7 @@ class ClaimsOfOne : public testing::Test {
   Claimant& add(std::uint16_t number, std::uint32_t epoch, nanoseconds now) {
     const pdu::Presence announced = presence_of(number, epoch);
     Claimant& claimant = claims_.add({announced, now, now, {}, {}, {}});
-    claimant.hear(announced, now, {});
+    claimant.receive(announced, now, {});
     return claimant;
   }
 
@@ -52,7 +52,7 @@ TEST_F(ClaimsOfOne, PersistentClaimToOurIdIsReported) {
   add(1, 33, since);
   EXPECT_FALSE(claims_.settle(0, kOurs, since + milliseconds(900)));
   EXPECT_TRUE(events_.take().empty());
-  claims_.find(33)->hear(presence_of(1, 33), since + milliseconds(900), {});
+  claims_.find(33)->receive(presence_of(1, 33), since + milliseconds(900), {});
   for (const int ms : {1001, 1100})
     EXPECT_FALSE(claims_.settle(0, kOurs, since + milliseconds(ms)));
   const auto events = events_.take();
@@ -63,7 +63,7 @@ TEST_F(ClaimsOfOne, PersistentClaimToOurIdIsReported) {
 TEST_F(ClaimsOfOne, AnotherIdIsAnotherClaim) {
   Claimant& claimant = add(2, 33, seconds(10));
   claimant.reported = true;
-  claimant.hear(presence_of(3, 33), seconds(12), {});
+  claimant.receive(presence_of(3, 33), seconds(12), {});
   EXPECT_EQ(claimant.since, seconds(12));
   EXPECT_FALSE(claimant.reported);
 }

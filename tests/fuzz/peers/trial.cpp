@@ -10,9 +10,9 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/peers/claim_watch.hpp"
 #include "reckon/tests/fuzz/peers/cut_watch.hpp"
+#include "reckon/tests/fuzz/peers/event_log.hpp"
 #include "reckon/tests/fuzz/peers/event_name.hpp"
 #include "reckon/tests/fuzz/peers/forger.hpp"
-#include "reckon/tests/fuzz/peers/story.hpp"
 #include "reckon/tests/fuzz/search/agenda.hpp"
 
 namespace reckon::fuzz {
@@ -104,7 +104,7 @@ class Trial {
   std::vector<std::uint32_t> forged_count_;
   Agenda<Event> agenda_;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL, received_ = 0;
-  Story story_;
+  EventLog log_;
 };
 
 template <typename... T>
@@ -112,8 +112,8 @@ void Trial::tell(std::size_t life, fmt::format_string<T...> format, T&&... value
   if (!keep_log_) return;
   const std::string who =
       life == kNobody ? "" : fmt::format("peer {} {:08x} ", lives_[life].host, lives_[life].epoch);
-  story_.tell(life, fmt::format("{:9.4f} {}{}", pdu::to_seconds(now_), who,
-                                fmt::format(format, std::forward<T>(values)...)));
+  log_.add(life, fmt::format("{:9.4f} {}{}", pdu::to_seconds(now_), who,
+                             fmt::format(format, std::forward<T>(values)...)));
 }
 
 Outcome Trial::run() {
@@ -125,7 +125,7 @@ Outcome Trial::run() {
     happen(entry.event);
   }
   return {watch_.finding(), hash_, received_,
-          keep_log_ ? story_.lines(watch_.finding()) : std::vector<std::string>()};
+          keep_log_ ? log_.lines(watch_.finding()) : std::vector<std::string>()};
 }
 
 void Trial::plan_ahead() {

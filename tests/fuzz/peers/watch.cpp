@@ -23,7 +23,7 @@ constexpr nanoseconds kLately = seconds(5);
 constexpr nanoseconds kSlack = milliseconds(150);  // between two steps of an idle process
 // A peer younger than this, or unheard for this long, is no witness.
 constexpr nanoseconds kWitness = seconds(2);
-constexpr nanoseconds kFarewell = seconds(1);
+constexpr nanoseconds kLeaveTime = seconds(1);
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
 constexpr std::size_t kMostIds = 7;
 
@@ -130,7 +130,7 @@ void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nan
   if (event.kind != PresenceEventKind::newcomer) return;
   for (const Farewell& said : farewells_) {
     if (said.to != life || said.of != other || said.id != event.peer()) continue;
-    if (now - said.at > kFarewell) continue;
+    if (now - said.at > kLeaveTime) continue;
     report(3, now, life, other,
            fmt::format("{} {:08x} was a newcomer {:.3f} s after its good-bye", name(event.peer()),
                        event.announced.epoch, pdu::to_seconds(now - said.at)));

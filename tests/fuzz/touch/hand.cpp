@@ -246,8 +246,8 @@ void Hand::keep_books(double before, double dt, bool failed) {
   if (dt > 1.0001 * std::chrono::duration<double>(period_).count())
     late_cost_ = std::max(late_cost_, took);
   if (failed) failed_cost_ += kEstimated * took + turned_within(period_);
-  const bool let_go = snapshot_.tally.let_go != let_go_;
-  let_go_ = snapshot_.tally.let_go;
+  const bool let_go = snapshot_.tally.force_drops != let_go_;
+  let_go_ = snapshot_.tally.force_drops;
   if (let_go) held_.setZero();
 
   moving_->note(snapshot_, dt);

@@ -22,7 +22,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kReady = std::chrono::seconds(8);
 constexpr nanoseconds kSettles = milliseconds(50);
-constexpr nanoseconds kGlance = milliseconds(10);
+constexpr nanoseconds kPollInterval = milliseconds(10);
 constexpr nanoseconds kMotionStep = std::chrono::microseconds(100);
 constexpr double kThere = 1e-3;  // [m]
 constexpr double kStill = 1e-8;  // [m] in a poll
@@ -75,7 +75,7 @@ class UsbHandle final : public ModelHandle {
             options(s), [this](double t) { return wanted(t); }, Kind::driver(),
             haptics::usb_limits(Kind::facts(), settings(s, period)), haptics::Scene()) {
     for (Eigen::Vector3d last = plugged_.model.position(); plugged_.model.now() < kReady;) {
-      plugged_.run(kGlance);
+      plugged_.run(kPollInterval);
       const Eigen::Vector3d& place = plugged_.model.position();
       if (is_ready() && (place - std::exchange(last, place)).norm() < kStill) break;
     }

@@ -24,11 +24,11 @@ TEST(PairAccount, CreditsNothingGivenBeforeTheFirstReport) {
   PairAccount account = opened(0.5);
   account.claim(port);
   EXPECT_EQ(account.received, 0.0);
-  account.hear(7, 0.502);
+  account.receive(7, 0.502);
   account.claim(port);
   EXPECT_NEAR(account.received, 0.002, 1e-12);
   EXPECT_NEAR(port.level(), 0.002, 1e-12);
-  account.hear(7, 0.501);  // stale
+  account.receive(7, 0.501);  // stale
   account.claim(port);
   EXPECT_NEAR(account.received, 0.002, 1e-12);
 }
@@ -36,7 +36,7 @@ TEST(PairAccount, CreditsNothingGivenBeforeTheFirstReport) {
 TEST(PairAccount, ContinuesForReturningAndRestartsForOtherHand) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.0);
-  account.hear(7, 0.002);
+  account.receive(7, 0.002);
   account.claim(port);
   account.open(kWhose, 7, 0.0);
   EXPECT_NEAR(account.seen, 0.002, 1e-12);
@@ -48,11 +48,11 @@ TEST(PairAccount, ContinuesForReturningAndRestartsForOtherHand) {
 TEST(PairAccount, IgnoresEarlierTotalsOfANewEpoch) {
   EnergyPort port(1.0);
   PairAccount account = opened(0.0);
-  account.hear(8, 0.004);
+  account.receive(8, 0.004);
   account.claim(port);
   EXPECT_EQ(account.received, 0.0);
-  account.hear(8, -1.0);
-  account.hear(8, std::numeric_limits<double>::infinity());
+  account.receive(8, -1.0);
+  account.receive(8, std::numeric_limits<double>::infinity());
   account.claim(port);
   EXPECT_EQ(account.received, 0.0);
 }

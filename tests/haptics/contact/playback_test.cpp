@@ -21,9 +21,9 @@ deadreckon::KinematicState at(double x, double speed) {
 
 TEST(Playback, ShowsTheStateOfItsTime) {
   Playback playback;
-  playback.hear(at(0, 1), milliseconds(1000));      // flies
-  playback.hear(at(0.01, 0), milliseconds(1010));   // is stopped
-  playback.hear(at(0.01, -1), milliseconds(1100));  // moves back
+  playback.receive(at(0, 1), milliseconds(1000));      // flies
+  playback.receive(at(0.01, 0), milliseconds(1010));   // is stopped
+  playback.receive(at(0.01, -1), milliseconds(1100));  // moves back
   const auto shown = [&](int now) { return playback.pose(milliseconds(now), 0.1).position.x(); };
   EXPECT_NEAR(shown(1105), 0.005, 1e-12);
   EXPECT_NEAR(shown(1150), 0.01, 1e-12);
@@ -34,8 +34,8 @@ TEST(Playback, ShowsTheStateOfItsTime) {
 
 TEST(Playback, StopsAtALaterKnownStop) {
   Playback playback;
-  playback.hear(at(0, 1), milliseconds(1000));     // flies
-  playback.hear(at(0.01, 0), milliseconds(1040));  // was stopped; that update was lost
+  playback.receive(at(0, 1), milliseconds(1000));     // flies
+  playback.receive(at(0.01, 0), milliseconds(1040));  // was stopped; that update was lost
   const auto shown = [&](int now) { return playback.pose(milliseconds(now), 0.1).position.x(); };
   EXPECT_NEAR(shown(1120), 0.005, 1e-12);
   EXPECT_NEAR(shown(1139), 0.00975, 1e-12);
@@ -69,11 +69,11 @@ TEST(Playback, BlowIsQuickOrLate) {
 
 TEST(Playback, KeepsTheNewestAndForgetsAResetClock) {
   Playback playback;
-  for (int i = 0; i < 100; ++i) playback.hear(at(i, 0), milliseconds(1000 + i));
+  for (int i = 0; i < 100; ++i) playback.receive(at(i, 0), milliseconds(1000 + i));
   EXPECT_EQ(playback.pose(milliseconds(1090), 0.01).position.x(), 80.0);
   EXPECT_EQ(playback.pose(milliseconds(1020), 0.01).position.x(), 68.0)
       << "the oldest that is kept";
-  playback.hear(at(-1, 0), milliseconds(500));
+  playback.receive(at(-1, 0), milliseconds(500));
   EXPECT_EQ(playback.pose(milliseconds(1090), 0.01).position.x(), -1.0);
 }
 

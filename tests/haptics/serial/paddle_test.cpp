@@ -129,7 +129,7 @@ TEST(Paddle, ReleasesAfter10MsAndGoesSilent) {
   tell(ask_frame(1));
   tick();
   tell(frame_of({5, {1'500, 0, 0}}, 1));
-  const int let_go = serial_report(tick().at(0), 1)->let_go;
+  const int let_go = serial_report(tick().at(0), 1)->force_drops;
   for (int i = 0; i < 9; ++i) {
     EXPECT_EQ(serial_report(tick().at(0), 1)->from, 5) << i;
     EXPECT_EQ(board.duties[kPulse], 127);
@@ -137,7 +137,7 @@ TEST(Paddle, ReleasesAfter10MsAndGoesSilent) {
   const auto report = serial_report(tick().at(0), 1);
   EXPECT_EQ(report->until, 5);
   EXPECT_EQ(report->from, std::nullopt);
-  EXPECT_EQ(report->let_go, let_go + 1);
+  EXPECT_EQ(report->force_drops, let_go + 1);
   EXPECT_EQ(board.duties[kPulse], 0);
   for (int i = 0; i < 1'100; ++i) tick();
   EXPECT_TRUE(tick().empty());

@@ -107,7 +107,7 @@ TEST(SerialPackets, ReportIsReadFromItsOctets) {
   EXPECT_EQ(report->until, 0x0102);
   EXPECT_EQ(report->from, 0x0103);
   EXPECT_TRUE(report->homed);
-  EXPECT_EQ(report->let_go, 0);
+  EXPECT_EQ(report->force_drops, 0);
   EXPECT_EQ(report->buttons, 9);
   EXPECT_THAT(report->counts, ElementsAre(1, -1, -2'147'483'648));
   Octets none = kReport;
@@ -115,7 +115,7 @@ TEST(SerialPackets, ReportIsReadFromItsOctets) {
   EXPECT_EQ(serial_report(none, 3)->until, std::nullopt);
   EXPECT_EQ(serial_report(none, 3)->from, std::nullopt);
   EXPECT_FALSE(serial_report(none, 3)->homed);
-  EXPECT_EQ(serial_report(none, 3)->let_go, 9);
+  EXPECT_EQ(serial_report(none, 3)->force_drops, 9);
 }
 
 TEST(SerialPackets, OtherLengthKindOrFlagIsNoReport) {

@@ -38,13 +38,13 @@ TEST(SerialSession, SilentBoardHasZeroForceWithin10Ms) {
 TEST(SerialSession, BoardWithoutInputReleasesAndTheServoKnows) {
   Wired wired;
   wired.press();
-  const auto let_go = wired.last.tally.let_go;
+  const auto let_go = wired.last.tally.force_drops;
   wired.out_is_cut = true;
   wired.run(milliseconds(11));
   EXPECT_TRUE(wired.board.force().isZero(0)) << "by its own watchdog";
   wired.out_is_cut = false;
   wired.run(seconds(2));
-  EXPECT_GT(wired.last.tally.let_go, let_go);
+  EXPECT_GT(wired.last.tally.force_drops, let_go);
   EXPECT_GT(wired.board.force().z(), 0.5);
   EXPECT_EQ(wired.session->stage(), SerialStage::running);
 }

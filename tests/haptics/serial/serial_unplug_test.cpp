@@ -96,7 +96,7 @@ TEST(SerialUnplug, MeterStaysBelowTheBoardsLedger) {
     wired.servo_runs = true;
   }
   wired.run(milliseconds(500));
-  EXPECT_GT(wired.last.tally.let_go, 20U) << "the board never let go";
+  EXPECT_GT(wired.last.tally.force_drops, 20U) << "the board never let go";
   EXPECT_GT(wired.board.books(), 0.001) << "nothing was touched";
   EXPECT_LE(wired.last.port_energy - test::transferred(wired.last),
             wired.board.books() + wired.last.encoder_allowance + 1e-9);

@@ -185,12 +185,12 @@ TEST(ServoTally, CountsLateStepsAndReleasedForces) {
   for (int i = 0; i < 60; ++i) (void)bench.step();
   EXPECT_EQ(bench.step(3ms).tally.late, 1u);
   EXPECT_EQ(bench.step(1400us).tally.late, 1u) << "within half a period";
-  EXPECT_EQ(bench.step().tally.let_go, 0u) << "there was no force yet";
+  EXPECT_EQ(bench.step().tally.force_drops, 0u) << "there was no force yet";
   for (int i = 0; i < 500; ++i) (void)bench.step();
   EXPECT_GT(bench.step().force.norm(), 0.5);
   const ServoSnapshot& s = bench.step(5ms);
   EXPECT_EQ(s.tally.late, 2u);
-  EXPECT_EQ(s.tally.let_go, 1u);
+  EXPECT_EQ(s.tally.force_drops, 1u);
   EXPECT_EQ(s.tally.failed, 0u);
   bench.device.plug(false);
   (void)bench.step();

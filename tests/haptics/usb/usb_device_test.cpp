@@ -238,7 +238,7 @@ TEST(UsbDevice, MotionBetweenTwoRunsCountsNoDamping) {
   };
   EXPECT_EQ(rest_at(0, 1).port_energy, 0);
   const ServoSnapshot after = rest_at(0.003, 2);
-  EXPECT_EQ(after.tally.let_go, 1U);
+  EXPECT_EQ(after.tally.force_drops, 1U);
   EXPECT_NEAR(after.device.x(), 0.003, 1e-12);
   EXPECT_LE(after.port_energy, 1e-12);
 }

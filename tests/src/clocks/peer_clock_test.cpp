@@ -55,7 +55,7 @@ struct Pair {
     trailer.epoch = from_epoch;
     trailer.send_time = pdu::trailer_time(sent_utc);
     trailer.header.timestamp = pdu::to_dis_timestamp(sent_utc, says_utc);
-    to.hear(trailer, heard_utc, heard);
+    to.receive(trailer, heard_utc, heard);
     if (any) to.take(exchange, to_epoch, trailer, heard_utc, heard);
   }
   nanoseconds way(nanoseconds least) {
@@ -223,7 +223,7 @@ TEST(PeerClock, HeedsNoSingleDatagramWithAnImpossibleTime) {
     pdu::DatagramTrailer trailer;
     trailer.epoch = kThem;
     trailer.send_time = pdu::trailer_time(pair.our_utc(pair.now) + stray);
-    pair.ours.hear(trailer, pair.our_utc(pair.now), pair.now);
+    pair.ours.receive(trailer, pair.our_utc(pair.now), pair.now);
     pair.run(1);
     EXPECT_LE(std::chrono::abs(pair.error()), microseconds(2));
   }
@@ -249,7 +249,7 @@ TEST(PeerClock, RefusesEchoesWithImpossibleTimes) {
   }};
   for (const Case& one : cases) {
     PeerClock clock;
-    clock.hear(one.answered, utc, seconds(50));
+    clock.receive(one.answered, utc, seconds(50));
     EXPECT_EQ(clock.take(one.echo, one.answered, utc, seconds(50)), one.good) << &one - &cases[0];
     EXPECT_EQ(clock.difference(seconds(50)).has_value(), one.good);
   }
@@ -267,7 +267,7 @@ TEST(PeerClocks, EchoEightPeersAtATimeInTurn) {
   pdu::DatagramTrailer trailer;
   for (std::uint32_t epoch = 1; epoch <= 20; ++epoch) {
     trailer.epoch = epoch;
-    clocks.hear(trailer, kUtc, seconds(1));
+    clocks.receive(trailer, kUtc, seconds(1));
   }
   std::array<int, 21> echoed{};
   for (int i = 0; i < 5; ++i) {
@@ -304,7 +304,7 @@ TEST(PeerClocks, KeepTheirBoundsUnderRandomTimes) {
     pdu::TimeExchange exchange;
     exchange.epoch = kThem;
     exchange.echoes = octets;
-    pair.ours.hear(trailer, utc, pair.now);
+    pair.ours.receive(trailer, utc, pair.now);
     pair.ours.take(exchange, kUs, trailer, utc, pair.now);
     const auto known = pair.ours.difference(kThem, pair.now);
     if (!known) continue;
@@ -322,7 +322,7 @@ TEST(PeerClocks, StayBounded) {
   test::AllocationGuard guard;
   for (std::uint32_t i = 0; i < 10'000; ++i) {
     trailer.epoch = 1 + i;
-    clocks.hear(trailer, kUtc, milliseconds(i));
+    clocks.receive(trailer, kUtc, milliseconds(i));
     pdu::TimeExchange exchange;
     exchange.epoch = trailer.epoch;
     ASSERT_TRUE(clocks.fill(exchange, milliseconds(i)));

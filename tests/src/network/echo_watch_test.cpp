@@ -24,7 +24,7 @@ class EchoWatchTest : public testing::Test {
     Turn turn = Turn::none;
     for (int i = 0; i < times; ++i) {
       watch_.send(group);
-      if (answered) watch_.hear(group);
+      if (answered) watch_.receive(group);
       for (int k = 0; k < 4; ++k, now_ += milliseconds(250)) {
         if (const Turn next = watch_.look(now_); next != Turn::none) turn = next;
       }

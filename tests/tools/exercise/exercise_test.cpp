@@ -64,7 +64,7 @@ TEST(Exercise, StepsEachServoAtItsDevicesPeriod) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (const peer::HandView& hand : exercise.view(i).own_hands()) {
       EXPECT_EQ(hand.servo.tally.late, 0u) << "the clock is perfect";
-      EXPECT_EQ(hand.servo.tally.let_go, 0u);
+      EXPECT_EQ(hand.servo.tally.force_drops, 0u);
     }
   }
 }
@@ -79,7 +79,8 @@ TEST(Exercise, FasterDevicesShowStifferWalls) {
   exercise.run(2s);
   EXPECT_NEAR(exercise.view(0).hands[0].stiffness.walls, 14'250, 1e-6);
   EXPECT_NEAR(exercise.measurement().peak_force(), 0.005 / (1.0 / 300 + 1.0 / 14'250), 0.005);
-  EXPECT_EQ(exercise.view(0).servo().tally.let_go, 0u) << "steps come before a force is let go";
+  EXPECT_EQ(exercise.view(0).servo().tally.force_drops, 0u)
+      << "steps come before a force is let go";
   EXPECT_GE(exercise.measurement().energy_min(), -1e-9);
 }
 

@@ -107,7 +107,7 @@ TEST_F(HandReport, ReportsSoftenedStiffnessOnceForAllHands) {
 TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {
   views_[0].servo.tally.late = 7;
   views_[4].servo.tally.late = 5;
-  views_[4].servo.tally.let_go = 3;
+  views_[4].servo.tally.force_drops = 3;
   views_[4].servo.tally.failed = 2;
   views_[4].servo.tally.refused = 0.5;
   EXPECT_THAT(text(), AllOf(HasSubstr("12; in 3 of them, the device had dropped its force"),
@@ -130,7 +130,7 @@ TEST_F(HandReport, HasEveryHandWithBothNumbersInJson) {
   views_[3].stiffness.walls_asked = 20000;
   views_[3].stiffness.walls = 1425;
   views_[3].servo.tally.held_back = {2.0, 0.4, 2.3};
-  views_[3].servo.tally.let_go = 3;
+  views_[3].servo.tally.force_drops = 3;
   const auto json = nlohmann::json::parse(hands_json(hands_));
   ASSERT_EQ(json.size(), views_.size());
   EXPECT_EQ(json[3]["id"], "1:4:1");

@@ -170,7 +170,7 @@ TEST(HandTwins, GoTheWayOfTheirHandsPointer) {
     if (i % 50 < 40) {
       pointer.lead(start + 0.08 * Vector3d(std::sin(angle), std::cos(angle), 0));
     } else {
-      pointer.let_go();
+      pointer.release();
     }
     one.run(17ms);
     const haptics::HandMotion twin = one.twins().find(0, 0)->motion();

@@ -107,7 +107,7 @@ TEST(PointerHand, BothHandsFeelTheSameOverAnyNetwork) {
     EXPECT_GE(pair.exercise().measurement().energy_min(), -1e-9) << bad;
     EXPECT_EQ(pair.exercise().measurement().trips(), 0U) << bad;
 
-    pair.exercise().pointers(0)[0].let_go();
+    pair.exercise().pointers(0)[0].release();
     pair.exercise().run(1500ms);
     EXPECT_FALSE(pair.exercise().pointers(0)[0].inbox->is_held());
     EXPECT_LT(pair.felt(0), 0.02) << bad;

@@ -193,7 +193,7 @@ TEST(SimulatedDevice, MakesAlmostNoEnergyWithLateSteps) {
       meter = std::max(meter, servo.snapshots().read().port_energy - truth);
     }
     late += servo.snapshots().read().tally.late;
-    let_go += servo.snapshots().read().tally.let_go;
+    let_go += servo.snapshots().read().tally.force_drops;
   }
   std::printf("%llu late steps, %llu let go: least %.3f mJ at the port, meter too high by %.2g J\n",
               static_cast<unsigned long long>(late), static_cast<unsigned long long>(let_go),

@@ -8,7 +8,7 @@ import { colour, handColour } from './colours.js';
 import { HAND_FLAGS } from './picture.js';
 import { foreign } from './words.js';
 
-const STATES = [[HAND_FLAGS.stopped, 'stopped'], [HAND_FLAGS.letGo, 'force cut'], [HAND_FLAGS.softened, 'softened'], [HAND_FLAGS.limited, 'rate limited']];
+const STATES = [[HAND_FLAGS.stopped, 'stopped'], [HAND_FLAGS.forceCut, 'force cut'], [HAND_FLAGS.softened, 'softened'], [HAND_FLAGS.limited, 'rate limited']];
 
 export const drawnHands = {
   name: 'hands', view: 'touch', says: 'hand, held contact point', mark: 'ball hand-0',

@@ -274,7 +274,7 @@ class Page {
 
   swap() {
     if (byId('inset').hidden) return;
-    this.hand.letGo();
+    this.hand.release();
     this.stage.swap();
     this.log.say(`Large: ${this.stage.large}.`);
   }

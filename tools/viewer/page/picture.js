@@ -12,7 +12,7 @@ const BODY = 20;
 
 export const PICTURE_FLAGS = { live: 1, paused: 2, end: 4, gap: 8 };
 export const HAND_FLAGS = {
-  contact: 1, softened: 2, limited: 4, letGo: 8, pointer: 16, free: 32, yours: 64, trueKnown: 128, twin: 256, stopped: 512,
+  contact: 1, softened: 2, limited: 4, forceCut: 8, pointer: 16, free: 32, yours: 64, trueKnown: 128, twin: 256, stopped: 512,
 };
 export const CAUSES = ['', 'first', 'threshold', 'heartbeat', 'event'];
 export const NONE = 0xffff;

@@ -19,8 +19,8 @@ export class PointerHand {
     this.button = byId('hand');
     this.text = byId('hand-text');
     this.button.addEventListener('click', () => this.askOrGive());
-    addEventListener('blur', () => this.letGo());
-    document.addEventListener('visibilitychange', () => { if (document.hidden) this.letGo(); });
+    addEventListener('blur', () => this.release());
+    document.addEventListener('visibilitychange', () => { if (document.hidden) this.release(); });
     setInterval(() => this.send(), 16);
   }
 
@@ -31,7 +31,7 @@ export class PointerHand {
       this.tell('askHand');
       this.say('Requested a hand.');
     } else {
-      this.letGo();
+      this.release();
       this.tell('giveHand');
       this.say('Released the hand.');
     }
@@ -97,7 +97,7 @@ export class PointerHand {
     return true;
   }
 
-  letGo() {
+  release() {
     this.keys.clear();
     if (!this.held) return;
     this.held = false;
@@ -119,8 +119,8 @@ export class PointerHand {
     const stopped = !!hand && (hand.flags & HAND_FLAGS.stopped) !== 0;
     if (stopped && !this.stopped) this.say('All forces are stopped, by the software stop.', 'warning');
     this.stopped = stopped;
-    if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The force was cut; it returns when readings are normal.', 'warning');
-    this.told = !!hand && (hand.flags & HAND_FLAGS.letGo) !== 0;
+    if (hand && hand.flags & HAND_FLAGS.forceCut && !this.told) this.say('The force was cut; it returns when readings are normal.', 'warning');
+    this.told = !!hand && (hand.flags & HAND_FLAGS.forceCut) !== 0;
   }
 
   moveByKeys(seconds) {

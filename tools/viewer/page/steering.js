@@ -18,7 +18,7 @@ export class Steering {
     canvas.addEventListener('pointercancel', (event) => this.up(event));
     canvas.addEventListener('pointerleave', (event) => {
       this.mouse = null;
-      if (this.handed && event.pointerType !== 'touch') page.hand.letGo(); // this includes a lifted finger
+      if (this.handed && event.pointerType !== 'touch') page.hand.release(); // this includes a lifted finger
     });
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
@@ -78,7 +78,7 @@ export class Steering {
     if (event.pointerId === this.holder) {
       this.holder = null;
       this.page.hand.grabs = false;
-      if (this.handed && event.pointerType === 'touch') this.page.hand.letGo();
+      if (this.handed && event.pointerType === 'touch') this.page.hand.release();
     }
     const still = this.start && Math.hypot(event.clientX - this.start[0], event.clientY - this.start[1]) < CLICK;
     if (!held || !still || event.button !== 0 || this.page.stage.large !== 'world' || !this.page.moment.picture) return;

@@ -133,7 +133,7 @@ function touched(hasHand) {
   const note = (name) => (...values) => told.push([name, ...values.filter((x) => typeof x === 'number')]);
   const canvas = { addEventListener: (type, act) => listeners.set(type, act), setPointerCapture() {} };
   const orbit = { zoom: note('zoom'), pan: note('pan'), turn: note('turn') };
-  const hand = { index: hasHand ? 0 : null, move: note('move'), deepen: note('deepen'), letGo: note('letGo') };
+  const hand = { index: hasHand ? 0 : null, move: note('move'), deepen: note('deepen'), release: note('release') };
   new Steering({ stage: { canvas, large: 'touch', view: () => ({ orbit }) }, hand, moment: {}, fit() {}, follow() {} });
   const finger = (id) => {
     let last = [0, 0];
@@ -168,7 +168,7 @@ test('One finger moves a hand in its plane, a second one in depth, and the camer
   one.up();
   two.to(90, 90);
   two.up();
-  assert.deepEqual(told(), [['letGo']], 'the finger that is left moves nothing');
+  assert.deepEqual(told(), [['release']], 'the finger that is left moves nothing');
 });
 
 test('The button of a mouse that is a hand holds what the hand touches, a finger does not', () => {

@@ -12,10 +12,10 @@
 
 namespace reckon::fuzz {
 
-class Story {
+class EventLog {
  public:
   /// @param life the life concerned; kNobody: all
-  void tell(std::size_t life, std::string text) { lines_.push_back({life, std::move(text)}); }
+  void add(std::size_t life, std::string text) { lines_.push_back({life, std::move(text)}); }
 
   /// The last lines; with a finding, those of the two lives it concerns.
   [[nodiscard]] std::vector<std::string> lines(const std::optional<LivesFinding>& finding) const {
