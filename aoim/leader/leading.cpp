@@ -78,9 +78,10 @@ SubscriptionChange Leading::follow(const SubscriptionChange& cells, nanoseconds 
   return {join_, leave_, cells.uncovered, cells.covered_share};
 }
 
-// A peer without a map cannot receive the answers of its cells' leaders. If no peer has announced a
-// map within a heartbeat of the scene's leader, requests are sent to the leaders without a map. The
-// answer of a leader that has not accepted us yet would be useless.
+// Requests the present states of newly joined cells from their leaders, once this peer has a map:
+// without one it cannot receive the answers. If no peer announces a map for a heartbeat and a
+// stagger after the start, it requests them without a map. During kIntroduced, a cell without a
+// known leader is skipped.
 void Leading::read_cells(nanoseconds now) {
   if (!started_ || role_.lacks_map(now)) return;
   const bool alone = now - begun_ > config_.heartbeat + config_.stagger;

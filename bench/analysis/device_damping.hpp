@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Passivity of a sampled environment on a device with damping: thesis (3.5) and its consequences,
-// for one user, with delay, and between two users. Off-line code.
+// Damping that a device needs to be passive with a sampled environment: thesis (3.5), with delay,
+// and for two users. Off-line code.
 #pragma once
 
 #include "reckon/bench/linear_systems/transfer_function.hpp"
@@ -36,7 +36,7 @@ struct DeviceDamping {
 [[nodiscard]] DeviceDamping required_device_damping(const TransferFunction& environment,
                                                     int delay_samples);
 
-/// Two equal users, each with an environment driven by the own speed minus the other's speed
+/// Two equal users; the input of each environment is its user's speed minus the other's speed
 /// `delay_samples` ago (thesis Fig 4.1): common motion has VE (1 - z^-d), opposed motion VE (1 +
 /// z^-d); returns the greater of both. A spring alone needs K (T + d T).
 [[nodiscard]] DeviceDamping required_device_damping_of_pair(const TransferFunction& environment,

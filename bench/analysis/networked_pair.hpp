@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two equal devices whose environments are driven by the own speed minus the other's, some samples
-// late: thesis Figs 4.1 and 4.2, as printed and as derived. Off-line code.
+// Two equal devices: the input of each environment is the speed of its device minus the delayed
+// speed of the other. Thesis Figs 4.1 and 4.2, as printed and as derived. Off-line code.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tellegen's theorem as an energy balance, thesis (4.11): the power that enters through the ports
-// equals the stored and dissipated power of the network, and ideal junctions take none. Off-line
-// code; EnergyPort has the balance of the servo.
+// Energy balance by Tellegen's theorem, thesis (4.11): the power through the ports equals the
+// stored and dissipated power of the network, and ideal junctions take none. Off-line code;
+// EnergyPort is the balance of the servo.
 #pragma once
 
 #include <span>

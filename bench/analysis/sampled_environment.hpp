@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An environment given by a transfer function, computed in time, and the same behind a one-sided
-// surface. For simulations off-line.
+// Simulates an environment that a transfer function describes, also behind a one-sided surface.
+// Off-line code.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The simulations of the thesis, 3.4 and 4.2, from parameters to a time series: one user at a
-// virtual wall, and two users whose walls are driven by the difference of their speeds. Off-line
-// code.
+// Simulations of thesis 3.4 and 4.2, from parameters to a time series: one user at a virtual wall,
+// and two users with walls on the difference of their speeds. Off-line code.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Frequency bands that violate a condition which can only be evaluated point by point. Off-line
+// Finds the frequency bands in which a condition is violated, by evaluating it at points. Off-line
 // code.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The virtual environments (VE) of the thesis as transfer functions from speed [m/s] to force [N],
-// its device, and its hold. Only for analysis: no scene uses them.
+// Virtual environments (VE) of the thesis as transfer functions from speed [m/s] to force [N], the
+// device, and the hold. Off-line code: no scene uses them.
 #pragma once
 
 #include <complex>

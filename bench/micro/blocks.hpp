@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Alternatives that alternate in short blocks, so that other load on the machine affects all of
-// them equally; results are medians, and ratios of neighbouring blocks.
+// Times alternatives in short blocks in turn, so that other load on the machine affects all of them
+// equally. Results are medians of blocks, or of the ratios of neighbouring blocks.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One recorded stroke over one generated torus, for any contact renderer: ours in
-// contact_path_bench, another library in a program of its own that includes this header or reads
-// the two files that it writes. Both are then called tick by tick, in alternation.
+// A fixed stroke over a generated torus, to compare contact renderers. contact_path_bench measures
+// ours. A program with another library includes this header, or reads the two files of write().
 #pragma once
 
 #include <Eigen/Core>

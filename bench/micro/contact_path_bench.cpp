@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The contact point's tick along the recorded path of contact_path.hpp, for comparison with another
-// library on the same path. RECKON_CONTACT_PATH=<folder> writes the mesh and the path of 0.1 m/s
-// there. Counters: mean, median and 99th percentile over all ticks of the path [ns].
+// Time of a tick of the contact point along the path of contact_path.hpp, to compare it with
+// another library on the same path. RECKON_CONTACT_PATH=<folder> writes the mesh and the path of
+// 0.1 m/s there. Counters: mean, median and 99th percentile over all ticks of the path [ns].
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

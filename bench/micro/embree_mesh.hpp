@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The same closest point, computed by Embree: for comparison, built if its package is found.
+// Closest point of a mesh by Embree, for comparison; built if Embree 3 is installed.
 #pragma once
 
 #include <embree3/rtcore.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities in a square of the plane, with 48 others within 200 m of each on average: each walks
-// straight by 0.5 to 1.5 % of that radius a tick, turns now and then, and re-enters at the opposite
-// side.
+// Entities in a square, with 48 others within 200 m of each on average. In each tick a share of
+// them moves straight by 0.5 to 1.5 % of that radius; one of 50 turns first. An entity that leaves
+// the square re-enters at the opposite side.
 #pragma once
 
 #include <cmath>

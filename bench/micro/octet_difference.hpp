@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Differences of a PDU from an earlier one of the same entity, its key, octet by octet: the result
-// of a compression that has no information about fields, for comparison with the forms of the
-// product. Exact. A receiver without the key detects that it cannot decode the body.
+// Lossless compression of a PDU as its differences from an earlier PDU of the same entity, its key,
+// octet by octet and without knowledge of fields; for comparison with the compressed forms of the
+// product. A check of 16 bits identifies the key.
 #pragma once
 
 #include <cstddef>

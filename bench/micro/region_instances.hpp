@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Regions as in studies of region matching: half subscriptions, half updates, cubes of one size
-// anywhere in the unit cube; alpha = regions x their volume / volume of the world.
+// Regions as in the literature on region matching: half subscriptions, half updates; cubes of equal
+// size, uniformly placed in the unit cube; alpha = number of regions x volume of a region.
 #pragma once
 
 #include <cmath>

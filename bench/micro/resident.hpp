@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Memory of a program, for rows of memory beside rows of time.
+// Memory of this process, for benchmark rows.
 #pragma once
 
 #include <unistd.h>

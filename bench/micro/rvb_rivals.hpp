@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Comparison for the extrapolation of RVB: entities to extrapolate, a reference for the error, and
-// two plain implementations.
+// Comparison for the extrapolation of RVB: random entities, a reference for the error, and two
+// plain implementations.
 #pragma once
 
 #include <Eigen/Geometry>

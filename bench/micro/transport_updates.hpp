@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The library's own path of an update, from an owner's state to the table of another peer.
+// Path of updates through the library, from the states of an owner to the table of another peer.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Paths for the rows of the transport, and their comparison: a cable between two network
-// namespaces, and bare loops of system calls.
+// Network paths of transport_bench (loopback, and a veth pair between two network namespaces), and
+// loops of bare system calls for comparison.
 #pragma once
 
 #include <fcntl.h>

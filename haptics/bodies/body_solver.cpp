@@ -194,9 +194,9 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   joints_->clear();
 }
 
-// The velocity of a pushed body lags its position by half a step; in flight both are of one
-// instant. When a push begins or ends, its weight corrects the difference. Otherwise a rebound from
-// a hand would leave it too high by half a step of its motion.
+// The velocity of a pushed body is half a step older than its position (semi-implicit Euler); in
+// flight both have the same time. So the change of velocity by gravity in half a step is subtracted
+// when a push begins and added when it ends. Without this, a rebound from a hand would be too high.
 void BodySolver::time_speeds(double dt) noexcept {
   each_acting([&](std::size_t i) {
     RigidBody& body = body_at(i);

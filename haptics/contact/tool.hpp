@@ -166,9 +166,11 @@ class ToolOf<6> {
   [[nodiscard]] double probe_damping() const noexcept { return probe_damping_; }
   [[nodiscard]] double tool_damping() const noexcept { return tool_damping_; }
   [[nodiscard]] double bend(double force) const noexcept { return longest_ * force / rotation_; }
-  /// Error of the work of a held torque while the axis of rotation changes. The work differs from
-  /// the product of torque and measured rotation at most by the area between the path and that
-  /// rotation. The damping along the longer path limits this to |torque|^2 turn^2 T / (48 b).
+  /// Bound of the error [J] in the work of a held torque while the axis of rotation changes. The
+  /// measured rotation differs from the integral of the turn rate by at most the area between the
+  /// path of rotations and its chord. A path with a larger area is longer, and damping dissipates
+  /// the difference: the error stays below |torque|^2 |turn|^2 T / (48 b).
+  /// @param held in the port's coordinates, where b = 1  @param dt T [s]
   [[nodiscard]] double turning_cost(const Force& held, double dt) const noexcept {
     return held.tail<3>().squaredNorm() * step_.tail<3>().squaredNorm() * dt / 48.0;
   }

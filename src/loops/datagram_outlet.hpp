@@ -14,9 +14,9 @@
 namespace reckon::peer {
 
 /// Limits the send rate to the rate that others read from one sender (SenderBudget), even for many
-/// new entities: kRate datagrams a second and kBurst at once. Within one pass kAhead times as many
-/// updates are allowed, as they may not share datagrams; later passes make up for the excess. One
-/// thread; no allocation.
+/// new entities: kRate datagrams a second and kBurst at once. Updates share
+/// datagrams, so a pass may send kAhead updates for each allowed datagram; if it sends too many
+/// datagrams, later passes send fewer. One thread; no allocation.
 class DatagramOutlet {
  public:
   /// References outlive this.

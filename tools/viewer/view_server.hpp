@@ -68,8 +68,8 @@ class ViewServer {
   static constexpr std::size_t kMostConnections = 256;
   /// Limit of connections from one address without a request yet; beyond it the oldest is closed.
   static constexpr std::size_t kMostHeads = 8;
-  /// Limit of tabs from one address without the access word. If there are kMostTabs, a tab with the
-  /// word closes the oldest tab without it.
+  /// Limit of tabs without the access word from one address; further ones are refused. At
+  /// kMostTabs, a new tab with the word closes the oldest tab without it.
   static constexpr std::size_t kMostStrangers = 8;
   /// A connection without a request after this time is closed.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::seconds(5);
