@@ -16,19 +16,19 @@ bool runs_ahead(const TierKind* kind) { return kind->runs_ahead; }
 void check_tiers(const AreaOfInterestConfig& config) {
   const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
   if (config.tiers.empty()) return;
-  if (config.interop) refuse("tiers with groups of their own: plain DIS has one group");
+  if (config.interop) refuse("tiers need several groups, but plain DIS has one: remove the tiers");
   if (config.leader.on && config.leader.hand_out)
-    refuse("tiers have the groups of the fixed tile: none is handed out");
+    refuse("tiers use the groups of the fixed tile: switch off the hand-out of groups");
   if (config.grid.pool < 2 || all_groups(config) > kMaximumPool)
-    refuse("tiers with groups of their own: take a pool of 4 or more, and 1000 groups at most");
+    refuse("tiers need a pool of 4 or more groups, and at most 1000 groups in all");
   const auto ahead = std::ranges::count_if(config.tiers, runs_ahead);
   if (ahead == 0) return;
   const ChannelTable table(config.channels);
   if (static_cast<std::size_t>(ahead) != table.inner_rows())
     refuse("a tier that runs ahead has a row of channels that is neither kept nor the last");
-  if (config.leader.on) refuse("leaders relay what the cell receives: no tier may run ahead");
+  if (config.leader.on) refuse("leaders relay the updates of the cell: no tier may run ahead");
   if (table.channel(table.kept_rows()).coarser > 1.0)
-    refuse("tiers with groups of their own: the nearest row has the thresholds of the scene");
+    refuse("tiers with groups: the nearest row must have the thresholds of the scene");
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ CellPartition cells_of(const AreaOfInterestConfig& config) {
   if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
   if (!config.cells) return CellGrid(grid);
   if (config.interop && config.cells->as<LocaleMap>() != nullptr)
-    throw std::invalid_argument("locales are distinguished by groups: plain DIS has one");
+    throw std::invalid_argument("locales need several groups, but plain DIS has one");
   if (config.cells->groups() > grid.pool)
     throw std::invalid_argument("cells of " + std::to_string(config.cells->groups()) +
                                 " groups, and a pool of " + std::to_string(grid.pool));

@@ -30,10 +30,10 @@ void check(const std::vector<Locale>& locales, std::size_t index) {
   }
   for (const std::uint16_t neighbour : locale.neighbours) {
     if (neighbour >= locales.size() || neighbour == index) {
-      refuse("neighbour " + std::to_string(neighbour) + " is no other locale of the list");
+      refuse("neighbour " + std::to_string(neighbour) + " is not another locale of the list");
     }
     if (!names(locales[neighbour], index)) {
-      refuse("neighbour " + std::to_string(neighbour) + " must name it as a neighbour too");
+      refuse("neighbour " + std::to_string(neighbour) + " must also have it as a neighbour");
     }
   }
 }
@@ -42,7 +42,7 @@ void check(const std::vector<Locale>& locales, std::size_t index) {
 
 LocaleMap::LocaleMap(std::vector<Locale> locales) : locales_(std::move(locales)) {
   if (locales_.empty() || locales_.size() > kMaximumPool) {
-    throw std::invalid_argument(std::to_string(locales_.size()) + " locales: take 1 to 1000");
+    throw std::invalid_argument(std::to_string(locales_.size()) + " locales: use 1 to 1000");
   }
   for (std::size_t i = 0; i < locales_.size(); ++i) {
     check(locales_, i);

@@ -23,7 +23,7 @@ void check(const QuadTreeConfig& config) {
     refuse("a depth of " + std::to_string(config.depth) + ": take 0 to 15");
   }
   if (config.pool < 1 || config.pool > kMaximumPool) {
-    refuse("a pool of " + std::to_string(config.pool) + " groups: take 1 to 1000");
+    refuse("a pool of " + std::to_string(config.pool) + " groups: use 1 to 1000");
   }
 }
 
@@ -72,12 +72,12 @@ QuadTree QuadTree::of_cells(const QuadTreeConfig& config, std::span<const CellId
   for (const CellId cell : cells) {
     if (std::binary_search(divided.begin(), divided.end(), cell))
       throw std::invalid_argument("the cell \"" + path_of(cell) +
-                                  "\" has others of the list in it: take it out");
+                                  "\" contains others of the list: remove it");
   }
   if (1 + 3 * divided.size() > config.pool) {
     throw std::invalid_argument(std::to_string(1 + 3 * divided.size()) + " cells and " +
                                 std::to_string(config.pool) +
-                                " groups: each cell has one of its own");
+                                " groups: each cell needs its own group");
   }
   tree.leaves_.clear();
   tree.grow({0, 0}, divided);

@@ -111,7 +111,7 @@ class KeyReader {
       fail("more than 64 epochs: remove the expired ones");
     GroupEpoch epoch;
     const auto number = number_of<std::uint16_t>(next_word(line));
-    if (!number) fail("'epoch' wants a number, 0 to 65535");
+    if (!number) fail("'epoch' needs a number, 0 to 65535");
     epoch.number = *number;
     std::string_view word = next_word(line);
     if (word == "from") {

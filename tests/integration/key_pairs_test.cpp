@@ -152,7 +152,7 @@ std::optional<peer::SceneFile> scene_of_two(const Switch& a, const Switch& b) {
   } catch (const std::exception& error) {
     const std::string_view what = error.what();
     EXPECT_TRUE(has(what, "excludes") || has(what, "needs") ||
-                has(what, "each cell has one of its own"))
+                has(what, "each cell needs its own group"))
         << what << "\n"
         << text_of(a, b);
     return std::nullopt;

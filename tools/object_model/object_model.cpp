@@ -104,7 +104,7 @@ void write_objects(Xml& xml, ModelTypes& types) {
   for (const ModelField& field : state.members()) {
     if (field.name == "header") continue;
     write_attribute(xml, field,
-                    "Off by more than the thresholds, an event, a newcomer, or the heartbeat");
+                    "An error above the thresholds, an event, a newcomer, or the heartbeat");
   }
   const std::string_view touched = "With each update of an entity that hands can touch";
   write_attribute(xml, felt.members().front(), touched);
@@ -222,7 +222,7 @@ void write_arrays_and_records(Xml& xml, const ModelTypes& types) {
     xml.leaf("name", name);
     xml.leaf("dataType", array.element);
     xml.leaf("cardinality", array.cardinality);
-    xml.leaf("encoding", "The elements one behind the other; their number is in the PDU");
+    xml.leaf("encoding", "The elements in sequence; their number is in the PDU");
     xml.close();
   }
   xml.close();
@@ -230,7 +230,7 @@ void write_arrays_and_records(Xml& xml, const ModelTypes& types) {
   for (const auto& [name, members] : types.records) {
     xml.open("fixedRecordData");
     xml.leaf("name", name);
-    xml.leaf("encoding", "The fields one behind the other, big endian");
+    xml.leaf("encoding", "The fields in sequence, big endian");
     for (const ModelField& field : members) {
       xml.open("field");
       xml.leaf("name", field.name);

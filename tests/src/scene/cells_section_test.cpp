@@ -120,7 +120,7 @@ TEST(CellsSection, RefusesTreesThatCannotBe) {
   const auto tree = [](const std::string& more) { return test::refusal(kTree + kSquare + more); };
   EXPECT_THAT(tree(""), HasSubstr("density, leaves"));
   EXPECT_THAT(tree("leaves = \"0 4\"\n"), HasSubstr("\"4\""));
-  EXPECT_THAT(tree("leaves = \"0 01\"\n"), HasSubstr("take it out"));
+  EXPECT_THAT(tree("leaves = \"0 01\"\n"), HasSubstr("remove it"));
   EXPECT_THAT(tree("leaves = \"0123012\"\n"), HasSubstr("there is no cell"));  // cells of 31 m
   EXPECT_THAT(tree("leaves = \"0\"\nreach = \"1 m\"\n"), HasSubstr("'reach'"));
   EXPECT_THAT(tree("leaves = \"0\"\nmost = 65\n"), HasSubstr("hand_out"));
