@@ -24,24 +24,12 @@ struct SilentAggregateSystem {
   std::uint16_t padding = 0;
   AggregateType aggregate_type;
 };
-
-template <typename Visitor, Is<SilentAggregateSystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("number_of_aggregates", record.number_of_aggregates);
-  visitor("padding", record.padding);
-  visitor("aggregate_type", record.aggregate_type);
-}
 static_assert(kFixedSize<SilentAggregateSystem> == 12);
 
 /// Appearance of an entity that does not send its own state.
 struct SilentAppearance {
   std::uint32_t entity_appearance = 0;
 };
-
-template <typename Visitor, Is<SilentAppearance> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("entity_appearance", record.entity_appearance);
-}
 
 /// Head of a group of entities that do not send their own states; their appearances follow.
 struct SilentEntitySystem {
@@ -53,13 +41,6 @@ struct SilentEntitySystem {
     return {number_of_appearance_records * kFixedSize<SilentAppearance>, DecodeError::none};
   }
 };
-
-template <typename Visitor, Is<SilentEntitySystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("number_of_entities", record.number_of_entities);
-  visitor("number_of_appearance_records", record.number_of_appearance_records);
-  visitor("entity_type", record.entity_type);
-}
 static_assert(kFixedSize<SilentEntitySystem> == 12);
 
 template <typename Visitor>

@@ -20,17 +20,6 @@ struct AggregateType {
   std::uint8_t specific = 0;
   std::uint8_t extra = 0;
 };
-
-template <typename Visitor, Is<AggregateType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("kind", record.kind);
-  visitor("domain", record.domain);
-  visitor("country", record.country);
-  visitor("category", record.category);
-  visitor("subcategory", record.subcategory);
-  visitor("specific", record.specific);
-  visitor("extra", record.extra);
-}
 static_assert(kFixedSize<AggregateType> == 8);
 
 }  // namespace reckon::pdu

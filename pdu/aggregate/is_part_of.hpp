@@ -24,19 +24,6 @@ struct IsPartOf {
   std::uint16_t station_number = 0;
   EntityType part_entity_type;
 };
-
-template <typename Visitor, Is<IsPartOf> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
-  visitor("relationship_nature", pdu.relationship_nature);
-  visitor("relationship_position", pdu.relationship_position);
-  visitor("part_location", pdu.part_location);
-  visitor("station_name", pdu.station_name);
-  visitor("station_number", pdu.station_number);
-  visitor("part_entity_type", pdu.part_entity_type);
-}
 static_assert(kFixedSize<IsPartOf> == 52);
 
 }  // namespace reckon::pdu

@@ -25,8 +25,7 @@ struct TransferOwnership {
   SizedRecords<RecordSet, std::uint32_t> record_sets;
 };
 
-template <typename Visitor, Is<TransferOwnership> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<TransferOwnership> auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_entity_id", pdu.originating_entity_id);
   visitor("receiving_entity_id", pdu.receiving_entity_id);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The central idea of this folder: every PDU and every record names its fields ONCE, in wire order,
-// in a function template `fields(visitor, value)`. Encoding, decoding, size, printing, JSON, random
+// in a function template `fields(visitor, value)`; a plain record does so by its members, which the
+// `fields` of members.hpp lists. Encoding, decoding, size, printing, JSON, random
 // test values and the tables in the documentation are visitors of that description.
 //
 // Interface of a visitor:
@@ -26,6 +27,7 @@
 #include <type_traits>
 
 #include "reckon/pdu/codec/decode_error.hpp"
+#include "reckon/pdu/codec/members.hpp"
 
 namespace reckon::pdu {
 

@@ -51,18 +51,6 @@ template <typename Pdu>
   return header;
 }
 
-template <typename Visitor, Is<PduHeader> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("protocol_version", record.protocol_version);
-  visitor("exercise_id", record.exercise_id);
-  visitor("pdu_type", record.pdu_type);
-  visitor("protocol_family", record.protocol_family);
-  visitor("timestamp", record.timestamp);
-  visitor("length", record.length);
-  visitor("pdu_status", record.pdu_status);
-  visitor("padding", record.padding);
-}
-
 /// Whether the layout of this version is read here: IEEE 1278.1-1995, 1278.1A-1998 and 1278.1-2012.
 [[nodiscard]] constexpr bool is_supported_version(std::uint8_t protocol_version) noexcept {
   return protocol_version >= kOldestProtocolVersion && protocol_version <= kProtocolVersion;

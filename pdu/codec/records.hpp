@@ -96,64 +96,6 @@ struct ClockTime {
   friend constexpr bool operator==(const ClockTime&, const ClockTime&) = default;
 };
 
-template <typename Visitor, Is<SimulationAddress> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("site", record.site);
-  visitor("application", record.application);
-}
-
-template <typename Visitor, Is<EntityId> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("site", record.site);
-  visitor("application", record.application);
-  visitor("entity", record.entity);
-}
-
-template <typename Visitor, Is<EventId> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("site", record.site);
-  visitor("application", record.application);
-  visitor("event", record.event);
-}
-
-template <typename Visitor, Is<EntityType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("kind", record.kind);
-  visitor("domain", record.domain);
-  visitor("country", record.country);
-  visitor("category", record.category);
-  visitor("subcategory", record.subcategory);
-  visitor("specific", record.specific);
-  visitor("extra", record.extra);
-}
-
-template <typename Visitor, Is<WorldCoordinates> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("x", record.x);
-  visitor("y", record.y);
-  visitor("z", record.z);
-}
-
-template <typename Visitor, Is<Vector3Float> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("x", record.x);
-  visitor("y", record.y);
-  visitor("z", record.z);
-}
-
-template <typename Visitor, Is<EulerAngles> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("psi", record.psi);
-  visitor("theta", record.theta);
-  visitor("phi", record.phi);
-}
-
-template <typename Visitor, Is<ClockTime> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("hour", record.hour);
-  visitor("time_past_hour", record.time_past_hour);
-}
-
 }  // namespace reckon::pdu
 
 /// 48 bits mixed to 64 (the finaliser of MurmurHash3), so that dense ids spread over a table.

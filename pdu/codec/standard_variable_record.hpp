@@ -23,8 +23,7 @@ struct StandardVariableRecord {
   }
 };
 
-template <typename Visitor, Is<StandardVariableRecord> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<StandardVariableRecord> auto& record) {
   visitor("record_type", record.record_type);
   visitor("record_length", record.record_length);
 }
@@ -54,8 +53,7 @@ struct RecordSet {
   }
 };
 
-template <typename Visitor, Is<RecordSet> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<RecordSet> auto& record) {
   visitor("record_id", record.record_id);
   visitor("record_set_serial_number", record.record_set_serial_number);
   visitor("padding", record.padding);

@@ -30,8 +30,7 @@ struct Designator {
   Vector3Float spot_linear_acceleration;  ///< world axes [m/s^2]
 };
 
-template <typename Visitor, Is<Designator> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Designator> auto& pdu) {
   visitor("header", pdu.header);
   visitor("designating_entity_id", pdu.designating_entity_id);
   visitor("code_name", pdu.code_name);

@@ -21,13 +21,6 @@ struct TrackJamTarget {
   std::uint8_t emitter_number = 0;
   std::uint8_t beam_number = 0;
 };
-
-template <typename Visitor, Is<TrackJamTarget> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("entity_id", record.entity_id);
-  visitor("emitter_number", record.emitter_number);
-  visitor("beam_number", record.beam_number);
-}
 static_assert(kFixedSize<TrackJamTarget> == 8);
 
 /// Jamming technique of a beam in DIS 7.
@@ -39,8 +32,7 @@ struct JammingTechnique {
   std::uint8_t specific = 0;
 };
 
-template <typename Visitor, Is<JammingTechnique> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<JammingTechnique> auto& record) {
   visitor("beam_status", record.beam_status);
   visitor("jamming_technique_kind", record.kind);
   visitor("jamming_technique_category", record.category);
@@ -53,12 +45,6 @@ struct JammingModeSequence {
   std::uint8_t padding = 0;
   std::uint32_t jamming_mode_sequence = 0;
 };
-
-template <typename Visitor, Is<JammingModeSequence> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("padding", record.padding);
-  visitor("jamming_mode_sequence", record.jamming_mode_sequence);
-}
 
 /// Head of a beam; its targets follow.
 template <typename Jamming>
@@ -99,8 +85,7 @@ struct BasicEmitterBeam {
 using EmitterBeam = BasicEmitterBeam<JammingTechnique>;
 using EmitterBeamOfDis6 = BasicEmitterBeam<JammingModeSequence>;
 
-template <typename Visitor, IsOneOf<EmitterBeam, EmitterBeamOfDis6> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, IsOneOf<EmitterBeam, EmitterBeamOfDis6> auto& record) {
   visitor("beam_data_length", record.beam_data_length);
   visitor("beam_number", record.beam_number);
   visitor("beam_parameter_index", record.beam_parameter_index);
@@ -143,8 +128,7 @@ struct ElectromagneticEmission {
   std::uint16_t padding = 0;
 };
 
-template <typename Visitor, Is<ElectromagneticEmission> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ElectromagneticEmission> auto& pdu) {
   visitor("header", pdu.header);
   visitor("emitting_entity_id", pdu.emitting_entity_id);
   visitor("event_id", pdu.event_id);

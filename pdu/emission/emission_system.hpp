@@ -17,21 +17,13 @@ namespace reckon::pdu {
 
 /// Scan of a beam; its fields are direct fields of the record that contains it.
 struct BeamData {
+  static constexpr bool kInlined = true;
   float beam_azimuth_center = 0.0F;    ///< [rad]
   float beam_azimuth_sweep = 0.0F;     ///< half the sweep [rad]
   float beam_elevation_center = 0.0F;  ///< [rad]
   float beam_elevation_sweep = 0.0F;   ///< half the sweep [rad]
   float beam_sweep_sync = 0.0F;        ///< [%]
 };
-
-template <typename Visitor, Is<BeamData> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("beam_azimuth_center", record.beam_azimuth_center);
-  visitor("beam_azimuth_sweep", record.beam_azimuth_sweep);
-  visitor("beam_elevation_center", record.beam_elevation_center);
-  visitor("beam_elevation_sweep", record.beam_elevation_sweep);
-  visitor("beam_sweep_sync", record.beam_sweep_sync);
-}
 
 /// Head of a system; its beams follow. `Beam` has the names that differ: kSystemName,
 /// kSystemFunction, kSystemNumber.

@@ -34,8 +34,7 @@ struct IffLayer {
   }
 };
 
-template <typename Visitor, Is<IffLayer> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<IffLayer> auto& record) {
   visitor("layer_number", record.layer_number);
   visitor("layer_specific_information", record.layer_specific_information);
   visitor("length", record.length);
@@ -49,14 +48,6 @@ struct IffEmission {
   std::uint8_t operational_parameter_2 = 0;
   std::uint16_t number_of_fundamental_parameters = 0;
 };
-
-template <typename Visitor, Is<IffEmission> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  fields(visitor, record.scan);
-  visitor("operational_parameter_1", record.operational_parameter_1);
-  visitor("operational_parameter_2", record.operational_parameter_2);
-  visitor("number_of_fundamental_parameters", record.number_of_fundamental_parameters);
-}
 static_assert(kFixedSize<IffEmission> == 24);
 
 struct IffFundamentalParameters {
@@ -68,17 +59,6 @@ struct IffFundamentalParameters {
   std::uint8_t applicable_modes = 0;
   std::array<std::uint8_t, 3> system_specific_data{};  ///< padding before DIS 7
 };
-
-template <typename Visitor, Is<IffFundamentalParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("effective_radiated_power", record.effective_radiated_power);
-  visitor("frequency", record.frequency);
-  visitor("pulse_group_repetition_frequency", record.pulse_group_repetition_frequency);
-  visitor("pulse_width", record.pulse_width);
-  visitor("burst_length", record.burst_length);
-  visitor("applicable_modes", record.applicable_modes);
-  visitor("system_specific_data", record.system_specific_data);
-}
 static_assert(kFixedSize<IffFundamentalParameters> == 24);
 
 /// Layer 5: data records of one category that apply to `applicable_layers`.
@@ -90,16 +70,6 @@ struct IffDataLayer {
   std::uint16_t padding_2 = 0;
   std::uint16_t number_of_data_records = 0;
 };
-
-template <typename Visitor, Is<IffDataLayer> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("reporting_simulation", record.reporting_simulation);
-  visitor("padding_1", record.padding_1);
-  visitor("applicable_layers", record.applicable_layers);
-  visitor("data_category", record.data_category);
-  visitor("padding_2", record.padding_2);
-  visitor("number_of_data_records", record.number_of_data_records);
-}
 static_assert(kFixedSize<IffDataLayer> == 12);
 
 /// Layer 3: Mode 5. The basic data have the layout of a transponder or of an interrogator; the
@@ -110,14 +80,6 @@ struct IffMode5Layer {
   std::uint16_t padding = 0;
   std::uint16_t number_of_data_records = 0;
 };
-
-template <typename Visitor, Is<IffMode5Layer> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("reporting_simulation", record.reporting_simulation);
-  visitor("mode_5_basic_data", record.mode_5_basic_data);
-  visitor("padding", record.padding);
-  visitor("number_of_data_records", record.number_of_data_records);
-}
 static_assert(kFixedSize<IffMode5Layer> == 24);
 
 /// Layer 4: Mode S of an interrogator, which has only padding behind its levels.
@@ -131,18 +93,6 @@ struct IffModeSInterrogatorLayer {
   std::uint16_t padding_4 = 0;
   std::uint16_t number_of_data_records = 0;
 };
-
-template <typename Visitor, Is<IffModeSInterrogatorLayer> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("reporting_simulation", record.reporting_simulation);
-  visitor("interrogator_status", record.interrogator_status);
-  visitor("padding_1", record.padding_1);
-  visitor("levels_present", record.levels_present);
-  visitor("padding_2", record.padding_2);
-  visitor("padding_3", record.padding_3);
-  visitor("padding_4", record.padding_4);
-  visitor("number_of_data_records", record.number_of_data_records);
-}
 static_assert(kFixedSize<IffModeSInterrogatorLayer> == 32);
 
 /// Layer 4: Mode S of a transponder.
@@ -162,24 +112,6 @@ struct IffModeSTransponderLayer {
   std::uint16_t padding_3 = 0;
   std::uint16_t number_of_data_records = 0;
 };
-
-template <typename Visitor, Is<IffModeSTransponderLayer> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("reporting_simulation", record.reporting_simulation);
-  visitor("transponder_status", record.transponder_status);
-  visitor("levels_present", record.levels_present);
-  visitor("aircraft_present_domain", record.aircraft_present_domain);
-  visitor("aircraft_identification", record.aircraft_identification);
-  visitor("aircraft_address", record.aircraft_address);
-  visitor("aircraft_identification_type", record.aircraft_identification_type);
-  visitor("dap_source", record.dap_source);
-  visitor("altitude", record.altitude);
-  visitor("capability_report", record.capability_report);
-  visitor("padding_1", record.padding_1);
-  visitor("padding_2", record.padding_2);
-  visitor("padding_3", record.padding_3);
-  visitor("number_of_data_records", record.number_of_data_records);
-}
 static_assert(kFixedSize<IffModeSTransponderLayer> == 32);
 
 /// Whether the body of a layer 4 has zeros in the octets where a transponder identifies its
@@ -263,8 +195,7 @@ struct Iff {
   SizedRecordsToEnd<IffLayer> layers;
 };
 
-template <typename Visitor, Is<Iff> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Iff> auto& pdu) {
   visitor("header", pdu.header);
   visitor("emitting_entity_id", pdu.emitting_entity_id);
   visitor("event_id", pdu.event_id);

@@ -19,23 +19,11 @@ struct PropulsionSystem {
   float engine_rpm = 0.0F;  ///< [1/min]
 };
 
-template <typename Visitor, Is<PropulsionSystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("power_setting", record.power_setting);
-  visitor("engine_rpm", record.engine_rpm);
-}
-
 /// Direction of one nozzle.
 struct VectoringNozzleSystem {
   float horizontal_deflection_angle = 0.0F;  ///< [deg]
   float vertical_deflection_angle = 0.0F;    ///< [deg]
 };
-
-template <typename Visitor, Is<VectoringNozzleSystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("horizontal_deflection_angle", record.horizontal_deflection_angle);
-  visitor("vertical_deflection_angle", record.vertical_deflection_angle);
-}
 
 struct SupplementalEmissionEntityState {
   static constexpr PduType kPduType = PduType::supplemental_emission_entity_state;
@@ -54,8 +42,7 @@ struct SupplementalEmissionEntityState {
       vectoring_nozzle_systems;  ///< read with records_of<VectoringNozzleSystem>
 };
 
-template <typename Visitor, Is<SupplementalEmissionEntityState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<SupplementalEmissionEntityState> auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_entity_id", pdu.originating_entity_id);
   visitor("infrared_signature_representation_index", pdu.infrared_signature_representation_index);

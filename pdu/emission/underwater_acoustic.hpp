@@ -22,24 +22,11 @@ struct ShaftRate {
   std::int32_t rate_of_change = 0;
 };
 
-template <typename Visitor, Is<ShaftRate> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("current_rpm", record.current_rpm);
-  visitor("ordered_rpm", record.ordered_rpm);
-  visitor("rate_of_change", record.rate_of_change);
-}
-
 /// A further passive activity and its value.
 struct PassiveActivity {
   std::uint16_t parameter_index = 0;
   std::int16_t value = 0;
 };
-
-template <typename Visitor, Is<PassiveActivity> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("parameter_index", record.parameter_index);
-  visitor("value", record.value);
-}
 
 /// Head of a beam of a sonar.
 struct AcousticBeam {
@@ -66,8 +53,7 @@ struct AcousticBeam {
   }
 };
 
-template <typename Visitor, Is<AcousticBeam> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<AcousticBeam> auto& record) {
   visitor("beam_data_length", record.beam_data_length);
   visitor("beam_number", record.beam_number);
   visitor("padding", record.padding);
@@ -103,8 +89,7 @@ struct UnderwaterAcoustic {
   SizedRecords<AcousticSystem, std::uint8_t> emitter_systems;
 };
 
-template <typename Visitor, Is<UnderwaterAcoustic> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<UnderwaterAcoustic> auto& pdu) {
   visitor("header", pdu.header);
   visitor("emitting_entity_id", pdu.emitting_entity_id);
   visitor("event_id", pdu.event_id);

@@ -45,8 +45,7 @@ struct Attribute {
   AttributeRecordSets record_sets;
 };
 
-template <typename Visitor, Is<Attribute> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Attribute> auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_simulation_address", pdu.originating_simulation);
   visitor("padding_1", pdu.padding_1);

@@ -24,19 +24,6 @@ struct Collision {
   float mass = 0.0F;      ///< of the issuing entity [kg]
   Vector3Float location;  ///< of the impact, body axes of the other entity [m]
 };
-
-template <typename Visitor, Is<Collision> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("issuing_entity_id", pdu.issuing_entity_id);
-  visitor("colliding_entity_id", pdu.colliding_entity_id);
-  visitor("event_id", pdu.event_id);
-  visitor("collision_type", pdu.collision_type);
-  visitor("padding", pdu.padding);
-  visitor("velocity", pdu.velocity);
-  visitor("mass", pdu.mass);
-  visitor("location", pdu.location);
-}
 static_assert(kFixedSize<Collision> == 60);
 
 }  // namespace reckon::pdu

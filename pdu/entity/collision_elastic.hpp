@@ -41,18 +41,7 @@ struct CollisionElastic {
   float coefficient_of_restitution = 0.0F;
 };
 
-template <typename Visitor, Is<CollisionIntermediateResult> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("xx", record.xx);
-  visitor("xy", record.xy);
-  visitor("xz", record.xz);
-  visitor("yy", record.yy);
-  visitor("yz", record.yz);
-  visitor("zz", record.zz);
-}
-
-template <typename Visitor, Is<CollisionElastic> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<CollisionElastic> auto& pdu) {
   visitor("header", pdu.header);
   visitor("issuing_entity_id", pdu.issuing_entity_id);
   visitor("colliding_entity_id", pdu.colliding_entity_id);

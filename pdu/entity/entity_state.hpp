@@ -63,22 +63,19 @@ struct EntityState {
   std::span<const std::byte> variable_parameters;
 };
 
-template <typename Visitor, Is<DeadReckoningParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<DeadReckoningParameters> auto& record) {
   visitor("dead_reckoning_algorithm", record.algorithm);
   visitor("other_parameters", record.other_parameters);
   visitor("entity_linear_acceleration", record.linear_acceleration);
   visitor("entity_angular_velocity", record.angular_velocity);
 }
 
-template <typename Visitor, Is<EntityMarking> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<EntityMarking> auto& record) {
   visitor("entity_marking_character_set", record.character_set);
   visitor("entity_marking_string", record.text);
 }
 
-template <typename Visitor, Is<EntityState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<EntityState> auto& pdu) {
   visitor("header", pdu.header);
   visitor("entity_id", pdu.entity_id);
   visitor("force_id", pdu.force_id);

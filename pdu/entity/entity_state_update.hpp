@@ -28,8 +28,7 @@ struct EntityStateUpdate {
   std::uint32_t entity_appearance = 0;
 };
 
-template <typename Visitor, Is<EntityStateUpdate> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<EntityStateUpdate> auto& pdu) {
   visitor("header", pdu.header);
   visitor("entity_id", pdu.entity_id);
   visitor("padding", pdu.padding);

@@ -72,65 +72,6 @@ struct EntityAssociation {
   std::uint16_t group_number = 0;
 };
 
-template <typename Visitor, Is<VariableParameter> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("body", record.body);
-}
-
-template <typename Visitor, Is<ArticulatedPart> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("change_indicator", record.change_indicator);
-  visitor("part_attached_to", record.part_attached_to);
-  visitor("parameter_type", record.parameter_type);
-  visitor("parameter_value", record.parameter_value);
-  visitor("padding", record.padding);
-}
-
-template <typename Visitor, Is<AttachedPart> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("detached_indicator", record.detached_indicator);
-  visitor("part_attached_to", record.part_attached_to);
-  visitor("parameter_type", record.parameter_type);
-  visitor("attached_part_type", record.attached_part_type);
-}
-
-template <typename Visitor, Is<Separation> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("reason_for_separation", record.reason_for_separation);
-  visitor("pre_entity_indicator", record.pre_entity_indicator);
-  visitor("padding_1", record.padding_1);
-  visitor("parent_entity_id", record.parent_entity_id);
-  visitor("padding_2", record.padding_2);
-  visitor("station_name", record.station_name);
-  visitor("station_number", record.station_number);
-}
-
-template <typename Visitor, Is<EntityTypeParameter> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("change_indicator", record.change_indicator);
-  visitor("entity_type", record.entity_type);
-  visitor("padding_1", record.padding_1);
-  visitor("padding_2", record.padding_2);
-}
-
-template <typename Visitor, Is<EntityAssociation> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("record_type", record.record_type);
-  visitor("change_indicator", record.change_indicator);
-  visitor("association_status", record.association_status);
-  visitor("association_type", record.association_type);
-  visitor("entity_id", record.entity_id);
-  visitor("own_station_location", record.own_station_location);
-  visitor("physical_connection_type", record.physical_connection_type);
-  visitor("group_member_type", record.group_member_type);
-  visitor("group_number", record.group_number);
-}
-
 inline constexpr std::size_t kVariableParameterSize = 16;  ///< octets, for any kind
 
 /// Calls `f` with the record in its own type, or as VariableParameter if the kind is unknown.

@@ -33,8 +33,7 @@ struct ArealObjectState {
   SimulationAddress receiving_simulation_address;
 };
 
-template <typename Visitor, Is<ArealObjectState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ArealObjectState> auto& pdu) {
   object_head_fields(visitor, pdu);
   visitor("modifications", pdu.modifications);
   visitor("object_type", pdu.object_type);

@@ -31,8 +31,7 @@ struct EnvironmentRecord {
   }
 };
 
-template <typename Visitor, Is<EnvironmentRecord> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<EnvironmentRecord> auto& record) {
   visitor("record_type", record.record_type);
   visitor("record_length", record.record_length);
   visitor("record_index", record.record_index);
@@ -47,8 +46,7 @@ struct BoundingSphere {
   std::uint32_t padding = 0;
 };
 
-template <typename Visitor, Is<BoundingSphere> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<BoundingSphere> auto& record) {
   visitor("center", record.center);
   visitor("radius", record.radius);
   visitor("geometry_padding", record.padding);
@@ -59,11 +57,6 @@ static_assert(kFixedSize<BoundingSphere> == 32);
 struct PointGeometry {
   WorldCoordinates location;  ///< [m]
 };
-
-template <typename Visitor, Is<PointGeometry> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("location", record.location);
-}
 static_assert(kFixedSize<PointGeometry> == 24);
 
 /// Type 786432, "line record 1".
@@ -71,12 +64,6 @@ struct LineGeometry {
   WorldCoordinates start;  ///< [m]
   WorldCoordinates end;    ///< [m]
 };
-
-template <typename Visitor, Is<LineGeometry> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("start", record.start);
-  visitor("end", record.end);
-}
 static_assert(kFixedSize<LineGeometry> == 48);
 
 /// Type 1048576, "ellipsoid record 1".
@@ -85,13 +72,6 @@ struct EllipsoidGeometry {
   Vector3Float sigma;       ///< [m]
   EulerAngles orientation;  ///< [rad]
 };
-
-template <typename Visitor, Is<EllipsoidGeometry> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("center", record.center);
-  visitor("sigma", record.sigma);
-  visitor("orientation", record.orientation);
-}
 static_assert(kFixedSize<EllipsoidGeometry> == 48);
 
 /// Type 5242880, "rectangular volume record 1".
@@ -100,13 +80,6 @@ struct BoxGeometry {
   Vector3Float lengths;     ///< [m]
   EulerAngles orientation;  ///< [rad]
 };
-
-template <typename Visitor, Is<BoxGeometry> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("corner", record.corner);
-  visitor("lengths", record.lengths);
-  visitor("orientation", record.orientation);
-}
 static_assert(kFixedSize<BoxGeometry> == 48);
 
 /// Shows the geometries of recorded traffic by their fields. Other geometries, and state records
@@ -142,8 +115,7 @@ struct EnvironmentalProcess {
   std::uint16_t sequence_number = 0;
 };
 
-template <typename Visitor, Is<EnvironmentalProcess> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<EnvironmentalProcess> auto& pdu) {
   visitor("header", pdu.header);
   visitor("environmental_process_id", pdu.environmental_process_id);
   visitor("environment_type", pdu.environment_type);

@@ -34,8 +34,7 @@ struct GridAxis {
   }
 };
 
-template <typename Visitor, Is<GridAxis> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<GridAxis> auto& record) {
   visitor("domain_initial_xi", record.domain_initial_xi);
   visitor("domain_final_xi", record.domain_final_xi);
   visitor("domain_points_xi", record.domain_points_xi);
@@ -52,23 +51,12 @@ struct GridAxisScale {
   double coordinate_offset_xi = 0.0;
 };
 
-template <typename Visitor, Is<GridAxisScale> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("coordinate_scale_xi", record.coordinate_scale_xi);
-  visitor("coordinate_offset_xi", record.coordinate_offset_xi);
-}
-
 /// One number of an axis or of a sample.
 template <typename NumberType>
 struct GridValue {
   using Number = NumberType;
   Number value = 0;
 };
-
-template <typename Visitor, IsOneOf<GridValue<std::uint16_t>, GridValue<float>> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("value", record.value);
-}
 
 /// Shows the first \p count numbers of `octets`, then their padding.
 template <typename Number, typename Visitor>
@@ -112,8 +100,7 @@ struct GridSamples {
   }
 };
 
-template <typename Visitor, Is<GridSamples> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<GridSamples> auto& record) {
   visitor("sample_type", record.sample_type);
   visitor("data_representation", record.data_representation);
 }

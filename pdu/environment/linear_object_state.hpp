@@ -34,8 +34,7 @@ struct BasicLinearSegment {
 using LinearSegment = BasicLinearSegment<float>;
 using LinearSegmentOfDis6 = BasicLinearSegment<std::uint16_t>;
 
-template <typename Visitor, IsOneOf<LinearSegment, LinearSegmentOfDis6> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, IsOneOf<LinearSegment, LinearSegmentOfDis6> auto& record) {
   visitor("segment_number", record.segment_number);
   visitor("segment_modification", record.segment_modification);
   visitor("general_segment_appearance", record.general_segment_appearance);
@@ -69,8 +68,7 @@ struct LinearObjectState {
   ObjectType object_type;
 };
 
-template <typename Visitor, Is<LinearObjectState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<LinearObjectState> auto& pdu) {
   object_head_fields(visitor, pdu);
   const bool dis6 = is_before_dis7(pdu.header);
   dis6 ? visitor.count("number_of_linear_segments", pdu.linear_segments,

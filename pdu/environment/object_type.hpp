@@ -17,14 +17,6 @@ struct ObjectType {
   std::uint8_t category = 0;
   std::uint8_t subcategory = 0;
 };
-
-template <typename Visitor, Is<ObjectType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("domain", record.domain);
-  visitor("kind", record.kind);
-  visitor("category", record.category);
-  visitor("subcategory", record.subcategory);
-}
 static_assert(kFixedSize<ObjectType> == 4);
 
 }  // namespace reckon::pdu

@@ -33,8 +33,7 @@ struct PointObjectState {
   std::uint32_t padding_2 = 0;
 };
 
-template <typename Visitor, Is<PointObjectState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<PointObjectState> auto& pdu) {
   object_head_fields(visitor, pdu);
   visitor("modifications", pdu.modifications);
   visitor("object_type", pdu.object_type);

@@ -30,8 +30,7 @@ struct InformationOperationsAction {
   SizedRecords<StandardVariableRecord, std::uint16_t> io_records;
 };
 
-template <typename Visitor, Is<InformationOperationsAction> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<InformationOperationsAction> auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_simulation_id", pdu.originating_simulation_id);
   visitor("receiving_simulation_id", pdu.receiving_simulation_id);

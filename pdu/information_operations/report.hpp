@@ -27,8 +27,7 @@ struct InformationOperationsReport {
   SizedRecords<StandardVariableRecord, std::uint16_t> io_records;
 };
 
-template <typename Visitor, Is<InformationOperationsReport> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<InformationOperationsReport> auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_simulation_id", pdu.originating_simulation_id);
   visitor("io_simulation_source", pdu.io_simulation_source);

@@ -34,8 +34,7 @@ struct Appearance {
   std::uint32_t acoustic_appearance = 0;         ///< bit 1 of flags_2
 };
 
-template <typename Visitor, Is<Appearance> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Appearance> auto& pdu) {
   visitor("header", pdu.header);
   visitor("live_entity_id", pdu.live_entity_id);
   visitor("appearance_flags_1", pdu.flags_1);

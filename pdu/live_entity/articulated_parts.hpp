@@ -23,8 +23,7 @@ struct ArticulatedParts {
   std::span<const std::byte> variable_parameters;  ///< 16 n octets
 };
 
-template <typename Visitor, Is<ArticulatedParts> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ArticulatedParts> auto& pdu) {
   visitor("header", pdu.header);
   visitor("live_entity_id", pdu.live_entity_id);
   visitor.count("number_of_variable_parameter_records", pdu.variable_parameters,

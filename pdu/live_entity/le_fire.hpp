@@ -25,8 +25,7 @@ struct LeFire {
   std::uint16_t range = 0;
 };
 
-template <typename Visitor, Is<LeFire> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<LeFire> auto& pdu) {
   visitor("header", pdu.header);
   visitor("firing_live_entity_id", pdu.firing_live_entity_id);
   visitor("fire_flags", pdu.flags);

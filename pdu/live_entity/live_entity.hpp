@@ -57,42 +57,6 @@ struct LiveEulerAngles {
   T phi = 0;
 };
 
-template <typename Visitor, Is<LiveSimulationAddress> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("site", record.site);
-  visitor("application", record.application);
-}
-
-template <typename Visitor, Is<LiveEntityId> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("site", record.site);
-  visitor("application", record.application);
-  visitor("entity", record.entity);
-}
-
-template <typename Visitor, Is<RelativeWorldCoordinates> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("reference_point", record.reference_point);
-  visitor("delta_x", record.delta_x);
-  visitor("delta_y", record.delta_y);
-  visitor("delta_z", record.delta_z);
-}
-
-template <typename Visitor, IsOneOf<LiveVector<std::int8_t>, LiveVector<std::int16_t>> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("x", record.x);
-  visitor("y", record.y);
-  visitor("z", record.z);
-}
-
-template <typename Visitor,
-          IsOneOf<LiveEulerAngles<std::int8_t>, LiveEulerAngles<std::int16_t>> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("psi", record.psi);
-  visitor("theta", record.theta);
-  visitor("phi", record.phi);
-}
-
 /// Fields of LE Fire and LE Detonation whose flag bits are the same in both PDUs.
 struct LiveShot {
   LiveEntityId target_id;                  ///< bit 0

@@ -19,24 +19,11 @@ struct LivePositionError {
   std::uint16_t vertical_error = 0;
 };
 
-template <typename Visitor, Is<LivePositionError> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("horizontal_error", record.horizontal_error);
-  visitor("vertical_error", record.vertical_error);
-}
-
 struct LiveOrientationError {
   std::uint16_t azimuth_error = 0;
   std::uint16_t elevation_error = 0;
   std::uint16_t rotation_error = 0;
 };
-
-template <typename Visitor, Is<LiveOrientationError> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("azimuth_error", record.azimuth_error);
-  visitor("elevation_error", record.elevation_error);
-  visitor("rotation_error", record.rotation_error);
-}
 
 struct LiveDeadReckoningParameters {
   DeadReckoningAlgorithm algorithm = DeadReckoningAlgorithm::static_;
@@ -44,8 +31,7 @@ struct LiveDeadReckoningParameters {
   LiveVector<std::int8_t> angular_velocity;
 };
 
-template <typename Visitor, Is<LiveDeadReckoningParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<LiveDeadReckoningParameters> auto& record) {
   visitor("dead_reckoning_algorithm", record.algorithm);
   visitor("entity_linear_acceleration", record.linear_acceleration);
   visitor("entity_angular_velocity", record.angular_velocity);
@@ -68,8 +54,7 @@ struct Tspi {
   OctetBlock<std::uint8_t> system_specific_data;    ///< bit 6
 };
 
-template <typename Visitor, Is<Tspi> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Tspi> auto& pdu) {
   visitor("header", pdu.header);
   visitor("live_entity_id", pdu.live_entity_id);
   visitor("tspi_flags", pdu.flags);

@@ -20,15 +20,6 @@ struct RepairComplete {
   std::uint16_t repair = 0;
   std::uint16_t padding = 0;
 };
-
-template <typename Visitor, Is<RepairComplete> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
-  visitor("repairing_entity_id", pdu.repairing_entity_id);
-  visitor("repair", pdu.repair);
-  visitor("padding", pdu.padding);
-}
 static_assert(kFixedSize<RepairComplete> == 28);
 
 }  // namespace reckon::pdu

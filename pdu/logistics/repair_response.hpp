@@ -21,16 +21,6 @@ struct RepairResponse {
   std::uint8_t padding_1 = 0;
   std::uint16_t padding_2 = 0;
 };
-
-template <typename Visitor, Is<RepairResponse> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
-  visitor("repairing_entity_id", pdu.repairing_entity_id);
-  visitor("repair_result", pdu.repair_result);
-  visitor("padding_1", pdu.padding_1);
-  visitor("padding_2", pdu.padding_2);
-}
 static_assert(kFixedSize<RepairResponse> == 28);
 
 }  // namespace reckon::pdu

@@ -16,13 +16,6 @@ struct ResupplyCancel {
   EntityId receiving_entity_id;
   EntityId supplying_entity_id;
 };
-
-template <typename Visitor, Is<ResupplyCancel> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
-  visitor("supplying_entity_id", pdu.supplying_entity_id);
-}
 static_assert(kFixedSize<ResupplyCancel> == 24);
 
 }  // namespace reckon::pdu

@@ -26,8 +26,7 @@ struct ResupplyOffer {
   std::uint16_t padding_2 = 0;
 };
 
-template <typename Visitor, Is<ResupplyOffer> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ResupplyOffer> auto& pdu) {
   visitor("header", pdu.header);
   visitor("receiving_entity_id", pdu.receiving_entity_id);
   visitor("supplying_entity_id", pdu.supplying_entity_id);

@@ -26,8 +26,7 @@ struct ResupplyReceived {
   std::uint16_t padding_2 = 0;
 };
 
-template <typename Visitor, Is<ResupplyReceived> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ResupplyReceived> auto& pdu) {
   visitor("header", pdu.header);
   visitor("receiving_entity_id", pdu.receiving_entity_id);
   visitor("supplying_entity_id", pdu.supplying_entity_id);

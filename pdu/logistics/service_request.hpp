@@ -26,8 +26,7 @@ struct ServiceRequest {
   std::uint16_t padding = 0;
 };
 
-template <typename Visitor, Is<ServiceRequest> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<ServiceRequest> auto& pdu) {
   visitor("header", pdu.header);
   visitor("requesting_entity_id", pdu.requesting_entity_id);
   visitor("servicing_entity_id", pdu.servicing_entity_id);

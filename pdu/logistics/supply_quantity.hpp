@@ -13,12 +13,6 @@ struct SupplyQuantity {
   EntityType supply_type;
   float quantity = 0.0F;
 };
-
-template <typename Visitor, Is<SupplyQuantity> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("supply_type", record.supply_type);
-  visitor("quantity", record.quantity);
-}
 static_assert(kFixedSize<SupplyQuantity> == 12);
 
 }  // namespace reckon::pdu

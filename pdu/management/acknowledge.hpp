@@ -29,8 +29,7 @@ struct BasicAcknowledge {
 using Acknowledge = BasicAcknowledge<PduType::acknowledge>;
 using AcknowledgeR = BasicAcknowledge<PduType::acknowledge_r>;
 
-template <typename Visitor, IsOneOf<Acknowledge, AcknowledgeR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<Acknowledge, AcknowledgeR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("acknowledge_flag", pdu.acknowledge_flag);
   visitor("response_flag", pdu.response_flag);

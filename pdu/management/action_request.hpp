@@ -33,8 +33,7 @@ struct BasicActionRequest {
 using ActionRequest = BasicActionRequest<PduType::action_request>;
 using ActionRequestR = BasicActionRequest<PduType::action_request_r>;
 
-template <typename Visitor, IsOneOf<ActionRequest, ActionRequestR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<ActionRequest, ActionRequestR> auto& pdu) {
   management_fields(visitor, pdu);
   fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);

@@ -30,8 +30,7 @@ struct BasicComment {
 using Comment = BasicComment<PduType::comment>;
 using CommentR = BasicComment<PduType::comment_r>;
 
-template <typename Visitor, IsOneOf<Comment, CommentR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<Comment, CommentR> auto& pdu) {
   management_fields(visitor, pdu);
   datum_fields(visitor, pdu);
 }

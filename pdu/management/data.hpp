@@ -34,8 +34,7 @@ struct BasicData {
 using Data = BasicData<PduType::data>;
 using DataR = BasicData<PduType::data_r>;
 
-template <typename Visitor, IsOneOf<Data, DataR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<Data, DataR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
   fields(visitor, pdu.reliability);

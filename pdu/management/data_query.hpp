@@ -33,8 +33,7 @@ struct BasicDataQuery {
 using DataQuery = BasicDataQuery<PduType::data_query>;
 using DataQueryR = BasicDataQuery<PduType::data_query_r>;
 
-template <typename Visitor, IsOneOf<DataQuery, DataQueryR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<DataQuery, DataQueryR> auto& pdu) {
   management_fields(visitor, pdu);
   fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);

@@ -20,8 +20,7 @@ struct FixedDatum {
   friend constexpr bool operator==(const FixedDatum&, const FixedDatum&) = default;
 };
 
-template <typename Visitor, Is<FixedDatum> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<FixedDatum> auto& record) {
   visitor("fixed_datum_id", record.datum_id);
   visitor("fixed_datum_value", record.value);
 }
@@ -30,11 +29,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
 struct DatumId {
   std::uint32_t datum_id = 0;
 };
-
-template <typename Visitor, Is<DatumId> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("datum_id", record.datum_id);
-}
 
 using FixedDatums = Records<FixedDatum, std::uint32_t>;
 using DatumIds = Records<DatumId, std::uint32_t>;

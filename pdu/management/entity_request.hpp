@@ -30,8 +30,8 @@ using RemoveEntity = EntityRequest<PduType::remove_entity>;
 using CreateEntityR = EntityRequest<PduType::create_entity_r>;
 using RemoveEntityR = EntityRequest<PduType::remove_entity_r>;
 
-template <typename Visitor, IsOneOf<CreateEntity, RemoveEntity, CreateEntityR, RemoveEntityR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor,
+                      IsOneOf<CreateEntity, RemoveEntity, CreateEntityR, RemoveEntityR> auto& pdu) {
   management_fields(visitor, pdu);
   fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);

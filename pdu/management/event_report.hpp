@@ -32,8 +32,7 @@ struct BasicEventReport {
 using EventReport = BasicEventReport<PduType::event_report>;
 using EventReportR = BasicEventReport<PduType::event_report_r>;
 
-template <typename Visitor, IsOneOf<EventReport, EventReportR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<EventReport, EventReportR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("event_type", pdu.event_type);
   visitor("padding", pdu.padding);

@@ -28,8 +28,7 @@ struct RecordQueryR {
   std::span<const std::byte> record_ids;  ///< read with records_of<DatumId>
 };
 
-template <typename Visitor, Is<RecordQueryR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<RecordQueryR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
   fields(visitor, pdu.reliability);

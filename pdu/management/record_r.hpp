@@ -26,8 +26,7 @@ struct RecordR {
   SizedRecords<RecordSet, std::uint32_t> record_sets;
 };
 
-template <typename Visitor, Is<RecordR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<RecordR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
   fields(visitor, pdu.reliability);

@@ -34,8 +34,7 @@ struct BasicSetData {
 using SetData = BasicSetData<PduType::set_data>;
 using SetDataR = BasicSetData<PduType::set_data_r>;
 
-template <typename Visitor, IsOneOf<SetData, SetDataR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<SetData, SetDataR> auto& pdu) {
   management_fields(visitor, pdu);
   fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);

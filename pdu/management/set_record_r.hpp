@@ -25,8 +25,7 @@ struct SetRecordR {
   SizedRecords<RecordSet, std::uint32_t> record_sets;
 };
 
-template <typename Visitor, Is<SetRecordR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<SetRecordR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
   fields(visitor, pdu.reliability);

@@ -29,24 +29,11 @@ struct ReliabilityService {
   std::uint16_t padding_2 = 0;
 };
 
-template <typename Visitor, Is<ReliabilityService> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("required_reliability_service", record.required_reliability_service);
-  visitor("padding_1", record.padding_1);
-  visitor("padding_2", record.padding_2);
-}
-
 /// The same with one octet of padding: Stop/Freeze-R and the record PDUs.
 struct ShortReliabilityService {
   std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
   std::uint8_t padding = 0;
 };
-
-template <typename Visitor, Is<ShortReliabilityService> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("required_reliability_service", record.required_reliability_service);
-  visitor("padding", record.padding);
-}
 
 /// Replacement in the version without reliability: nothing, or four octets of padding.
 struct NoService {};
@@ -57,11 +44,6 @@ constexpr void fields(Visitor&, Record&) {}
 struct ServicePadding {
   std::uint32_t padding = 0;
 };
-
-template <typename Visitor, Is<ServicePadding> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("padding", record.padding);
-}
 
 /// The service of a reliable version, else `Instead`. Its fields are direct fields of the PDU:
 /// `fields(visitor, pdu.reliability)`.

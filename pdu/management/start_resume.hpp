@@ -30,8 +30,7 @@ struct BasicStartResume {
 using StartResume = BasicStartResume<PduType::start_resume>;
 using StartResumeR = BasicStartResume<PduType::start_resume_r>;
 
-template <typename Visitor, IsOneOf<StartResume, StartResumeR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<StartResume, StartResumeR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("real_world_time", pdu.real_world_time);
   visitor("simulation_time", pdu.simulation_time);

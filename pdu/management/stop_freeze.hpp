@@ -23,11 +23,6 @@ struct ShortPadding {
   std::uint16_t padding = 0;
 };
 
-template <typename Visitor, Is<ShortPadding> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("padding", record.padding);
-}
-
 /// Stops at `real_world_time`.
 template <PduType type>
 struct BasicStopFreeze {
@@ -47,8 +42,7 @@ struct BasicStopFreeze {
 using StopFreeze = BasicStopFreeze<PduType::stop_freeze>;
 using StopFreezeR = BasicStopFreeze<PduType::stop_freeze_r>;
 
-template <typename Visitor, IsOneOf<StopFreeze, StopFreezeR> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, IsOneOf<StopFreeze, StopFreezeR> auto& pdu) {
   management_fields(visitor, pdu);
   visitor("real_world_time", pdu.real_world_time);
   visitor("reason", pdu.reason);

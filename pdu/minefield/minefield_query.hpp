@@ -32,8 +32,7 @@ struct MinefieldQuery {
   RestOfPdu padding_to_32_bits;
 };
 
-template <typename Visitor, Is<MinefieldQuery> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<MinefieldQuery> auto& pdu) {
   visitor("header", pdu.header);
   visitor("minefield_id", pdu.minefield_id);
   visitor("requesting_entity_id", pdu.requesting_entity_id);

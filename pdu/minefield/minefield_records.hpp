@@ -16,12 +16,6 @@ struct Vector2Float {
   float y = 0.0F;
 };
 
-template <typename Visitor, Is<Vector2Float> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("x", record.x);
-  visitor("y", record.y);
-}
-
 /// One number of a mine, in the columns of Minefield Data.
 struct MineReal {
   float value = 0.0F;
@@ -33,19 +27,9 @@ struct MineOctet {
   std::uint8_t value = 0;
 };
 
-template <typename Visitor, IsOneOf<MineReal, MineWord, MineOctet> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("value", record.value);
-}
-
 /// A sensor that detects mines.
 struct SensorType {
   std::uint16_t sensor_type = 0;
 };
-
-template <typename Visitor, Is<SensorType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("sensor_type", record.sensor_type);
-}
 
 }  // namespace reckon::pdu

@@ -23,8 +23,7 @@ struct MinefieldResponseNack {
   RestOfPdu padding_to_32_bits;
 };
 
-template <typename Visitor, Is<MinefieldResponseNack> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<MinefieldResponseNack> auto& pdu) {
   visitor("header", pdu.header);
   visitor("minefield_id", pdu.minefield_id);
   visitor("requesting_entity_id", pdu.requesting_entity_id);

@@ -32,8 +32,7 @@ struct MinefieldState {
   std::uint16_t protocol_mode = 0;
 };
 
-template <typename Visitor, Is<MinefieldState> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<MinefieldState> auto& pdu) {
   visitor("header", pdu.header);
   visitor("minefield_id", pdu.minefield_id);
   visitor("minefield_sequence", pdu.minefield_sequence);

@@ -30,8 +30,7 @@ struct IntercomControl {
   OctetBlock<std::uint32_t> intercom_parameters;
 };
 
-template <typename Visitor, Is<IntercomControl> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<IntercomControl> auto& pdu) {
   visitor("header", pdu.header);
   visitor("control_type", pdu.control_type);
   visitor("communications_channel_type", pdu.communications_channel_type);

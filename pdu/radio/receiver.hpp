@@ -23,18 +23,6 @@ struct Receiver {
   EntityId transmitter_radio_reference_id;
   std::uint16_t transmitter_radio_number = 0;
 };
-
-template <typename Visitor, Is<Receiver> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("radio_reference_id", pdu.radio_reference_id);
-  visitor("radio_number", pdu.radio_number);
-  visitor("receiver_state", pdu.receiver_state);
-  visitor("padding", pdu.padding);
-  visitor("received_power", pdu.received_power);
-  visitor("transmitter_radio_reference_id", pdu.transmitter_radio_reference_id);
-  visitor("transmitter_radio_number", pdu.transmitter_radio_number);
-}
 static_assert(kFixedSize<Receiver> == 36);
 
 }  // namespace reckon::pdu

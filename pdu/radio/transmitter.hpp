@@ -20,14 +20,6 @@ struct ModulationType {
   std::uint16_t detail = 0;
   std::uint16_t radio_system = 0;
 };
-
-template <typename Visitor, Is<ModulationType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("spread_spectrum", record.spread_spectrum);
-  visitor("major_modulation", record.major_modulation);
-  visitor("detail", record.detail);
-  visitor("radio_system", record.radio_system);
-}
 static_assert(kFixedSize<ModulationType> == 8);
 
 /// Type of a radio in DIS 5 and 6.
@@ -39,16 +31,6 @@ struct RadioEntityType {
   std::uint8_t nomenclature_version = 0;
   std::uint16_t nomenclature = 0;
 };
-
-template <typename Visitor, Is<RadioEntityType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("kind", record.kind);
-  visitor("domain", record.domain);
-  visitor("country", record.country);
-  visitor("category", record.category);
-  visitor("nomenclature_version", record.nomenclature_version);
-  visitor("nomenclature", record.nomenclature);
-}
 static_assert(kFixedSize<RadioEntityType> == kFixedSize<EntityType>);
 
 /// Antenna pattern of type kBeam.
@@ -66,20 +48,6 @@ struct BeamAntennaPattern {
   float phase = 0.0F;  ///< [rad]
   std::uint32_t padding_3 = 0;
 };
-
-template <typename Visitor, Is<BeamAntennaPattern> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("beam_direction", record.beam_direction);
-  visitor("azimuth_beamwidth", record.azimuth_beamwidth);
-  visitor("elevation_beamwidth", record.elevation_beamwidth);
-  visitor("reference_system", record.reference_system);
-  visitor("padding_1", record.padding_1);
-  visitor("padding_2", record.padding_2);
-  visitor("ez", record.ez);
-  visitor("ex", record.ex);
-  visitor("phase", record.phase);
-  visitor("padding_3", record.padding_3);
-}
 static_assert(kFixedSize<BeamAntennaPattern> == 40);
 
 /// Modulation parameters of HAVE QUICK radios (systems 2 and 3).
@@ -92,17 +60,6 @@ struct HaveQuickParameters {
   std::uint32_t time_of_day = 0;
   std::uint32_t padding = 0;
 };
-
-template <typename Visitor, Is<HaveQuickParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("net_id", record.net_id);
-  visitor("mwod_index", record.mwod_index);
-  visitor("reserved_1", record.reserved_1);
-  visitor("reserved_2", record.reserved_2);
-  visitor("reserved_3", record.reserved_3);
-  visitor("time_of_day", record.time_of_day);
-  visitor("padding", record.padding);
-}
 static_assert(kFixedSize<HaveQuickParameters> == 16);
 
 /// Modulation parameters of CCTT SINCGARS radios (system 6).
@@ -117,19 +74,6 @@ struct SincgarsParameters {
   std::uint8_t clear_channel = 0;
   std::uint8_t padding = 0;
 };
-
-template <typename Visitor, Is<SincgarsParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("frequency_hopping_network_id", record.frequency_hopping_network_id);
-  visitor("frequency_set_id", record.frequency_set_id);
-  visitor("frequency_lockout_set_id", record.frequency_lockout_set_id);
-  visitor("start_of_message", record.start_of_message);
-  visitor("reserved", record.reserved);
-  visitor("sync_time_offset", record.sync_time_offset);
-  visitor("transmission_security_key", record.transmission_security_key);
-  visitor("clear_channel", record.clear_channel);
-  visitor("padding", record.padding);
-}
 static_assert(kFixedSize<SincgarsParameters> == 16);
 
 /// Modulation parameters of JTIDS and MIDS terminals (system 8).
@@ -140,15 +84,6 @@ struct JtidsParameters {
   std::uint8_t synchronization_state = 0;
   std::uint32_t network_synchronization_id = 0;
 };
-
-template <typename Visitor, Is<JtidsParameters> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("time_slot_allocation_mode", record.time_slot_allocation_mode);
-  visitor("transmitting_terminal_primary_mode", record.transmitting_terminal_primary_mode);
-  visitor("transmitting_terminal_secondary_mode", record.transmitting_terminal_secondary_mode);
-  visitor("synchronization_state", record.synchronization_state);
-  visitor("network_synchronization_id", record.network_synchronization_id);
-}
 static_assert(kFixedSize<JtidsParameters> == 8);
 
 struct Transmitter {
@@ -213,8 +148,7 @@ constexpr void antenna_pattern_field(Visitor& visitor, Pdu& pdu) {
   if (!shown) visitor.walked(kName, pdu.antenna_pattern);
 }
 
-template <typename Visitor, Is<Transmitter> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Transmitter> auto& pdu) {
   visitor("header", pdu.header);
   visitor("radio_reference_id", pdu.radio_reference_id);
   visitor("radio_number", pdu.radio_number);

@@ -38,14 +38,7 @@ struct CellMembership {
   std::span<const std::byte> cells;  ///< 8 n octets, read with records_of<CellIndex>
 };
 
-template <typename Visitor, Is<CellIndex> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("column", record.column);
-  visitor("row", record.row);
-}
-
-template <typename Visitor, Is<CellMembership> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<CellMembership> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

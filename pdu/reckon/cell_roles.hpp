@@ -49,22 +49,7 @@ struct CellRoles {
   std::span<const std::byte> roles;  ///< 40 n octets, read with records_of<CellRole>
 };
 
-template <typename Visitor, Is<CellRole> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("column", record.column);
-  visitor("row", record.row);
-  visitor("entered", record.entered);
-  visitor("successor", record.successor);
-  visitor("beacon", record.beacon);
-  visitor("flags", record.flags);
-  visitor("serial", record.serial);
-  visitor("first_part", record.first_part);
-  visitor("padding", record.padding);
-  visitor("parts", record.parts);
-}
-
-template <typename Visitor, Is<CellRoles> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<CellRoles> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

@@ -40,15 +40,7 @@ struct CellSnapshot {
   OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and its octets
 };
 
-template <typename Visitor, Is<SnapshotState> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("epoch", record.epoch);
-  visitor("length", record.length);
-  visitor("age", record.age);
-}
-
-template <typename Visitor, Is<CellSnapshot> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<CellSnapshot> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

@@ -28,8 +28,7 @@ struct CompressedStates {
   RestOfPdu states;  ///< read with CompressedStateReader
 };
 
-template <typename Visitor, Is<CompressedStates> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<CompressedStates> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("form", pdu.form);

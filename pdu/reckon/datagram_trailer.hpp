@@ -29,13 +29,6 @@ struct DatagramTrailer {
 
 inline constexpr std::size_t kDatagramTrailerSize = 24;  ///< octets
 
-template <typename Visitor, Is<DatagramTrailer> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("sequence", pdu.sequence);
-  visitor("epoch", pdu.epoch);
-  visitor("send_time", pdu.send_time);
-}
 static_assert(kFixedSize<DatagramTrailer> == kDatagramTrailerSize);
 
 /// The field for a time of UTC.

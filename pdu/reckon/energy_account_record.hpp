@@ -31,8 +31,7 @@ struct EnergyAccountRecord {
   std::uint16_t spring_need = 0;
 };
 
-template <typename Visitor, Is<EnergyAccountRecord> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<EnergyAccountRecord> auto& record) {
   visitor("record_type", record.type);
   visitor("record_length", record.length);
   visitor("counterpart", record.counterpart);

@@ -42,17 +42,7 @@ struct GroupMap {
   std::span<const std::byte> groups;  ///< 16 n octets, read with records_of<CellGroup>
 };
 
-template <typename Visitor, Is<CellGroup> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("column", record.column);
-  visitor("row", record.row);
-  visitor("beacon", record.beacon);
-  visitor("group", record.group);
-  visitor("padding", record.padding);
-}
-
-template <typename Visitor, Is<GroupMap> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<GroupMap> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

@@ -43,8 +43,7 @@ struct HapticRecord {
   float radius = 0.0F;       ///< [m]
 };
 
-template <typename Visitor, Is<HapticRecord> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
+constexpr void fields(auto& visitor, Is<HapticRecord> auto& record) {
   visitor("record_type", record.type);
   visitor("record_length", record.length);
   visitor("version", record.version);

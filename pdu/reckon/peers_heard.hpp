@@ -39,13 +39,7 @@ struct PeersHeard {
   std::span<const std::byte> epochs;  ///< 4 n octets, read with records_of<PeerEpoch>
 };
 
-template <typename Visitor, Is<PeerEpoch> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("epoch", record.epoch);
-}
-
-template <typename Visitor, Is<PeersHeard> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<PeersHeard> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

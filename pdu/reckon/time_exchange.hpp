@@ -36,15 +36,7 @@ struct TimeExchange {
   std::span<const std::byte> echoes;  ///< 12 n octets, read with records_of<TimeEcho>
 };
 
-template <typename Visitor, Is<TimeEcho> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("epoch", record.epoch);
-  visitor("sent", record.sent);
-  visitor("heard", record.heard);
-}
-
-template <typename Visitor, Is<TimeExchange> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<TimeExchange> auto& pdu) {
   visitor("header", pdu.header);
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);

@@ -26,12 +26,6 @@ struct UnicastFrame {
 
 inline constexpr std::size_t kUnicastFrameSize = 16;  ///< octets
 
-template <typename Visitor, Is<UnicastFrame> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("group", pdu.group);
-  visitor("padding", pdu.padding);
-}
 static_assert(kFixedSize<UnicastFrame> == kUnicastFrameSize);
 
 /// The frame before a datagram, if there is one. The datagram itself begins after `header.length`

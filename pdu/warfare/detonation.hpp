@@ -33,8 +33,7 @@ struct Detonation {
   std::uint16_t padding = 0;
 };
 
-template <typename Visitor, Is<Detonation> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Detonation> auto& pdu) {
   visitor("header", pdu.header);
   visitor("source_entity_id", pdu.source_entity_id);
   visitor("target_entity_id", pdu.target_entity_id);

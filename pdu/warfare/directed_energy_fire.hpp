@@ -35,8 +35,7 @@ struct DirectedEnergyFire {
   SizedRecords<StandardVariableRecord, std::uint16_t> directed_energy_records;
 };
 
-template <typename Visitor, Is<DirectedEnergyFire> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<DirectedEnergyFire> auto& pdu) {
   visitor("header", pdu.header);
   visitor("firing_entity_id", pdu.firing_entity_id);
   visitor("event_id", pdu.event_id);

@@ -22,8 +22,7 @@ struct EntityDamageStatus {
   SizedRecords<StandardVariableRecord, std::uint16_t> damage_description_records;
 };
 
-template <typename Visitor, Is<EntityDamageStatus> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<EntityDamageStatus> auto& pdu) {
   visitor("header", pdu.header);
   visitor("damaged_entity_id", pdu.damaged_entity_id);
   visitor("padding_1", pdu.padding_1);

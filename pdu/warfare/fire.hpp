@@ -27,8 +27,7 @@ struct Fire {
   float range = 0.0F;     ///< assumed by the firing entity; 0 = unknown [m]
 };
 
-template <typename Visitor, Is<Fire> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<Fire> auto& pdu) {
   visitor("header", pdu.header);
   visitor("firing_entity_id", pdu.firing_entity_id);
   visitor("target_entity_id", pdu.target_entity_id);

@@ -23,15 +23,6 @@ struct MunitionDescriptor {
   std::uint16_t quantity = 0;
   std::uint16_t rate = 0;  ///< [1/min]
 };
-
-template <typename Visitor, Is<MunitionDescriptor> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("munition_type", record.munition_type);
-  visitor("warhead", record.warhead);
-  visitor("fuse", record.fuse);
-  visitor("quantity", record.quantity);
-  visitor("rate", record.rate);
-}
 static_assert(kFixedSize<MunitionDescriptor> == 16);
 
 /// Chaff, flares and the like.
@@ -39,12 +30,6 @@ struct ExpendableDescriptor {
   EntityType expendable_type;
   std::uint64_t padding = 0;
 };
-
-template <typename Visitor, Is<ExpendableDescriptor> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("expendable_type", record.expendable_type);
-  visitor("padding", record.padding);
-}
 static_assert(kFixedSize<ExpendableDescriptor> == kFixedSize<MunitionDescriptor>);
 
 /// An exploding object that is no munition.
@@ -54,14 +39,6 @@ struct ExplosionDescriptor {
   std::uint16_t padding = 0;
   float explosive_force = 0.0F;  ///< equivalent mass of TNT [kg]
 };
-
-template <typename Visitor, Is<ExplosionDescriptor> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("exploding_object_type", record.exploding_object_type);
-  visitor("explosive_material", record.explosive_material);
-  visitor("padding", record.padding);
-  visitor("explosive_force", record.explosive_force);
-}
 static_assert(kFixedSize<ExplosionDescriptor> == kFixedSize<MunitionDescriptor>);
 
 /// Kind of a descriptor, from the PDU status of DIS 7; before DIS 7 always a munition.
