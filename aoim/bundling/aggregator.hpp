@@ -9,7 +9,6 @@
 // the Attribute PDU.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>

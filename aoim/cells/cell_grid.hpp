@@ -9,7 +9,6 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/aoim/groups/group_index.hpp"

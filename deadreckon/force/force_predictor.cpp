@@ -3,7 +3,6 @@
 #include "reckon/deadreckon/force/force_predictor.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"

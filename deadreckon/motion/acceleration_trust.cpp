@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/deadreckon/motion/acceleration_trust.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace reckon::deadreckon {

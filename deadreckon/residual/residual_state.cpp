@@ -3,7 +3,6 @@
 #include "reckon/deadreckon/residual/residual_state.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"

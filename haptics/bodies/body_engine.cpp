@@ -3,7 +3,6 @@
 #include "reckon/haptics/bodies/body_engine.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 

@@ -9,8 +9,6 @@
 #include <cstdarg>
 #include <limits>
 #include <mutex>
-#include <string>
-#include <utility>
 
 #include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/body_world.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "reckon/haptics/bodies/body_engine.hpp"

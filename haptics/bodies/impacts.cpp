@@ -3,7 +3,6 @@
 #include "reckon/haptics/bodies/impacts.hpp"
 
 #include <array>
-#include <optional>
 #include <span>
 
 #include "reckon/haptics/queries/time_of_impact.hpp"

@@ -3,7 +3,6 @@
 #include "reckon/haptics/contact/static_contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "reckon/haptics/contact/load_sum.hpp"
 #include "reckon/haptics/contact/region_share.hpp"

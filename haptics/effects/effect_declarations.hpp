@@ -8,7 +8,6 @@
 #include <optional>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
 #include "reckon/haptics/effects/effect_types.hpp"
 

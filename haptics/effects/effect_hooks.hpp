@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <concepts>
 #include <cstdint>
 #include <limits>

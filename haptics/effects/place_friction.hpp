@@ -5,7 +5,6 @@
 // {..}` of an object.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string_view>

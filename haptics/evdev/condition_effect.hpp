@@ -6,7 +6,6 @@
 #include <linux/input.h>
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 
 #include "reckon/haptics/passivity/spring_wall.hpp"

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
-
-#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {

@@ -4,9 +4,7 @@
 // its energy books can pay for, and reads it.
 #pragma once
 
-#include <array>
 #include <chrono>
-#include <cstdint>
 #include <memory>
 #include <string>
 

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>

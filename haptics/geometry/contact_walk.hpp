@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 
 #include "reckon/haptics/geometry/constraint_planes.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"

@@ -3,7 +3,6 @@
 #include "reckon/haptics/passivity/spring_wall.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reckon::haptics {
 namespace {

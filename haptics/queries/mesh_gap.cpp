@@ -3,8 +3,6 @@
 #include "reckon/haptics/queries/mesh_gap.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "reckon/haptics/queries/tree_search.hpp"

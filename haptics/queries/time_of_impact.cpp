@@ -3,7 +3,6 @@
 #include "reckon/haptics/queries/time_of_impact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reckon::haptics {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"

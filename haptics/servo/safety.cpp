@@ -3,7 +3,6 @@
 #include "reckon/haptics/servo/safety.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace reckon::haptics {

@@ -3,8 +3,6 @@
 #include "reckon/haptics/servo/servo_step.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 #include <utility>
 
 #include "reckon/haptics/contact/energy_exchange.hpp"

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"

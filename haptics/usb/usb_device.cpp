@@ -3,7 +3,6 @@
 #include "reckon/haptics/usb/usb_device.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace reckon::haptics {

@@ -11,9 +11,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <type_traits>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/record_range.hpp"

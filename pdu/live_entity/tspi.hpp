@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/octet_block.hpp"

@@ -3,7 +3,6 @@
 #include "reckon/pdu/management/datum.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace reckon::pdu {
 namespace {

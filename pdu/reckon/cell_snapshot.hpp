@@ -4,7 +4,6 @@
 // leader to newcomers, in numbered parts.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string_view>
 

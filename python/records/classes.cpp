@@ -3,7 +3,6 @@
 #include "reckon/python/records/classes.hpp"
 
 #include <array>
-#include <string>
 #include <unordered_set>
 #include <vector>
 

@@ -6,10 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "reckon/python/records/shape.hpp"

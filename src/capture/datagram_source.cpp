@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cerrno>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
 
 #include "reckon/peer/capture/capture_file.hpp"

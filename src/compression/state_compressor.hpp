@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "reckon/aoim/groups/group_index.hpp"

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"

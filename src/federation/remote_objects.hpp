@@ -4,7 +4,6 @@
 // can ask for any pose at any instant while the loops run.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <span>
 
-#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/world/energy_books.hpp"
 #include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/near_bodies.hpp"

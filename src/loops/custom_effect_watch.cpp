@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/custom_effect_watch.hpp"
 
-#include <atomic>
 #include <utility>
 
 #include "reckon/peer/loops/notice_text.hpp"

@@ -3,7 +3,6 @@
 #include "reckon/peer/loops/notice_gate.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"

@@ -3,7 +3,6 @@
 #include "reckon/peer/loops/tier_foci.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <memory>
 

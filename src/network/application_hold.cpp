@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <fstream>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 
 namespace reckon::peer {

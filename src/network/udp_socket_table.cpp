@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <new>
-#include <string>
 #include <utility>
 
 namespace reckon::peer {

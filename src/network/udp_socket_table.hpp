@@ -6,7 +6,6 @@
 
 #include <asio/io_context.hpp>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <system_error>
 #include <vector>

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "reckon/peer/scene/device_descriptor.hpp"

@@ -3,7 +3,6 @@
 // Reads the tables of effects by their own parameter tables. Private to the scene reader.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,6 @@
 // solid. Private to the scene reader.
 #pragma once
 
-#include <string_view>
 #include <variant>
 #include <vector>
 

@@ -5,9 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <stdexcept>
-#include <utility>
 
 #include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"

@@ -3,7 +3,6 @@
 // The owner of a scene's bodies: the first peer of the scene, according to its announcement.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/source_address.hpp"

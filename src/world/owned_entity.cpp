@@ -3,7 +3,6 @@
 #include "reckon/peer/world/owned_entity.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string_view>
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"

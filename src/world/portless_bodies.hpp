@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "reckon/peer/world/energy_books.hpp"
 #include "reckon/peer/world/hand_port.hpp"

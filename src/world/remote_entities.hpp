@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"

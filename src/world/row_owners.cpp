@@ -3,7 +3,6 @@
 #include "reckon/peer/world/row_owners.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "reckon/pdu/seconds.hpp"
 

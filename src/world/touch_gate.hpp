@@ -3,8 +3,6 @@
 // Applies the touch rule of a scene to senders.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <vector>
 
 #include "reckon/peer/settings/entity_config.hpp"

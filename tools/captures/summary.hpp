@@ -3,7 +3,6 @@
 // Content of a capture: counts by type, sender, group, entity and fault.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>

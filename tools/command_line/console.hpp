@@ -9,7 +9,6 @@
 #include <functional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace reckon::tools {

@@ -9,11 +9,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <span>
 
 #include "reckon/pdu/field_search.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/peer/notation/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/datagrams/filter_fields.hpp"
 

@@ -3,7 +3,6 @@
 // Round numbers along an axis, for the plots of the terminal and of SVG files.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace reckon::tools {

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/exercise.hpp"

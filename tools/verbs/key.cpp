@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <string>
-#include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/sealing/key_file.hpp"

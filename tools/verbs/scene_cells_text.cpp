@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <vector>
 
 #include "reckon/aoim/cells/over_delivery.hpp"
 #include "reckon/peer/notation/units.hpp"

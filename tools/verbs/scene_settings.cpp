@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <span>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"

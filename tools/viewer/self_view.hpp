@@ -5,9 +5,7 @@
 // on the loops of the peers.
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -9,7 +9,6 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 

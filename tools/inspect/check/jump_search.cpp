@@ -3,8 +3,6 @@
 #include "reckon/tools/inspect/check/jump_search.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"

@@ -12,7 +12,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <cstring>
 #include <string_view>
 
 #include "reckon/pdu/codec/byte_order.hpp"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <random>
-#include <utility>
 
 namespace reckon::tools {
 namespace {

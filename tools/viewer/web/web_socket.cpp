@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/viewer/web/web_socket.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <vector>
 
