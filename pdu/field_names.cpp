@@ -146,8 +146,7 @@ SisoBits status_bits(PduType type) {
 }
 
 /// The low bits of an encoding scheme are an audio code only for audio.
-template <typename Pdu>
-FieldMeaning in_signal(const Pdu& pdu, std::string_view field) {
+FieldMeaning in_signal(const auto& pdu, std::string_view field) {
   if (field == "encoding_scheme" && pdu.encoding_scheme >> 14U != 0) return bits_of(B::data_scheme);
   return field_meaning(field);
 }

@@ -17,8 +17,7 @@ using Target = FieldPath::Target;
 /// Stored for a part of a path without an index.
 constexpr std::uint32_t kAnyIndex = static_cast<std::uint32_t>(-1);
 
-template <OneId T>
-FieldValue value_of(const T& id) {
+FieldValue value_of(const OneId auto& id) {
   FieldValue value;
   value.kind = FieldValue::Kind::id;
   value.id = {id.site, id.application};

@@ -65,15 +65,13 @@ class FiniteCheck {
 
 /// The name of the first field of `value` (a PDU or a record) with NaN or infinity; "" if all are
 /// finite. Includes variable parameters of known kinds, and haptic and energy records.
-template <typename T>
-[[nodiscard]] std::string_view first_not_finite(const T& value) noexcept {
+[[nodiscard]] std::string_view first_not_finite(const auto& value) noexcept {
   FiniteCheck check;
   fields(check, value);
   return check.first();
 }
 
-template <typename T>
-[[nodiscard]] bool all_finite(const T& value) noexcept {
+[[nodiscard]] bool all_finite(const auto& value) noexcept {
   return first_not_finite(value).empty();
 }
 

@@ -28,8 +28,7 @@ RawPdu raw_pdu(std::span<const std::byte> octets) {
   return raw;
 }
 
-template <typename Print>
-void raw_fields(Print& print, const RawPdu& raw) {
+void raw_fields(auto& print, const RawPdu& raw) {
   print("header", raw.header);
   print.hex("body", raw.body);
 }
@@ -90,8 +89,7 @@ bool fields_up_to_fault(Print& print, std::span<const std::byte> octets, PduType
 }
 
 // Prints a PDU that cannot be decoded: its readable fields, and the rest as octets.
-template <typename Print>
-void damaged_fields(Print& print, std::span<const std::byte> octets, DecodeError error) {
+void damaged_fields(auto& print, std::span<const std::byte> octets, DecodeError error) {
   const RawPdu raw = raw_pdu(octets);
   const bool has_fields = octets.size() >= kHeaderSize && error != DecodeError::version &&
                           is_supported_version(raw.header.protocol_version);
@@ -99,16 +97,14 @@ void damaged_fields(Print& print, std::span<const std::byte> octets, DecodeError
   raw_fields(print, raw);
 }
 
-template <typename Print>
-DecodeError print_octets(std::span<const std::byte> octets, Print&& print) {
+DecodeError print_octets(std::span<const std::byte> octets, auto&& print) {
   PduHeader header;
   const DecodeError error = decode_header(octets, header);
   return error != DecodeError::none ? error : visit(octets, header, print);
 }
 
 /// Calls `f(field, value)` for each bit field to be shown.
-template <typename F>
-void each_bit_field(SisoBits set, std::uint32_t word, F&& f) {
+void each_bit_field(SisoBits set, std::uint32_t word, auto&& f) {
   for (std::size_t i = 0; i < siso_size(set); ++i) {
     const SisoBitField field = siso_bit_field(set, i);
     const std::uint32_t value = field.of(word);

@@ -126,18 +126,15 @@ class JsonFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
-  template <OctetView View>
-  void walked(std::string_view name, const View& view) {
+  void walked(std::string_view name, const OctetView auto& view) {
     hex(name, view.value());
   }
-  template <SizedView View>
-  void walked(std::string_view name, const View& view) {
+  void walked(std::string_view name, const SizedView auto& view) {
     key(name);
     list(view.records(), [this](const auto& item) { sized(item); });
   }
 
-  template <typename T>
-  void object(const T& value) {
+  void object(const auto& value) {
     sink_.text('{');
     JsonFields inner = within(value);
     fields(inner, value);
@@ -151,12 +148,10 @@ class JsonFields {
     return named_ ? JsonFields(sink_, FieldMeanings()) : JsonFields(sink_);
   }
   /// Prints the members of a record of this object.
-  template <typename Record>
-  [[nodiscard]] JsonFields within(const Record& record) const {
+  [[nodiscard]] JsonFields within(const auto& record) const {
     return named_ ? JsonFields(sink_, FieldMeanings(record)) : JsonFields(sink_);
   }
-  template <Scalar T>
-  void names(std::string_view field, T value) {
+  void names(std::string_view field, Scalar auto value) {
     const FieldMeaning meaning = meanings_.of(field);
     if (meaning.bits != SisoBits::none)
       bits(field, meaning.bits, static_cast<std::uint32_t>(value));
@@ -167,8 +162,7 @@ class JsonFields {
   void member(std::string_view field, std::string_view ending, std::string_view text);
   /// Prints the readings of the field, from its record or else from its value alone.
   void readings(std::string_view field, const FieldReadings& of_value);
-  template <typename Range, typename Print>
-  void list(const Range& range, Print&& print) {
+  void list(const auto& range, auto&& print) {
     sink_.text('[');
     bool first = true;
     for (const auto& item : range) {
@@ -197,8 +191,7 @@ class JsonFields {
     put_json_string(sink_, name);
     sink_.text(':');
   }
-  template <typename Record>
-  void record(std::span<const std::byte> octets, Record typed) {
+  void record(std::span<const std::byte> octets, auto typed) {
     if (load_record(octets, typed)) object(typed);
   }
   void record(std::span<const std::byte> octets, const VariableParameter&) {
@@ -224,8 +217,7 @@ class FlatCheck {
   constexpr void records(std::string_view, const View&, R) {
     flat_ = false;
   }
-  template <typename View>
-  constexpr void walked(std::string_view, const View&) {
+  constexpr void walked(std::string_view, const auto&) {
     flat_ = false;
   }
   [[nodiscard]] constexpr bool flat() const { return flat_; }
@@ -278,12 +270,10 @@ class TreeFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
-  template <OctetView View>
-  void walked(std::string_view name, const View& view) {
+  void walked(std::string_view name, const OctetView auto& view) {
     hex(name, view.value());
   }
-  template <SizedView View>
-  void walked(std::string_view name, const View& view) {
+  void walked(std::string_view name, const SizedView auto& view) {
     for (const auto& item : view.records()) sized(name, item);
   }
   void hex(std::string_view name, std::span<const std::byte> octets);
@@ -324,8 +314,7 @@ class TreeFields {
   void readings(std::string_view field, const FieldReadings& of_value);
   /// Each bit field on its own line, or all in parentheses on this line.
   void bits(SisoBits set, std::uint32_t word);
-  template <typename Record>
-  void record(std::string_view name, std::span<const std::byte> octets, Record typed) {
+  void record(std::string_view name, std::span<const std::byte> octets, auto typed) {
     if (load_record(octets, typed)) (*this)(name, typed);
   }
   void record(std::string_view name, std::span<const std::byte> octets, const VariableParameter&) {
@@ -340,8 +329,7 @@ class TreeFields {
 
 /// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard, all
 /// enumerations as numbers.
-template <typename T>
-void print_json(const T& value, TextSink& sink) {
+void print_json(const auto& value, TextSink& sink) {
   JsonFields(sink).object(value);
 }
 
@@ -349,14 +337,12 @@ void print_json(const T& value, TextSink& sink) {
 /// `"country":225,"country_name":"United States"`. The bit fields of a word follow the word,
 /// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`. The readings of a
 /// field follow the field, with units: `"entity_location_read":{"latitude_deg":47.1,...}`.
-template <typename T>
-void print_named_json(const T& value, TextSink& sink) {
+void print_named_json(const auto& value, TextSink& sink) {
   JsonFields(sink, FieldMeanings(value)).object(value);
 }
 
 /// One line a field; each line ends in a newline.
-template <typename T>
-void print_tree(const T& value, TextSink& sink) {
+void print_tree(const auto& value, TextSink& sink) {
   TreeFields tree(sink, 0, false, FieldMeanings(value));
   fields(tree, value);
 }

@@ -159,8 +159,7 @@ class Federate {
   /// Nothing for an unknown entity or a class without subscription. Valid until the next step().
   [[nodiscard]] std::optional<RemoteObject> find(const pdu::EntityId& id) const;
   /// Calls visit(RemoteObject) for all.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     for (std::size_t i = 0; i < size(); ++i) visit(object_at(i));
   }
   [[nodiscard]] std::size_t size() const noexcept;

@@ -93,8 +93,7 @@ class CellGrid {
 
   /// Calls visit(CellId, double distance [m]) for each cell that a disc reaches (distance <=
   /// radius), row by row. The cost grows with the cells in the disc's bounding box.
-  template <typename Visit>
-  void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
+  void for_each_cell_within(const Position& position, double radius, auto&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
     const Rows rows = rows_within(position, radius);
     for (std::int32_t r = rows.first; r <= rows.last; ++r) {

@@ -68,8 +68,7 @@ class LocaleMap {
 
   /// Calls visit(CellId, double distance [m]) for the locale of the point, and for each locale
   /// within the radius that a path of neighbours within the radius connects with it.
-  template <typename Visit>
-  void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
+  void for_each_cell_within(const Position& position, double radius, auto&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
     for_each_reached(place(cell(position)), position, radius, visit);
   }
@@ -81,9 +80,8 @@ class LocaleMap {
   }
 
   // The same from a home locale that need not contain the point.
-  template <typename Visit>
   void for_each_reached(std::size_t home, const Position& position, double radius,
-                        Visit&& visit) const {
+                        auto&& visit) const {
     std::array<bool, kMaximumPool> seen{};
     std::array<std::uint16_t, kMaximumPool> reached;
     std::size_t count = 0;

@@ -96,8 +96,7 @@ class QuadTree {
 
   /// Calls visit(CellId, double distance [m]) for each cell within the radius. Cost: the nodes that
   /// the disc meets, about 10 ns each.
-  template <typename Visit>
-  void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
+  void for_each_cell_within(const Position& position, double radius, auto&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
     descend(0, {0, 0}, position, radius, visit);
   }
@@ -114,9 +113,8 @@ class QuadTree {
     std::uint32_t children = 0;  ///< place of the first of four; 0: a leaf
     GroupIndex group;
   };
-  template <typename Visit>
   void descend(std::size_t node, CellId cell, const Position& position, double radius,
-               Visit&& visit) const {
+               auto&& visit) const {
     const double away = distance(cell, position);
     if (away > radius) return;
     if (nodes_[node].children == 0) return visit(cell, away);

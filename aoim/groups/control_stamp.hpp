@@ -19,8 +19,7 @@ struct ControlStamp {
   std::chrono::nanoseconds utc{};  ///< since 1970
 
   /// Fills in the header, the simulation and the epoch.
-  template <typename ControlPdu>
-  void put(ControlPdu& pdu) const noexcept {
+  void put(auto& pdu) const noexcept {
     pdu.header.exercise_id = exercise;
     pdu.header.timestamp = timestamp;
     pdu.simulation = simulation;

@@ -212,8 +212,7 @@ void SequenceTracker::unlink(std::uint32_t place) noexcept {
   (track.older == kNone ? oldest_ : tracks_[track.older].newer) = track.newer;
 }
 
-template <typename Predicate>
-void SequenceTracker::forget_if(Predicate predicate) noexcept {
+void SequenceTracker::forget_if(auto predicate) noexcept {
   for (std::size_t i = tracks_.size(); i-- > 0;) {
     if (predicate(tracks_[i])) erase(static_cast<std::uint32_t>(i));
   }

@@ -100,8 +100,7 @@ class SequenceTracker {
   SequenceVerdict hold_leap(Track& track, std::uint32_t sequence) noexcept;
   void follow_leap(Track& track, std::uint32_t sequence) noexcept;
   void reach_leap(Track& track) noexcept;
-  template <typename Predicate>
-  void forget_if(Predicate predicate) noexcept;
+  void forget_if(auto predicate) noexcept;
 
   std::size_t capacity_;
   std::vector<Track> tracks_;

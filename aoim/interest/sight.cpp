@@ -38,8 +38,7 @@ bool Sight::is_unheard(const Position& position) const noexcept {
                         [this](GroupIndex number) { return subscription_.is_joined(number); });
 }
 
-template <typename Is>
-bool Sight::is_in_or_near(const Position& position, double share, Is&& is_one) const noexcept {
+bool Sight::is_in_or_near(const Position& position, double share, auto&& is_one) const noexcept {
   if (is_one(cells_.group(position))) return true;
   const double beyond = share * finest_;
   bool found = false;

@@ -80,9 +80,8 @@ class Sight {
   /// with column, row and group, or none. The last cell of a beacon that is not found stays
   /// subscribed for a time, because only an update of its owner or of the map may have been lost.
   /// @return numbers of the cells in which they are
-  template <typename Find>
   std::span<const GroupIndex> follow(std::chrono::nanoseconds now,
-                                     std::chrono::nanoseconds missed_for, Find&& find) {
+                                     std::chrono::nanoseconds missed_for, auto&& find) {
     besides_.clear();
     for (FollowedBeacon& one : followed_) {
       const auto row = find(one.tag);
@@ -107,9 +106,8 @@ class Sight {
     return !followed_.empty() && is_in_followed_cell(position, shown);
   }
   /// @param share of a cell's side by which the cell may be away
-  template <typename Is>
   [[nodiscard]] bool is_in_or_near(const Position& position, double share,
-                                   Is&& is_one) const noexcept;
+                                   auto&& is_one) const noexcept;
   [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
   [[nodiscard]] bool hides_unheard() const noexcept {
     return cut_ < std::numeric_limits<double>::infinity() || cells_.as<LocaleMap>() != nullptr;

@@ -43,8 +43,7 @@ class BeaconBook {
   bool expire(Nanoseconds now);
 
   /// Calls visit(tag, CellId) for each, by tag.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     for (const auto& [tag, beacon] : beacons_) visit(tag, beacon.cell);
   }
   [[nodiscard]] std::size_t size() const noexcept { return beacons_.size(); }

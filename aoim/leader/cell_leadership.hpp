@@ -64,8 +64,7 @@ class CellLeadership {
   /// Known other peers in a cell of ours.
   [[nodiscard]] std::size_t members(CellId cell) const noexcept;
   /// Calls visit(CellId, epoch that leads it, or 0 if none is known) for each cell of ours.
-  template <typename Visit>
-  void for_each_cell(Visit&& visit) const {
+  void for_each_cell(auto&& visit) const {
     for (const Cell& cell : cells_) {
       if (cell.leave_repeats == 0) visit(cell.id, cell.leader.epoch);
     }

@@ -43,16 +43,14 @@ class GroupPool {
   void merge(std::span<const pdu::CellGroup> map, std::chrono::nanoseconds now);
 
   /// Calls visit(CellId, GroupIndex) for each group in use.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       if (slots_[i].used) visit(slots_[i].cell, GroupIndex{static_cast<std::uint16_t>(i + 1)});
     }
   }
   /// Calls visit(GroupIndex) for each group that a cell gave back within the quarantine, and that
   /// may still be in use elsewhere.
-  template <typename Visit>
-  void for_each_resting(std::chrono::nanoseconds now, Visit&& visit) const {
+  void for_each_resting(std::chrono::nanoseconds now, auto&& visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       const Slot& slot = slots_[i];
       const bool rests = slot.given && !slot.used && now - slot.since < quarantine_;

@@ -164,8 +164,7 @@ class LeaderRole {
   [[nodiscard]] std::vector<pdu::CellGroup> map_rows(Nanoseconds now) const;
   void send_map(std::span<const pdu::CellGroup> rows, const LeaderSignature& signature,
                 const Send& send);
-  template <typename Pdu>
-  void sign(Pdu& pdu, const LeaderSignature& signature) const noexcept {
+  void sign(auto& pdu, const LeaderSignature& signature) const noexcept {
     pdu.header.exercise_id = signature.exercise_id;
     pdu.header.timestamp = signature.timestamp;
     pdu.simulation = signature.simulation;

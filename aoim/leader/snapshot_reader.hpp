@@ -31,8 +31,7 @@ class SnapshotReader {
   bool receive(const pdu::CellSnapshot& part, std::uint32_t leader, std::chrono::nanoseconds now);
 
   /// Calls say(CellId) for each cell for which a request to the leader is due.
-  template <typename Say>
-  void for_each_due(std::chrono::nanoseconds now, Say&& say) const {
+  void for_each_due(std::chrono::nanoseconds now, auto&& say) const {
     for (const Reading& reading : readings_) {
       if (now >= reading.next_ask) say(reading.cell);
     }

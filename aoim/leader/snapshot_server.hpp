@@ -39,8 +39,7 @@ class SnapshotServer {
 
   /// Calls send(GroupIndex, pdu::CellSnapshot&) for each part that is due; the callee fills in the
   /// sender.
-  template <typename Send>
-  void step(std::chrono::nanoseconds now, const StateStore& states, Send&& send) {
+  void step(std::chrono::nanoseconds now, const StateStore& states, auto&& send) {
     for (Snapshot& snapshot : snapshots_) {
       begin_if_due(snapshot, now, states);
       pdu::CellSnapshot part;

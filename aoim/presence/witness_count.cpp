@@ -65,8 +65,7 @@ bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, in
   return mine != other ? mine < other : !awaited && precedes(rival.announced, own);
 }
 
-template <typename Names>
-WitnessCount::Support WitnessCount::support(const Names& names) const noexcept {
+WitnessCount::Support WitnessCount::support(const auto& names) const noexcept {
   Support sum;
   const std::size_t count = peers_.size() + claims_.size();
   const auto source_of_witness = [&](std::size_t i) -> const SourceAddress* {

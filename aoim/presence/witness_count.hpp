@@ -38,8 +38,7 @@ class WitnessCount {
   };
   [[nodiscard]] bool is_won_by(const Claimant& rival, const pdu::Presence& own, int excess,
                                std::chrono::nanoseconds now) const noexcept;
-  template <typename Names>
-  [[nodiscard]] Support support(const Names& names) const noexcept;
+  [[nodiscard]] Support support(const auto& names) const noexcept;
 
   const PresenceConfig& config_;
   const PeerTable& peers_;

@@ -63,8 +63,7 @@ std::optional<WirePart> load(std::span<const std::byte> record) {
   return part;
 }
 
-template <typename Take>
-void for_each_part(std::span<const std::byte> records, Take&& take) {
+void for_each_part(std::span<const std::byte> records, auto&& take) {
   for (; records.size() >= pdu::kVariableParameterSize;
        records = records.subspan(pdu::kVariableParameterSize)) {
     if (const std::optional<WirePart> part = load(records)) take(*part);

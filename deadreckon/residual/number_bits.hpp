@@ -25,8 +25,7 @@ inline constexpr auto kCodeOf = [] {
 }();
 
 /// Array of of(0), of(1), of(2). Keeps the array in registers, which halves the time.
-template <typename Of>
-[[gnu::always_inline]] inline auto each_axis(Of of) noexcept {
+[[gnu::always_inline]] inline auto each_axis(auto of) noexcept {
   return std::array{of(0U), of(1U), of(2U)};
 }
 

@@ -29,8 +29,7 @@ struct Shortfall {
     asked = newtons;
   }
   /// The same for a vector [N], whose size is computed only if some of it lacks.
-  template <typename Force>
-  void note_force(double shown, const Force& force, double dt) noexcept {
+  void note_force(double shown, const auto& force, double dt) noexcept {
     if (1.0 - shown > kLeastShare) note(shown, force.norm(), dt);
   }
 };

@@ -43,8 +43,7 @@ struct SilentEntitySystem {
 };
 static_assert(kFixedSize<SilentEntitySystem> == 12);
 
-template <typename Visitor>
-void parts(Visitor& visitor, const SilentEntitySystem&, std::span<const std::byte> body) {
+void parts(auto& visitor, const SilentEntitySystem&, std::span<const std::byte> body) {
   visitor.records("appearance_records", body, Records<SilentAppearance, std::uint16_t>{});
 }
 
@@ -120,8 +119,7 @@ inline bool SilentSystems::take(const AggregateState& pdu) noexcept {
 }
 
 /// Shows the silent systems by their fields. False, with nothing done, if they do not fit.
-template <typename Visitor>
-bool show_silent_systems(Visitor& visitor, const AggregateState& pdu) {
+bool show_silent_systems(auto& visitor, const AggregateState& pdu) {
   SilentSystems silent;
   if (!silent.take(pdu)) return false;
   visitor.walked("padding_to_32_bits", RestOfPdu{silent.padding});

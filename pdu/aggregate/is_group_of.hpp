@@ -29,8 +29,7 @@ struct IsGroupOf {
 
 /// Shows the descriptions as records of their category. False, with nothing done, if the category
 /// is unknown or its records do not fill the octets exactly.
-template <typename Visitor>
-bool show_grouped_entities(Visitor& visitor, const IsGroupOf& pdu) {
+bool show_grouped_entities(auto& visitor, const IsGroupOf& pdu) {
   const std::size_t count = pdu.number_of_grouped_entities;
   const auto octets = pdu.grouped_entity_descriptions.bytes;
   const auto as = [&]<typename Record>(Record) {

@@ -108,8 +108,7 @@ class Decoder {
 /// lengths fit into their fields.
 class WireSize {
  public:
-  template <typename T>
-  [[gnu::always_inline]] void operator()(std::string_view, const T&) noexcept {}
+  [[gnu::always_inline]] void operator()(std::string_view, const auto&) noexcept {}
   template <typename Record, typename Count>
   [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte> view,
                                     Records<Record, Count>) noexcept {
@@ -122,8 +121,7 @@ class WireSize {
                                       Records<Record, Count>) noexcept {
     variable_ += view.size();
   }
-  template <typename View>
-  [[gnu::always_inline]] void walked(std::string_view, const View& view) noexcept {
+  [[gnu::always_inline]] void walked(std::string_view, const auto& view) noexcept {
     variable_ += view.bytes.size();
   }
   template <typename T>
@@ -164,8 +162,7 @@ class Encoder {
                                       Records<Record, Count>) noexcept {
     copy(view);
   }
-  template <typename View>
-  [[gnu::always_inline]] void walked(std::string_view, const View& view) noexcept {
+  [[gnu::always_inline]] void walked(std::string_view, const auto& view) noexcept {
     copy(view.bytes);
   }
 
@@ -227,9 +224,8 @@ template <Pdu T>
 ///   if (decode(bytes, pdu) == DecodeError::none && !trailing_octets(bytes, pdu).empty()) warn();
 ///
 /// @param bytes from which `pdu` was decoded; the result points into them. About 1 ns.
-template <Pdu T>
 [[nodiscard]] std::span<const std::byte> trailing_octets(std::span<const std::byte> bytes,
-                                                         const T& pdu) noexcept {
+                                                         const Pdu auto& pdu) noexcept {
   const auto whole = bytes.first(std::min<std::size_t>(bytes.size(), pdu.header.length));
   return whole.subspan(std::min(whole.size(), wire_size(pdu)));
 }

@@ -24,8 +24,7 @@ constexpr auto list(Text... text) {
 }
 
 /// An enumeration of SISO-REF-010 with all names in one table.
-template <typename Enumeration>
-std::string_view listed(SisoTable table, Enumeration value) {
+std::string_view listed(SisoTable table, auto value) {
   return siso_name(table, static_cast<std::uint32_t>(value));
 }
 

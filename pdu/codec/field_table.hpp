@@ -63,8 +63,7 @@ inline constexpr bool kIsStdArray<std::array<T, n>> = true;
 /// A field that is on the wire only if `present` is true. Earlier fields determine `present`.
 /// Visitors that measure or read have their own `when`. For the others it is a normal field, or
 /// absent.
-template <typename Visitor, typename T>
-constexpr void when(bool present, Visitor& visitor, std::string_view name, T& value) {
+constexpr void when(bool present, auto& visitor, std::string_view name, auto& value) {
   if constexpr (requires { visitor.when(present, name, value); }) {
     visitor.when(present, name, value);
   } else if (present) {
@@ -104,13 +103,11 @@ class FixedSize {
   constexpr void records(std::string_view, const Span&, Records<Record, Count>) {
     variable_ = true;
   }
-  template <typename View>
-  constexpr void walked(std::string_view, const View&) {
+  constexpr void walked(std::string_view, const auto&) {
     variable_ = true;
   }
 
-  template <typename T>
-  constexpr void when(bool, std::string_view, const T&) {
+  constexpr void when(bool, std::string_view, const auto&) {
     variable_ = true;
   }
 

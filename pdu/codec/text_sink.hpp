@@ -30,8 +30,7 @@ class TextSink {
   }
   void text(char value) { text(std::string_view(&value, 1)); }
   /// Shortest text that converts back to the same number.
-  template <typename T>
-  void number(T value) {
+  void number(auto value) {
     char digits[40];
     const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     text(std::string_view(digits, static_cast<std::size_t>(end - digits)));

@@ -25,8 +25,7 @@ struct Content {
 };
 
 // The fields besides motion, in the order of the Entity State PDU.
-template <typename Visitor, typename State>
-[[gnu::always_inline]] inline void rest_fields(Visitor& visitor, State& state) noexcept {
+[[gnu::always_inline]] inline void rest_fields(auto& visitor, auto& state) noexcept {
   visitor("force_id", state.force_id);
   visitor("entity_type", state.entity_type);
   visitor("alternate_entity_type", state.alternative_entity_type);

@@ -136,8 +136,7 @@ bool show_iff_layer(Visitor& visitor, std::span<const std::byte> body) {
   return true;
 }
 
-template <typename Visitor>
-bool show_iff_emission(Visitor& visitor, std::span<const std::byte> body) {
+bool show_iff_emission(auto& visitor, std::span<const std::byte> body) {
   IffEmission head;
   if (!load_record(body, head)) return false;
   const std::span<const std::byte> behind = body.subspan(kFixedSize<IffEmission>);
@@ -149,16 +148,14 @@ bool show_iff_emission(Visitor& visitor, std::span<const std::byte> body) {
   return true;
 }
 
-template <typename Visitor>
-bool show_iff_mode_s(Visitor& visitor, std::span<const std::byte> body) {
+bool show_iff_mode_s(auto& visitor, std::span<const std::byte> body) {
   return is_mode_s_interrogator(body) ? show_iff_layer<IffModeSInterrogatorLayer>(visitor, body)
                                       : show_iff_layer<IffModeSTransponderLayer>(visitor, body);
 }
 
 /// Visits layers 2 to 5 field by field if the fields fill the layer exactly, all other bodies as
 /// octets.
-template <typename Visitor>
-void parts(Visitor& visitor, const IffLayer& layer, std::span<const std::byte> body) {
+void parts(auto& visitor, const IffLayer& layer, std::span<const std::byte> body) {
   const bool shown = (layer.layer_number == 2 && show_iff_emission(visitor, body)) ||
                      (layer.layer_number == 3 && show_iff_layer<IffMode5Layer>(visitor, body)) ||
                      (layer.layer_number == 4 && show_iff_mode_s(visitor, body)) ||

@@ -134,8 +134,7 @@ class AttributeReader : public CursorRange<AttributeSetCursor, AttributeSet> {
 
 /// Calls `f` with the record in its own type if its type, length and version are known here. Then
 /// returns none, else unknown_type, or the reason why a record of a known type could not be read.
-template <typename F>
-[[nodiscard]] DecodeError visit_attribute_record(const AttributeRecord& record, F&& f) {
+[[nodiscard]] DecodeError visit_attribute_record(const AttributeRecord& record, auto&& f) {
   DecodeError error = DecodeError::unknown_type;
   const auto attempt = [&]<typename Record>(Record typed) {
     if (record.type != Record::kType) return;

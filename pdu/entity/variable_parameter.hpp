@@ -76,8 +76,7 @@ inline constexpr std::size_t kVariableParameterSize = 16;  ///< octets, for any 
 
 /// Calls `f` with the record in its own type, or as VariableParameter if the kind is unknown.
 /// `record` must have 16 octets, as in a decoded PDU; with fewer `f` is not called.
-template <typename F>
-void visit_variable_parameter(std::span<const std::byte> record, F&& f) {
+void visit_variable_parameter(std::span<const std::byte> record, auto&& f) {
   VariableParameter any;
   if (!load_record(record, any)) return;
   bool known = false;

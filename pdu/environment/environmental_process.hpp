@@ -84,8 +84,7 @@ static_assert(kFixedSize<BoxGeometry> == 48);
 
 /// Shows the geometries of recorded traffic by their fields. Other geometries, and state records
 /// defined by a product, stay octets.
-template <typename Visitor>
-void parts(Visitor& visitor, const EnvironmentRecord& record, std::span<const std::byte> body) {
+void parts(auto& visitor, const EnvironmentRecord& record, std::span<const std::byte> body) {
   switch (record.record_type) {
     case 65536:
       return show_as<BoundingSphere>(visitor, body);

@@ -66,8 +66,7 @@ void show_grid_values(Visitor& visitor, std::span<const std::byte> octets, std::
   visitor.walked("padding", RestOfPdu{octets.subspan(size)});
 }
 
-template <typename Visitor>
-void parts(Visitor& visitor, const GridAxis& axis, std::span<const std::byte> body) {
+void parts(auto& visitor, const GridAxis& axis, std::span<const std::byte> body) {
   GridAxisScale scale;
   if (!load_record(body, scale)) return;
   fields(visitor, std::as_const(scale));
@@ -106,8 +105,7 @@ constexpr void fields(auto& visitor, Is<GridSamples> auto& record) {
 }
 static_assert(kFixedSize<GridSamples> == 4);
 
-template <typename Visitor>
-void parts(Visitor& visitor, const GridSamples& samples, std::span<const std::byte> body) {
+void parts(auto& visitor, const GridSamples& samples, std::span<const std::byte> body) {
   const std::size_t count = samples.number_of_values(body);
   const std::span<const std::byte> values = body.subspan(samples.lead());
   if (samples.data_representation == 1) {
@@ -150,8 +148,7 @@ struct GriddedData {
 
 /// Shows axes and samples by their fields. False, with nothing done, if they do not fill the octets
 /// exactly: public sources differ in the padding after samples.
-template <typename Visitor>
-bool show_grid(Visitor& visitor, const GriddedData& pdu) {
+bool show_grid(auto& visitor, const GriddedData& pdu) {
   const std::span<const std::byte> all = pdu.grid_axes_and_data.bytes;
   using Axes = SizedRecords<GridAxis, std::uint8_t>;
   using Samples = SizedRecords<GridSamples, std::uint8_t>;

@@ -9,8 +9,7 @@
 namespace reckon::pdu {
 
 /// The first fields of all three.
-template <typename Visitor, typename Pdu>
-constexpr void object_head_fields(Visitor& visitor, Pdu& pdu) {
+constexpr void object_head_fields(auto& visitor, auto& pdu) {
   visitor("header", pdu.header);
   visitor("object_id", pdu.object_id);
   visitor("referenced_object_id", pdu.referenced_object_id);
@@ -19,8 +18,7 @@ constexpr void object_head_fields(Visitor& visitor, Pdu& pdu) {
 }
 
 /// The requester and the receiver of the request for the object.
-template <typename Visitor, typename Pdu>
-constexpr void object_address_fields(Visitor& visitor, Pdu& pdu) {
+constexpr void object_address_fields(auto& visitor, auto& pdu) {
   visitor("requester_simulation_address", pdu.requester_simulation_address);
   visitor("receiving_simulation_address", pdu.receiving_simulation_address);
 }

@@ -72,8 +72,7 @@ struct LiveShot {
 };
 
 /// Target, munition and event, according to `flags`; `event`: the PDU has an event.
-template <typename Visitor, Is<LiveShot> Shot>
-constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool event) {
+constexpr void id_fields(auto& visitor, Is<LiveShot> auto& shot, std::uint8_t flags, bool event) {
   when(has_flag(flags, 0), visitor, "target_live_entity_id", shot.target_id);
   const bool munition = has_flag(flags, 2);
   when(munition && has_flag(flags, 1), visitor, "munition_simulation_address",
@@ -84,8 +83,7 @@ constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool 
 }
 
 /// The munition descriptor, according to `flags`.
-template <typename Visitor, Is<LiveShot> Shot>
-constexpr void munition_fields(Visitor& visitor, Shot& shot, std::uint8_t flags) {
+constexpr void munition_fields(auto& visitor, Is<LiveShot> auto& shot, std::uint8_t flags) {
   when(true, visitor, "munition_type", shot.munition_type);
   when(has_flag(flags, 4), visitor, "warhead", shot.warhead);
   when(has_flag(flags, 4), visitor, "fuse", shot.fuse);

@@ -72,8 +72,7 @@ struct VariableDatums {
 };
 
 /// The datums at the end of most PDUs of simulation management: both counts, then the records.
-template <typename Visitor, typename Pdu>
-constexpr void datum_fields(Visitor& visitor, Pdu& pdu) {
+constexpr void datum_fields(auto& visitor, auto& pdu) {
   visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, FixedDatums{});
   visitor("number_of_variable_datum_records", pdu.variable_datums.count);
   visitor.records("fixed_datum_records", pdu.fixed_datums, FixedDatums{});

@@ -51,8 +51,7 @@ template <PduType type, typename Instead = NoService>
 using ServiceOf = std::conditional_t<is_reliable(type), ReliabilityService, Instead>;
 
 /// The header and the IDs at the start of all these PDUs.
-template <typename Visitor, typename Pdu>
-constexpr void management_fields(Visitor& visitor, Pdu& pdu) {
+constexpr void management_fields(auto& visitor, auto& pdu) {
   visitor("header", pdu.header);
   visitor("originating_entity_id", pdu.originating_entity_id);
   visitor("receiving_entity_id", pdu.receiving_entity_id);

@@ -71,8 +71,7 @@ class MineColumns {
 }
 
 /// Visits the columns in wire order. Returns whether they fill the octets exactly.
-template <typename Visitor>
-bool walk_mines(Visitor& visitor, const MinefieldData& pdu) {
+bool walk_mines(auto& visitor, const MinefieldData& pdu) {
   MineColumns columns(pdu);
   const std::size_t mines = pdu.number_of_mines;
   const auto list = [&]<typename Record>(std::string_view name, Record, std::size_t count) {
@@ -114,8 +113,7 @@ bool walk_mines(Visitor& visitor, const MinefieldData& pdu) {
 
 /// Visitor of columns that only checks.
 struct NoColumns {
-  template <typename R>
-  void records(std::string_view, std::span<const std::byte>, R) noexcept {}
+  void records(std::string_view, std::span<const std::byte>, auto) noexcept {}
   void walked(std::string_view, const RestOfPdu&) noexcept {}
 };
 

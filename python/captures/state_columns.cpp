@@ -21,10 +21,7 @@ constexpr std::size_t kLarge = 4 << 20;             // smallest size that is wor
                                                     // [octets]
 constexpr std::size_t kMostReserved = 16'000'000;   // rows; a greater file grows its columns
 
-template <typename Vector, typename Three>
-void add_vector(Vector& column, const Three& v) {
-  column.insert(column.end(), {v.x, v.y, v.z});
-}
+void add_vector(auto& column, const auto& v) { column.insert(column.end(), {v.x, v.y, v.z}); }
 
 std::size_t rows_of(const std::string& path) {
   std::error_code none;

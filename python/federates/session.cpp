@@ -101,8 +101,7 @@ std::array<std::uint16_t, 3> Session::id_of(std::uint16_t entity) {
   return {id.site, id.application, id.entity};
 }
 
-template <typename Make>
-void Session::call(const py::function& callback, Make&& arguments) {
+void Session::call(const py::function& callback, auto&& arguments) {
   const py::gil_scoped_acquire python;
   try {
     callback(*arguments());

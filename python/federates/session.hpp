@@ -93,8 +93,7 @@ class Session {
  private:
   peer::Federate& federate();
   [[nodiscard]] Seen seen(const peer::RemoteObject& object);
-  template <typename Make>
-  void call(const pybind11::function& callback, Make&& arguments);
+  void call(const pybind11::function& callback, auto&& arguments);
 
   std::thread::id thread_ = std::this_thread::get_id();
   std::unique_ptr<peer::Federate> federate_;

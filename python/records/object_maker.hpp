@@ -96,8 +96,7 @@ class ObjectMaker {
 
 /// Makes an object of one PDU from its octets, or of a PDU made in code (then without octets); new
 /// reference.
-template <typename Pdu>
-[[nodiscard]] PyObject* make_object(const Pdu& pdu, std::span<const std::byte> octets = {}) {
+[[nodiscard]] PyObject* make_object(const auto& pdu, std::span<const std::byte> octets = {}) {
   ObjectMaker maker;
   maker.enter({}, pdu::kNoIndex, pdu);
   pdu::FieldWalk walk(maker, pdu);

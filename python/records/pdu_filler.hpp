@@ -46,8 +46,7 @@ class PduFiller {
         refuse_size(name, octets.size(), pdu::kFixedSize<T>);
     }
   }
-  template <typename T>
-  void when(bool present, std::string_view name, T& value) {
+  void when(bool present, std::string_view name, auto& value) {
     if (present) (*this)(name, value);
   }
   template <typename Record, typename Count>

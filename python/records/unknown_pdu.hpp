@@ -13,8 +13,7 @@ struct UnknownPdu {
   RestOfPdu body;
 };
 
-template <typename Visitor, Is<UnknownPdu> Pdu>
-constexpr void fields(Visitor& visitor, Pdu& pdu) {
+constexpr void fields(auto& visitor, Is<UnknownPdu> auto& pdu) {
   visitor("header", pdu.header);
   visitor.walked("body", pdu.body);
 }

@@ -98,8 +98,7 @@ struct SourceReport {
   std::string problem;  ///< a sentence if the source ended early; else empty
 
   /// Calls visit(name, meaning, value) for each count of a live source; both texts are literals.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     visit("frames_in", "frames read", frames);
     visit("datagrams_in", "datagrams read, whole or not", datagrams);
     visit("datagrams_cut", "of these, datagrams that were captured in part", cut);

@@ -70,8 +70,7 @@ class Counters {
   [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
 
   /// Calls visit(CounterReading) for each counter, in the order of their making.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     for (const Entry& entry : entries_) {
       visit(CounterReading{entry.name, entry.meaning, entry.counter.value(), entry.is_level,
                            entry.group, entry.member});

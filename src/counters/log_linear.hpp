@@ -35,9 +35,8 @@ struct LogLinear {
 /// values, that is index ceil(share all) - 1 of a sorted list; `buckets` if their counts are fewer
 /// than that.
 /// @param count_of(bucket) number of its values
-template <typename CountOf>
 [[nodiscard]] std::size_t bucket_of_share(std::size_t buckets, std::uint64_t all, double share,
-                                          CountOf&& count_of) noexcept {
+                                          auto&& count_of) noexcept {
   const double clamped = std::clamp(share, 0.0, 1.0);
   const auto rank = std::max<std::uint64_t>(
       static_cast<std::uint64_t>(std::ceil(clamped * static_cast<double>(all))), 1);

@@ -90,8 +90,7 @@ nanoseconds Emission::lifetime() const noexcept {
 
 EmissionTable::EmissionTable(std::size_t rows) : rows_(rows), entities_(rows), owners_(rows) {}
 
-template <typename Pdu>
-bool EmissionTable::read(std::span<const std::byte> octets, Pdu& pdu) noexcept {
+bool EmissionTable::read(std::span<const std::byte> octets, auto& pdu) noexcept {
   const bool good = pdu::decode(octets, pdu) == pdu::DecodeError::none;
   if (!good) ++refusals_.damaged;
   return good;
@@ -192,8 +191,7 @@ bool EmissionTable::make_room(const EmissionSource& source) noexcept {
   return place.has_value();
 }
 
-template <typename State>
-void EmissionTable::update(Emission& row, const State& state, nanoseconds now) noexcept {
+void EmissionTable::update(Emission& row, const auto& state, nanoseconds now) noexcept {
   const bool emitted = row.emits();
   row.state = state;
   if (row.updates > 0 && row.emits() != emitted) row.since = now;

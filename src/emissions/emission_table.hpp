@@ -67,8 +67,7 @@ class EmissionTable {
   void summarise(std::span<EntityView> entities) const noexcept;
 
  private:
-  template <typename Pdu>
-  [[nodiscard]] bool read(std::span<const std::byte> octets, Pdu& pdu) noexcept;
+  [[nodiscard]] bool read(std::span<const std::byte> octets, auto& pdu) noexcept;
   void take_emitters(const pdu::ElectromagneticEmission& pdu,
                      const EmissionSource& source) noexcept;
   void take_whole(const Emission& sent, const EmissionSource& source) noexcept;
@@ -76,8 +75,7 @@ class EmissionTable {
                                       const EmissionSource& source) noexcept;
   [[nodiscard]] Emission* add(const Emission& wanted, const EmissionSource& source) noexcept;
   [[nodiscard]] bool make_room(const EmissionSource& source) noexcept;
-  template <typename State>
-  void update(Emission& row, const State& state, std::chrono::nanoseconds now) noexcept;
+  void update(Emission& row, const auto& state, std::chrono::nanoseconds now) noexcept;
   void drop_of_others(const pdu::EntityId& entity, const EmissionSource& source) noexcept;
   void erase(std::size_t place) noexcept;
 

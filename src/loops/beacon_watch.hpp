@@ -32,8 +32,7 @@ class BeaconWatch {
   void add(EntityNumber number, std::string_view name);
   void remove(EntityNumber number) noexcept;
   /// Calls visit(EntityNumber, tag) for each of ours.
-  template <typename Visit>
-  void for_each_carried(Visit&& visit) const {
+  void for_each_carried(auto&& visit) const {
     for (const Carried& one : carried_) visit(one.number, one.tag);
   }
   [[nodiscard]] bool carries() const noexcept { return !carried_.empty(); }

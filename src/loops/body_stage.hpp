@@ -25,8 +25,7 @@ class BodyStage {
 
   /// Makes entities of the bodies that this peer owns, by add(number, description), with numbers
   /// from `first` on.
-  template <typename Add>
-  void add_own(EntityNumber first, Add&& add) {
+  void add_own(EntityNumber first, auto&& add) {
     first_ = first;
     std::size_t body = 0;
     for (const haptics::SceneObject& object : scene_.scene.objects) {
@@ -38,8 +37,7 @@ class BodyStage {
   }
   /// Moves these entities, by move(number, truth). A sleeping one keeps its last state, which its
   /// heartbeat repeats.
-  template <typename Move>
-  void move_own(const OwnedEntities& owned, Move&& move) noexcept {
+  void move_own(const OwnedEntities& owned, auto&& move) noexcept {
     if (own_ == nullptr || !own_->update()) return;
     const haptics::BodyStates& states = own_->read();
     for (std::size_t i = 0; i < states.bodies.size(); ++i) {

@@ -80,8 +80,7 @@ static_assert(std::ranges::all_of(kWords<Recipients>,
 
 // Calls visit(RecipientsRow) for each tier with its own groups, in the order of the groups: urgent
 // tiers come last.
-template <typename Visit>
-void for_each_tier(const SceneFile& scene, Visit&& visit) {
+void for_each_tier(const SceneFile& scene, auto&& visit) {
   for (const bool is_urgent : {false, true}) {
     for (const TierConfig& tier : scene.aoim.tiers) {
       const RecipientsRow& row = *row_of(tier.to);

@@ -15,8 +15,7 @@
 namespace reckon::peer {
 namespace {
 
-template <typename Number>
-bool read_hex(std::string_view text, Number& out) {
+bool read_hex(std::string_view text, auto& out) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out, 16);
   return error == std::errc{} && end == text.data() + text.size();
 }

@@ -126,8 +126,7 @@ struct LinkStatistics {
   int last_send_error{0}, last_join_error{0};          ///< errno, no counts; 0: none yet
 
   /// Calls visit(name, meaning, value) for each count; both texts are literals.
-  template <typename Visit>
-  void for_each(Visit&& visit) const;
+  void for_each(auto&& visit) const;
 };
 
 /// An event of a link that it repairs by itself, as a sentence for the user.
@@ -185,8 +184,7 @@ class Link {
 /// A sentence for the user: the error of a join and its remedy (the sysctl, the limit).
 [[nodiscard]] std::string advice(const std::error_code& error, const GroupAddress& group);
 
-template <typename Visit>
-void LinkStatistics::for_each(Visit&& visit) const {
+void LinkStatistics::for_each(auto&& visit) const {
   visit("sent", "datagrams sent", sent);
   visit("sent_bytes", "octets of UDP payload sent", sent_bytes);
   visit("send_errors", "datagrams refused by the kernel for any reason", send_errors);

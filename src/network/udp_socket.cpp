@@ -19,8 +19,7 @@ namespace {
 using asio::ip::udp;
 
 // Asio has no name for these options.
-template <typename Value>
-void set_option(udp::socket& socket, int level, int name, const Value& value,
+void set_option(udp::socket& socket, int level, int name, const auto& value,
                 std::error_code& error) {
   if (error) return;
   if (setsockopt(socket.native_handle(), level, name, &value, sizeof value) != 0) {

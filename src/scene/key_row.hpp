@@ -50,8 +50,7 @@ requires(!std::same_as<T, bool>) Written written(T value, std::string_view unit)
   return written_whole(static_cast<double>(value), std::to_string(value), unit);
 }
 
-template <HasWords T>
-Written written(const T& value, std::string_view) {
+Written written(const HasWords auto& value, std::string_view) {
   return {KeyKind::choice, std::string(word_of(value))};
 }
 

@@ -17,8 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// "a: what it means; b: ...".
-template <typename List>
-std::string meanings_of(const List& list) {
+std::string meanings_of(const auto& list) {
   std::string text;
   for (const auto& row : list) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, row.meaning);

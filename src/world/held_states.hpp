@@ -41,8 +41,7 @@ class HeldStates {
 
   /// Calls visit(place, HeldState) for each entity whose shown state came in this near group, with
   /// the newest state of an outer row to return to. An entity without such a state stays unchanged.
-  template <typename Visit>
-  void leave(aoim::GroupIndex group, std::size_t row, Visit&& visit) {
+  void leave(aoim::GroupIndex group, std::size_t row, auto&& visit) {
     for (std::size_t place = 0; place < shown_by_.size(); ++place) {
       if (shown_by_[place] != group) continue;
       const HeldState& held = behind_[row][place];

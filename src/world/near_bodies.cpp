@@ -104,8 +104,7 @@ NearBodies::Rank NearBodies::rank_of(const NearBody& body) const noexcept {
 }
 
 // The bodies in the order of `rank_key`, a number from their rank; of equal ones the deeper first.
-template <typename RankKey>
-std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noexcept {
+std::span<const NearBodies::Key> NearBodies::sorted(const auto& rank_key) noexcept {
   for (std::size_t i = 0; i < count_; ++i)
     keys_[i] = {rank_key(ranks_[i]), ranks_[i].shallow, static_cast<std::uint8_t>(i)};
   const std::span<Key> keys(keys_.data(), count_);

@@ -100,8 +100,7 @@ class NearBodies {
 
   void insert(const NearBody& body) noexcept;
   [[nodiscard]] Rank rank_of(const NearBody& body) const noexcept;
-  template <typename RankKey>
-  [[nodiscard]] std::span<const Key> sorted(const RankKey& rank_key) noexcept;
+  [[nodiscard]] std::span<const Key> sorted(const auto& rank_key) noexcept;
   void note_crowding(std::span<const Key> by_host) noexcept;
   void take_in_order(std::span<const Key> order) noexcept;
 

@@ -100,8 +100,7 @@ class OutsideEntities {
                  const pdu::HapticRecord& model) noexcept;
   void forget(const pdu::EntityId& id) noexcept;
   /// Removes those for which `is_gone(entity)` holds. Visits all.
-  template <typename Predicate>
-  void forget_if(Predicate&& is_gone) {
+  void forget_if(auto&& is_gone) {
     for (std::size_t i = 0; i < rows_.size();) {
       if (is_gone(rows_[i])) {
         erase(i);
@@ -112,16 +111,14 @@ class OutsideEntities {
   }
 
   /// Calls visit(OutsideEntity) for all.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     for (const OutsideEntity& entity : rows_.all()) visit(entity);
   }
 
   /// Calls `gap(position)`, the distance [m] to the nearest place of interest, for the entities
   /// that are due. Calls enter(entity, last datagram of its owner) for each that is within, and
   /// removes it. Silent ones are removed, too.  @param speed [m/s] of that place
-  template <typename Gap, typename Enter>
-  void look(Nanoseconds now, double speed, Gap&& gap, Enter&& enter) {
+  void look(Nanoseconds now, double speed, auto&& gap, auto&& enter) {
     for (std::size_t i = look_at_.next_due(now, 0); i < rows_.size();
          i = look_at_.next_due(now, i)) {
       if (rows_[i].is_silent(now)) {

@@ -86,8 +86,7 @@ class OwnedEntities {
 
   /// Calls visit(OwnedEntity&, EntityNumber) for each entity to check, oldest first. If visit
   /// returns false, this entity and the rest stay for the next pass.
-  template <typename Visit>
-  void for_each_waiting(std::chrono::nanoseconds now, Visit&& visit) {
+  void for_each_waiting(std::chrono::nanoseconds now, auto&& visit) {
     wake_due(now);
     std::size_t done = 0;
     while (done < waiting_.size()) {
@@ -104,13 +103,9 @@ class OwnedEntities {
   }
 
   /// Calls visit(OwnedEntity&, EntityNumber) for all.
-  template <typename Visit>
-  void for_each(Visit&& visit) {
-    for_each_in(0, slots_.size(), visit);
-  }
+  void for_each(auto&& visit) { for_each_in(0, slots_.size(), visit); }
   /// The same for the next `count` places of the table, cyclically.
-  template <typename Visit>
-  void for_each_next(std::size_t count, Visit&& visit) {
+  void for_each_next(std::size_t count, auto&& visit) {
     count = std::min(count, slots_.size());
     if (cursor_ >= slots_.size()) cursor_ = 0;
     const std::size_t first = std::min(count, slots_.size() - cursor_);
@@ -133,8 +128,7 @@ class OwnedEntities {
     EntityNumber number;
     friend bool operator<(const Due& a, const Due& b) noexcept { return a.time > b.time; }
   };
-  template <typename Visit>
-  void for_each_in(std::size_t from, std::size_t to, Visit&& visit) {
+  void for_each_in(std::size_t from, std::size_t to, auto&& visit) {
     for (std::size_t i = from; i < to; ++i) {
       if (slots_[i].entity) visit(*slots_[i].entity, static_cast<EntityNumber>(i + 1));
     }

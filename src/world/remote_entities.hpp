@@ -105,8 +105,7 @@ class RemoteEntities {
 
   /// Calls visit(epoch of its peer, position [m, S] as received and extrapolated to `now`, speed
   /// [m/s]) for each received entity, shown or not.
-  template <typename Visit>
-  void for_each_place(std::chrono::nanoseconds now, Visit&& visit) const {
+  void for_each_place(std::chrono::nanoseconds now, auto&& visit) const {
     for (const RemoteEntity& row : rows()) {
       const deadreckon::Pose pose = row.predicted(now);
       visit(row.epoch, pose.position, pose.velocity.norm());

@@ -28,8 +28,7 @@ class RowAdmission {
   /// Makes room for one more row of this sender, which then owns it. Calls drop(place) for each row
   /// that has to be dropped and counts it as evicted. Returns false and makes no row if there is no
   /// room, which is counted.
-  template <typename Drop>
-  [[nodiscard]] bool admit(const Arrival& arrival, Drop&& drop) noexcept {
+  [[nodiscard]] bool admit(const Arrival& arrival, auto&& drop) noexcept {
     const bool guest = arrival.epoch == 0;
     if (guest && !make_guest_room(arrival, drop)) {
       counts_.strangers_full.add();
@@ -64,8 +63,7 @@ class RowAdmission {
 
   // Bounds the memory that guests share. A shown entity replaces outside ones, up to half of the
   // memory; then a row of the host with the most is dropped.
-  template <typename Drop>
-  [[nodiscard]] bool make_guest_room(const Arrival& arrival, Drop&& drop) noexcept {
+  [[nodiscard]] bool make_guest_room(const Arrival& arrival, auto&& drop) noexcept {
     const std::size_t most = settings_.strangers_memory;
     while (guests_octets() + row_octets_ > most) {
       const bool has_half = (owners_.guests() + 1) * row_octets_ > most / 2;
@@ -77,16 +75,14 @@ class RowAdmission {
     return true;
   }
   // In a full table, drops a row of a host that has too many.
-  template <typename Drop>
-  [[nodiscard]] bool make_room(const Arrival& arrival, Drop&& drop) noexcept {
+  [[nodiscard]] bool make_room(const Arrival& arrival, auto&& drop) noexcept {
     if (table_.rows().size() < table_.capacity()) return true;
     const auto place = owners_.row_to_give_up(arrival.from, arrival.epoch == 0);
     if (!place) return false;
     evict(*place, drop);
     return true;
   }
-  template <typename Drop>
-  void evict(std::size_t place, Drop&& drop) noexcept {
+  void evict(std::size_t place, auto&& drop) noexcept {
     last_evicted_ = owners_.owner(place);
     drop(place);
   }

@@ -53,8 +53,7 @@ class SightWatch {
   /// Calls `look(place)`, which returns a Sight, for the rows that may be out of sight. Calls
   /// leave(place) for each row out of sight; it must drop the row. @param withdrawn [m] by now
   /// @param step [m] of distance that justifies another check, > 0
-  template <typename Look, typename Leave>
-  void look(Nanoseconds now, double withdrawn, double step, Look&& look, Leave&& leave) {
+  void look(Nanoseconds now, double withdrawn, double step, auto&& look, auto&& leave) {
     std::size_t looks = 0;
     const auto pass = [&](DueColumn& column, Nanoseconds until) {
       for (std::size_t i = column.next_due(until, 0); i < column.size() && looks < kMostLooks;

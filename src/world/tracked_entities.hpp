@@ -33,8 +33,7 @@ class TrackedEntities {
   }
 
   /// Calls move(number, truth) for each that is due. The tracks begin at the first call.
-  template <typename Move>
-  void advance(std::chrono::nanoseconds now, Move&& move) {
+  void advance(std::chrono::nanoseconds now, auto&& move) {
     if (now < next_) return;
     if (begun_ < std::chrono::nanoseconds(0)) begin(now);
     next_ = std::chrono::nanoseconds::max();

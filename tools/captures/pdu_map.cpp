@@ -135,8 +135,7 @@ class Writer {
   [[nodiscard]] const MappedPdu& done() const { return done_; }
 
  private:
-  template <typename Record>
-  void put(const Record& record, std::size_t at) {
+  void put(const auto& record, std::size_t at) {
     (void)pdu::store_record(record, pdu_.subspan(at));
   }
   bool fits(std::uint16_t site, std::uint16_t application) {

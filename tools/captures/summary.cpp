@@ -55,9 +55,8 @@ void append_rest(std::string& out, std::size_t size) {
   if (size > kMaxRows) out += fmt::format("... and {} more; --json has all\n", size - kMaxRows);
 }
 
-template <typename Map, typename Name>
-void append_shares(std::string& out, const Map& map, const char* title, const char* what,
-                   Name&& name) {
+void append_shares(std::string& out, const auto& map, const char* title, const char* what,
+                   auto&& name) {
   if (map.empty()) return;
   TextTable table({{title}, {what, Align::right}, {"OCTETS", Align::right}});
   const auto rows = by_count(map, [](const Share& share) { return share.count; });
@@ -96,8 +95,7 @@ void append_rules(std::string& out, const CaptureSummary& summary) {
 }
 
 /// Adds a list of objects, one for each row; `members(object, name, share)` fills each.
-template <typename Map, typename Members>
-void add_objects(JsonObject& to, std::string_view key, const Map& map, Members&& members) {
+void add_objects(JsonObject& to, std::string_view key, const auto& map, auto&& members) {
   to.array(key, map, [&](std::string& out, const auto& row) {
     JsonObject object(out);
     members(object, row.first, row.second);

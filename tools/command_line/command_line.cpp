@@ -100,8 +100,7 @@ struct CommandLine::Parser {
         summary(summary_) {}
 
   /// An option whose text is converted by `read`.
-  template <typename Read>
-  void add(const std::string& name, const std::string& help, const std::string& kind, Read read) {
+  void add(const std::string& name, const std::string& help, const std::string& kind, auto read) {
     app.add_option_function<std::string>(name, read, help)->type_name(kind);
   }
 

@@ -91,8 +91,7 @@ class DatagramInspector {
   explicit DatagramInspector(bool lenient = false) : lenient_(lenient) {}
 
   /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all shown PDUs.
-  template <typename Show>
-  bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
+  bool inspect(const peer::SourceDatagram& datagram, auto&& show) {
     begin(datagram);
     if (peer::is_headless(datagram.portion)) {
       fill_fragment(datagram);
@@ -126,8 +125,7 @@ class DatagramInspector {
   void fill_foreign(const peer::SourceDatagram& datagram);
   /// The whole datagram as one row without a header.
   void fill_whole(const peer::SourceDatagram& datagram);
-  template <typename Show>
-  bool count_and(Show&& show) {
+  bool count_and(auto&& show) {
     ++tally_.pdus[static_cast<std::size_t>(row_.status)];
     return show(static_cast<const PduRow&>(row_));
   }

@@ -93,8 +93,7 @@ class CauseSearch {
   void longer_block(std::string_view name, const pdu::BitBlock& block) {
     length_in_octets(name, block.count, block.bytes.size() + behind_.size(), 4);
   }
-  template <typename View>
-  void longer_block(std::string_view name, const View& block) {
+  void longer_block(std::string_view name, const auto& block) {
     const std::size_t size = block.bytes.size();
     const bool may_be_count = size > 0 && (size + behind_.size()) % size == 0;
     cause_ = fmt::format("{} is {}, {} fewer than are present{}", name, octets_text(size),

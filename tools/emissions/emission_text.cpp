@@ -33,8 +33,7 @@ std::string entity_text(const pdu::EntityId& id) {
 }
 
 // The name of a field's value, or its number.
-template <typename Record>
-std::string value_text(const Record& record, std::string_view field, std::uint16_t value) {
+std::string value_text(const auto& record, std::string_view field, std::uint16_t value) {
   const std::string_view name = pdu::name_in(pdu::meaning_in(record, field), value);
   return name.empty() ? fmt::format("{} {}", field, value) : std::string(name);
 }

@@ -78,9 +78,8 @@ bool EntityForces::note_model(const Listener& listener, const ModelUpdate& updat
   return is_new(current.model(), update.model) || jump > kNewForce;
 }
 
-template <typename Look>
 void EntityForces::for_probes(const Listener& listener, const ReceivedEntity& entity,
-                              nanoseconds now, Look&& look) const {
+                              nanoseconds now, auto&& look) const {
   for (const ReceivedModel& model :
        listener.models().first(std::min(listener.models().size(), kMostProbes))) {
     const ReceivedEntity& other = listener.entities()[model.owner];

@@ -47,9 +47,8 @@ class EntityForces {
   [[nodiscard]] deadreckon::ForcePredictor predictor_of(
       const Listener& listener, const ReceivedEntity& entity) const noexcept;
   /// Calls `look(probe)` for the probes of other entities.
-  template <typename Look>
   void for_probes(const Listener& listener, const ReceivedEntity& entity,
-                  std::chrono::nanoseconds now, Look&& look) const;
+                  std::chrono::nanoseconds now, auto&& look) const;
 
   std::vector<Row> rows_;
   std::optional<std::chrono::nanoseconds> start_;  // zero of the predictors' time

@@ -170,8 +170,7 @@ void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagr
   counting.note_bad(place, row.rule);
 }
 
-template <typename IsOver>
-void EntityTable::drop_where(IsOver&& is_over) {
+void EntityTable::drop_where(auto&& is_over) {
   // The last row moves to the free place, so this place is checked again.
   for (std::size_t i = 0; i < rows_.size();) {
     const ReceivedEntity& entity = entities()[i];

@@ -112,8 +112,7 @@ class EntityTable {
   struct Counting;  // handles one PDU
 
   [[nodiscard]] EntityRow& row_at(std::size_t place);
-  template <typename IsOver>
-  void drop_where(IsOver&& is_over);
+  void drop_where(auto&& is_over);
 
   Listener listener_;
   std::vector<EntityRow> rows_;

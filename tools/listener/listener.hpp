@@ -182,9 +182,8 @@ class Listener {
                 std::chrono::nanoseconds arrival);
   /// The same; calls `observer` (see ListenerObserver) before anything is taken.
   /// @param decoded the body of an Entity State, if the caller has decoded it already
-  template <typename Observer>
   void take_pdu(std::span<const std::byte> pdu, const pdu::PduHeader& header,
-                std::chrono::nanoseconds arrival, Observer& observer,
+                std::chrono::nanoseconds arrival, auto& observer,
                 const pdu::EntityState* decoded = nullptr);
   /// Takes an Entity State that cannot be decoded. @return the entity's place, if the rules keep it
   std::size_t take_unreadable(std::uint8_t exercise, const pdu::EntityId& id,
@@ -247,16 +246,12 @@ class Listener {
   void set_heartbeat(ReceivedEntity& entity, double heartbeat) const noexcept;
   void take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record);
   void take_removal(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival);
-  template <typename Observer>
-  void take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival, Observer& observer,
+  void take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival, auto& observer,
                   const pdu::EntityState* decoded);
-  template <typename Observer>
-  void take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer);
+  void take_compressed(Bytes pdu, Nanoseconds arrival, auto& observer);
   [[nodiscard]] bool restore(const pdu::CompressedStates& states,
                              const pdu::CompressedState& state);
-  template <typename Observer>
-  void take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
-                    Observer& observer);
+  void take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival, auto& observer);
   void drop_entity(std::size_t place);
   void drop_model(std::size_t place);
   [[nodiscard]] static AccountKey key(const pdu::EntityId& from, const pdu::EntityId& to) noexcept;
@@ -275,9 +270,8 @@ class Listener {
   ListenerRefusals refusals_;
 };
 
-template <typename Observer>
 void Listener::take_pdu(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
-                        Observer& observer, const pdu::EntityState* decoded) {
+                        auto& observer, const pdu::EntityState* decoded) {
   const auto type = header.pdu_type;
   if (type == pdu::PduType::attribute) return take_records(pdu, header, arrival, observer);
   if (type == pdu::PduType::compressed_states) return take_compressed(pdu, arrival, observer);
@@ -288,9 +282,8 @@ void Listener::take_pdu(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arr
   }
 }
 
-template <typename Observer>
 void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
-                          Observer& observer, const pdu::EntityState* decoded) {
+                          auto& observer, const pdu::EntityState* decoded) {
   StateUpdate update;
   update.arrival = arrival;
   if (!read_state(pdu, header, decoded, update)) return;
@@ -300,8 +293,7 @@ void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds a
   settle(update);
 }
 
-template <typename Observer>
-void Listener::take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer) {
+void Listener::take_compressed(Bytes pdu, Nanoseconds arrival, auto& observer) {
   pdu::CompressedStates states;
   if (decode(pdu, states) != pdu::DecodeError::none) return;
   pdu::CompressedStateReader reader(states);
@@ -318,9 +310,8 @@ void Listener::take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observe
   }
 }
 
-template <typename Observer>
 void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
-                            Observer& observer) {
+                            auto& observer) {
   pdu::Attribute attribute;
   if (!rules_.models || decode(pdu, attribute) != pdu::DecodeError::none) return;
   for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {

@@ -84,20 +84,14 @@ class FieldTypes {
       add(name, record(value, name));
     }
   }
-  template <typename T>
-  void when(bool, std::string_view name, const T& value) {
-    (*this)(name, value);
-  }
+  void when(bool, std::string_view name, const auto& value) { (*this)(name, value); }
   template <typename View, typename Record, typename Count>
   void count(std::string_view, const View&, pdu::Records<Record, Count>) {}
   template <typename View, typename Record, typename Count>
   void records(std::string_view name, const View&, pdu::Records<Record, Count>) {
     add(name, array(record(Record{}, name), "Dynamic"));
   }
-  template <typename View>
-  void walked(std::string_view name, const View&) {
-    add(name, array("HLAoctet", "Dynamic"));
-  }
+  void walked(std::string_view name, const auto&) { add(name, array("HLAoctet", "Dynamic")); }
 
   /// Adds a record type with all its fields. @return the name of the type
   template <typename Record>

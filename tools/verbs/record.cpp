@@ -104,8 +104,7 @@ class Recording {
   void tell_end(nanoseconds elapsed, const std::string& problem) const;
   void summarise(nanoseconds elapsed) const;
   [[nodiscard]] std::string counts() const;
-  template <typename Visit>
-  void for_each_count(Visit&& visit) const;
+  void for_each_count(auto&& visit) const;
   void add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const;
 
   const RecordOptions& options_;
@@ -221,8 +220,7 @@ std::string Recording::counts() const {
                      size_text(octets_));
 }
 
-template <typename Visit>
-void Recording::for_each_count(Visit&& visit) const {
+void Recording::for_each_count(auto&& visit) const {
   visit("datagrams", "datagrams recorded", datagrams_);
   visit("pdus", "readable PDUs in them", pdus_);
   visit("octets", "octets of UDP payload recorded", octets_);

@@ -83,13 +83,11 @@ class ViewServer::Connections {
   void accept();
   /// Makes room for one more connection of this address.
   void make_room(const std::string& from);
-  template <typename Which>
-  [[nodiscard]] std::size_t count(Which&& which) const {
+  [[nodiscard]] std::size_t count(auto&& which) const {
     return static_cast<std::size_t>(std::ranges::count_if(all_, which));
   }
   /// Null: none.
-  template <typename Which>
-  [[nodiscard]] Pointer oldest(Which&& which) const {
+  [[nodiscard]] Pointer oldest(auto&& which) const {
     const auto found = std::ranges::find_if(all_, which);
     return found == all_.end() ? nullptr : *found;
   }

@@ -50,8 +50,7 @@ struct ViewServerCounts {
   std::uint64_t octets = 0;    ///< of messages sent
 
   /// Calls visit(name, meaning, value) for each; both texts are literals.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
+  void for_each(auto&& visit) const {
     visit("tabs", "tabs served", tabs);
     visit("requests_refused", "refused requests, and tabs beyond the maximum", refused);
     visit("pictures_out", "pictures sent to tabs", pictures);

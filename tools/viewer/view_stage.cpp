@@ -27,8 +27,7 @@ HistoryOptions history_options(const StageOptions& options) {
 }
 
 /// Removes rows older than `span` before the last one.
-template <typename Rows>
-void forget_old(Rows& rows, nanoseconds span) {
+void forget_old(auto& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
   while (rows.size() > 1 && rows.front().time < oldest) rows.pop_front();
 }

@@ -32,8 +32,7 @@ Fault unknown_number(std::size_t offset, std::string_view field, pdu::SisoTable 
 /// Visitor of the fixed fields of a PDU: finds the first value without a name in its list.
 class UnnamedValue {
  public:
-  template <typename Record>
-  explicit UnnamedValue(const Record& record, std::size_t offset = 0)
+  explicit UnnamedValue(const auto& record, std::size_t offset = 0)
       : meanings_(record), offset_(offset) {}
 
   template <typename T>

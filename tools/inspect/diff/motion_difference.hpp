@@ -68,8 +68,7 @@ class MotionDifference {
       : shift_(shift), step_(step) {}
 
   /// Reads both to their ends, or until `stopped()` is true.
-  template <typename Stopped>
-  void run(PduStream& a, PduStream& b, Stopped&& stopped) {
+  void run(PduStream& a, PduStream& b, auto&& stopped) {
     begin(a, b);
     while (advance() && !stopped()) {
     }
@@ -77,8 +76,7 @@ class MotionDifference {
 
   /// For a B of another rate: uses A's arrivals and timestamps for PDUs in both, and times between
   /// them for PDUs in B only.
-  template <typename Stopped>
-  void run_paired(PduAlignment& alignment, const PairedTimes& times, Stopped&& stopped) {
+  void run_paired(PduAlignment& alignment, const PairedTimes& times, auto&& stopped) {
     pairs_ = times;
     for (AlignedPdus step; !stopped() && alignment.next(step);) take_step(step);
     compare_to_end();

@@ -141,8 +141,7 @@ class Comparer {
   [[nodiscard]] bool differs(std::size_t at, std::size_t size) const {
     return found_.size() < most_ && !std::ranges::equal(part(a_, at, size), part(b_, at, size));
   }
-  template <typename Text>
-  void tell(std::size_t at, std::size_t size, Text&& text) {
+  void tell(std::size_t at, std::size_t size, auto&& text) {
     const auto value = [&](Octets octets) {
       return octets.size() < size ? std::string("absent") : text(octets);
     };
@@ -209,8 +208,7 @@ class Comparer {
     compare(name, at_, octets.size());
     at_ += octets.size();
   }
-  template <typename Record>
-  void record(Octets octets, Record typed) {
+  void record(Octets octets, auto typed) {
     if (pdu::load_record(octets, typed)) fields(*this, typed);
   }
   void record(Octets octets, const pdu::VariableParameter&) {

@@ -36,8 +36,7 @@ void append_printable(std::string& out, std::string_view text) {
 }
 
 /// Appends the name of a value, or its kind and number if it has none: "Friendly", "side 77".
-template <typename Enumeration>
-void append_name(std::string& out, std::string_view what, Enumeration value) {
+void append_name(std::string& out, std::string_view what, auto value) {
   const std::string_view name = pdu::name(value);
   out += name.empty() ? what : name;
   if (!name.empty()) return;
@@ -134,8 +133,7 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
 /// Visitor: numbers and names of a PDU in one line, without header and padding.
 class BriefFields {
  public:
-  template <typename Pdu>
-  BriefFields(std::string& out, const Pdu& pdu) : out_(out), meanings_(pdu) {}
+  BriefFields(std::string& out, const auto& pdu) : out_(out), meanings_(pdu) {}
 
   template <typename T>
   void operator()(std::string_view name, const T& value) {
@@ -188,8 +186,7 @@ class BriefFields {
       item("text", quoted);
     }
   }
-  template <typename View>
-  void walked(std::string_view, const View&) {}
+  void walked(std::string_view, const auto&) {}
 
  private:
   /// " (mode_3a 4721, state on)".

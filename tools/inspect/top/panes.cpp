@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::size_t kPlotRows = 6;
 
-template <typename Vector>
-std::string vector_text(const Vector& v, std::string_view unit) {
+std::string vector_text(const auto& v, std::string_view unit) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) {}", v.x, v.y, v.z, unit);
 }
 
