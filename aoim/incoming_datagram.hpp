@@ -9,6 +9,7 @@
 #include <span>
 
 #include "reckon/aoim/groups/sequence_tracker.hpp"
+#include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 
 namespace reckon::aoim {
@@ -46,11 +47,25 @@ struct Incoming {
 };
 
 /// The trailer at the end of a datagram, if there is one. Accepts any octets.
-[[nodiscard]] std::optional<pdu::DatagramTrailer> trailer_of(
-    std::span<const std::byte> datagram) noexcept;
+[[nodiscard]] inline std::optional<pdu::DatagramTrailer> trailer_of(
+    std::span<const std::byte> datagram) noexcept {
+  if (datagram.size() < pdu::kDatagramTrailerSize) return {};
+  pdu::DatagramTrailer trailer;
+  const auto error = pdu::decode(datagram.last(pdu::kDatagramTrailerSize), trailer);
+  const bool whole = trailer.header.length == pdu::kDatagramTrailerSize;
+  if (error != pdu::DecodeError::none || !whole) return {};
+  return trailer;
+}
 
 /// Whether it has a Presence of another DIS exercise. Accepts any octets.
-[[nodiscard]] bool announces_another_exercise(std::span<const std::byte> datagram,
-                                              std::uint8_t exercise) noexcept;
+[[nodiscard]] inline bool announces_another_exercise(std::span<const std::byte> datagram,
+                                                     std::uint8_t exercise) noexcept {
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    const bool announces = bundled.error == pdu::DecodeError::none &&
+                           bundled.header.pdu_type == pdu::PduType::presence;
+    if (announces && bundled.header.exercise_id != exercise) return true;
+  }
+  return false;
+}
 
 }  // namespace reckon::aoim

@@ -46,7 +46,15 @@ class FiniteCheck {
     }
   }
   void walked(std::string_view, const VariableDatums&) noexcept {}
-  void walked(std::string_view, const AttributeRecordSets& sets) noexcept;
+  void walked(std::string_view name, const AttributeRecordSets& sets) noexcept {
+    Attribute pdu;
+    pdu.record_sets = sets;
+    for (const AttributeSet& set : AttributeReader(pdu)) {
+      for (const AttributeRecord& record : set.records())
+        static_cast<void>(
+            visit_attribute_record(record, [&](const auto& typed) { (*this)(name, typed); }));
+    }
+  }
   template <OctetView View>
   void walked(std::string_view, const View&) noexcept {}
   template <SizedView View>

@@ -4,6 +4,8 @@
 // with every update.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,7 +29,7 @@ class WaitingIndex {
     bool used = false;          ///< false if none ever was
   };
 
-  WaitingIndex();
+  WaitingIndex() : entries_(kLeastEntries), shift_(64 - std::countr_zero(kLeastEntries)) {}
 
   /// The entry of this entity, used or free for it; valid until put or reset. Some ns if numbers
   /// come in turn or the index is in a cache; else a miss.
@@ -52,9 +54,16 @@ class WaitingIndex {
 
   /// Removes everything and makes room for four times `live` entries. The caller then puts the
   /// pending updates again.
-  void reset(std::size_t live);
+  void reset(std::size_t live) {
+    const std::size_t size = std::max(entries_.size(), std::bit_ceil(4 * live));
+    entries_.assign(size, Entry{});
+    shift_ = 64 - std::countr_zero(size);
+    used_ = 0;
+  }
 
  private:
+  static constexpr std::size_t kLeastEntries = 1024;
+
   // Four 16-bit numbers: no two entities share a key.
   static std::uint64_t key_of(GroupIndex group, const pdu::EntityId& entity) noexcept {
     return std::uint64_t{group.value} << 48 | entity.key();

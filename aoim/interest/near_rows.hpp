@@ -5,10 +5,12 @@
 // entities are closer than the row's distance.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::aoim {
 
@@ -21,7 +23,12 @@ inline constexpr double kNearLeave = 1.1;
 
 /// Settings of the subscription to near groups: the settings for cells, with the two values above
 /// and without a cap on the groups.
-[[nodiscard]] SubscriptionConfig near_subscription(SubscriptionConfig cells) noexcept;
+[[nodiscard]] inline SubscriptionConfig near_subscription(SubscriptionConfig cells) noexcept {
+  cells.leave_factor = kNearLeave;
+  cells.lookahead = std::max(cells.lookahead, pdu::from_seconds(kNearAhead));
+  cells.maximum_groups = kMaximumPool;
+  return cells;
+}
 
 /// The ball around an own entity that decides which near groups of one row are joined: the groups
 /// of the cells that it reaches. Its radius is the distance at which the row ends, divided by the
@@ -34,7 +41,15 @@ inline constexpr double kNearLeave = 1.1;
 /// the limit.
 /// @param radius at which an entity senses others [m]
 /// @param stretch factor on distances that meets the receiver's budget, see ChannelTable::fit
-[[nodiscard]] Focus near_focus(const ChannelTable& table, std::size_t row, const Focus& focus,
-                               double radius, double stretch) noexcept;
+[[nodiscard]] inline Focus near_focus(const ChannelTable& table, std::size_t row,
+                                      const Focus& focus, double radius, double stretch) noexcept {
+  const std::size_t kept = table.kept_rows();
+  double end = table.channel(kept + row).farthest / stretch;
+  if (kept > 0) end = std::max(end, table.channel(kept - 1).farthest);
+  Focus near = focus;
+  near.radius = focus.radius < radius ? std::min(focus.radius, end)
+                                      : focus.radius - radius + std::min(radius, end);
+  return near;
+}
 
 }  // namespace reckon::aoim

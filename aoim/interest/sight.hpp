@@ -3,6 +3,7 @@
 // Selects remote entities of interest: by distance, and by the cells that this peer listens to.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <limits>
@@ -33,7 +34,11 @@ class Sight {
   /// @param cells, subscription outlive this; groups are numbered as in both
   /// @param follow tags of beacons  @param finest side of the smallest cell [m]
   Sight(const InterestConfig& config, const CellPartition& cells, const Subscription& subscription,
-        std::span<const std::uint32_t> follow, double finest);
+        std::span<const std::uint32_t> follow, double finest)
+      : cells_(cells), subscription_(subscription), interest_(config), finest_(finest) {
+    for (const std::uint32_t tag : follow) followed_.push_back({tag, false, {}, {}, {}, {}});
+    besides_.reserve(followed_.size());
+  }
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves. With
   /// locales or a cut, an entity in a cell without a subscription is hidden.
@@ -102,20 +107,48 @@ class Sight {
   }
 
  private:
+  // A shown entity stays shown within this share of a cell beyond the followed cell. When the
+  // beacon crosses a border, it is received in the next cell before the map has it there.
+  static constexpr double kLingers = 0.5;
+  // An entity on a border is in one cell for its owner, and may be predicted in the other: by the
+  // rounding of the wire format, and within its owner's threshold.
+  static constexpr double kBorder = 0.05;
+
   [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
     return !followed_.empty() && is_in_followed_cell(position, shown);
   }
   /// @param share of a cell's side by which the cell may be away
   [[nodiscard]] bool is_in_or_near(const Position& position, double share,
-                                   auto&& is_one) const noexcept;
-  [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
+                                   auto&& is_one) const noexcept {
+    if (is_one(cells_.group(position))) return true;
+    const double beyond = share * finest_;
+    bool found = false;
+    cells_.visit([&](const auto& scheme) {
+      scheme.for_each_cell_within(position, beyond, [&](CellId cell, double) {
+        found = found || is_one(scheme.group(cell));
+      });
+    });
+    return found;
+  }
+  [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept {
+    if (!is_finite(position)) return false;
+    return is_in_or_near(position, shown ? kLingers : kBorder, [this](GroupIndex number) {
+      return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
+    });
+  }
   [[nodiscard]] bool hides_unheard() const noexcept {
     return cut_ < std::numeric_limits<double>::infinity() || cells_.as<LocaleMap>() != nullptr;
   }
   [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
     return hides_unheard() && is_unheard(position);
   }
-  [[nodiscard]] bool is_unheard(const Position& position) const noexcept;
+  [[nodiscard]] bool is_unheard(const Position& position) const noexcept {
+    // A position beyond the wall of a locale is another locale, at any distance.
+    if (!is_finite(position)) return false;
+    if (cells_.as<LocaleMap>() != nullptr) return !subscription_.is_joined(cells_.group(position));
+    return !is_in_or_near(position, kBorder,
+                          [this](GroupIndex number) { return subscription_.is_joined(number); });
+  }
   void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }
 
   const CellPartition& cells_;

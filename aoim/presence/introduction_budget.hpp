@@ -4,8 +4,11 @@
 // to come from a newcomer must not cause a hundred long ones again and again.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::aoim {
 
@@ -20,13 +23,25 @@ class IntroductionBudget {
   static constexpr double kMostRate = 1'048'576.0;
 
   /// @param octets cost of one introduction of all entities, from now on
-  void set_whole(double octets) noexcept;
+  void set_whole(double octets) noexcept {
+    burst_ = std::max(octets, kLeastBurst);
+    rate_ = std::clamp(octets, kLeastRate, kMostRate);
+  }
   [[nodiscard]] bool may_begin(std::chrono::nanoseconds now) const noexcept {
     return now >= ready_at();
   }
   /// Earliest time for the next introduction.
-  [[nodiscard]] std::chrono::nanoseconds ready_at() const noexcept;
-  void spend(std::size_t octets, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds ready_at() const noexcept {
+    if (spent_ < burst_) return since_;
+    // Rounded up, so that the budget is positive then.
+    return since_ + pdu::from_seconds((spent_ - burst_) / rate_) + std::chrono::nanoseconds(1);
+  }
+  void spend(std::size_t octets, std::chrono::nanoseconds now) noexcept {
+    const double filled =
+        rate_ * pdu::to_seconds(std::max(now - since_, std::chrono::nanoseconds(0)));
+    spent_ = std::max(0.0, spent_ - filled) + static_cast<double>(octets);
+    since_ = std::max(since_, now);
+  }
 
  private:
   double burst_ = kLeastBurst;  // [octets]

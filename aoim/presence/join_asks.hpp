@@ -6,6 +6,7 @@
 // made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -37,11 +38,21 @@ class JoinAsks {
   };
 
   /// @param pool number of groups: 1 .. pool are joined and left
-  explicit JoinAsks(std::size_t pool);
+  explicit JoinAsks(std::size_t pool) : silent_(pool + 1) {
+    joined_.reserve(pool);
+    due_.reserve(pool);
+  }
 
   /// @param ask request at once; false at the start, when all peers introduce their entities anyway
-  void join(GroupIndex group, CellId cell, bool ask, std::chrono::nanoseconds now);
-  void leave(GroupIndex group) noexcept;
+  void join(GroupIndex group, CellId cell, bool ask, std::chrono::nanoseconds now) {
+    leave(group);
+    silent_[group.value] = 1;
+    joined_.push_back({group, cell, now, 0, kMostRepetitions, ask});
+    has_new_ = has_new_ || ask;
+  }
+  void leave(GroupIndex group) noexcept {
+    std::erase_if(joined_, [group](const Joined& joined) { return joined.group == group; });
+  }
   /// A known peer has sent to this group, which is at most the pool. O(1)
   void note_heard(GroupIndex group) noexcept { silent_[group.value] = 0; }
 
@@ -49,13 +60,51 @@ class JoinAsks {
   [[nodiscard]] bool has_new() const noexcept { return has_new_; }
   /// The time of one more request at `utc` [ns], later than all others: it identifies a request,
   /// and there may be several at one instant, even from several steps.
-  [[nodiscard]] std::uint64_t take_time(std::uint64_t utc) noexcept;
+  [[nodiscard]] std::uint64_t take_time(std::uint64_t utc) noexcept {
+    last_time_ = std::max(utc, last_time_ + 1);
+    return last_time_;
+  }
   /// When an announcement must repeat a request; max if none must.
-  [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept {
+    std::chrono::nanoseconds next = std::chrono::nanoseconds::max();
+    for (const Joined& joined : joined_) {
+      const bool was_asked_once = joined.since != 0 && joined.left == kMostRepetitions;
+      if (was_asked_once) next = std::min(next, joined.at + kSaidAgain);
+    }
+    return next;
+  }
   /// The cells to request now; valid until the next call. @param utc in ns @param announcing
   /// whether an announcement is sent now
   [[nodiscard]] std::span<const Question> take_due(std::chrono::nanoseconds now, std::uint64_t utc,
-                                                   bool announcing);
+                                                   bool announcing) {
+    due_.clear();
+    std::size_t fresh = 0;
+    std::uint64_t time = 0;
+    const auto ask_anew = [&](Joined& joined) {
+      if (fresh++ % kMostCells == 0) time = take_time(utc);
+      joined.since = time;
+      due_.push_back({joined.cell, joined.since});
+    };
+    for (Joined& joined : joined_) {
+      if (joined.is_new) {
+        joined.is_new = false;
+        joined.at = now;
+        ask_anew(joined);
+      } else if (announcing && now - joined.at >= kAnswered) {
+        const bool is_silent = silent_[joined.group.value] != 0;
+        if (is_silent) {
+          ask_anew(joined);
+        } else if (joined.left == kMostRepetitions && joined.since != 0) {
+          due_.push_back({joined.cell, joined.since});  // for peers that have not received it
+        }
+        joined.left = is_silent ? joined.left - 1 : 0;
+      }
+    }
+    std::erase_if(joined_, [](const Joined& joined) { return joined.left == 0; });
+    std::ranges::sort(due_, {}, &Question::since);
+    has_new_ = false;
+    return due_;
+  }
 
  private:
   struct Joined {
@@ -79,7 +128,15 @@ class ReceivedAsks {
  public:
   /// False if it is known already. A request that was dropped from memory counts as new.
   /// @param since 0: without a time, always new
-  [[nodiscard]] bool note(std::uint32_t epoch, std::uint64_t since) noexcept;
+  [[nodiscard]] bool note(std::uint32_t epoch, std::uint64_t since) noexcept {
+    if (since == 0) return true;
+    const std::uint64_t question = since ^ std::uint64_t{epoch} << 32;
+    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15u;  // Fibonacci hashing
+    std::uint64_t& place = heard_[(question * kGolden >> 32) % kKept];
+    const bool is_new = place != question;
+    place = question;
+    return is_new;
+  }
 
  private:
   static constexpr std::size_t kKept = 4096;

@@ -3,6 +3,7 @@
 // Encodes the list of received peers as a PDU.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -21,7 +22,18 @@ class PeersHeardEncoder {
 
   /// @return a PeersHeard PDU of the first kMostListed epochs, valid until the next call
   [[nodiscard]] std::span<const std::byte> encode(const HeardList& heard,
-                                                  const ControlStamp& stamp) noexcept;
+                                                  const ControlStamp& stamp) noexcept {
+    const std::size_t count = std::min(heard.epochs.size(), kMostListed);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::span<std::byte> place = std::span(epochs_).subspan(i * kEpochSize, kEpochSize);
+      static_cast<void>(pdu::store_record(pdu::PeerEpoch{heard.epochs[i]}, place));
+    }
+    pdu::PeersHeard list;
+    stamp.put(list);
+    list.continues = heard.continues;
+    list.epochs = std::span(epochs_).first(count * kEpochSize);
+    return std::span(octets_).first(pdu::encode(list, octets_));
+  }
 
  private:
   static constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
@@ -22,7 +23,16 @@ class TierSubscriptions {
   /// @param config of the subscription to the cells  @param cells outlives this
   /// @throws std::invalid_argument from Subscription
   TierSubscriptions(const TierTable& tiers, const CellPartition& cells,
-                    const SubscriptionConfig& config, TierReach reach);
+                    const SubscriptionConfig& config, TierReach reach)
+      : tiers_(tiers), reach_(std::move(reach)) {
+    by_tier_.reserve(tiers.count());
+    for (std::size_t tier = 0; tier < tiers.count(); ++tier) {
+      const auto subscription = tiers.kind(tier).subscription;
+      by_tier_.emplace_back(cells, subscription == nullptr ? config : subscription(config));
+    }
+    join_.reserve(cells.groups());
+    leave_.reserve(cells.groups());
+  }
 
   /// Subscription of the cell tier; cells are numbered as in the partition.
   [[nodiscard]] const Subscription& cells() const noexcept { return by_tier_.front(); }
@@ -40,14 +50,37 @@ class TierSubscriptions {
   /// Subscribes to the cells in reach of these foci, and to `besides`.
   /// @return changed cells, by number, valid until the next call for this tier
   SubscriptionChange update(std::size_t tier, std::span<const Focus> foci,
-                            std::chrono::nanoseconds now, std::span<const GroupIndex> besides = {});
+                            std::chrono::nanoseconds now,
+                            std::span<const GroupIndex> besides = {}) {
+    return by_tier_[tier].update(reach_of(tier, foci), now, besides);
+  }
   /// Maps changed cells to the groups of this tier.  @return valid until the next call
-  SubscriptionChange groups_of(std::size_t tier, const SubscriptionChange& cells);
+  SubscriptionChange groups_of(std::size_t tier, const SubscriptionChange& cells) {
+    join_.clear();
+    leave_.clear();
+    for (const GroupIndex cell : cells.join) join_.push_back(tiers_.group(tier, cell));
+    for (const GroupIndex cell : cells.leave) leave_.push_back(tiers_.group(tier, cell));
+    return {join_, leave_, cells.uncovered, cells.covered_share};
+  }
   /// Records joined and left groups, on which hears() depends.
-  void note(const SubscriptionChange& groups) noexcept;
+  void note(const SubscriptionChange& groups) noexcept {
+    const auto set = [this](GroupIndex group, bool joined) {
+      if (group.value >= joined_.size() || joined_[group.value] == joined) return;
+      joined_[group.value] = joined;
+      joined_count_ = joined ? joined_count_ + 1 : joined_count_ - 1;
+    };
+    for (const GroupIndex group : groups.join) set(group, true);
+    for (const GroupIndex group : groups.leave) set(group, false);
+  }
 
  private:
-  [[nodiscard]] std::span<const Focus> reach_of(std::size_t tier, std::span<const Focus> foci);
+  [[nodiscard]] std::span<const Focus> reach_of(std::size_t tier, std::span<const Focus> foci) {
+    const auto focus_of = tiers_.kind(tier).focus;
+    if (focus_of == nullptr) return foci;
+    foci_.assign(foci.begin(), foci.end());
+    for (Focus& focus : foci_) focus = focus_of(focus, tiers_.row_of(tier), reach_);
+    return foci_;
+  }
 
   TierTable tiers_;
   std::vector<Subscription> by_tier_;

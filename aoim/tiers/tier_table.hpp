@@ -30,7 +30,20 @@ class TierTable {
  public:
   /// @param besides kinds of all tiers except the cell's, in the order of their groups; of the
   /// tiers that run ahead, the innermost is first @param pool groups of one tier, >= 1
-  TierTable(std::span<const TierKind* const> besides, std::size_t pool);
+  TierTable(std::span<const TierKind* const> besides, std::size_t pool) : pool_(pool) {
+    kinds_.push_back(&kCellKind);
+    kinds_.insert(kinds_.end(), besides.begin(), besides.end());
+    rows_.resize(kinds_.size(), 0);
+    for (std::size_t tier = kCellTier + 1; tier < kinds_.size(); ++tier) {
+      if (kinds_[tier]->is_urgent) {
+        urgent_.push_back(tier);
+      } else {
+        rows_[tier] = ahead_.size();
+        ahead_.push_back(tier);
+      }
+    }
+    rows_[kCellTier] = last_row();
+  }
 
   [[nodiscard]] std::size_t count() const noexcept { return kinds_.size(); }
   [[nodiscard]] const TierKind& kind(std::size_t tier) const noexcept { return *kinds_[tier]; }

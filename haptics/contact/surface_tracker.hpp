@@ -5,6 +5,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 namespace reckon::haptics {
 
@@ -42,14 +44,30 @@ class SurfaceTracker {
 
   /// Takes an accepted update. @param age [s] on arrival  @param interval [s] since the last one
   /// @param miss [m] between the old prediction and the new one, if it is felt, else 0
-  void learn(double age, double interval, double miss) noexcept;
+  void learn(double age, double interval, double miss) noexcept {
+    if (!std::isfinite(age) || !std::isfinite(interval)) return;
+    const double line = std::clamp(age, 0.0, 1.0);
+    const double waited = std::clamp(interval, 0.0, kLongestInterval);
+    const double take = learnt_ ? kSmoothing : 1.0;
+    age_ += take * (line - age_);
+    delay_ += take * (line + waited - delay_);
+    miss_ += take * (miss - miss_);
+    learnt_ = true;
+  }
 
   /// Place of the rendered point after this step. @param predicted_before, predicted [m], the
   /// present record's prediction one step ago and now  @param shown [m], rendered one step ago
   [[nodiscard]] Eigen::Vector3d follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
                                        const Eigen::Vector3d& shown, double dt,
-                                       const Following& how) noexcept;
+                                       const Following& how) noexcept {
+    const double tau = time_constant(how);
+    const Eigen::Vector3d wanted = (predicted - predicted_before) / dt;
+    velocity_ += std::min(1.0, dt / (kVelocityRatio * tau)) * (wanted - velocity_);
+    const Eigen::Vector3d moved = shown + velocity_ * dt;
+    const double share = std::min(1.0, how.weight * std::min(how.share, dt / tau));
+    return moved + share * (predicted - moved);
+  }
 
   /// The rendered point is placed on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
@@ -69,9 +87,36 @@ class SurfaceTracker {
   [[nodiscard]] double delay() const noexcept { return delay_; }
 
   /// [s], 0.002 .. 0.1.
-  [[nodiscard]] double time_constant(const Following& how) const noexcept;
+  [[nodiscard]] double time_constant(const Following& how) const noexcept {
+    if (how.played) return kPlayed;
+    const double least = how.in_row ? how.stiffness / kRow : 0.0;
+    const double calm = std::clamp(std::max(kDelaysPerTau * delay_, least), kShortest, kLongest);
+    const double interval = delay_ - age_;
+    const bool known = interval < (age_ < kNearAge ? kSeldom : kOften);
+    if (!how.alone || !known || !(how.stiffness * age_ < kCloseCoupling)) return calm;
+    const double coupling = how.stiffness / kStiff * (delay_ + age_);
+    const double close = std::max({coupling, kShortestClose, miss_ / kPace});
+    return std::min(close, calm);
+  }
 
  private:
+  static constexpr double kDelaysPerTau = 2.0;
+  static constexpr double kShortest = 0.002;     // [s]
+  static constexpr double kLongest = 0.1;        // [s]
+  static constexpr double kRow = 11000.0;        // [N/m/s], stiffness over the least tau in a row
+  static constexpr double kVelocityRatio = 2.0;  // time constant of u over tau
+  static constexpr double kPlayed = 0.005;       // [s], for a playback
+  static constexpr double kSmoothing = 0.2;      // weight of a new update
+  static constexpr double kLongestInterval = 0.02;  // [s]
+  // Close following, for one hand alone that is near.
+  static constexpr double kStiff = 1400.0;         // [N/m]
+  static constexpr double kShortestClose = 0.003;  // [s]
+  static constexpr double kPace = 0.02;            // [m/s]
+  static constexpr double kNearAge = 0.0025;       // [s]
+  static constexpr double kOften = 0.01;           // [s]
+  static constexpr double kSeldom = 0.0195;        // [s]
+  static constexpr double kCloseCoupling = 4.5;    // [N s/m]
+
   double delay_ = 0.0;  // D [s]
   double age_ = 0.0;    // [s], part of D from the line
   double miss_ = 0.0;   // [m], smoothed

@@ -27,13 +27,37 @@ struct HandMapping {
 };
 
 /// Mirrors a polar vector: position, velocity, force.
-[[nodiscard]] Eigen::Vector3d mirrored(const Eigen::Vector3d& vector) noexcept;
+[[nodiscard]] inline Eigen::Vector3d mirrored(const Eigen::Vector3d& vector) noexcept {
+  return {-vector.x(), vector.y(), vector.z()};
+}
 /// Mirrors an axial vector: turn rate, torque.
-[[nodiscard]] Eigen::Vector3d mirrored_turn(const Eigen::Vector3d& vector) noexcept;
-[[nodiscard]] Eigen::Quaterniond mirrored(const Eigen::Quaterniond& orientation) noexcept;
+[[nodiscard]] inline Eigen::Vector3d mirrored_turn(const Eigen::Vector3d& vector) noexcept {
+  // A mirror M maps an axial vector v to -M v.
+  return {vector.x(), -vector.y(), -vector.z()};
+}
+[[nodiscard]] inline Eigen::Quaterniond mirrored(const Eigen::Quaterniond& orientation) noexcept {
+  // M R M is a rotation by the same angle about the mirrored axis in the opposite direction.
+  return {orientation.w(), orientation.x(), -orientation.y(), -orientation.z()};
+}
 
 /// The limits of a device in the hand's scale. The power is the same on both sides, so the force is
 /// divided by the scale, and stiffness and damping by its square.
-[[nodiscard]] DeviceLimits mapped(DeviceLimits limits, const HandMapping& mapping) noexcept;
+[[nodiscard]] inline DeviceLimits mapped(DeviceLimits limits, const HandMapping& mapping) noexcept {
+  const double scale = mapping.scale, square = scale * scale;
+  limits.max_force /= scale;
+  limits.max_stiffness /= square;
+  limits.damping /= square;
+  limits.lever *= scale;
+  limits.max_speed *= scale;
+  limits.resolution *= scale;
+  const Eigen::Vector3d from = scale * limits.workspace_min, to = scale * limits.workspace_max;
+  limits.workspace_min = from;
+  limits.workspace_max = to;
+  if (mapping.mirrored) {
+    limits.workspace_min.x() = -to.x();
+    limits.workspace_max.x() = -from.x();
+  }
+  return limits;
+}
 
 }  // namespace reckon::haptics

@@ -5,9 +5,11 @@
 
 #include <linux/input.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace reckon::haptics {
@@ -20,11 +22,28 @@ class EventState {
   static constexpr std::size_t kMostButtons = 32;  ///< further ones are ignored
 
   /// @param codes key codes of the buttons, by button number
-  explicit EventState(std::vector<std::uint16_t> codes = {});
+  explicit EventState(std::vector<std::uint16_t> codes = {}) : codes_(std::move(codes)) {
+    if (codes_.size() > kMostButtons) codes_.resize(kMostButtons);
+  }
 
   /// Sets the whole state, as queried from the kernel. @param axes readings
-  void set(const std::array<std::int32_t, kAxes>& axes, std::uint32_t buttons) noexcept;
-  void take(const input_event& event) noexcept;
+  void set(const std::array<std::int32_t, kAxes>& axes, std::uint32_t buttons) noexcept {
+    now_ = coming_ = {axes, buttons};
+    dropped_ = wants_all_ = false;
+  }
+  void take(const input_event& event) noexcept {
+    if (event.type == EV_SYN && event.code == SYN_DROPPED) dropped_ = true;
+    if (event.type == EV_SYN && event.code == SYN_REPORT) {
+      if (dropped_) {
+        wants_all_ = true;
+      } else {
+        now_ = coming_;
+      }
+    }
+    if (dropped_) return;
+    if (event.type == EV_ABS && event.code <= ABS_Y) coming_.axes[event.code] = event.value;
+    if (event.type == EV_KEY) take_button(event.code, event.value != 0);
+  }
   /// Whether events were dropped and their frame has ended: set() is due.
   [[nodiscard]] bool wants_all() const noexcept { return wants_all_; }
 
@@ -39,7 +58,12 @@ class EventState {
     std::uint32_t buttons = 0;
   };
 
-  void take_button(std::uint16_t code, bool is_down) noexcept;
+  void take_button(std::uint16_t code, bool is_down) noexcept {
+    const auto found = std::ranges::find(codes_, code);
+    if (found == codes_.end()) return;
+    const std::uint32_t bit = 1U << (found - codes_.begin());
+    coming_.buttons = is_down ? coming_.buttons | bit : coming_.buttons & ~bit;
+  }
 
   std::vector<std::uint16_t> codes_;
   Frame now_, coming_;

@@ -37,10 +37,32 @@ class MeasuringServo {
   /// @param device, stop outlive it @param period of the steps, 0.1 to 10 ms @param reports the
   /// same device if it sends reports at its own times; null otherwise
   MeasuringServo(HapticDevice& device, const ForceStop& stop, std::chrono::nanoseconds period,
-                 const UsbDevice* reports = nullptr);
+                 const UsbDevice* reports = nullptr)
+      : device_(device), stop_(stop), period_(period), reports_(reports) {}
 
   /// One servo step. @param now steady
-  void step(std::chrono::nanoseconds now);
+  void step(std::chrono::nanoseconds now) {
+    DeviceSample sample = device_.read(now);
+    // The receive time of a report is more accurate than the times of the writes.
+    if (reports_ != nullptr && !reports_->has_clock()) sample.took.reset();
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    MeasuringStage stage = stage_;
+    if (stage < MeasuringStage::pushing)
+      stage = begin_ ? MeasuringStage::pushing : looked_at(sample);
+    if (stage == MeasuringStage::pushing) {
+      if (halt_) {
+        stage = MeasuringStage::halted;
+      } else if (stop_.is_pressed()) {
+        stage = MeasuringStage::stopped;
+      } else {
+        force = reports_ == nullptr ? run_->step(sample, now)
+                                    : run_->step(sample, now, reports_->heard());
+        if (run_->is_done()) stage = MeasuringStage::ended;
+      }
+    }
+    device_.write(force, now);
+    stage_ = stage;
+  }
 
   [[nodiscard]] MeasuringStage stage() const noexcept {
     const MeasuringStage stage = stage_;
@@ -48,17 +70,31 @@ class MeasuringServo {
   }
   /// Pushes from the next step on. @param axes see DeviceMeasurement @return false, without effect,
   /// if it is not ready or the software stop is pressed
-  [[nodiscard]] bool begin(DeviceMeasurement::Axes axes);
+  [[nodiscard]] bool begin(DeviceMeasurement::Axes axes) {
+    if (stage() != MeasuringStage::ready || stop_.is_pressed()) return false;
+    run_.emplace(device_.limits(), period_, axes);
+    begin_ = true;
+    return true;
+  }
   /// Zero force from the next step on, permanently.
   void halt() noexcept { halt_ = true; }
   /// Fits an axis with completed pushes, if one is pending, in about 0.5 s. Call it regularly.
   /// @return whether one was pending
-  bool judge();
+  bool judge() {
+    if (stage() != MeasuringStage::pushing || !run_->needs_judging()) return false;
+    run_->judge();
+    return true;
+  }
   /// The run, from begin() on; its result is valid from stage `ended` on.
   [[nodiscard]] const std::optional<DeviceMeasurement>& run() const noexcept { return run_; }
 
  private:
-  [[nodiscard]] MeasuringStage looked_at(const DeviceSample& sample) noexcept;
+  [[nodiscard]] MeasuringStage looked_at(const DeviceSample& sample) noexcept {
+    const bool is_good = sample.ok && sample.enabled;
+    good_ = is_good ? good_ + 1 : 0;
+    if (sample.ok && !sample.enabled) return MeasuringStage::switch_off;
+    return good_ * period_ >= kReady ? MeasuringStage::ready : MeasuringStage::waiting;
+  }
 
   HapticDevice& device_;
   const ForceStop& stop_;

@@ -3,6 +3,8 @@
 // Energy books of a device that renders springs by itself.
 #pragma once
 
+#include <algorithm>
+
 #include "reckon/haptics/passivity/spring_wall.hpp"
 
 namespace reckon::haptics {
@@ -26,9 +28,28 @@ class WallBooks {
   /// costs nothing. About 2 us.
   /// @param places possible positions of the handle until the device has the wall
   [[nodiscard]] SpringWall payable(std::size_t axis, WallSide side, const SpringWall& wanted,
-                                   PlaceRange places) const noexcept;
+                                   PlaceRange places) const noexcept {
+    // A wall out of reach of the handle stores nothing, so it is always affordable.
+    constexpr int kHalvings = 30;
+    const SpringWall& old = shown_.wall(axis, side);
+    const double there = std::max(0.0, energy_);
+    const auto is_paid = [&](double at) {
+      return worst_rise(old, {at, wanted.stiffness, wanted.most}, side, places) <= there;
+    };
+    if (is_paid(wanted.at)) return wanted;
+    double paid = side == WallSide::below ? places.from : places.to, unpaid = wanted.at;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (paid + unpaid);
+      (is_paid(middle) ? paid : unpaid) = middle;
+    }
+    return {paid, wanted.stiffness, wanted.most};
+  }
   /// Books a wall that was sent to the device.
-  void book(std::size_t axis, WallSide side, const SpringWall& wall, PlaceRange places) noexcept;
+  void book(std::size_t axis, WallSide side, const SpringWall& wall, PlaceRange places) noexcept {
+    SpringWall& old = shown_.wall(axis, side);
+    energy_ = std::min(kMost, energy_ - worst_rise(old, wall, side, places));
+    old = wall;
+  }
   /// The device may have ended its effects by itself, or not: writes off the stored energy.
   void forget() noexcept { shown_ = {}; }
 

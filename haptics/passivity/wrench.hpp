@@ -5,6 +5,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "reckon/haptics/passivity/split.hpp"
 
@@ -29,9 +31,21 @@ inline constexpr double kMostTurn = 0.02;
 /// for rotations up to kMostTurn: J^T K J plus the effect of the curved path of a rotating probe
 /// (at most |r| turn^2 / 2 off the straight path).
 /// @param r [m]  @param stiffness of the potential [N/m], symmetric, >= 0  @param f its force [N]
-[[nodiscard]] WrenchCurvature curvature_of(const Eigen::Vector3d& r,
-                                           const Eigen::Matrix3d& stiffness,
-                                           const Eigen::Vector3d& f) noexcept;
+[[nodiscard]] inline WrenchCurvature curvature_of(const Eigen::Vector3d& r,
+                                                  const Eigen::Matrix3d& stiffness,
+                                                  const Eigen::Vector3d& f) noexcept {
+  Eigen::Matrix<double, 3, 6> motion;  // of the probe
+  motion.leftCols<3>().setIdentity();
+  motion.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
+  WrenchCurvature curvature = motion.transpose() * stiffness * motion;
+  // With the deviation e from the straight path u: -f e + u K e + e K e / 2, where |e| <= |r|
+  // turn^2 / 2.
+  const double lever = r.norm(), most = stiffness.norm() * kMostTurn;
+  curvature.diagonal().head<3>().array() += 0.5 * most;
+  curvature.diagonal().tail<3>().array() +=
+      lever * f.norm() + (1.5 + 0.25 * kMostTurn) * most * lever * lever;
+  return curvature;
+}
 
 /// The six axes of a device, scaled so that each has a damping of 1: forces by 1 / sqrt(b), motions
 /// by sqrt(b). Work and loss do not change, so a port with one damping serves all axes.
@@ -51,7 +65,14 @@ class DampedAxes {
     return scaled.cwiseProduct(root_);
   }
   /// Greatest curvature in scaled axes [1/s], for PortLoadOf. @param curvature symmetric
-  [[nodiscard]] double slope(const WrenchCurvature& curvature) const noexcept;
+  [[nodiscard]] double slope(const WrenchCurvature& curvature) const noexcept {
+    const Wrench inverse = root_.cwiseInverse();
+    const WrenchCurvature scaled = inverse.asDiagonal() * curvature * inverse.asDiagonal();
+    return std::max(0.0,
+                    Eigen::SelfAdjointEigenSolver<WrenchCurvature>(scaled, Eigen::EigenvaluesOnly)
+                        .eigenvalues()
+                        .maxCoeff());
+  }
 
  private:
   Wrench root_;

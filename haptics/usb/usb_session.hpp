@@ -4,6 +4,7 @@
 // Pure: octets and time are passed in.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -38,11 +39,46 @@ class UsbSession {
       : exchange_(exchange), driver_(driver), run_(run), heard_at_(now) {}
 
   /// Handles a received transfer.
-  void take(std::span<const std::uint8_t> transfer, std::chrono::nanoseconds now) noexcept;
+  void take(std::span<const std::uint8_t> transfer, std::chrono::nanoseconds now) noexcept {
+    while (driver_.read(transfer)) {
+      if (!awaiting_) continue;
+      awaiting_ = false;
+      heard_at_ = now;
+      if (stage_ == UsbStage::running && timed_ < kTimed) {
+        longest_ = std::max(longest_, now - sent_at_);
+        ++timed_;
+      }
+      answer(now);
+    }
+  }
   /// The command to send now, if any; valid until the next call. Call only while no command is
   /// being sent, and send the result at once.
   [[nodiscard]] std::optional<std::span<const std::uint8_t>> next(
-      std::chrono::nanoseconds now) noexcept;
+      std::chrono::nanoseconds now) noexcept {
+    if (awaiting_) {
+      if (!is_late(now)) return std::nullopt;
+      ++late_;
+      leave(UsbStage::silent);
+      awaiting_ = false;
+      deaf_until_ = now + kPause;
+      driver_.restart();
+      return driver_.command(stage_, nullptr);
+    }
+    if (now < deaf_until_) return std::nullopt;
+
+    exchange_.force.update();
+    const UsbForce& newest = exchange_.force.read();
+    const bool silent = newest.number == 0 || now - newest.at > kSilence;
+    if (silent && !servo_silent_) end_run();
+    servo_silent_ = silent;
+    const bool shows = stage_ == UsbStage::running && !silent;
+    sent_ = newest.number;
+    sent_at_ = now;
+    awaiting_ = true;
+    const auto octets = driver_.command(stage_, shows ? &newest : nullptr);
+    sent_share_ = driver_.share();
+    return octets;
+  }
   /// Whether a report is overdue.
   [[nodiscard]] bool is_late(std::chrono::nanoseconds now) const noexcept {
     return awaiting_ && now - sent_at_ > kLate;
@@ -53,7 +89,7 @@ class UsbSession {
   }
   [[nodiscard]] UsbStage stage() const noexcept { return stage_; }
   /// Ends the run: the connection is lost, and earlier readings are invalid. Only run() may follow.
-  void end_run() noexcept;
+  void end_run() noexcept { exchange_.ended_run.store(run_++, std::memory_order_release); }
   /// Run number of the next readings.
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
   /// Reports that were late, since the start.
@@ -65,8 +101,26 @@ class UsbSession {
   static constexpr int kTimed = 500;
 
  private:
-  void answer(std::chrono::nanoseconds now) noexcept;
-  void leave(UsbStage stage) noexcept;
+  void answer(std::chrono::nanoseconds now) noexcept {
+    UsbReading reading;
+    reading.heard = now;
+    reading.before = held_;
+    reading.held = held_share_;
+    held_ = sent_;
+    held_share_ = sent_share_;
+    const UsbStage stage = driver_.judge(stage_ == UsbStage::running, reading);
+    if (stage != UsbStage::running) return leave(stage);
+    stage_ = stage;
+    if (servo_silent_) return;
+    reading.after = sent_;
+    reading.run = run_;
+    exchange_.readings.push(reading);
+  }
+  void leave(UsbStage stage) noexcept {
+    // The next command drops the force, and a new run of readings begins.
+    if (stage_ == UsbStage::running) end_run();
+    stage_ = stage;
+  }
 
   UsbExchange& exchange_;
   UsbDriver& driver_;

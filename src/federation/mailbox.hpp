@@ -57,7 +57,15 @@ struct Wishes {
     return registered.empty() && moved.empty() && appearances.empty() && parts.empty() &&
            removed.empty() && said.empty();
   }
-  void clear() noexcept;
+  void clear() noexcept {
+    registered.clear();
+    moved.clear();
+    appearances.clear();
+    parts.clear();
+    removed.clear();
+    said.clear();
+    octets.clear();
+  }
 };
 
 /// Events since the last letter.
@@ -79,7 +87,12 @@ struct News {
   std::vector<std::byte> octets;
   std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read
 
-  void clear() noexcept;
+  void clear() noexcept {
+    states.clear();
+    removed.clear();
+    heard.clear();
+    octets.clear();
+  }
 };
 
 /// A letter that one side fills and the other empties, in two alternating copies: while the reader

@@ -4,6 +4,7 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -21,7 +22,15 @@ namespace reckon::peer {
 /// Thread of the model loop.
 class BodyStage {
  public:
-  explicit BodyStage(const ModelWiring& wiring);
+  explicit BodyStage(const ModelWiring& wiring)
+      : scene_(wiring.scene),
+        own_(wiring.own_bodies),
+        mover_(wiring.mover),
+        has_any_(std::ranges::any_of(scene_.scene.objects, [](const haptics::SceneObject& object) {
+          return object.matter.mass > 0;
+        })) {
+    if (mover_ != nullptr) remote_.emplace(mover_->shown(), owner_, scene_.network.interop);
+  }
 
   /// Makes entities of the bodies that this peer owns, by add(number, description), with numbers
   /// from `first` on.
@@ -52,20 +61,41 @@ class BodyStage {
 
   /// Takes an update that the table of remote entities has accepted.
   void note(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
-            RemoteEntities& remote) noexcept;
+            RemoteEntities& remote) noexcept {
+    if (!remote_ || !update.has_state || !body_of(update.state.entity_type)) return;
+    if (owner_.epoch() == 0) owner_.look(presence);
+    remote_->note(update, arrival, remote);
+  }
   /// Publishes the bodies of other owners. @param offset universal time minus the servos' time
-  void publish(std::chrono::nanoseconds offset, RemoteEntities& remote) noexcept;
+  void publish(std::chrono::nanoseconds offset, RemoteEntities& remote) noexcept {
+    if (mover_ == nullptr) return;
+    mover_->set_offset(offset);
+    remote_->publish(remote);
+  }
   /// Finds the owner of the bodies among the peers, if the scene has any.
   void look(const aoim::Presence& presence) noexcept {
     if (has_any_) owner_.look(presence);
   }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
   /// Writes their number, and the number of awake ones.
-  void show(PeerView& view) const noexcept;
+  void show(PeerView& view) const noexcept {
+    if (own_ == nullptr) return;
+    const haptics::BodyStates& states = own_->read();
+    view.bodies = states.bodies.size();
+    view.bodies_awake =
+        static_cast<std::size_t>(std::ranges::count_if(states.bodies, &haptics::BodyState::awake));
+    view.bodies_not_woken = states.crowded;
+  }
 
  private:
   [[nodiscard]] EntityDescription description_of(const haptics::SceneObject& object,
-                                                 std::size_t number) const;
+                                                 std::size_t number) const {
+    EntityDescription description;
+    description.marking = object.name;
+    description.type = body_type(number);
+    description.dead_reckoning = scene_.dead_reckoning;
+    return description;
+  }
 
   const SceneFile& scene_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours

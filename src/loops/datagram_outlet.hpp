@@ -3,11 +3,13 @@
 // Exit of datagrams from the model loop into the writer's ring. Reports each to the tap.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <span>
 
 #include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 
@@ -27,22 +29,43 @@ class DatagramOutlet {
   static constexpr std::size_t kAhead = 4;
 
   /// Begins a pass.
-  void begin(std::chrono::nanoseconds now) noexcept;
+  void begin(std::chrono::nanoseconds now) noexcept {
+    const double passed = pdu::to_seconds(now - filled_);
+    filled_ = now;
+    tokens_ = std::min(kBurst, tokens_ + kRate * std::max(0.0, passed));
+  }
   /// Datagrams that the ring has room for.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
   /// Updates that may be sent in this pass.
-  [[nodiscard]] std::size_t paced_room() const noexcept;
+  [[nodiscard]] std::size_t paced_room() const noexcept {
+    const auto paced = static_cast<std::size_t>(std::max(0.0, tokens_)) * kAhead;
+    return std::min(room(), paced);
+  }
   /// Sends to a group of the pool; counted and dropped if the writer lags.
-  void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
+  void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+    tokens_ -= 1.0;
+    const bool fits = ring_.push(address_of(group), std::chrono::nanoseconds(0), octets);
+    if (!fits) counted_.write_overflow.add();
+    note(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
+  }
   /// Does not send a datagram that a mechanism refused.
   void withhold(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
     note(group, octets, DatagramFate::withheld);
   }
   /// Drops a stale datagram instead of sending it.
-  void drop_stale(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
+  void drop_stale(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+    counted_.stale_unsent.add();
+    note(group, octets, DatagramFate::stale_unsent);
+  }
 
  private:
-  void note(aoim::GroupIndex group, std::span<const std::byte> octets, DatagramFate more) noexcept;
+  void note(aoim::GroupIndex group, std::span<const std::byte> octets, DatagramFate more) noexcept {
+    // Reports to the tap that the datagram has a number, and an immediate fate if any.
+    if (tap_ == nullptr) return;
+    tap_->note(DatagramTap::Loop::model, DatagramFate::numbered, address_of(group), octets);
+    if (more != DatagramFate::numbered)
+      tap_->note(DatagramTap::Loop::model, more, address_of(group), octets);
+  }
   [[nodiscard]] GroupAddress address_of(aoim::GroupIndex group) const noexcept {
     return group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
   }

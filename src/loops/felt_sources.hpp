@@ -10,6 +10,7 @@
 #include <span>
 
 #include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/world/near_bodies.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -39,9 +40,34 @@ class FeltSourcesPublisher {
   /// Publishes the sources of these bodies if they changed. With more than FeltSources::kMost,
   /// `all` is set.  @param bodies within reach of each hand  @param all whether further bodies can
   /// be felt
-  void publish(std::span<const NearBodies> bodies, bool all, const RemoteEntities& remote) noexcept;
+  void publish(std::span<const NearBodies> bodies, bool all,
+               const RemoteEntities& remote) noexcept {
+    if (out_ == nullptr) return;
+    FeltSources felt;
+    felt.all = all;
+    for (const NearBodies& in_reach : bodies)
+      for (const NearBody& body : in_reach.bodies())
+        if (body.row != nullptr) add(felt, endpoint_of(remote.owner(*body.row)));
+    if (is_same(felt, published_)) return;
+    published_ = felt;
+    out_->write_slot() = felt;
+    out_->publish();
+  }
 
  private:
+  static void add(FeltSources& felt, const IpEndpoint& source) noexcept {
+    if (felt.contains(source)) {
+      felt.all = felt.all || source.is_unspecified();
+    } else if (felt.count == FeltSources::kMost) {
+      felt.all = true;
+    } else {
+      felt.sources[felt.count++] = source;
+    }
+  }
+  static bool is_same(const FeltSources& a, const FeltSources& b) noexcept {
+    return a.all == b.all && a.count == b.count && a.sources == b.sources;
+  }
+
   haptics::TripleBuffer<FeltSources>* out_;
   FeltSources published_;
 };

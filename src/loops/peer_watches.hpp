@@ -22,13 +22,22 @@ class PeerWatches {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  explicit PeerWatches(const ModelWiring& wiring);
+  explicit PeerWatches(const ModelWiring& wiring)
+      : muted_(wiring.muted),
+        refused_(wiring.refused),
+        interop_(wiring.scene.network.interop),
+        notices_(256),
+        silence_watch_(wiring.counters) {}
   PeerWatches(const PeerWatches&) = delete;
   PeerWatches& operator=(const PeerWatches&) = delete;
 
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
   /// Reports an event of a peer.
-  void report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept;
+  void report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept {
+    // The sender of a discovery request is no peer yet.
+    if (event.announced.scene_peer == pdu::kScenePeerWanted) return;
+    notice_gate_.report(event, now, notices_);
+  }
   /// Reports a refused order; see RefusalWatch.
   void note_order(const pdu::EntityId& originator, std::string_view order,
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept {
@@ -44,7 +53,20 @@ class PeerWatches {
   /// Reports rivals of the owner of the scene's bodies; call it some twenty times a second.
   void look(const BodyOwner& bodies, Nanoseconds now) noexcept { refusal_watch_.look(bodies, now); }
   /// Makes the remaining reports; call it some twenty times a second.
-  void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
+  void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept {
+    while (const MutedSender* sender = muted_ == nullptr ? nullptr : muted_->front()) {
+      notice_gate_.report(*sender, now, notices_);
+      muted_->pop();
+    }
+    while (const RefusedSender* sender = refused_ == nullptr ? nullptr : refused_->front()) {
+      notice_gate_.report_refusal(notice_of(*sender, interop_), source_of(sender->who), now,
+                                  notices_);
+      refused_->pop();
+    }
+    notice_gate_.look(now, notices_);
+    refusal_watch_.look(remote, own, now);
+    refusal_watch_.look(silence_watch_, now);
+  }
 
  private:
   haptics::SpscRing<MutedSender>* muted_;

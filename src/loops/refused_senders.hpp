@@ -36,9 +36,32 @@ class RefusedSenders {
   explicit RefusedSenders(haptics::SpscRing<RefusedSender>& out) noexcept : out_(out) {}
 
   /// @param datagram refused, for a reason other than `none`  @param now steady time
-  void note(const Datagram& datagram, Refusal why, std::chrono::nanoseconds now) noexcept;
+  void note(const Datagram& datagram, Refusal why, std::chrono::nanoseconds now) noexcept {
+    if (why == Refusal::sealed) return;  // LimitWatch reports it
+    for (Row& row : rows_) {
+      if (row.report.count == 0) {
+        const std::size_t at = why == Refusal::exercise ? 1 : 0;
+        const auto octet = at < datagram.bytes.size() ? datagram.bytes[at] : std::byte{0};
+        row = {{datagram.sender, why, std::to_integer<std::uint8_t>(octet), 0}, now + kGather};
+      }
+      if (row.report.who != datagram.sender || row.report.why != why) continue;
+      ++row.report.count;
+      return;
+    }
+    ++others_.report.count;
+    if (others_.due < std::chrono::nanoseconds(0))
+      others_.due = now + (others_.report.count == 1 ? kGather : kAgain);
+  }
   /// Call it some times a second.
-  void look(std::chrono::nanoseconds now) noexcept;
+  void look(std::chrono::nanoseconds now) noexcept {
+    const auto report = [&](Row& row) {
+      if (row.due < std::chrono::nanoseconds(0) || now < row.due) return;
+      row.due = std::chrono::nanoseconds(-1);
+      static_cast<void>(out_.push(row.report));
+    };
+    for (Row& row : rows_) report(row);
+    report(others_);
+  }
 
  private:
   struct Row {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,24 @@ struct LanLinkOptions {
 class LanLink {
  public:
   /// @param clock outlives this.  @throws the exceptions of UdpMulticast and ImpairedLink.
-  LanLink(const LanLinkOptions& options, const Clock& clock);
+  LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(options.udp, clock) {
+    if (!options.peers.empty()) {
+      FanOutOptions to;
+      to.peers = resolve_peers(options.peers, options.pool.base().port, options.udp.ipv6);
+      to.exercise = options.exercise;
+      to.plain = options.plain;
+      to.tap = options.udp.tap;
+      fan_out_ = std::make_unique<FanOutLink>(udp_, options.pool, to);
+    }
+    if (options.law.is_perfect() && !options.changes) return;
+    ImpairedLinkOptions impaired;
+    impaired.law = options.law;
+    impaired.seed = options.seed;
+    impaired.receiver = options.receiver;
+    impaired.start = clock.now();
+    impaired.tap = options.udp.tap;
+    impaired_ = std::make_unique<ImpairedLink>(link(), impaired, clock);
+  }
 
   /// The link for the peer.
   [[nodiscard]] Link& link() noexcept {
@@ -44,11 +62,23 @@ class LanLink {
     return fan_out_ ? *fan_out_ : static_cast<Link&>(udp_);
   }
   /// See ImpairedLink::change_law(). @throws std::logic_error without `changes`
-  void change_law(const ImpairmentLaw& law);
+  void change_law(const ImpairmentLaw& law) {
+    if (!impaired_) throw std::logic_error("this link's impairment does not change: see `changes`");
+    impaired_->change_law(law);
+  }
   [[nodiscard]] const UdpMulticast& udp() const noexcept { return udp_; }
   /// Sentences for the user: the chosen interface with the reason, then what falls short of the
   /// request.
-  [[nodiscard]] std::vector<std::string> report() const;
+  [[nodiscard]] std::vector<std::string> report() const {
+    std::vector<std::string> sentences{udp_.choice().explanation};
+    if (fan_out_) {
+      sentences.push_back("to no group: each datagram goes to " +
+                          std::to_string(fan_out_->peers()) +
+                          " others of the list; our address is " + udp_.local_endpoint().text());
+    }
+    sentences.insert(sentences.end(), udp_.warnings().begin(), udp_.warnings().end());
+    return sentences;
+  }
 
  private:
   UdpMulticast udp_;

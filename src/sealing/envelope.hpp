@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -132,7 +133,19 @@ struct ExercisePlaces {
 }
 
 /// Writes the header; count below 2^48 (assert).
-void write_envelope(const EnvelopeHeader& header,
-                    std::span<std::byte, kEnvelopeHeader> out) noexcept;
+inline void write_envelope(const EnvelopeHeader& header,
+                           std::span<std::byte, kEnvelopeHeader> out) noexcept {
+  assert(header.count <= kEnvelopeCountMask);
+  std::byte* at = out.data();
+  const std::uint64_t front = std::uint64_t{kSealedOctet} << 56 |
+                              std::uint64_t{static_cast<std::uint8_t>(header.suite)} << 48 |
+                              std::uint64_t{header.epoch} << 32 |
+                              std::uint64_t{header.sealer.site} << 16 | header.sealer.application;
+  pdu::store_big_endian(at, front);
+  pdu::store_big_endian(at + 8, header.sealer.boot);
+  pdu::store_big_endian(at + 16, std::uint64_t{header.stream} << kEnvelopeCountBits | header.count);
+  pdu::store_big_endian(at + 24, header.stamp);
+  pdu::store_big_endian(at + 28, header.salt);
+}
 
 }  // namespace reckon::peer

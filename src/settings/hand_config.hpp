@@ -12,6 +12,7 @@
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/haptics/scene/grab_spring.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -33,7 +34,18 @@ struct HandModel {
 };
 
 /// `hand` as the force model to send: kind sphere, both points at the body's origin.
-[[nodiscard]] deadreckon::ForceModel to_force_model(const HandModel& hand);
+[[nodiscard]] inline deadreckon::ForceModel to_force_model(const HandModel& hand) {
+  deadreckon::ForceModel model;
+  model.kind = pdu::ForceModelKind::sphere;
+  model.radius = hand.radius;
+  model.k1 = hand.k1;
+  model.k3 = hand.k3;
+  model.damping = hand.damping;
+  model.static_friction = hand.static_friction;
+  model.kinetic_friction = hand.kinetic_friction;
+  model.validity = pdu::to_seconds(hand.validity);
+  return model;
+}
 
 /// Motion of a simulated hand.
 enum class OperatorKind : std::uint8_t { passive, trace, sweep };

@@ -7,9 +7,11 @@
 #include <chrono>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/threads/real_time_priority.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
 
@@ -23,14 +25,28 @@ class DeviceThread {
   /// @param clock the servo's clock; outlives this  @param name at most 15 letters
   /// @param step called repeatedly, may wait for kLongestWait @throws std::system_error if no
   /// thread can be created
-  DeviceThread(const Clock& clock, const char* name, std::function<void()> step);
+  DeviceThread(const Clock& clock, const char* name, std::function<void()> step)
+      : clock_(clock), step_(std::move(step)), pulse_(clock, kSilence), thread_([this] { run(); }) {
+    name_thread(thread_.native_handle(), name);
+  }
   /// Waits for the end of the present step.
-  ~DeviceThread();
+  ~DeviceThread() {
+    stop_ = true;
+    thread_.join();
+  }
   DeviceThread(const DeviceThread&) = delete;
   DeviceThread& operator=(const DeviceThread&) = delete;
 
  private:
-  void run() noexcept;
+  static constexpr std::chrono::milliseconds kSilence{500};
+
+  void run() noexcept {
+    RealTimePriority priority(kPriority, pulse_);
+    while (!stop_) {
+      step_();
+      if (priority.starves_others(clock_.now())) priority.give_up();
+    }
+  }
 
   const Clock& clock_;
   std::function<void()> step_;

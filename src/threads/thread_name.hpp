@@ -6,6 +6,8 @@
 
 #include <pthread.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -19,6 +21,10 @@ inline constexpr std::size_t kLongestThreadName = 15;
 ///
 ///   std::thread thread(loop);
 ///   name_thread(thread.native_handle(), "rk-servo 1");
-void name_thread(pthread_t thread, std::string_view name) noexcept;
+inline void name_thread(pthread_t thread, std::string_view name) noexcept {
+  std::array<char, kLongestThreadName + 1> text{};
+  std::copy_n(name.begin(), std::min(name.size(), kLongestThreadName), text.begin());
+  static_cast<void>(pthread_setname_np(thread, text.data()));
+}
 
 }  // namespace reckon::peer

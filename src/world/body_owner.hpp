@@ -23,7 +23,21 @@ struct BodyRival {
 class BodyOwner {
  public:
   /// Finds owner and rival among the peers. Call it some times a second.
-  void look(const aoim::Presence& presence) noexcept;
+  void look(const aoim::Presence& presence) noexcept {
+    const bool own_first = presence.own().scene_peer == 1;
+    const aoim::Peer *owner = nullptr, *last = nullptr;
+    const auto is_owner = [&](const aoim::Peer& peer) { return peer.announced.epoch == epoch_; };
+    for (const aoim::Peer& peer : presence.peers()) {
+      if (!peer.joined || peer.announced.scene_peer != 1) continue;
+      const bool first = owner == nullptr || peer.known_since < owner->known_since;
+      if (is_owner(peer) || (first && !(owner != nullptr && is_owner(*owner)))) owner = &peer;
+      if (last == nullptr || peer.known_since > last->known_since) last = &peer;
+    }
+    epoch_ = own_first || owner == nullptr ? 0 : owner->announced.epoch;
+    rival_.reset();
+    if (last != nullptr && (own_first || last != owner))
+      rival_ = {last->id(), own_first ? presence.id() : owner->id(), last->source};
+  }
   /// Epoch of the owner; 0 if it is this peer or not known.
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
   /// The last peer other than the owner to announce number 1, if there is one.

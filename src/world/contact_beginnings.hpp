@@ -4,6 +4,7 @@
 // exerts no force until it has been outside.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -39,7 +40,27 @@ class ContactBeginnings {
   /// @param hand 0 .. kHands - 1  @param depth [m] of the contact, <= 0 if the surfaces are apart
   /// @return whether it may press the hand
   [[nodiscard]] bool may_press(std::size_t place, const RemoteEntity& row, std::size_t hand,
-                               double depth, const RowOwners& owners, Nanoseconds now) noexcept;
+                               double depth, const RowOwners& owners, Nanoseconds now) noexcept {
+    const auto bit = static_cast<std::uint8_t>(1U << hand);
+    if (!(depth > 0.0)) {
+      outside_[place] = static_cast<std::uint8_t>(outside_[place] | bit);
+      return true;
+    }
+    Hand& peers = pressed_[hand];
+    const aoim::PeerId peer = row.id.simulation();
+    const aoim::SourceAddress& from = owners.owner(place);
+    if ((outside_[place] & bit) == 0) {
+      const Pressed* before = find(peers, peer, from);
+      if (before == nullptr || now - before->at > kRemembered) {
+        ++held_back_;
+        last_held_back_ = row.id;
+        return false;
+      }
+      outside_[place] = static_cast<std::uint8_t>(outside_[place] | bit);
+    }
+    note_pressed(peers, peer, from, now);
+    return true;
+  }
 
   /// Checks after which a body was held back, and the last such body.
   [[nodiscard]] std::uint64_t held_back() const noexcept { return held_back_; }
@@ -54,9 +75,19 @@ class ContactBeginnings {
   using Hand = std::array<Pressed, kPeers>;
 
   [[nodiscard]] static Pressed* find(Hand& hand, const aoim::PeerId& peer,
-                                     const aoim::SourceAddress& from) noexcept;
+                                     const aoim::SourceAddress& from) noexcept {
+    const auto found = std::ranges::find_if(hand, [&](const Pressed& one) {
+      const bool sealed = one.from.boot != 0 && from.boot != 0;
+      return one.peer == peer && (sealed || one.from.octets == from.octets);
+    });
+    return found == hand.end() ? nullptr : &*found;
+  }
   static void note_pressed(Hand& hand, const aoim::PeerId& peer, const aoim::SourceAddress& from,
-                           Nanoseconds now) noexcept;
+                           Nanoseconds now) noexcept {
+    Pressed* one = find(hand, peer, from);
+    if (one == nullptr) one = &*std::ranges::min_element(hand, {}, &Pressed::at);
+    *one = {peer, from, now};
+  }
 
   RowColumn<std::uint8_t> outside_;  // bit i: has been outside of hand i
   std::array<Hand, kHands> pressed_{};

@@ -32,8 +32,27 @@ class ContactRecorder {
     std::chrono::nanoseconds valid_until{0};
     friend bool operator==(const Mark&, const Mark&) = default;
   };
-  void record(const haptics::ContactSet& set, std::chrono::nanoseconds now) noexcept;
-  [[nodiscard]] bool is_known(const haptics::ContactSet& set) const noexcept;
+  void record(const haptics::ContactSet& set, std::chrono::nanoseconds now) noexcept {
+    // If the ring is full, the next set is recorded instead.
+    if (is_known(set)) return;
+    haptics::TimedContactSet* slot = ring_->claim();
+    if (slot == nullptr) return;
+    slot->time = now;
+    slot->set = set;
+    ring_->publish();
+    count_ = set.count;
+    frozen_ = set.frozen;
+    for (std::size_t i = 0; i < count_; ++i)
+      marks_[i] = {set.hands[i].id, set.hands[i].version, set.hands[i].valid_until};
+  }
+  [[nodiscard]] bool is_known(const haptics::ContactSet& set) const noexcept {
+    if (set.count != count_ || set.frozen != frozen_) return false;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const haptics::RemoteHand& hand = set.hands[i];
+      if (marks_[i] != Mark{hand.id, hand.version, hand.valid_until}) return false;
+    }
+    return true;
+  }
 
   haptics::ContactRing* ring_ = nullptr;
   std::array<Mark, haptics::kMaxRemoteHands> marks_{};  // of the last set in the ring

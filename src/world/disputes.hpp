@@ -3,6 +3,7 @@
 // Impostors: each pair of owner and sender is reported once, however often it is received.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -31,9 +32,30 @@ class Disputes {
   static constexpr std::chrono::nanoseconds kGap = std::chrono::seconds(1);
 
   /// Records one more refused datagram or update. Some 20 ns.
-  void note(const Dispute& dispute, std::chrono::nanoseconds now) noexcept;
+  void note(const Dispute& dispute, std::chrono::nanoseconds now) noexcept {
+    if (Pair* known = find(dispute)) {
+      if (now - known->last > kQuiet) *known = {dispute, now, now, false};
+      known->last = now;
+      return;
+    }
+    const auto quietest = [](const Pair& a, const Pair& b) { return a.last < b.last; };
+    Pair& place = count_ < kPairs ? pairs_[count_++]
+                                  : *std::min_element(pairs_.begin(), pairs_.end(), quietest);
+    place = {dispute, now, now, false};
+  }
   /// The oldest dispute that is not reported yet, at most one in kGap.
-  [[nodiscard]] std::optional<Dispute> take_news(std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::optional<Dispute> take_news(std::chrono::nanoseconds now) noexcept {
+    if (last_news_ && now - *last_news_ < kGap) return {};
+    Pair* oldest = nullptr;
+    for (std::size_t i = 0; i < count_; ++i) {
+      Pair& pair = pairs_[i];
+      if (!pair.reported && (oldest == nullptr || pair.first < oldest->first)) oldest = &pair;
+    }
+    if (oldest == nullptr) return {};
+    oldest->reported = true;
+    last_news_ = now;
+    return oldest->dispute;
+  }
 
  private:
   struct Pair {
@@ -41,7 +63,15 @@ class Disputes {
     std::chrono::nanoseconds first{0}, last{0};
     bool reported = false;
   };
-  [[nodiscard]] Pair* find(const Dispute& dispute) noexcept;
+  [[nodiscard]] Pair* find(const Dispute& dispute) noexcept {
+    // Compares the sending host without its port, because a host can change ports at no cost.
+    const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto found = std::find_if(pairs_.begin(), end, [&](const Pair& pair) {
+      return pair.dispute.name == dispute.name &&
+             pair.dispute.speaker.octets == dispute.speaker.octets;
+    });
+    return found == end ? nullptr : &*found;
+  }
 
   std::array<Pair, kPairs> pairs_{};
   std::size_t count_ = 0;

@@ -5,6 +5,7 @@
 // a device also the energy that we gave, because it has no port with a ledger.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -35,21 +36,59 @@ struct ReceivedAccount {
 class EnergyBooks {
  public:
   static constexpr std::size_t kPairs = 1024;
-  EnergyBooks();
+  EnergyBooks() : index_(kPairs) { pairs_.reserve(kPairs); }
 
   /// The pair; it is made empty if it is new.
   ReceivedAccount& pair(EntityNumber own, const pdu::EntityId& other,
-                        std::chrono::nanoseconds now) noexcept;
+                        std::chrono::nanoseconds now) noexcept {
+    const std::uint32_t known = index_.find(key(own, other));
+    if (known != KeyIndex::kNone) {
+      pairs_[known].heard = now;
+      return pairs_[known];
+    }
+    if (pairs_.size() == kPairs) {
+      const auto oldest =
+          std::min_element(pairs_.begin(), pairs_.end(),
+                           [](const auto& a, const auto& b) { return a.heard < b.heard; });
+      erase(static_cast<std::size_t>(oldest - pairs_.begin()));
+    }
+    index_.put(key(own, other), pairs_.size());
+    ReceivedAccount& made = pairs_.emplace_back();
+    made.own = own;
+    made.other = other;
+    made.heard = now;
+    return made;
+  }
   [[nodiscard]] const ReceivedAccount* find(EntityNumber own,
-                                            const pdu::EntityId& other) const noexcept;
+                                            const pdu::EntityId& other) const noexcept {
+    const std::uint32_t place = index_.find(key(own, other));
+    return place == KeyIndex::kNone ? nullptr : &pairs_[place];
+  }
   /// Forgets all pairs of an entity of ours.
-  void forget(EntityNumber own) noexcept;
+  void forget(EntityNumber own) noexcept {
+    for (std::size_t i = 0; i < pairs_.size();) {
+      if (pairs_[i].own == own) {
+        erase(i);
+      } else {
+        ++i;
+      }
+    }
+  }
 
   [[nodiscard]] std::span<ReceivedAccount> pairs() noexcept { return pairs_; }
 
  private:
-  [[nodiscard]] static std::uint64_t key(EntityNumber own, const pdu::EntityId& other) noexcept;
-  void erase(std::size_t place) noexcept;
+  [[nodiscard]] static std::uint64_t key(EntityNumber own, const pdu::EntityId& other) noexcept {
+    return std::uint64_t{own} << 48 | other.key();
+  }
+  void erase(std::size_t place) noexcept {
+    index_.erase(key(pairs_[place].own, pairs_[place].other));
+    if (place + 1 < pairs_.size()) {
+      pairs_[place] = pairs_.back();
+      index_.put(key(pairs_[place].own, pairs_[place].other), place);
+    }
+    pairs_.pop_back();
+  }
 
   std::vector<ReceivedAccount> pairs_;  // dense
   KeyIndex index_;
@@ -66,9 +105,15 @@ class PowerBudget {
   explicit PowerBudget(double power) noexcept : power_(power) {}
 
   /// Advances the time.  @param dt [s] >= 0
-  void advance(double dt, bool moves) noexcept;
+  void advance(double dt, bool moves) noexcept {
+    if (moves) level_ = std::min(level_ + power_ * dt, power_ * kSaved);
+  }
   /// Takes at most `wanted` [J], and at most the available energy.
-  double take(double wanted) noexcept;
+  double take(double wanted) noexcept {
+    const double taken = std::clamp(wanted, 0.0, level_);
+    level_ -= taken;
+    return taken;
+  }
   [[nodiscard]] double level() const noexcept { return level_; }
 
  private:

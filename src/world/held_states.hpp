@@ -4,6 +4,7 @@
 // entity, we return to the state that its owner assumes for outer listeners.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/world/row_column.hpp"
 
 namespace reckon::peer {
@@ -29,15 +31,35 @@ struct HeldState {
 class HeldStates {
  public:
   /// @param near_rows of the channels  @param capacity most entities
-  HeldStates(std::size_t near_rows, std::size_t capacity);
+  HeldStates(std::size_t near_rows, std::size_t capacity)
+      : shown_by_(near_rows > 0 ? capacity : 0) {
+    behind_.reserve(near_rows);
+    for (std::size_t row = 0; row < near_rows; ++row) behind_.emplace_back(capacity);
+  }
 
   [[nodiscard]] bool is_on() const noexcept { return !behind_.empty(); }
-  void push();
-  void erase(std::size_t place) noexcept;
+  void push() {
+    if (!is_on()) return;
+    for (RowColumn<HeldState>& column : behind_) column.push();
+    shown_by_.push();
+  }
+  void erase(std::size_t place) noexcept {
+    if (!is_on()) return;
+    for (RowColumn<HeldState>& column : behind_) column.erase(place);
+    shown_by_.erase(place);
+  }
 
   /// Records a state from a group of this row, or of the cell for near_rows, even if it is not the
   /// newest.  @param newest whether it is the newest, so that it is shown
-  void note(std::size_t place, std::size_t row, const HeldState& heard, bool newest) noexcept;
+  void note(std::size_t place, std::size_t row, const HeldState& heard, bool newest) noexcept {
+    for (std::size_t nearer = 0; nearer < std::min(row, behind_.size()); ++nearer) {
+      HeldState& held = behind_[nearer][place];
+      const bool is_older =
+          held.is_heard && pdu::difference_units(heard.timestamp, held.timestamp) < 0;
+      if (!is_older) held = heard;
+    }
+    if (newest) shown_by_[place] = heard.group;
+  }
 
   /// Calls visit(place, HeldState) for each entity whose shown state came in this near group, with
   /// the newest state of an outer row to return to. An entity without such a state stays unchanged.

@@ -7,7 +7,10 @@
 #include <cstdint>
 
 #include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
+#include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/held_states.hpp"
 #include "reckon/peer/world/outside_entities.hpp"
 #include "reckon/peer/world/remote_counters.hpp"
 #include "reckon/peer/world/remote_settings.hpp"
@@ -23,7 +26,13 @@ class RowAdmission {
   /// References outlive this. It uses the settings strangers_memory and all settings that determine
   /// the size of a row.
   RowAdmission(const RemoteSettings& settings, const StateTable& table, RowOwners& owners,
-               OutsideEntities& outside, const RemoteCounters& counts);
+               OutsideEntities& outside, const RemoteCounters& counts)
+      : settings_(settings),
+        table_(table),
+        owners_(owners),
+        outside_(outside),
+        counts_(counts),
+        row_octets_(row_octets(settings)) {}
 
   /// Makes room for one more row of this sender, which then owns it. Calls drop(place) for each row
   /// that has to be dropped and counts it as evicted. Returns false and makes no row if there is no
@@ -58,6 +67,15 @@ class RowAdmission {
   [[nodiscard]] const aoim::SourceAddress& last_refused() const noexcept { return last_stranger_; }
 
  private:
+  // Size of one shown entity, in all tables that have a row for it.
+  static std::size_t row_octets(const RemoteSettings& settings) {
+    constexpr std::size_t kBeside = 320;  // owner, instants, index, near search, list of changes
+    std::size_t octets = sizeof(RemoteEntity) + sizeof(SenderClock) + kBeside;
+    if (settings.is_adaptive()) octets += sizeof(deadreckon::AdaptiveOrder);
+    if (settings.record_changes) octets += sizeof(RemoteCopy);  // of the program
+    return octets + settings.near_rows * sizeof(HeldState);
+  }
+
   // Size of one entity outside: its row, instants, owner and place in the index.
   static constexpr std::size_t kOutsideOctets = sizeof(OutsideEntity) + 192;
 

@@ -4,9 +4,12 @@
 // sends nothing to us after we have moved away, and a resting entity may be silent for minutes.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/due_column.hpp"
 
 namespace reckon::peer {
@@ -37,9 +40,15 @@ class SightWatch {
   explicit SightWatch(std::size_t capacity) : by_way_(capacity), by_time_(capacity) {}
 
   /// Adds a row at the end.
-  void push();
+  void push() {
+    by_way_.push(std::chrono::nanoseconds(0));
+    by_time_.push(std::chrono::nanoseconds::max());
+  }
   /// Moves the last row to `place`.
-  void erase(std::size_t place) noexcept;
+  void erase(std::size_t place) noexcept {
+    by_way_.erase(place);
+    by_time_.erase(place);
+  }
   /// Prefetches the memory that note_update(place) writes.
   void prefetch(std::size_t place) const noexcept {
     by_way_.prefetch(place);
@@ -48,7 +57,11 @@ class SightWatch {
   /// Records that an update has found the row within sight, by at least `spare` [m].
   /// @param withdrawn [m] by now
   void note_update(std::size_t place, double withdrawn, double spare, bool moves,
-                   Nanoseconds now) noexcept;
+                   std::chrono::nanoseconds now) noexcept {
+    // a row that lacks less than a millimetre is still within sight
+    by_way_.set(place, of_way(withdrawn + spare) + std::chrono::nanoseconds(1));
+    by_time_.set(place, moves ? now + kLatest : std::chrono::nanoseconds::max());
+  }
 
   /// Calls `look(place)`, which returns a Sight, for the rows that may be out of sight. Calls
   /// leave(place) for each row out of sight; it must drop the row. @param withdrawn [m] by now
@@ -73,9 +86,20 @@ class SightWatch {
 
  private:
   /// A distance in the unit of DueColumn: a nanosecond a millimetre.
-  [[nodiscard]] static Nanoseconds of_way(double metres) noexcept;
+  [[nodiscard]] static Nanoseconds of_way(double metres) noexcept {
+    constexpr double kMost = 9e15;  // [mm] in 63 bits, with a margin of a thousand
+    return std::chrono::nanoseconds(
+        static_cast<std::int64_t>(std::floor(std::min(1000.0 * metres, kMost))));
+  }
   void set(std::size_t place, double withdrawn, double step, const Sight& sight,
-           Nanoseconds now) noexcept;
+           std::chrono::nanoseconds now) noexcept {
+    by_way_.set(place,
+                of_way(withdrawn + std::max(sight.spare, step)) + std::chrono::nanoseconds(1));
+    if (!(sight.speed > 0.0)) return by_time_.set(place, std::chrono::nanoseconds::max());
+    const double least = pdu::to_seconds(kSoonest), most = pdu::to_seconds(kLatest);
+    const double calm = std::clamp(sight.spare / (sight.speed + kSpareSpeed), least, most);
+    by_time_.set(place, now + pdu::from_seconds(calm));
+  }
 
   DueColumn by_way_;
   DueColumn by_time_;

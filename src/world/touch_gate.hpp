@@ -22,7 +22,13 @@ class TouchGate {
   /// Whether this sender's bodies are felt.
   /// @param alive whether it is the peer that announced itself with the number of `owner`
   [[nodiscard]] bool admits(const aoim::PeerId& owner, bool alive,
-                            const aoim::SourceAddress& from) noexcept;
+                            const aoim::SourceAddress& from) noexcept {
+    const auto place = rule_.place_of(owner);
+    if (!place) return rule_.allows(owner, alive);
+    std::optional<Host>& user = users_[*place];
+    if (alive || !user) user = from.octets;
+    return *user == from.octets;
+  }
   /// Whether the rule lists this number.
   [[nodiscard]] bool names(const aoim::PeerId& owner) const noexcept {
     return rule_.place_of(owner).has_value();

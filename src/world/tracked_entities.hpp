@@ -15,11 +15,32 @@
 namespace reckon::peer {
 
 /// The description of an entity of the scene by its owner.
-[[nodiscard]] EntityDescription description_of(const EntityConfig& config);
+[[nodiscard]] inline EntityDescription description_of(const EntityConfig& config) {
+  EntityDescription description;
+  description.marking = config.marking;
+  description.type = config.type;
+  description.force_id = config.force_id;
+  description.appearance = config.appearance;
+  description.capabilities = config.capabilities;
+  description.dead_reckoning = config.dead_reckoning;
+  description.model = config.model;
+  description.power = config.power;
+  description.beacon = config.beacon;
+  return description;
+}
 
 /// The true motion of a track at an instant.
-[[nodiscard]] EntityTruth truth_of(const deadreckon::KinematicState& motion,
-                                   std::chrono::nanoseconds now) noexcept;
+[[nodiscard]] inline EntityTruth truth_of(const deadreckon::KinematicState& motion,
+                                          std::chrono::nanoseconds now) noexcept {
+  EntityTruth truth;
+  truth.time = now;
+  truth.position = motion.position;
+  truth.orientation = motion.orientation;
+  truth.velocity = motion.velocity;
+  truth.acceleration = motion.acceleration;
+  truth.angular_velocity = motion.angular_velocity;
+  return truth;
+}
 
 /// Updates their positions: of felt entities every 2 ms, of all others at 60 Hz, not all in the
 /// same pass. One thread; allocates only in add().
@@ -62,9 +83,18 @@ class TrackedEntities {
     EntityTrack track;
     std::chrono::nanoseconds period, due;
   };
-  void begin(std::chrono::nanoseconds now) noexcept;
+  void begin(std::chrono::nanoseconds now) noexcept {
+    begun_ = now;
+    for (Tracked& tracked : tracks_) tracked.due = now;
+  }
   [[nodiscard]] std::chrono::nanoseconds next_of(const Tracked& tracked,
-                                                 std::chrono::nanoseconds now) const noexcept;
+                                                 std::chrono::nanoseconds now) const noexcept {
+    // The first truth of all entities is sent at once. After that, each has a different time within
+    // the period.
+    constexpr int kPlaces = 16;
+    if (now > begun_) return now + tracked.period;
+    return now + tracked.period + (tracked.number % kPlaces) * tracked.period / kPlaces;
+  }
 
   std::vector<Tracked> tracks_;
   std::chrono::nanoseconds begun_{-1};

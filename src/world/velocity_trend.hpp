@@ -6,9 +6,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -16,7 +20,34 @@ namespace reckon::peer {
 class VelocityTrend {
  public:
   /// @param velocity [m/s] at `time`; one that is not later than the last is ignored
-  void note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept;
+  void note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept {
+    const double dt = pdu::to_seconds(time - back(0).time);
+    if (!(dt > 0)) return;
+    if (dt > kMemory) {
+      kept_.fill({time, velocity});
+      unevenness_ = 0.0;
+    }
+    newest_ = (newest_ + 1) % kKept;
+    kept_[newest_] = {time, velocity};
+
+    const Span last = span_to(0);
+    acceleration_.setZero();
+    jerk_.setZero();
+    if (last.length > 0) {
+      acceleration_ = difference(last, 0);
+      const Span before = span_to(last.begin);
+      if (before.length > 0) {
+        const double apart = 0.5 * (last.length + before.length);
+        jerk_ = (acceleration_ - difference(before, last.begin)) / apart;
+      }
+    }
+
+    const Eigen::Vector3d third =
+        back(0).value - 3.0 * back(1).value + 3.0 * back(2).value - back(3).value;
+    const double uneven = third.squaredNorm();
+    unevenness_ += dt / (kMemory + dt) * (uneven - unevenness_);
+    doubt_ = last.length > 0 ? std::sqrt(std::max(unevenness_, uneven)) / last.length : 0.0;
+  }
 
   /// [m/s^2], of the last 1 to 2 ms; zero if velocities come less often.
   [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
@@ -30,6 +61,11 @@ class VelocityTrend {
   [[nodiscard]] double doubt() const noexcept { return doubt_; }
 
  private:
+  // Interval of the difference [s]: a longer one lags more, a shorter one is noisier.
+  static constexpr double kLongest = 0.0021;
+  static constexpr double kShortest = 0.0009;
+  static constexpr double kMemory = 0.1;  // [s], memory of the unevenness
+
   static constexpr std::size_t kKept = 6;
   struct Velocity {
     std::chrono::nanoseconds time{0};
@@ -43,7 +79,15 @@ class VelocityTrend {
     std::size_t begin = 0;
     double length = 0.0;
   };
-  [[nodiscard]] Span span_to(std::size_t end) const noexcept;
+  [[nodiscard]] Span span_to(std::size_t end) const noexcept {
+    Span span;
+    for (std::size_t i = end + 1; i < kKept; ++i) {
+      const double length = pdu::to_seconds(back(end).time - back(i).time);
+      if (length < kShortest || length > kLongest || length < span.length) continue;
+      span = {i, length};
+    }
+    return span;
+  }
   [[nodiscard]] Eigen::Vector3d difference(const Span& span, std::size_t end) const noexcept {
     return (back(end).value - back(span.begin).value) / span.length;
   }

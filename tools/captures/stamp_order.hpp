@@ -3,11 +3,14 @@
 // Puts the datagrams of several sockets, which are read in turn, into the order of their stamps.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "reckon/peer/capture/datagram_source.hpp"
@@ -25,9 +28,20 @@ class StampOrder {
   explicit StampOrder(std::function<void(const peer::SourceDatagram&)> write)
       : write_(std::move(write)) {}
 
-  void add(const peer::SourceDatagram& datagram);
+  void add(const peer::SourceDatagram& datagram) {
+    heap_.push_back({datagram,
+                     {datagram.bytes.begin(), datagram.bytes.end()},
+                     {datagram.captured.begin(), datagram.captured.end()},
+                     std::string(datagram.interface),
+                     number_++});
+    std::ranges::push_heap(heap_, is_later);
+    newest_ = std::max(newest_, datagram.time);
+    while (heap_.size() > kMost || newest_ - heap_.front().datagram.time >= kHold) write_oldest();
+  }
   /// Writes all; call it when no older datagram can arrive.
-  void flush();
+  void flush() {
+    while (!heap_.empty()) write_oldest();
+  }
   [[nodiscard]] std::size_t held() const noexcept { return heap_.size(); }
 
  private:
@@ -37,8 +51,18 @@ class StampOrder {
     std::string interface;
     std::uint64_t number = 0;
   };
-  [[nodiscard]] static bool is_later(const Held& a, const Held& b) noexcept;
-  void write_oldest();
+  [[nodiscard]] static bool is_later(const Held& a, const Held& b) noexcept {
+    return std::tie(a.datagram.time, a.number) > std::tie(b.datagram.time, b.number);
+  }
+  void write_oldest() {
+    std::ranges::pop_heap(heap_, is_later);
+    Held oldest = std::move(heap_.back());
+    heap_.pop_back();
+    oldest.datagram.bytes = oldest.bytes;
+    oldest.datagram.captured = oldest.captured;
+    oldest.datagram.interface = oldest.interface;
+    write_(oldest.datagram);
+  }
 
   std::function<void(const peer::SourceDatagram&)> write_;
   std::vector<Held> heap_;  // the oldest first

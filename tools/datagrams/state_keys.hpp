@@ -30,7 +30,15 @@ class StateKeys {
   /// Restores one state of `states` into `out`, which is changed only if the verdict is good.
   [[nodiscard]] peer::RestoreVerdict restore(const pdu::CompressedStates& states,
                                              const pdu::CompressedState& state,
-                                             pdu::EntityState& out);
+                                             pdu::EntityState& out) {
+    using pdu::CompressedForm;
+    const bool is_other = states.form != CompressedForm::compact && states.form != form_;
+    if (!restorer_ || is_other) {
+      form_ = states.form == CompressedForm::compact ? form_ : states.form;
+      restorer_.emplace(form_, most_);
+    }
+    return restorer_->restore(states, state, owner_of(states.simulation), out);
+  }
 
  private:
   // A tool does not verify the sender of an entity: every state counts as sent by the owner.

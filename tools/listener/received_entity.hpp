@@ -9,9 +9,13 @@
 #include <limits>
 
 #include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/state_age.hpp"
 #include "reckon/tools/listener/fixed_octets.hpp"
 #include "reckon/tools/listener/update_pace.hpp"
 
@@ -40,13 +44,26 @@ struct ReceivedEntity {
 
   [[nodiscard]] bool is_haptic() const noexcept { return model != kNoModel; }
   /// Seconds since `arrival`.
-  [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept {
+    return pdu::to_seconds(now - arrival);
+  }
   /// Silent for more than 2.4 heartbeats of its kind, and not gone.
-  [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept {
+    return has_state && !gone && age(now) > deadreckon::timeout(heartbeat);
+  }
   /// Dead reckoned pose, in the frame of the listener. A frozen entity is at rest.
-  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
+  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept {
+    const peer::StateAge age(time - state_time, hold_after, false);
+    deadreckon::Pose pose = deadreckon::extrapolate(state, age.tau);
+    age.hold(pose);
+    return pose;
+  }
   /// The last state as a PDU; its fields are 0 before the first.
-  [[nodiscard]] pdu::EntityState entity_state() const noexcept;
+  [[nodiscard]] pdu::EntityState entity_state() const noexcept {
+    pdu::EntityState pdu;
+    if (has_state) (void)decode(octets, pdu);
+    return pdu;
+  }
 };
 
 /// The force model of one entity.
@@ -56,12 +73,20 @@ struct ReceivedModel {
   std::chrono::nanoseconds since{};  ///< arrival of its state
 
   /// The last instant of its validity.
-  [[nodiscard]] std::chrono::nanoseconds valid_until() const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds valid_until() const noexcept {
+    return since + pdu::from_seconds(model.validity);
+  }
   /// A sphere or a field, which others push; planes and regions are not pushed.
-  [[nodiscard]] bool is_probe() const noexcept;
+  [[nodiscard]] bool is_probe() const noexcept {
+    return model.kind == pdu::ForceModelKind::sphere || model.kind == pdu::ForceModelKind::field;
+  }
   /// The probe that others push, of the entity at `pose`. The sphere of a hand is at its device:
   /// the model's point, not the body's origin (SCP).
-  [[nodiscard]] deadreckon::ProbeState probe_at(const deadreckon::Pose& pose) const noexcept;
+  [[nodiscard]] deadreckon::ProbeState probe_at(const deadreckon::Pose& pose) const noexcept {
+    const bool is_ball = model.kind == pdu::ForceModelKind::sphere;
+    return {pose.position + pose.orientation * model.point, pose.velocity,
+            is_ball ? model.radius : 0.0};
+  }
 };
 
 }  // namespace reckon::tools

@@ -3,6 +3,7 @@
 // Output of `demo --trace ..`.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,14 +23,34 @@ struct TraceFiles {
   std::string servo, bodies, loop;
 };
 
-void add_trace_options(CommandLine& line, TraceFiles& files);
+inline void add_trace_options(CommandLine& line, TraceFiles& files) {
+  line.option("--trace", files.servo, "write each servo step of each device to this CSV file");
+  line.option("--trace-bodies", files.bodies,
+              "write each step of each awake body to this CSV file");
+  line.option("--trace-loop", files.loop,
+              "write each stage of each pass of the model loops to this CSV file");
+}
 
 /// The open files. Used by the thread that runs the exercise.
 class DemoTraces {
  public:
   /// @param exercise has trace_bodies and trace_loops set for the requested files; outlives it
   /// @throws UsageError if a file cannot be written, or would be empty.
-  DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise);
+  DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise) {
+    if (!files.servo.empty()) {
+      const auto turns = [](const peer::DeviceConfig& device) { return device.axes == 6; };
+      servo_.emplace(files.servo, std::ranges::any_of(scene.devices, turns));
+    }
+    if (!files.bodies.empty()) {
+      bodies_.emplace(files.bodies, scene.scene);
+      exercise.on_body([this](const haptics::BodyStep& step) { bodies_->write(step); });
+    }
+    if (!files.loop.empty()) {
+      stages_.emplace(files.loop);
+      exercise.on_stage(
+          [this](std::size_t peer, const peer::LoopStep& step) { stages_->write(peer, step); });
+    }
+  }
   DemoTraces(const DemoTraces&) = delete;
   DemoTraces& operator=(const DemoTraces&) = delete;
 
@@ -41,7 +62,11 @@ class DemoTraces {
   }
   /// Flushes the files; call it after the exercise has stopped. @throws EnvironmentError if the
   /// disk is full.
-  void close();
+  void close() {
+    if (servo_) servo_->close();
+    if (bodies_) bodies_->close();
+    if (stages_) stages_->close();
+  }
 
  private:
   std::optional<ServoTrace> servo_;

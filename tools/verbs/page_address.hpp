@@ -9,6 +9,10 @@
 namespace reckon::tools {
 
 /// Shows the page's address in the display's head, and access by other hosts among its notices.
-void show_address(const SelfView& view, bool has_key, LiveDisplay& display);
+inline void show_address(const SelfView& view, bool has_key, LiveDisplay& display) {
+  display.put_in_head("page: " + view.address());
+  if (!view.addresses_for_others().empty())
+    display.add(invitation(view.addresses_for_others(), has_key));
+}
 
 }  // namespace reckon::tools

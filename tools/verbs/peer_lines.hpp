@@ -8,16 +8,32 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/network/datagram_balance.hpp"
+#include "reckon/tools/exercise/balance_report.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/verbs/running_peer.hpp"
 
 namespace reckon::tools {
 
 /// Flushes at once, for readers of a pipe.
-void print_line(std::FILE* out, const std::string& text);
-void print_notice(std::FILE* out, peer::NoticeKind kind, peer::Severity severity,
-                  std::string_view text, double seconds);
+inline void print_line(std::FILE* out, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), out);
+  std::fflush(out);
+}
+inline void print_notice(std::FILE* out, peer::NoticeKind kind, peer::Severity severity,
+                         std::string_view text, double seconds) {
+  std::string line;
+  JsonObject(line)
+      .text("event", "notice")
+      .decimals("seconds", seconds, 3)
+      .text("text", text)
+      .text("notice", peer::facts_of(kind).id)
+      .text("severity", peer::name_of(severity))
+      .end("\n");
+  print_line(out, line);
+}
 
 /// Prints the fate of each datagram, every `every`.
 class BalanceLines {
@@ -39,7 +55,10 @@ class BalanceLines {
   }
 
  private:
-  void tell(const RunningPeer& running, bool end);
+  void tell(const RunningPeer& running, bool end) {
+    const double seconds = pdu::to_seconds(running.elapsed());
+    print_line(out_, balance_line(balance_.report(running.now(), end), seconds, end));
+  }
 
   std::chrono::nanoseconds every_, next_;
   std::FILE* out_;

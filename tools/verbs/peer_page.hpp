@@ -28,18 +28,43 @@ class PeerPage {
   /// @param pointers the hands that follow pointers; their devices outlive this
   /// @throws as SelfView
   PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerPageOptions& options,
-           const peer::PeerView& view, std::span<const PointerHand> pointers);
+           const peer::PeerView& view, std::span<const PointerHand> pointers)
+      : pointers_(pointers.begin(), pointers.end()),
+        controls_({}, nullptr),
+        view_(flags, scene,
+              {.kind = "peer",
+               .source = options.source,
+               .iface = options.iface,
+               .controls = &controls_},
+              hands_of(scene, view)) {}
 
   /// From now on show() shows the reception statistics of `peer` too. @param peer outlives this
   void add_receiver(const peer::Peer& peer) { view_.add_receiver(peer); }
   /// Shows the present state of the hands.
-  void show(const peer::PeerView& view);
+  void show(const peer::PeerView& view) {
+    OwnHands& hands = view_.hands();
+    for (std::size_t i = 0; i < view.hand_count && i < hands.size(); ++i) {
+      hands.set_id(i, view.hands[i].id);
+      hands.take(i, view.hands[i].servo);
+    }
+    mark_pointers(hands);
+    view_.show_hands();
+  }
   void note(const peer::Notice& notice) { view_.note(notice.text.data()); }
   [[nodiscard]] const SelfView& view() const noexcept { return view_; }
 
  private:
-  void mark_pointers(OwnHands& hands) const;
-  [[nodiscard]] OwnHands hands_of(const peer::SceneFile& scene, const peer::PeerView& view);
+  void mark_pointers(OwnHands& hands) const {
+    for (const PointerHand& pointer : pointers_)
+      hands.set_pointer(pointer.device, controls_.is_free(pointer.device));
+  }
+  [[nodiscard]] OwnHands hands_of(const peer::SceneFile& scene, const peer::PeerView& view) {
+    OwnHands hands(scene.hand);
+    for (const peer::HandView& hand : view.own_hands()) hands.add(0, hand);
+    for (const PointerHand& pointer : pointers_) controls_.add_hand(pointer.device, pointer);
+    mark_pointers(hands);
+    return hands;
+  }
 
   std::vector<PointerHand> pointers_;
   ViewControls controls_;  // used by the page, so declared before it

@@ -4,10 +4,14 @@
 // port do. A copy repeated by another host has another sender, and does not count.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
 
 #include "reckon/peer/capture/datagram_source.hpp"
 
@@ -24,7 +28,19 @@ class CopySearch {
     std::chrono::nanoseconds later{};
   };
 
-  void look_at(const peer::SourceDatagram& datagram);
+  void look_at(const peer::SourceDatagram& datagram) {
+    if (datagram.time == std::chrono::nanoseconds::zero()) return;
+    const Seen now{hash_of(datagram), datagram.frame, datagram.time};
+    const std::span<const Seen> known(seen_.data(),
+                                      std::min(datagrams_, std::uint64_t{kRemembered}));
+    const auto original = std::ranges::find_if(known, [&](const Seen& seen) {
+      return seen.hash == now.hash && now.time - seen.time <= kWithin &&
+             seen.time - now.time <= kWithin;
+    });
+    if (original != known.end() && copies_++ == 0)
+      first_ = {now.frame, original->frame, now.time, now.time - original->time};
+    seen_[datagrams_++ % kRemembered] = now;
+  }
 
   [[nodiscard]] std::uint64_t copies() const noexcept { return copies_; }
   [[nodiscard]] std::uint64_t datagrams() const noexcept { return datagrams_; }
@@ -32,6 +48,16 @@ class CopySearch {
   [[nodiscard]] const Copy& first() const noexcept { return first_; }
 
  private:
+  static constexpr std::chrono::nanoseconds kWithin = std::chrono::milliseconds(5);
+  static std::uint64_t hash_of(const peer::SourceDatagram& datagram) {
+    const auto* octets = reinterpret_cast<const char*>(datagram.bytes.data());
+    const std::uint64_t content = std::hash<std::string_view>{}({octets, datagram.bytes.size()});
+    const std::hash<peer::IpEndpoint> endpoint;
+    constexpr std::uint64_t kOdd =
+        0x9E3779B97F4A7C15;  // so that the three hashes do not cancel out
+    return (content * kOdd + endpoint(datagram.source)) * kOdd + endpoint(datagram.group);
+  }
+
   static constexpr std::size_t kRemembered = 64;
   struct Seen {
     std::uint64_t hash = 0;

@@ -27,10 +27,23 @@ class GroupTiers {
  public:
   GroupTiers() = default;
   /// @throws std::invalid_argument if the groups of the scene are invalid
-  GroupTiers(const peer::NetworkConfig& network, const peer::AoimConfig& aoim);
+  GroupTiers(const peer::NetworkConfig& network, const peer::AoimConfig& aoim) {
+    if (network.interop || aoim.all_groups() <= aoim.pool) return;
+    groups_.emplace(network.group, aoim.all_groups());
+    cells_ = aoim.pool;
+    contact_ = peer::has_touch_tier(aoim.tiers) ? aoim.pool : 0;
+  }
 
   /// The tier of an address. Ignores the port, which differs in a sealed exercise. Some ns.
-  [[nodiscard]] TieredGroup of(peer::GroupAddress group) const noexcept;
+  [[nodiscard]] TieredGroup of(peer::GroupAddress group) const noexcept {
+    if (!groups_) return {};
+    group.port = groups_->base().port;
+    const auto index = groups_->index(group);
+    if (!index || *index < cells_) return {};
+    const bool is_contact = *index >= groups_->size() - contact_;
+    return {is_contact ? GroupTier::contact : GroupTier::near,
+            static_cast<std::uint16_t>(*index + 1)};
+  }
   /// Whether the scene has any near or contact group.
   [[nodiscard]] bool any() const noexcept { return groups_.has_value(); }
 
