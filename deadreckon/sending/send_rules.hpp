@@ -28,8 +28,7 @@ using SendRules = std::tuple<
 // clang-format on
 
 /// Calls f(std::type_identity<Rule>{}) once per rule, in the order of the list.
-template <class F>
-constexpr void for_each_send_rule(F&& f) {
+constexpr void for_each_send_rule(auto&& f) {
   [&]<class... Rules>(std::type_identity<std::tuple<Rules...>>) {
     (f(std::type_identity<Rules>{}), ...);
   }(std::type_identity<SendRules>{});

@@ -50,8 +50,7 @@ class BodySlots {
   [[nodiscard]] const CellGrid& asleep() const noexcept { return asleep_; }
   /// Calls visit(number) for each body without a slot whose box overlaps or touches `box` of a slot
   /// [m, S]. If none is near, the slot's next calls with boxes nearby take some ns.
-  template <class Visit>
-  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, Visit&& visit) {
+  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, auto&& visit) {
     RigidBody& body = bodies_[slot];
     if (asleep_.size() == 0 || (body.clear_since == lain_down_ && body.clear.contains(box))) return;
     bool any = false;
@@ -78,8 +77,7 @@ class BodySlots {
   }
   [[nodiscard]] BodySet carried() const noexcept { return carried_; }
   /// Calls visit(slot) for each slot in use of the set, ascending.
-  template <class Visit>
-  void each(BodySet some, Visit&& visit) const {
+  void each(BodySet some, auto&& visit) const {
     const BodySet used = size() < kMost ? (BodySet{1} << size()) - 1 : ~BodySet{0};
     for (BodySet left = some & used; left != 0; left &= left - 1)
       visit(static_cast<std::size_t>(std::countr_zero(left)));

@@ -310,8 +310,7 @@ void BodySolver::put_back(BodySet some) noexcept {
 }
 
 // Steps only `some`. Their contacts join them only to carried objects.
-template <class Step>
-void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
+void BodySolver::step_alone(BodySet some, auto&& step) noexcept {
   BodySet off = 0;
   slots_->each(only_ & ~some, [&](std::size_t i) {
     if (body_at(i).is_awake()) off |= BodySet{1} << i;

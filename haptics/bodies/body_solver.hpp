@@ -53,8 +53,7 @@ class BodySolver {
   }
 
   /// See BodySlots.
-  template <class Visit>
-  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, Visit&& visit) {
+  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, auto&& visit) {
     slots_->visit_asleep(slot, box, visit);
   }
 
@@ -123,10 +122,7 @@ class BodySolver {
   }
   [[nodiscard]] bool acts(std::size_t slot) const noexcept { return (only_ >> slot & 1) != 0; }
   // Visits the slots of only(), ascending.
-  template <class Visit>
-  void each_acting(Visit&& visit) const {
-    slots_->each(only_, visit);
-  }
+  void each_acting(auto&& visit) const { slots_->each(only_, visit); }
   [[nodiscard]] bool rests() const noexcept;
   void apply(std::span<BodyForce> forces) noexcept;
   void time_speeds(double dt) noexcept;
@@ -136,8 +132,7 @@ class BodySolver {
   void iterate(BodySet island, std::size_t one, double dt) noexcept;
   [[nodiscard]] BodySet island_in_touch(std::size_t one, BodySet among) noexcept;
   void put_back(BodySet some) noexcept;
-  template <class Step>
-  void step_alone(BodySet some, Step&& step) noexcept;
+  void step_alone(BodySet some, auto&& step) noexcept;
   void book_lifted_ahead(double dt) noexcept;
   void meet_sleeping() noexcept;
   void take_out(double dt, std::span<BodyForce> forces) noexcept;

@@ -35,8 +35,7 @@ class Impacts {
   [[nodiscard]] BodySet find(BodySet acting, double dt) noexcept;
   /// Moves the bodies that find() returned by dt [s]. Removes the contacts of the step.
   /// @param solve called with one or two touching bodies, to step them by kInstant
-  template <class Solve>
-  void pass(double dt, Solve&& solve) noexcept {
+  void pass(double dt, auto&& solve) noexcept {
     for (const Meeting& meeting : alone_) {
       const double left = dt - reach(meeting, dt);
       slots_.each(meeting.bodies, [&](std::size_t i) { slots_[i].before = slots_[i].state(); });

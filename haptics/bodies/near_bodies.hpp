@@ -50,8 +50,7 @@ class NearBodies {
   void foresee(const BodiesAbout& bodies, double period) noexcept;
   /// The same if no body has moved: only for hands that will soon leave the range of their lists.
   /// @param about returns the bodies; called only if needed
-  template <class About>
-  void foresee_moved(const About& about, double period) noexcept {
+  void foresee_moved(const auto& about, double period) noexcept {
     if (!is_foreseen_) return foresee(about(), period);
     for (Hand& hand : hands_) {
       if (!holds(hand, hand.watched, period, kLeft * kMargin))
@@ -62,9 +61,8 @@ class NearBodies {
   void forget() noexcept { is_foreseen_ = false; }
   /// The list of a hand, made now if it is not valid: some ns for each awake body.
   /// @param about as above
-  template <class About>
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t hand, const HandReach& reach,
-                                                  const About& about, double period) noexcept {
+                                                  const auto& about, double period) noexcept {
     Hand& own = hands_[hand];
     if (!is_foreseen_ || !holds(own, reach, period, 0.0)) list(own, reach, about(), period);
     return own.bodies;

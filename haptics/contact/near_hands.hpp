@@ -30,8 +30,7 @@ class NearHands {
 
   /// For hands in contact or nearly so: is_cut(place, apart) returns whether a solid is between our
   /// hand and that position [m]; see is_between_hands().
-  template <class IsCut>
-  void set_apart(IsCut&& is_cut) noexcept {
+  void set_apart(auto&& is_cut) noexcept {
     for (RemoteContact* remote : all()) {
       if (!remote->is_hand()) continue;
       const bool near = remote->depth() > -kNear;

@@ -49,8 +49,7 @@ class EffectSet {
     note(kHooks<Effect>);
   }
   /// The same for one of `More`.
-  template <class Effect>
-  void add(Effect effect) {
+  void add(auto effect) {
     note(hooks_of(effect));
     declared_.emplace_back(std::move(effect));
   }
@@ -59,22 +58,14 @@ class EffectSet {
 
   /// Calls f(effect) for each effect: first the ones that are always present, then the declared
   /// ones.
-  template <class F>
-  void for_each(F&& f) {
-    visit(*this, f);
-  }
-  template <class F>
-  void for_each(F&& f) const {
-    visit(*this, f);
-  }
+  void for_each(auto&& f) { visit(*this, f); }
+  void for_each(auto&& f) const { visit(*this, f); }
   /// The same for effects that are always present.
-  template <class F>
-  void for_each_always(F&& f) {
+  void for_each_always(auto&& f) {
     std::apply([&](auto&... effects) { (f(effects), ...); }, always_);
   }
   /// The same for effects that store energy.
-  template <class F>
-  void for_each_spring(F&& f) const {
+  void for_each_spring(auto&& f) const {
     const auto one = [&]<class Effect>(const Effect& effect) {
       if constexpr (StoresEnergy<Effect>) f(effect);
     };
@@ -124,8 +115,7 @@ class EffectSet {
       return static_cast<Found*>(nullptr);
     }
   }
-  template <class Self, class F>
-  static void visit(Self& self, F& f) {
+  static void visit(auto& self, auto& f) {
     std::apply([&](auto&... effects) { (f(effects), ...); }, self.always_);
     for (auto& one : self.declared_) std::visit(f, one);
   }

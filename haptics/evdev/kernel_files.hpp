@@ -15,8 +15,7 @@
 namespace reckon::haptics {
 
 /// Repeats a call that a signal interrupted. @return its result, or -errno
-template <class Call>
-auto kernel_call(Call call) noexcept {
+auto kernel_call(auto call) noexcept {
   while (true) {
     const auto result = call();
     if (result >= 0) return result;

@@ -57,8 +57,7 @@ class BoundingVolumeTree {
 
   /// Visits runs of items, `visit(first, count)` with places in order(). They contain every item
   /// whose box meets or touches `box` [m], and a few more.
-  template <class Visit>
-  void overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const;
+  void overlapping(const Eigen::AlignedBox3d& box, auto&& visit) const;
 
   /// A box of the tree, for custom searches, such as of two trees at once.
   struct Branch {
@@ -71,8 +70,7 @@ class BoundingVolumeTree {
   [[nodiscard]] Branch root() const noexcept { return {bounds_, 0, 0}; }
 
   /// Calls visit(const Branch&) for each of the one to four branches of a node.
-  template <class Visit>
-  void visit_children(std::uint32_t node, Visit&& visit) const;
+  void visit_children(std::uint32_t node, auto&& visit) const;
 
   /// Levels below the root.
   [[nodiscard]] int depth() const noexcept { return depth_; }
@@ -263,8 +261,7 @@ void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limi
 }
 
 // Every number is rounded like the boxes, which cannot turn "not above" into "above".
-template <class Visit>
-void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, auto&& visit) const {
   if (nodes_.empty()) return;
   const Eigen::Vector3f low = ((box.min() - centre_) * scale_).cast<float>();
   const Eigen::Vector3f high = ((box.max() - centre_) * scale_).cast<float>();
@@ -287,8 +284,7 @@ void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& vis
   }
 }
 
-template <class Visit>
-void BoundingVolumeTree::visit_children(std::uint32_t node, Visit&& visit) const {
+void BoundingVolumeTree::visit_children(std::uint32_t node, auto&& visit) const {
   const Node& parent = nodes_[node];
   for (std::size_t lane = 0; lane < kWidth; ++lane) {
     if (!(parent.lower[0][lane] <= parent.upper[0][lane])) continue;  // unused

@@ -51,8 +51,7 @@ class Contour {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  template <class Visit>
-  void each_place(Visit&& visit) const {
+  void each_place(auto&& visit) const {
     for (int z = 1; z < counts_.z(); ++z)
       for (int y = 1; y < counts_.y(); ++y)
         for (int x = 1; x < counts_.x(); ++x) visit(Array3i(x, y, z));

@@ -25,8 +25,7 @@ inline constexpr bool kIsShared =
 // Greatest height above a face that still counts as held by it, in clearances.
 constexpr double kHeldHeight = 1.01;
 
-template <class Function>
-auto visit_solid(const ContactShape& shape, Function&& function) {
+auto visit_solid(const ContactShape& shape, auto&& function) {
   return std::visit(
       [&](const auto& solid) {
         if constexpr (kIsShared<std::decay_t<decltype(solid)>>) {

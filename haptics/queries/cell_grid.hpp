@@ -50,8 +50,7 @@ class CellGrid {
   /// Calls visit(number) for each box that overlaps or touches `box` [m], in any order. Searches
   /// the cells around it, or all boxes if there are fewer of them. `visit` must not change the
   /// grid.
-  template <class Visit>
-  void visit(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+  void visit(const Eigen::AlignedBox3d& box, auto&& visit) const {
     for (std::uint64_t left = levels_; left != 0; left &= left - 1)
       visit_level(box, std::countr_zero(left), visit);
   }
@@ -84,8 +83,7 @@ class CellGrid {
                                  const Eigen::AlignedBox3d& b) noexcept {
     return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
   }
-  template <class Visit>
-  void visit_level(const Eigen::AlignedBox3d& box, int level, Visit&& visit) const {
+  void visit_level(const Eigen::AlignedBox3d& box, int level, auto&& visit) const {
     const auto visit_cell = [&](const Cell& cell) {
       for (std::uint32_t i = buckets_[place_of(cell)]; i != kNone; i = entries_[i].after)
         if (entries_[i].cell == cell && meet(box, entries_[i].box)) visit(i);

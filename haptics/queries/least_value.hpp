@@ -53,8 +53,7 @@ struct BoxPiece {
       if (slope[i] != 0.0) at[i] -= std::copysign(half[i], slope[i]);
     return at;
   }
-  template <class Take>
-  void split(Take&& take) const noexcept {
+  void split(auto&& take) const noexcept {
     Eigen::Index axis = 0;
     if (!(half.maxCoeff(&axis) > 0.0)) return;
     BoxPiece part = *this;

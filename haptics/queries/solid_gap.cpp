@@ -37,8 +37,7 @@ bool walk_to(const ImplicitSolid& solid, Vector3d& p) {
 
 // Improves the nearest points by alternating projections; `other(p)` is the nearest point of the
 // other shape.
-template <class Other>
-void come_nearer(const ImplicitSolid& solid, const Other& other, SolidGap& gap) {
+void come_nearer(const ImplicitSolid& solid, const auto& other, SolidGap& gap) {
   Vector3d on_b = gap.on_b;
   for (int i = 0; i < kMostTurns; ++i) {
     Vector3d on_a = on_b;
@@ -96,8 +95,7 @@ struct MeshPiece {
     return corners[static_cast<std::size_t>(std::min_element(heights.begin(), heights.end()) -
                                             heights.begin())];
   }
-  template <class Take>
-  void split(Take&& take) const noexcept {
+  void split(auto&& take) const noexcept {
     if (!is_box) return halve(take);
     if (count == 0) {
       mesh->tree().visit_children(
@@ -115,8 +113,7 @@ struct MeshPiece {
 
  private:
   // Splits it at the middle of its longest side.
-  template <class Take>
-  void halve(Take&& take) const noexcept {
+  void halve(auto&& take) const noexcept {
     std::size_t longest = 0;
     double most = -1.0;
     for (std::size_t i = 0; i < 3; ++i) {

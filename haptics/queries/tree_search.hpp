@@ -46,9 +46,8 @@ class BoundStack {
 /// Visits runs of items, `visit(first, count)`, whose `bound(box)` is below `limit`, roughly in the
 /// order of their bounds; visit may lower the limit. The bound of a box must not exceed the bounds
 /// of its content.
-template <class Bound, class Visit>
-void search_tree(const BoundingVolumeTree& tree, const double& limit, Bound&& bound,
-                 Visit&& visit) noexcept {
+void search_tree(const BoundingVolumeTree& tree, const double& limit, auto&& bound,
+                 auto&& visit) noexcept {
   using Branch = BoundingVolumeTree::Branch;
   BoundStack<Branch, 3 * BoundingVolumeTree::kMaxDepth + 4> stack;
   Branch branch = tree.root();
@@ -69,9 +68,8 @@ void search_tree(const BoundingVolumeTree& tree, const double& limit, Bound&& bo
 
 /// The same for pairs of runs of two trees: bound(box of a, box of b), visit(first, count of a,
 /// first, count of b).
-template <class Bound, class Visit>
 void search_trees(const BoundingVolumeTree& a, const BoundingVolumeTree& b, const double& limit,
-                  Bound&& bound, Visit&& visit) noexcept {
+                  auto&& bound, auto&& visit) noexcept {
   using Branch = BoundingVolumeTree::Branch;
   struct Two {
     Branch a, b;

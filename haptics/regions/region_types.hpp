@@ -25,10 +25,7 @@ using RegionTypes = std::tuple<Viscosity, DryFriction, ConstantForce, PointSprin
                                Oscillation, BorderSpring>;
 
 /// Calls f(std::type_identity<Effect>{}) once per effect, in the order of the list.
-template <class F>
-constexpr void for_each_region_effect(F&& f) {
-  for_each_effect<RegionTypes>(f);
-}
+constexpr void for_each_region_effect(auto&& f) { for_each_effect<RegionTypes>(f); }
 
 static_assert(
     []<class... Effects>(std::type_identity<std::tuple<Effects...>>) {

@@ -90,8 +90,7 @@ class ShapeMaker {
 
  private:
   using Numbers = std::array<double, 4>;
-  template <class Load>
-  MeshPointer shared(const std::filesystem::path& file, const Numbers& numbers, Load load) {
+  MeshPointer shared(const std::filesystem::path& file, const Numbers& numbers, auto load) {
     MeshPointer& mesh = meshes_[{file, numbers}];
     if (!mesh) mesh = std::make_shared<const SurfaceMesh>(load());
     return mesh;

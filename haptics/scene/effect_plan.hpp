@@ -135,8 +135,7 @@ class EffectPlan {
   /// Calls visit(index) once for each static object whose bounds overlap `box` [m, S], and for
   /// objects without bounds or with an effect that acts at a distance. Any order, no allocation;
   /// logarithmic in the objects with bounds.
-  template <class Visit>
-  void visit_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+  void visit_near(const Eigen::AlignedBox3d& box, auto&& visit) const {
     for (const std::uint32_t index : always_) visit(index);
     tree_.overlapping(box, [&](std::uint32_t first, std::uint32_t count) {
       for (std::uint32_t i = first; i < first + count; ++i) visit(in_tree_[tree_.order()[i]]);

@@ -23,8 +23,7 @@ using std::chrono::microseconds;
 
 // An ioctl. The header of glibc supports few baud rates and conflicts with the kernel's header,
 // which supports all. @return success; if false, errno has the reason
-template <class Argument>
-bool control(int descriptor, unsigned long request, Argument argument) noexcept {
+bool control(int descriptor, unsigned long request, auto argument) noexcept {
   return syscall(SYS_ioctl, descriptor, request, argument) == 0;
 }
 

@@ -75,8 +75,7 @@ struct UsbPipes {
 [[nodiscard]] std::optional<UsbPipes> hid_pipes(libusb_device_handle* handle);
 
 /// Calls `each` with every payload octet of a transfer.
-template <class Each>
-void each_payload_octet(std::span<const std::uint8_t> transfer, std::size_t header, Each&& each) {
+void each_payload_octet(std::span<const std::uint8_t> transfer, std::size_t header, auto&& each) {
   constexpr std::size_t kUsbPacket = 64;
   for (std::size_t i = 0; i < transfer.size(); ++i) {
     if (i % kUsbPacket >= header) each(transfer[i]);
@@ -106,8 +105,7 @@ class UsbLine {
     return {inbox_.data(), length_};
   }
   /// The same, transfer by transfer; empty ones are left out.
-  template <class Each>
-  void each_transfer(Each&& each) const {
+  void each_transfer(auto&& each) const {
     std::size_t from = 0;
     for (std::size_t i = 0; i < transfers_; ++i) {
       each(received().subspan(from, ends_[i] - from));

@@ -119,8 +119,7 @@ struct NoColumns {
 
 /// Shows the mines by their fields. False, with nothing done, if there are none, if a selected
 /// column is not defined by the standard, or if the columns do not fill the octets exactly.
-template <typename Visitor>
-bool show_mines(Visitor& visitor, const MinefieldData& pdu) {
+bool show_mines(auto& visitor, const MinefieldData& pdu) {
   constexpr std::uint32_t kKnown = 0x7FF;
   NoColumns nobody;
   if (pdu.number_of_mines == 0 || (pdu.data_filter & ~kKnown) != 0) return false;

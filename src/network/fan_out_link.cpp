@@ -97,7 +97,7 @@ void FanOutLink::UnicastGroups::note_out(const OutgoingDatagram& datagram, bool 
 }
 
 FanOutLink::FanOutLink(Link& inner, const GroupPool& pool, const FanOutOptions& options)
-    : groups_(std::make_unique<UnicastGroups>(inner, pool, options)) {}
+    : LinkAround(inner), groups_(std::make_unique<UnicastGroups>(inner, pool, options)) {}
 
 FanOutLink::~FanOutLink() = default;
 
@@ -154,14 +154,6 @@ void FanOutLink::leave(const GroupAddress& group) noexcept {
   if (groups_->joined[groups_->place_of(group)].exchange(false)) groups_->leaves.add();
 }
 
-bool FanOutLink::wait(std::chrono::nanoseconds timeout) noexcept {
-  return groups_->inner.wait(timeout);
-}
-
-void FanOutLink::wake() noexcept { groups_->inner.wake(); }
-
-IpEndpoint FanOutLink::local_endpoint() const noexcept { return groups_->inner.local_endpoint(); }
-
 std::size_t FanOutLink::max_payload() const noexcept {
   const std::size_t most = groups_->inner.max_payload();
   return groups_->options.plain ? most : most - std::min(most, pdu::kUnicastFrameSize);
@@ -173,10 +165,6 @@ LinkStatistics FanOutLink::statistics() const noexcept {
   out.leaves = groups_->leaves.value();
   return out;
 }
-
-bool FanOutLink::take_event(LinkEvent& event) noexcept { return groups_->inner.take_event(event); }
-
-void FanOutLink::settle() noexcept { groups_->inner.settle(); }
 
 std::uint64_t FanOutLink::not_listened() const noexcept { return groups_->not_listened.value(); }
 

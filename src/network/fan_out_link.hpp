@@ -40,7 +40,7 @@ struct FanOutOptions {
 /// address, and all copies to one address in one run, so that the kernel can cut it. Cost: the cost
 /// of the inner link multiplied by the number of addresses, and one copy of the octets. Nothing is
 /// joined. Threads as for any Link; sending allocates nothing.
-class FanOutLink final : public Link {
+class FanOutLink final : public LinkAround {
  public:
   /// @param inner outlives this
   FanOutLink(Link& inner, const GroupPool& pool, const FanOutOptions& options);
@@ -53,13 +53,8 @@ class FanOutLink final : public Link {
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;
   void leave(const GroupAddress& group) noexcept override;
-  bool wait(std::chrono::nanoseconds timeout) noexcept override;
-  void wake() noexcept override;
-  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
-  bool take_event(LinkEvent& event) noexcept override;
-  void settle() noexcept override;
 
   /// Datagrams received for groups that are not joined. Any thread.
   [[nodiscard]] std::uint64_t not_listened() const noexcept;

@@ -89,7 +89,7 @@ void ImpairedLink::Emulator::take_in(const Datagram& datagram) noexcept {
 }
 
 ImpairedLink::ImpairedLink(Link& inner, const ImpairedLinkOptions& options, const Clock& clock)
-    : emulator_(std::make_unique<Emulator>(inner, options, clock)) {}
+    : LinkAround(inner), emulator_(std::make_unique<Emulator>(inner, options, clock)) {}
 
 ImpairedLink::~ImpairedLink() = default;
 
@@ -99,10 +99,6 @@ void ImpairedLink::number_sender(const IpEndpoint& sender, std::uint64_t number)
 
 void ImpairedLink::change_law(const ImpairmentLaw& law) {
   emulator_->next_law.write(Impairment(law, emulator_->seed));
-}
-
-bool ImpairedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
-  return emulator_->inner.send(to, bytes);
 }
 
 SentBatch ImpairedLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
@@ -124,12 +120,6 @@ std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
   return count;
 }
 
-std::error_code ImpairedLink::join(const GroupAddress& group) noexcept {
-  return emulator_->inner.join(group);
-}
-
-void ImpairedLink::leave(const GroupAddress& group) noexcept { emulator_->inner.leave(group); }
-
 // Waits no longer than until the next held datagram is due.
 bool ImpairedLink::wait(nanoseconds timeout) noexcept {
   Emulator& s = *emulator_;
@@ -141,18 +131,8 @@ bool ImpairedLink::wait(nanoseconds timeout) noexcept {
   return readable || due <= s.clock.now();
 }
 
-void ImpairedLink::wake() noexcept { emulator_->inner.wake(); }
-
-IpEndpoint ImpairedLink::local_endpoint() const noexcept {
-  return emulator_->inner.local_endpoint();
-}
-
 std::size_t ImpairedLink::max_payload() const noexcept {
   return std::min(emulator_->inner.max_payload(), emulator_->queue.max_bytes());
-}
-
-bool ImpairedLink::take_event(LinkEvent& event) noexcept {
-  return emulator_->inner.take_event(event);
 }
 
 void ImpairedLink::settle() noexcept {

@@ -32,7 +32,7 @@ struct ImpairedLinkOptions {
 
 /// Delays received datagrams; sends without changes. Threads as for any Link: receive and wait in
 /// one.
-class ImpairedLink final : public Link {
+class ImpairedLink final : public LinkAround {
  public:
   /// Allocates the whole queue. `inner` and `clock` must outlive this. @throws
   /// std::invalid_argument if the law is out of range.
@@ -49,18 +49,12 @@ class ImpairedLink final : public Link {
   /// @throws std::invalid_argument with law.problem()
   void change_law(const ImpairmentLaw& law);
 
-  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   /// In datagrams from receive(), Datagram::received is the time of arrival according to the law.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
-  std::error_code join(const GroupAddress& group) noexcept override;
-  void leave(const GroupAddress& group) noexcept override;
   bool wait(std::chrono::nanoseconds timeout) noexcept override;
-  void wake() noexcept override;
-  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
-  bool take_event(LinkEvent& event) noexcept override;
   void settle() noexcept override;
 
  private:

@@ -177,6 +177,31 @@ class Link {
   virtual void settle() noexcept {}
 };
 
+/// A link around another one: what it does not override is the inner link's. A batch is sent one by
+/// one by its own send(), unless it overrides send_batch() too.
+class LinkAround : public Link {
+ public:
+  /// @param inner outlives this
+  explicit LinkAround(Link& inner) noexcept : around_(inner) {}
+
+  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
+    return around_.send(to, bytes);
+  }
+  std::error_code join(const GroupAddress& group) noexcept override { return around_.join(group); }
+  void leave(const GroupAddress& group) noexcept override { around_.leave(group); }
+  bool wait(std::chrono::nanoseconds timeout) noexcept override { return around_.wait(timeout); }
+  void wake() noexcept override { around_.wake(); }
+  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override {
+    return around_.local_endpoint();
+  }
+  [[nodiscard]] LinkStatistics statistics() const noexcept override { return around_.statistics(); }
+  bool take_event(LinkEvent& event) noexcept override { return around_.take_event(event); }
+  void settle() noexcept override { around_.settle(); }
+
+ private:
+  Link& around_;
+};
+
 /// Remedy for an error of a join or of a send; empty if none is known. No allocation.
 [[nodiscard]] std::string_view join_remedy(const std::error_code& error) noexcept;
 [[nodiscard]] std::string_view send_remedy(const std::error_code& error) noexcept;

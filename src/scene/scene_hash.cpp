@@ -142,8 +142,7 @@ void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effect
 }
 
 /// The code of an effect cannot be hashed, only its name and parameters.
-template <class ObjectOrRegion>
-void add_custom_effects_of(Hash& hash, const ObjectOrRegion& owner) {
+void add_custom_effects_of(Hash& hash, const auto& owner) {
   for (const auto& declared : owner.custom_effects) {
     hash.fact("custom effect", declared.effect->name());
     for (std::size_t i = 0; i < declared.values.size(); ++i)

@@ -30,8 +30,7 @@ constexpr std::string_view key_of() {
 }
 
 /// Checks whether the values make a solid; if not, a problem states the reason.
-template <class S>
-void try_solid(TomlReader& table, std::string_view key, const S& shape) {
+void try_solid(TomlReader& table, std::string_view key, const auto& shape) {
   try {
     const haptics::ImplicitSolid solid(shape);
   } catch (const std::invalid_argument& error) {

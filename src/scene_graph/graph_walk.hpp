@@ -69,8 +69,7 @@ class DrawWalk {
       : graph_(&graph), walk_(graph), lights_(static_cast<std::size_t>(graph.size())) {}
 
   /// Calls `draw(DrawnNode)` for each shown geometry, from left to right. Allocates nothing.
-  template <class Draw>
-  void run(Draw draw) {
+  void run(auto draw) {
     walk_.run({}, [&](NodeIndex node, State& own, State& around) {
       own.pose = placed(around.pose, graph_->local(node));
       if (graph_->kind(node) != NodeKind::content) return true;

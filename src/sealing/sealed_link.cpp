@@ -284,7 +284,8 @@ void SealedLink::Session::hold(const OpenedDatagram& opened, const Datagram& dat
   (is_held ? counts->held : counts->held_lost).add();
 }
 
-SealedLink::SealedLink(Link& inner, SealedLinkOptions options, const Clock& clock) {
+SealedLink::SealedLink(Link& inner, SealedLinkOptions options, const Clock& clock)
+    : LinkAround(inner) {
   if (inner.max_payload() < kEnvelope + Greeter::kShortest)
     throw std::invalid_argument("the network's payload has no room for an envelope");
   session_ = std::make_unique<Session>(inner, std::move(options), clock);
@@ -330,8 +331,6 @@ std::error_code SealedLink::join(const GroupAddress& group) noexcept {
   return session_->inner.join(group);
 }
 
-void SealedLink::leave(const GroupAddress& group) noexcept { session_->inner.leave(group); }
-
 // Waits at most until the next greeting is due.
 bool SealedLink::wait(nanoseconds timeout) noexcept {
   Session& s = *session_;
@@ -342,18 +341,8 @@ bool SealedLink::wait(nanoseconds timeout) noexcept {
   return s.inner.wait(std::min(timeout, until)) || next <= s.clock.now();
 }
 
-void SealedLink::wake() noexcept { session_->inner.wake(); }
-
-bool SealedLink::take_event(LinkEvent& event) noexcept { return session_->inner.take_event(event); }
-
-void SealedLink::settle() noexcept { session_->inner.settle(); }
-
-IpEndpoint SealedLink::local_endpoint() const noexcept { return session_->inner.local_endpoint(); }
-
 std::size_t SealedLink::max_payload() const noexcept {
   return session_->inner.max_payload() - kEnvelope;
 }
-
-LinkStatistics SealedLink::statistics() const noexcept { return session_->inner.statistics(); }
 
 }  // namespace reckon::peer

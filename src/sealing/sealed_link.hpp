@@ -46,7 +46,7 @@ struct SealedLinkOptions {
 /// If the process may be one of two (a fork, a copied machine), it continues with another boot. If
 /// its clocks differ by seconds (the machine was suspended), it trusts no sender until the sender
 /// has proved again to be live.
-class SealedLink final : public Link {
+class SealedLink final : public LinkAround {
  public:
   /// Allocates all that it needs.  @param inner, clock outlive this.
   /// @throws RandomSourceError; std::invalid_argument if the inner link carries less than kEnvelope
@@ -64,15 +64,9 @@ class SealedLink final : public Link {
   /// Also sends a greeting if one is due.
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;
-  void leave(const GroupAddress& group) noexcept override;
   bool wait(std::chrono::nanoseconds timeout) noexcept override;
-  void wake() noexcept override;
-  bool take_event(LinkEvent& event) noexcept override;
-  void settle() noexcept override;
-  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   /// kEnvelope less than for the inner link.
   [[nodiscard]] std::size_t max_payload() const noexcept override;
-  [[nodiscard]] LinkStatistics statistics() const noexcept override;
 
  private:
   struct Session;

@@ -33,8 +33,7 @@ bool has(const std::vector<Condition>& conditions, Condition one) {
 }
 
 /// The first tier that satisfies `is`.
-template <class Is>
-std::size_t first_tier(const Switches& settings, Is is) {
+std::size_t first_tier(const Switches& settings, auto is) {
   const Tiers& tiers = settings.aoim.tiers;
   return static_cast<std::size_t>(std::ranges::find_if(tiers, is) - tiers.begin());
 }

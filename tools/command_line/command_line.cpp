@@ -99,8 +99,12 @@ struct CommandLine::Parser {
         verb(verb_),
         summary(summary_) {}
 
-  /// An option whose text is converted by `read`.
-  void add(const std::string& name, const std::string& help, const std::string& kind, auto read) {
+  /// An option whose text is converted by `value`.
+  void add(const std::string& name, auto& target, const std::string& help, const std::string& kind,
+           auto value) {
+    const auto read = [&target, name, value](const std::string& text) {
+      target = value(name, text);
+    };
     app.add_option_function<std::string>(name, read, help)->type_name(kind);
   }
 
@@ -258,30 +262,25 @@ void CommandLine::option(const std::string& name, std::pair<std::string, std::st
 
 void CommandLine::option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
                          const std::string& help) {
-  parser_->add(name, help, "DURATION",
-               [&target, name](const std::string& text) { target = duration_value(name, text); });
+  parser_->add(name, target, help, "DURATION", duration_value);
 }
 
 void CommandLine::option(const std::string& name, std::chrono::nanoseconds& target,
                          const std::string& help) {
-  parser_->add(name, help, "DURATION",
-               [&target, name](const std::string& text) { target = duration_value(name, text); });
+  parser_->add(name, target, help, "DURATION", duration_value);
 }
 
 void CommandLine::option(const std::string& name, std::uint64_t& target, const std::string& help) {
-  parser_->add(name, help, "NUMBER",
-               [&target, name](const std::string& text) { target = count_value(name, text); });
+  parser_->add(name, target, help, "NUMBER", count_value);
 }
 
 void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& target,
                          const std::string& help) {
-  parser_->add(name, help, "NUMBER",
-               [&target, name](const std::string& text) { target = count_value(name, text); });
+  parser_->add(name, target, help, "NUMBER", count_value);
 }
 
 void CommandLine::option(const std::string& name, double& target, const std::string& help) {
-  parser_->add(name, help, "NUMBER",
-               [&target, name](const std::string& text) { target = number_value(name, text); });
+  parser_->add(name, target, help, "NUMBER", number_value);
 }
 
 void CommandLine::choice(const std::string& name, std::string& target,

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reckon/tools/object_model/field_types.hpp"
@@ -32,6 +34,13 @@ class Xml {
   }
   void leaf(std::string_view element, std::string_view text) {
     line(fmt::format("<{0}>{1}</{0}>", element, escaped(text)));
+  }
+  /// An element of `leaves` alone.
+  void element(std::string_view name,
+               std::initializer_list<std::pair<std::string_view, std::string>> leaves) {
+    open(name);
+    for (const auto& [leaf_name, text] : leaves) leaf(leaf_name, text);
+    close();
   }
   void line(const std::string& text) { text_ += std::string(2 * open_.size(), ' ') + text + "\n"; }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -61,10 +70,7 @@ void write_identification(Xml& xml) {
       "description",
       "Written by reckon_object_model from the field tables of IEEE 1278.1 PDUs, which are what "
       "goes over the network: big endian, without the padding of HLA's encodings.");
-  xml.open("poc");
-  xml.leaf("pocType", "Primary author");
-  xml.leaf("pocName", "The Reckon authors");
-  xml.close();
+  xml.element("poc", {{"pocType", "Primary author"}, {"pocName", "The Reckon authors"}});
   xml.close();
 }
 
@@ -144,10 +150,7 @@ void write_interaction(Xml& xml, ModelTypes& types) {
              fmt::format("{} PDU, type {}", pdu::name(T::kPduType), static_cast<int>(T::kPduType)));
     for (const ModelField& field : members.members()) {
       if (field.name == "header") continue;
-      xml.open("parameter");
-      xml.leaf("name", field.name);
-      xml.leaf("dataType", field.type);
-      xml.close();
+      xml.element("parameter", {{"name", field.name}, {"dataType", field.type}});
     }
     xml.close();
   }
@@ -172,13 +175,12 @@ std::string representation_of(std::size_t octets, char kind) {
 void write_representations(Xml& xml) {
   xml.open("basicDataRepresentations");
   for (const int bits : {16, 32, 64}) {
-    xml.open("basicData");
-    xml.leaf("name", fmt::format("Unsigned{}BE", bits));
-    xml.leaf("size", std::to_string(bits));
-    xml.leaf("interpretation", fmt::format("Whole number from 0 to 2^{} - 1", bits));
-    xml.leaf("endian", "Big");
-    xml.leaf("encoding", "Binary, most significant bit first");
-    xml.close();
+    xml.element("basicData",
+                {{"name", fmt::format("Unsigned{}BE", bits)},
+                 {"size", std::to_string(bits)},
+                 {"interpretation", fmt::format("Whole number from 0 to 2^{} - 1", bits)},
+                 {"endian", "Big"},
+                 {"encoding", "Binary, most significant bit first"}});
   }
   xml.close();
 }
@@ -205,10 +207,7 @@ void write_enumerations(Xml& xml, const ModelTypes& types) {
     xml.leaf("representation", representation_of(enumeration.octets, 'u'));
     xml.leaf("semantics", "SISO-REF-010; values without a name here may occur");
     for (const auto& [value, text] : enumeration.values) {
-      xml.open("enumerator");
-      xml.leaf("name", text);
-      xml.leaf("value", std::to_string(value));
-      xml.close();
+      xml.element("enumerator", {{"name", text}, {"value", std::to_string(value)}});
     }
     xml.close();
   }
@@ -232,10 +231,7 @@ void write_arrays_and_records(Xml& xml, const ModelTypes& types) {
     xml.leaf("name", name);
     xml.leaf("encoding", "The fields in sequence, big endian");
     for (const ModelField& field : members) {
-      xml.open("field");
-      xml.leaf("name", field.name);
-      xml.leaf("dataType", field.type);
-      xml.close();
+      xml.element("field", {{"name", field.name}, {"dataType", field.type}});
     }
     xml.close();
   }

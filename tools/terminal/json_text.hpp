@@ -33,8 +33,7 @@ class JsonObject {
     return *this;
   }
   /// Whole numbers, `true` and `false`, and text that already is JSON.
-  template <class T>
-  JsonObject& value(std::string_view key, const T& value) {
+  JsonObject& value(std::string_view key, const auto& value) {
     fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
     return *this;
   }
@@ -49,8 +48,7 @@ class JsonObject {
     return *this;
   }
   /// An array; `append(out, row)` writes the JSON of each row.
-  template <class Rows, class Append>
-  JsonObject& array(std::string_view key, const Rows& rows, Append&& append) {
+  JsonObject& array(std::string_view key, const auto& rows, auto&& append) {
     member(key) += '[';
     bool first = true;
     for (const auto& row : rows) {

@@ -142,8 +142,7 @@ struct Drawing {
 
  private:
   /// Draws its triangles; a box if there are too many, or if it cannot be read.
-  template <class Load>
-  void draw_loaded(Load load, const Eigen::Vector3d& unread) const {
+  void draw_loaded(auto load, const Eigen::Vector3d& unread) const {
     try {
       const haptics::SurfaceMesh mesh = load();
       if (mesh.triangles().size() <= most) {
