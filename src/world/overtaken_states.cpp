@@ -24,10 +24,10 @@ constexpr std::size_t kFixed = pdu::kFixedSize<pdu::EntityState>;
 // Datagrams prefetched in advance: another core has written them, and hardware prefetchers do not
 // read backwards.
 constexpr std::size_t kAhead = 3;
-constexpr std::size_t kLine = 64;  // of a processor's cache [octets]
+constexpr std::size_t kCacheLine = 64;  // of a processor's cache [octets]
 
 void bring_near(std::span<const std::byte> octets) {
-  for (std::size_t at = 0; at < octets.size(); at += kLine) __builtin_prefetch(&octets[at]);
+  for (std::size_t at = 0; at < octets.size(); at += kCacheLine) __builtin_prefetch(&octets[at]);
 }
 
 bool same_sender(const Arrival& a, const Arrival& b) {
