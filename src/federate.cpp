@@ -11,6 +11,7 @@
 #include "reckon/peer/federation/loop_side.hpp"
 #include "reckon/peer/federation/remote_objects.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/addressed.hpp"
@@ -23,16 +24,6 @@ using std::chrono::nanoseconds;
 using HearOctets = std::function<void(std::span<const std::byte>, const InteractionSender&)>;
 
 constexpr std::size_t kLongestMarking = 11;
-
-std::string written(const pdu::EntityType& type) {
-  std::string text;
-  for (const int number :
-       {static_cast<int>(type.kind), static_cast<int>(type.domain), int{type.country},
-        int{type.category}, int{type.subcategory}, int{type.specific}, int{type.extra}}) {
-    text += (text.empty() ? "" : ".") + std::to_string(number);
-  }
-  return text;
-}
 
 void check_marking(const std::string& marking) {
   const bool ascii =
@@ -207,7 +198,7 @@ ObjectHandle Federate::register_object(const EntityDescription& description,
       std::any_of(s.published.begin(), s.published.end(),
                   [&](const EntityClass& entities) { return entities.contains(description.type); });
   if (!published)
-    throw std::logic_error("entity type " + written(description.type) +
+    throw std::logic_error("entity type " + entity_type_numbers(description.type) +
                            " is not published: call publish(EntityClass{type}) first");
   check_marking(description.marking);
   const auto number = s.numbers.take();

@@ -12,12 +12,12 @@
 namespace reckon::aoim {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kOutOfReach = std::numeric_limits<double>::infinity();
 
 // 0 at the focus, 1 at the edge of its radius; a focus of radius 0 needs only its own cell.
 double share(double distance, double radius) noexcept {
   if (distance <= 0.0) return 0.0;
-  return radius > 0.0 ? distance / radius : kNever;
+  return radius > 0.0 ? distance / radius : kOutOfReach;
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void Subscription::name_cells() {
 
 SubscriptionChange Subscription::update(std::span<const Focus> foci, std::chrono::nanoseconds now,
                                         std::span<const GroupIndex> besides) {
-  for (Entry& entry : entries_) entry.reach = entry.cover = kNever;
+  for (Entry& entry : entries_) entry.reach = entry.cover = kOutOfReach;
   for (const Focus& focus : foci) measure(focus);
   for (const GroupIndex group : besides) entries_[group.value - 1u].reach = 0.0;
   choose(now);

@@ -3,6 +3,7 @@
 // Records that many PDUs share, as in IEEE 1278.1-2012 clause 6.2, in host form.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,11 @@ struct EntityType {
   std::uint8_t specific = 0;
   std::uint8_t extra = 0;
 
+  /// Its parts, in the order of their declaration.
+  [[nodiscard]] constexpr std::array<std::uint16_t, 7> numbers() const noexcept {
+    return {static_cast<std::uint16_t>(kind), static_cast<std::uint16_t>(domain), country, category,
+            subcategory, specific, extra};
+  }
   friend constexpr auto operator<=>(const EntityType&, const EntityType&) = default;
 };
 

@@ -77,11 +77,8 @@ void StateColumns::add(const peer::SourceDatagram& datagram, const pdu::EntitySt
   const pdu::EntityId& id = state.entity_id;
   entity_id.insert(entity_id.end(), {id.site, id.application, id.entity});
   force_id.push_back(static_cast<std::uint8_t>(state.force_id));
-  const pdu::EntityType& type = state.entity_type;
-  entity_type.insert(
-      entity_type.end(),
-      {static_cast<std::uint16_t>(type.kind), static_cast<std::uint16_t>(type.domain), type.country,
-       type.category, type.subcategory, type.specific, type.extra});
+  const auto type = state.entity_type.numbers();
+  entity_type.insert(entity_type.end(), type.begin(), type.end());
   add_vector(location, state.location);
   const pdu::EulerAngles& angles = state.orientation;
   orientation.insert(orientation.end(), {angles.psi, angles.theta, angles.phi});

@@ -181,9 +181,7 @@ pdu::EntityType entity_type(std::string_view text) {
 }
 
 std::string entity_type_numbers(const pdu::EntityType& type) {
-  return fmt::format("{}.{}.{}.{}.{}.{}.{}", static_cast<unsigned>(type.kind),
-                     static_cast<unsigned>(type.domain), type.country, type.category,
-                     type.subcategory, type.specific, type.extra);
+  return fmt::format("{}", fmt::join(type.numbers(), "."));
 }
 
 std::string entity_type_words(const pdu::EntityType& type) {

@@ -90,11 +90,6 @@ const NodePose& SceneGraph::rest(NodeIndex node) const noexcept {
   return one != nullptr ? one->rest : local(node);
 }
 
-bool SceneGraph::is_procedural(NodeIndex node) const noexcept {
-  return kind(node) == NodeKind::switch_ || kind(node) == NodeKind::level_of_detail ||
-         moving(node) != nullptr;
-}
-
 std::optional<NodeIndex> SceneGraph::find(std::string_view name) const noexcept {
   const auto found = std::ranges::find(name_, name);
   if (found == name_.end()) return std::nullopt;

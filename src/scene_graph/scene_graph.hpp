@@ -64,8 +64,6 @@ class SceneGraph {
   [[nodiscard]] const NodeContent& content(NodeIndex node) const noexcept {
     return content_[at(node)];
   }
-  /// A switch, a level of detail, or a node with a time function.
-  [[nodiscard]] bool is_procedural(NodeIndex node) const noexcept;
   /// Its time function; null if it has none.
   [[nodiscard]] const NodeMotion* motion(NodeIndex node) const noexcept;
   /// Whether it or one of its ancestors has a time function.

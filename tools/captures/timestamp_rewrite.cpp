@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/captures/timestamp_rewrite.hpp"
 
-#include <cstdint>
-
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/codec/byte_order.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -13,10 +12,6 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::size_t kTimestampOffset = 4;  // in the header, IEEE 1278.1-2012 6.2.66
-
-void put_u32(std::span<std::byte> at, std::uint32_t value) {
-  for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<std::byte>(value >> (24 - 8 * i));
-}
 
 void rewrite_trailer(std::span<std::byte> octets, std::chrono::nanoseconds utc) {
   pdu::DatagramTrailer trailer;
@@ -33,7 +28,7 @@ void rewrite_timestamps(std::span<std::byte> datagram, std::chrono::nanoseconds 
     if (pdu.error != pdu::DecodeError::none) continue;
     const std::span<std::byte> octets = datagram.subspan(pdu.offset, pdu.bytes.size());
     const bool absolute = pdu::is_absolute(pdu.header.timestamp);
-    put_u32(octets.subspan(kTimestampOffset), pdu::to_dis_timestamp(utc, absolute));
+    pdu::store_big_endian(octets.data() + kTimestampOffset, pdu::to_dis_timestamp(utc, absolute));
     if (pdu.header.pdu_type == pdu::PduType::datagram_trailer) rewrite_trailer(octets, utc);
   }
 }

@@ -18,16 +18,6 @@ constexpr std::size_t kCountry = 2;
 
 constexpr unsigned most_of(std::size_t part) { return part == kCountry ? 65535 : 255; }
 
-std::array<std::uint16_t, 7> numbers_of(const pdu::EntityType& type) {
-  return {static_cast<std::uint16_t>(type.kind),
-          static_cast<std::uint16_t>(type.domain),
-          type.country,
-          type.category,
-          type.subcategory,
-          type.specific,
-          type.extra};
-}
-
 bool is_dotted(std::string_view text) {
   return text.find_first_not_of("0123456789.*") == std::string_view::npos;
 }
@@ -35,7 +25,7 @@ bool is_dotted(std::string_view text) {
 TypePatternText by_words(std::string_view text) {
   const peer::EntityTypeText parsed = peer::parse_entity_type(text);
   TypePatternText out{{}, parsed.error};
-  std::ranges::copy(numbers_of(parsed.type), out.pattern.parts.begin());
+  std::ranges::copy(parsed.type.numbers(), out.pattern.parts.begin());
   return out;
 }
 
@@ -66,7 +56,7 @@ TypePatternText by_numbers(std::string_view text) {
 }  // namespace
 
 bool TypePattern::matches(const pdu::EntityType& type) const noexcept {
-  const auto found = numbers_of(type);
+  const auto found = type.numbers();
   return std::equal(parts.begin(), parts.end(), found.begin(),
                     [](const auto& wanted, std::uint16_t is) { return wanted.value_or(is) == is; });
 }

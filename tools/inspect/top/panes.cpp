@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/tools/inspect/check/rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/inspect/top/columns.hpp"
@@ -19,12 +20,6 @@ constexpr std::size_t kPlotRows = 6;
 
 std::string vector_text(const auto& v, std::string_view unit) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) {}", v.x, v.y, v.z, unit);
-}
-
-std::string type_text(const pdu::EntityType& type) {
-  return fmt::format("{}.{}.{}.{}.{}.{}.{}", static_cast<unsigned>(type.kind),
-                     static_cast<unsigned>(type.domain), type.country, type.category,
-                     type.subcategory, type.specific, type.extra);
 }
 
 /// "first 1  threshold 12  heartbeat 3".
@@ -110,7 +105,7 @@ std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns) {
   }
   out.push_back({std::move(line)});
   out.push_back({});
-  out.push_back({"type          " + type_text(pdu.entity_type)});
+  out.push_back({"type          " + peer::entity_type_numbers(pdu.entity_type)});
   if (entity.has_state) add_motion(pdu, out);
   out.push_back({fmt::format("updates       {}: {}", entity.updates, causes_text(row))});
   out.push_back({"jumps         " + jumps_text(row)});
