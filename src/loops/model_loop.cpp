@@ -317,14 +317,13 @@ void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) 
   const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);
   const SenderRight right = remote_.sender_right(issuers.ids(), arrival);
   if (right == SenderRight::refused) return counted_.interactions_refused.add();
+  const bool is_owner = right == SenderRight::owner;
   if (guest_ != nullptr) {
     const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
-    guest_->receive(update.pdu.header, update.pdu.bytes,
-                    {arrival.from, peer, right == SenderRight::owner});
+    guest_->receive(update.pdu.header, update.pdu.bytes, {arrival.from, peer, is_owner});
   }
   if (order) return orders_.carry_out(update, arrival, own_id(), pass_);
-  emissions_.take(update.pdu.bytes,
-                  {arrival.from, arrival.arrival, arrival.epoch == 0, right == SenderRight::owner});
+  emissions_.take(update.pdu.bytes, {arrival.from, arrival.arrival, arrival.epoch == 0, is_owner});
 }
 
 void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
