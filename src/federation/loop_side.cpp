@@ -22,7 +22,7 @@ void LoopSide::begin_pass(ModelLoop& loop) noexcept {
   Wishes* wishes = wishes_.take();
   if (wishes == nullptr) return;
   grant(*wishes, loop);
-  say(*wishes, loop);
+  send(*wishes, loop);
   wishes->clear();
   wishes_.give_back();
 }
