@@ -15,12 +15,12 @@ namespace {
 using Eigen::Vector3d;
 
 // Far beyond any scene, but near enough that its square does not overflow.
-constexpr double kFarthest = 1e9;
+constexpr double kFarthestProbe = 1e9;
 constexpr double kBeyond = 0.01;     // [m]
 constexpr double kPassedFor = 0.05;  // [s]
 
 bool usable(const Vector3d& device) {
-  return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
+  return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthestProbe;
 }
 
 }  // namespace

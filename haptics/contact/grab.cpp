@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRampSeconds = 0.1;
+constexpr double kGrabRamp = 0.1;
 constexpr double kLeastGain = 0.01;
 
 }  // namespace
@@ -50,7 +50,7 @@ void Grab::settle(double dt, EnergyLedger& ledger) noexcept {
   const double debt = ledger.debt();
   if (debt > 0) scale_gain(debt < booked() ? 1.0 - debt / booked() : 0.0, ledger);
   if (gain_ < kLeastGain) return release(ledger);
-  const double wanted = std::min(1.0 - gain_, dt / kRampSeconds);
+  const double wanted = std::min(1.0 - gain_, dt / kGrabRamp);
   const double rise = stored_ > 0 ? std::clamp(ledger.level() / stored_, 0.0, std::max(0.0, wanted))
                                   : std::max(0.0, wanted);
   ledger.book(-rise * (stored_ - lent_));

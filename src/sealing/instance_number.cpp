@@ -21,7 +21,7 @@ constexpr std::size_t kLongestEvent = 8192;
 constexpr int kMostEvents = 64;  // examined in one call
 
 // FNV-1a.
-std::uint64_t folded(std::uint64_t sum, std::string_view octets) noexcept {
+std::uint64_t hashed(std::uint64_t sum, std::string_view octets) noexcept {
   for (const char octet : octets)
     sum = (sum ^ static_cast<unsigned char>(octet)) * 0x100000001B3ULL;
   return sum;
@@ -63,7 +63,7 @@ std::uint64_t system_instance() noexcept {
     size = ::read(file, boot_id.data(), boot_id.size());
     ::close(file);
   }
-  const std::uint64_t sum = folded(0xCBF29CE484222325ULL,
+  const std::uint64_t sum = hashed(0xCBF29CE484222325ULL,
                                    {boot_id.data(), size > 0 ? static_cast<std::size_t>(size) : 0});
   return sum ^ (copies() << 32) ^ static_cast<std::uint64_t>(::getpid());
 }
