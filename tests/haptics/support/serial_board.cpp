@@ -51,10 +51,10 @@ void SerialBoard::forget() {
 
 void SerialBoard::take(std::uint8_t octet) {
   if (hangs_) return;
-  const std::uint8_t was_told = std::exchange(program.was_told, std::uint8_t{0});
+  const std::uint8_t has_frame = std::exchange(program.has_frame, std::uint8_t{0});
   reckon_board_take(&program, octet);
-  if (program.was_told != 0) ++commands_;
-  program.was_told = static_cast<std::uint8_t>(program.was_told | was_told);
+  if (program.has_frame != 0) ++commands_;
+  program.has_frame = static_cast<std::uint8_t>(program.has_frame | has_frame);
 }
 
 bool SerialBoard::will_hold() const {

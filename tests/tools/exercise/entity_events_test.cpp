@@ -29,7 +29,7 @@ class Crowd {
  public:
   Crowd() : scene_(scene_of(kScene)), world_(1) {
     peer::Peer& peer = world_.start(0, scene_);
-    peer.model().receive(&events_);
+    peer.model().set_guest(&events_);
     world_.run(10);
   }
   /// Sends Entity States of entities first .. last, as fast as one sender may.

@@ -103,8 +103,8 @@ TEST_F(NativeCode, IsLoadedFromTheFileTheUserNames) {
 }
 
 TEST_F(NativeCode, IsLoadedFromTheInstalledFolderByName) {
-  fs::create_directories(plugin_folder());
-  const fs::path installed = plugin_folder() / "native_code_test.so";
+  fs::create_directories(native_code_folder());
+  const fs::path installed = native_code_folder() / "native_code_test.so";
   fs::copy_file(driver_, installed, fs::copy_options::overwrite_existing);
   EXPECT_EQ(trusted_plugin("native_code_test.so", {}), installed);
   const auto plain = demo(scene_of("native_code_test.so"));
