@@ -4,7 +4,6 @@
 // host's clock. Between the Clock and the model loop.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -27,43 +26,15 @@ class SteadyUtc {
   /// UTC at steady time `now`, when the host's clock shows `host_utc`. Rises with `now`, at a rate
   /// within kSlewPpm of it. The first call trusts the host. `now` must not fall.
   std::chrono::nanoseconds at(std::chrono::nanoseconds now,
-                              std::chrono::nanoseconds host_utc) noexcept {
-    const std::chrono::nanoseconds host_offset = host_utc - now;
-    if (!started_) {
-      started_ = true;
-      last_ = now;
-      offset_ = followed_ = host_offset;
-    }
-    follow(host_offset, now);
-    const std::chrono::nanoseconds elapsed = std::max(now - last_, std::chrono::nanoseconds(0));
-    const std::chrono::nanoseconds most = elapsed / (1'000'000 / kSlewPpm);
-    offset_ += std::clamp(followed_ - offset_, -most, most);
-    last_ += elapsed;
-    return now + offset_;
-  }
+                              std::chrono::nanoseconds host_utc) noexcept;
 
   /// Whether this is the host's UTC within kStep, so that timestamps may be absolute.
-  [[nodiscard]] bool is_aligned() const noexcept {
-    return std::chrono::abs(followed_ - offset_) <= kStep;
-  }
+  [[nodiscard]] bool is_aligned() const noexcept;
   /// The jump that the last call of at() has found, forward positive.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> leap() const noexcept { return leap_; }
 
  private:
-  void follow(std::chrono::nanoseconds host_offset, std::chrono::nanoseconds now) noexcept {
-    leap_.reset();
-    if (std::chrono::abs(host_offset - followed_) <= kStep) {
-      followed_ = host_offset;
-      suspect_since_.reset();
-    } else if (!suspect_since_ || std::chrono::abs(host_offset - suspect_) > kStep) {
-      suspect_ = host_offset;
-      suspect_since_ = now;
-    } else if (now - *suspect_since_ >= kHold) {
-      leap_ = host_offset - followed_;
-      followed_ = host_offset;
-      suspect_since_.reset();
-    }
-  }
+  void follow(std::chrono::nanoseconds host_offset, std::chrono::nanoseconds now) noexcept;
 
   // Offsets are UTC minus steady time.
   bool started_ = false;
