@@ -61,7 +61,7 @@ void note_size(const MeshReport& report, std::vector<std::string>& notes) {
 
 void note_octets(const MeshReport& report, std::vector<std::string>& notes) {
   if (report.octets_behind == 0) return;
-  notes.push_back(counted(report.octets_behind, "octet", "octets") + " behind the " +
+  notes.push_back(counted(report.octets_behind, "octet", "octets") + " after the " +
                   counted(report.faces, "face", "faces") +
                   " of the file's count were not read; export it again if faces are missing");
 }

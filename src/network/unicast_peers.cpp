@@ -33,7 +33,7 @@ std::uint16_t port_of(std::string_view item, std::string_view text) {
 
 NamedPeer parse_peer(std::string_view text) {
   const std::string_view item = trimmed(text);
-  if (item.empty()) refuse_peer(item, "names nobody");
+  if (item.empty()) refuse_peer(item, "has no host");
   if (item.find(' ') != std::string_view::npos) refuse_peer(item, "contains a blank");
   if (item.front() == '[') {
     const auto end = item.find(']');
@@ -50,7 +50,7 @@ NamedPeer parse_peer(std::string_view text) {
   const auto colon = item.find(':');
   const bool many = colon != item.rfind(':');  // IPv6 without brackets
   if (colon == std::string_view::npos || many) return {std::string(item), 0};
-  if (colon == 0) refuse_peer(item, "names nobody");
+  if (colon == 0) refuse_peer(item, "has no host");
   return {std::string(item.substr(0, colon)), port_of(item, item.substr(colon + 1))};
 }
 

@@ -138,7 +138,7 @@ def scene_of_a_list(setup):
                 check(peer.wait_event("appeared", 5, NAMES[other - 1]),
                       f"{NAMES[other - 1]} was never shown to {NAMES[host - 1]}; {peer.error_text()}")
         fourth = bed.peer(4, scene, "FOUR", 4, ("--to", Testbed.address(1)))
-        check(fourth.wait_line("--to: the scene's 3 peers are left out", 3, errors=True), fourth.error_text())
+        check(fourth.wait_line("--to: the scene's 3 peers are ignored", 3, errors=True), fourth.error_text())
         check(peers[0].wait_event("appeared", 5, "FOUR"), f"FOUR is not heard; {peers[0].error_text()}")
         check(not peers[1].events("appeared")[2:], "what the flag leaves out was sent to")
         for peer in [fourth, *peers]:

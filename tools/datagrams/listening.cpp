@@ -55,7 +55,7 @@ std::string heard_text(const peer::SourceReport& report) {
   std::string text;
   for (const peer::ListenedInterface& interface : report.interfaces) {
     text +=
-        fmt::format("{}{}: {}", text.empty() ? "heard on " : ", ", interface.name,
+        fmt::format("{}{}: {}", text.empty() ? "received on " : ", ", interface.name,
                     interface.datagrams == 0 ? "none" : counted(interface.datagrams, "datagram"));
   }
   if (report.copies > 0)

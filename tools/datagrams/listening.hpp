@@ -19,8 +19,8 @@ namespace reckon::tools {
 [[nodiscard]] std::string listening_text(const SourceChoice& choice,
                                          const peer::SourceReport& report);
 
-/// "heard on lo: 391 datagrams, eth0: none; 12 datagrams came over another interface too", and what
-/// cannot be received, as lines; empty if the source is not groups.
+/// "received on lo: 391 datagrams, eth0: none; 12 datagrams also arrived on another interface", and
+/// what cannot be received, as lines; empty if the source is not groups.
 [[nodiscard]] std::string heard_text(const peer::SourceReport& report);
 
 /// Watches a source of groups that may be silent. After kPatience of silence from the start it

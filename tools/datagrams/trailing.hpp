@@ -15,8 +15,8 @@ namespace reckon::tools {
 /// The first 16 octets in hexadecimal, and "..." if there are more.
 [[nodiscard]] std::string start_in_hex(std::span<const std::byte> octets);
 
-/// "32 octets behind the last field: 0001...; number_of_variable_parameter_records is 0, and 2 more
-/// records are there". The cause is given only if one fits. `octets` are one decodable PDU, whose
+/// "32 octets after the last field: 0001...; number_of_variable_parameter_records is 0, and 2 more
+/// records are present". The cause is given only if one fits. `octets` are one decodable PDU, whose
 /// last `behind` octets belong to no field.
 [[nodiscard]] std::string explain_trailing(std::span<const std::byte> octets,
                                            const pdu::PduHeader& header, std::size_t behind);

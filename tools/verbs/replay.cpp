@@ -249,7 +249,7 @@ peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const
 std::string Replay::speed_text() const {
   const double rate = schedule_ ? schedule_->asked() : options_.rate;
   std::string text =
-      rate > 0 ? fmt::format("asked {:.4g}x", rate) : "requested as fast as possible";
+      rate > 0 ? fmt::format("requested {:.4g}x", rate) : "requested as fast as possible";
   if (schedule_ && schedule_->is_changed()) text += " on average by keys";
   // There is no rate without two sent datagrams.
   if (counts_.sent < 2 || schedule_->kept() <= 0) return text;

@@ -76,10 +76,11 @@ std::string sentence(const Group& group, std::size_t devices) {
                              : names(group.devices);
   if (group.first.damps && !group.first.is_light) {
     return fmt::format(
-        "{} {} {}{:.6g} N s/m: {:.6g} N s/m are reserved for this by {}, and the rest is rendered "
-        "if the hand's motion supplies its energy; more damping in [[device]] reserves more",
-        names(group.things), group.things.size() == 1 ? "has" : "have",
-        group.things.size() == 1 ? "" : "up to ", group.most_asked, group.first.shown, by);
+        "{} have {}{:.6g} N s/m: {:.6g} N s/m are reserved for them by {}, and the rest is "
+        "rendered if the hand's motion supplies its energy; more damping in [[device]] reserves "
+        "more",
+        names(group.things), group.things.size() == 1 ? "" : "up to ", group.most_asked,
+        group.first.shown, by);
   }
   if (group.first.is_light) {
     return fmt::format(

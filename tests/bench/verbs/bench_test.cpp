@@ -270,7 +270,7 @@ TEST_F(BenchAccuracy, ExplainsAWrongValueAndItsRemedy) {
       {{"--heartbeat", "0s"}, "for example 5s"},
       {{"--angle", "0"}, "write for example 3deg, or none"},
       {{"--seeds", "0"}, "not from 1 to 1000"},
-      {{"--for", "2h"}, "to 1 h"},
+      {{"--for", "2h"}, "at most 1 h"},
       {{"--against", "rvw:1m"}, "write files, or motions with --motion"},
       {{"--circle", "--loss", "5%"}, "--circle is a fixed case"},
       {{"--circle", "--force"}, "--circle is a fixed case"},

@@ -101,8 +101,10 @@ TEST(FiguresVerb, NamesTheNearestFigures) {
   EXPECT_THAT(wrong.err, HasSubstr("there is no figure '4.44'; did you mean '4.4'?"));
   const auto far = run_bench({"figures", "3.70001", "--out", scratch.file("x")});
   EXPECT_EQ(far.status, 2);
-  EXPECT_THAT(far.err, HasSubstr("there are 3.1, 3.2, 3.3, 3.4, 3.5, 3.6, 3.7, 3.8. "
-                                 "`reckon figures --list`"));
+  EXPECT_THAT(
+      far.err,
+      HasSubstr(
+          "that chapter has 3.1, 3.2, 3.3, 3.4, 3.5, 3.6, 3.7, 3.8. `reckon figures --list`"));
   const auto chapter = run_bench({"figures", "6.1", "--out", scratch.file("x")});
   EXPECT_EQ(chapter.status, 2);
   EXPECT_THAT(chapter.err, HasSubstr("there is no figure '6.1'; `reckon figures --list`"));

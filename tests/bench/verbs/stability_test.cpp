@@ -74,7 +74,8 @@ TEST(StabilityVerb, RefusesAFileOfOtherOptions) {
   const std::string before = content(file);
   const auto result = run_bench(study({"--sweep", "delay=1ms", "--csv", file}));
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("it has impairment.delay=0 s, this one impairment.delay=1 ms"));
+  EXPECT_THAT(result.err,
+              HasSubstr("it has impairment.delay=0 s, this study impairment.delay=1 ms"));
   EXPECT_EQ(content(file), before);
 }
 

@@ -217,7 +217,8 @@ TEST(RegionEffects, RefuseUnsupportedShapes) {
     }
     return std::string();
   };
-  EXPECT_NE(refusal().find("region \"hall\": what is everywhere has no border"), std::string::npos);
+  EXPECT_NE(refusal().find("region \"hall\": a region without a shape has no border"),
+            std::string::npos);
   region.shape = CylinderShape{};
   EXPECT_NE(refusal().find("a plane, a sphere, a box"), std::string::npos);
   region.shape = SphereShape{0.1};

@@ -184,25 +184,25 @@ TEST(ImageFile, ReadsGreyMapsAsTextAndBinary) {
 
 TEST(ImageFile, RefusesBrokenGreyMapsWithoutLargeAllocations) {
   using testing::HasSubstr;
-  EXPECT_THAT(refusal_of("P5"), HasSubstr("gives no width in its head"));
-  EXPECT_THAT(refusal_of("P2 4"), HasSubstr("gives no height"));
-  EXPECT_THAT(refusal_of("P2 -4 4 1"), HasSubstr("gives no width"));
-  EXPECT_THAT(refusal_of("P2 99999999999 4 1"), HasSubstr("gives no width"));
-  EXPECT_THAT(refusal_of("P5 4 4"), HasSubstr("gives no greatest value"));
+  EXPECT_THAT(refusal_of("P5"), HasSubstr("has no width in its header"));
+  EXPECT_THAT(refusal_of("P2 4"), HasSubstr("has no height"));
+  EXPECT_THAT(refusal_of("P2 -4 4 1"), HasSubstr("has no width"));
+  EXPECT_THAT(refusal_of("P2 99999999999 4 1"), HasSubstr("has no width"));
+  EXPECT_THAT(refusal_of("P5 4 4"), HasSubstr("has no greatest value"));
   EXPECT_THAT(refusal_of("P5 3 4 255 "), HasSubstr("3 x 4 pixels: give 4 to 4096"));
   EXPECT_THAT(refusal_of("P5 4294967295 4294967295 255 "), HasSubstr("give 4 to 4096"));
   EXPECT_THAT(refusal_of("P5 4 4 0 "), HasSubstr("0 as its greatest value: give 1 to 65535"));
   EXPECT_THAT(refusal_of("P5 4 4 65536 "), HasSubstr("give 1 to 65535"));
   EXPECT_THAT(refusal_of("P5 4 4 255"), HasSubstr("no blank after its greatest value"));
-  EXPECT_THAT(refusal_of("P5 4096 4096 65535 ab"), HasSubstr("33554432 octets and 2 are there"));
-  EXPECT_THAT(refusal_of("P5 4 4 255 123456789012345"), HasSubstr("16 octets and 15 are there"));
+  EXPECT_THAT(refusal_of("P5 4096 4096 65535 ab"), HasSubstr("33554432 octets and 2 exist"));
+  EXPECT_THAT(refusal_of("P5 4 4 255 123456789012345"), HasSubstr("16 octets and 15 exist"));
   EXPECT_THAT(refusal_of("P5 4 4 9 aaaaaaaaaaaaaaaa"), HasSubstr("row 1, column 1: 97 is above"));
   EXPECT_THAT(refusal_of("P2 4096 4096 9 1 2"), HasSubstr("ends early"));
   EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 10 0 0 0 0 0 0 0 0 0"),
               HasSubstr("row 2, column 3: 10 is above its greatest value 9"));
   EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 x 0"),
-              HasSubstr("row 4, column 3: no number"));
-  EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 #"), HasSubstr("no number"));
+              HasSubstr("row 4, column 3: not a number"));
+  EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 #"), HasSubstr("not a number"));
   EXPECT_THAT(refusal_of(""), HasSubstr("neither a PNG picture"));
 }
 

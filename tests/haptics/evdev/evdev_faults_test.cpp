@@ -194,7 +194,7 @@ TEST(EvdevLoop, ReportsAMissingAxis) {
   settings.axes = 2;
   Plugged plugged(test::four_walls(), Plugged::pressing, options, &settings);
   plugged.run(milliseconds(100));
-  EXPECT_THAT(plugged.notices, Contains(HasSubstr("ABS_Y: say event_axes = 1")));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("ABS_Y: write event_axes = 1")));
 }
 
 TEST(EvdevLoop, FindsADeviceByNameOrPath) {
@@ -210,7 +210,7 @@ TEST(EvdevLoop, FindsADeviceByNameOrPath) {
   settings.event = "joystick";
   Plugged plugged(test::one_wall(), Plugged::pressing, {}, &settings);
   plugged.run(milliseconds(100));
-  EXPECT_THAT(plugged.notices, Contains(HasSubstr("whose name has 'joystick'")));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("a name that contains 'joystick'")));
 }
 
 TEST(EvdevLimits, UnknownLimitsAreRequestedByTheirKeys) {

@@ -179,7 +179,7 @@ TEST(FalconLoop, RefusesALatencyTimerThatCannotBeSet) {
   options.latency_set = 16;
   Plugged falcon(options);
   falcon.run(std::chrono::seconds(1));
-  EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("reads 16 ms where 1 ms was set")));
+  EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("reads 16 ms instead of 1 ms")));
   EXPECT_TRUE(falcon.motors_rest());
   EXPECT_FALSE(falcon.loop->stage());
 }

@@ -202,10 +202,10 @@ TEST_F(HeightField, LengthStretchesItAndInvalidShapesAreRefused) {
   EXPECT_THAT(refusal(bad), HasSubstr("heights: width"));
   bad = shape;
   bad.file = folder_.file("none.png");
-  EXPECT_THAT(refusal(bad), HasSubstr("none.png: is no file"));
+  EXPECT_THAT(refusal(bad), HasSubstr("none.png: does not exist"));
   std::ofstream(folder_.file("wide.pgm")) << "P5 1025 1024 255\n" << std::string(1025 * 1024, 'a');
   bad.file = folder_.file("wide.pgm");
-  EXPECT_THAT(refusal(bad), HasSubstr("has 1049600 pixels, and a solid takes 1048576: scale"));
+  EXPECT_THAT(refusal(bad), HasSubstr("has 1049600 pixels, and a solid allows 1048576: scale"));
 }
 
 }  // namespace

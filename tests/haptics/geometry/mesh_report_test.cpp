@@ -63,16 +63,16 @@ TEST(MeshReport, ListsEachFindingWithPlaceAndRepair) {
   EXPECT_THAT(
       mesh_notes(report),
       ElementsAre(
-          HasSubstr("2 octets behind the 5184 faces that the file counts were not read"),
+          HasSubstr("2 octets after the 5184 faces of the file's count were not read"),
           HasSubstr("1 triangle without area was dropped (first: line 17)"),
-          HasSubstr("2 triangles were dropped that had the corners of another (first: line "
-                    "18)"),
-          HasSubstr("3 triangles ran against the neighbours and were turned (first: line "
-                    "19)"),
-          HasSubstr("1 of 4 pieces faced inwards"), HasSubstr("differ at 5 edges"),
+          HasSubstr(
+              "2 triangles were dropped, because another has the same corners (first: line 18)"),
+          HasSubstr("3 triangles had the opposite orientation of the neighbours and were turned "
+                    "(first: line 19)"),
+          HasSubstr("1 of 4 pieces faced inwards"), HasSubstr("disagree at 5 edges"),
           HasSubstr("is open: 6 edges of one triangle only, round 2 holes (first: line 20)"),
           HasSubstr("has 7 edges of three or more triangles (first: line 21)"),
-          HasSubstr("has 8 corners where surfaces meet in a point only (first: line 22)")));
+          HasSubstr("has 8 corners where surfaces meet in one point only (first: line 22)")));
 }
 
 TEST(MeshReport, WritesLengthsInASuitableUnit) {

@@ -272,8 +272,8 @@ TEST(HidEvents, ReportsARefusedEffectAndRetries) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
   plugged.model.fail(HidWheel::Call::write, -EPROTO);
   plugged.run(milliseconds(100));
-  EXPECT_THAT(plugged.notices, Contains(HasSubstr("does not answer (Protocol error), as one that "
-                                                  "was unplugged")));
+  EXPECT_THAT(plugged.notices,
+              Contains(HasSubstr("does not answer (Protocol error), as if unplugged")));
   EXPECT_GE(plugged.model.wheel.least_absorbed(), -1e-9);
 }
 

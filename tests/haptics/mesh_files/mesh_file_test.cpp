@@ -173,13 +173,14 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
     return std::string("read without complaint");
   };
   EXPECT_EQ(message(".obj", "v 0 0 0\nv 1 nan 0\n"),
-            ":2: vertex 1, counted from 0, is not finite; mend it or write the mesh again");
+            ":2: vertex 1, counted from 0, is not finite; repair it or export the mesh again");
   EXPECT_THAT(message(".obj", "v 0 0 0\nv 1 1e999 0\n"), HasSubstr(":2: vertex 1, counted"));
   EXPECT_THAT(message(".obj", "v 0 0 0\n\nv 1 0\n"), HasSubstr(":3: a vertex's z is missing"));
-  EXPECT_THAT(message(".obj", "v 0 zero 0\n"), HasSubstr(":1: a vertex's y is no number"));
+  EXPECT_THAT(message(".obj", "v 0 zero 0\n"), HasSubstr(":1: a vertex's y is not a number"));
   EXPECT_THAT(message(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n"),
-              HasSubstr(":5: a face names vertex 8, counted from 0, of 3"));
-  EXPECT_THAT(message(".obj", "v 0 0 0\nf -1 -2 -3\n"), HasSubstr(":2: face 1 names vertex -1"));
+              HasSubstr(":5: a face refers to vertex 8, counted from 0, of 3"));
+  EXPECT_THAT(message(".obj", "v 0 0 0\nf -1 -2 -3\n"),
+              HasSubstr(":2: face 1 refers to vertex -1"));
   EXPECT_THAT(message(".obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr(":2: '0' refers to no vertex"));
   const std::string little("v\0 \0001\0 \000", 8), big("\0v\0 \0001\0 ", 8);
   EXPECT_EQ(message(".obj", little), ": is text in UTF-16 (little-endian); save it in UTF-8");
@@ -194,8 +195,8 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
   EXPECT_THAT(message(".ply", "plx\n"), HasSubstr("does not begin with 'ply'"));
   EXPECT_THAT(message(".ply", "ply\nelement face 1\nproperty int a\nend_header\n1\n"),
               HasSubstr("no list vertex_indices"));
-  EXPECT_THAT(message(".ply", binary_ply(false).substr(0, 400)), HasSubstr("cut off"));
-  EXPECT_THAT(message(".stl", "solid s\nouter loop\nvertex 0 0 0\n"), HasSubstr("cut off"));
+  EXPECT_THAT(message(".ply", binary_ply(false).substr(0, 400)), HasSubstr("truncated"));
+  EXPECT_THAT(message(".stl", "solid s\nouter loop\nvertex 0 0 0\n"), HasSubstr("truncated"));
   EXPECT_THAT(message(".stl", binary_stl("cut").substr(0, 180)), HasSubstr("184 octets, but"));
   EXPECT_THAT(message(".stl", std::string(100, 'x')), HasSubstr("octets, but it has 100"));
   EXPECT_THAT(message(".3ds", ""), HasSubstr("ends in .obj, .ply, .stl or .off"));
@@ -206,7 +207,7 @@ TEST(MeshFile, NamesTheFaceOfABinaryFile) {
   bytes[bytes.size() - 12] = 5;  // the first corner
   const TemporaryMesh written(".ply", bytes);
   EXPECT_THAT([&] { (void)read_mesh_file(written.path()); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr(": face 1 names vertex 5")));
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr(": face 1 refers to vertex 5")));
 }
 
 /// True if the file is read, false if it is refused with a message.

@@ -117,7 +117,7 @@ TEST(PluginDevice, ImpossibleLimitsCloseAndRefuseTheDevice) {
   ASSERT_NE(library, nullptr);
   const auto left_open = reinterpret_cast<int (*)()>(dlsym(library, "left_open"));
   ASSERT_NE(left_open, nullptr);
-  for (const auto& [fault, named] : {std::pair<std::string, std::string>{"axes", "axes are"},
+  for (const auto& [fault, named] : {std::pair<std::string, std::string>{"axes", "axes must be"},
                                      {"delay", "delay_samples"},
                                      {"force", "max_force"},
                                      {"damping", "damping"},

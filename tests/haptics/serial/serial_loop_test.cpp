@@ -132,7 +132,7 @@ TEST(SerialLoop, ForcesAndPositionsPassARealTty) {
   EXPECT_TRUE(serial.wait_for([&] {
     return serial.sample.ok && (serial.sample.position - serial.board.position()).norm() < 1e-3;
   }));
-  EXPECT_THAT(serial.notices, Contains(serial.port() + ": Board is ready: forces are shown"));
+  EXPECT_THAT(serial.notices, Contains(serial.port() + ": Board is ready: forces are active"));
 }
 
 TEST(SerialLoop, RecoversAfterAnUnplug) {
@@ -195,7 +195,7 @@ TEST(SerialLoop, RefusedBoardIsNamedWithTheReason) {
   options.watchdog = 50;
   Plugged serial(options);
   serial.plug();
-  ASSERT_TRUE(serial.is_told("Board is not driven: without frames it lets go after 50 ms"));
+  ASSERT_TRUE(serial.is_told("Board cannot be used: its watchdog drops the force after 50 ms"));
   EXPECT_TRUE(serial.board.force().isZero(0));
 }
 
@@ -203,7 +203,7 @@ TEST(SerialPort, ReportsUnopenableLinesWithTheRemedy) {
   const test::ScratchFolder folder;
   EXPECT_THAT(SerialPort::open(folder.file("none"), 115'200).problem, HasSubstr("there is no"));
   const SerialOpening file = SerialPort::open("/dev/null", 115'200);
-  EXPECT_THAT(file.problem, HasSubstr("/dev/null is no serial line"));
+  EXPECT_THAT(file.problem, HasSubstr("/dev/null is not a serial port"));
   EXPECT_FALSE(file.port);
 }
 
@@ -213,7 +213,7 @@ TEST(SerialPort, IsOpenedExclusively) {
   ASSERT_TRUE(first.port) << first.problem;
   const SerialOpening second = SerialPort::open(far.name(), 1'000'000);
   EXPECT_FALSE(second.port);
-  EXPECT_THAT(second.problem, HasSubstr("another program has"));
+  EXPECT_THAT(second.problem, HasSubstr("another program uses"));
   first.port.reset();
   EXPECT_TRUE(SerialPort::open(far.name(), 1'000'000).port);
 }

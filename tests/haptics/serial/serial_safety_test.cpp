@@ -161,7 +161,7 @@ TEST(SerialSession, BoardOfAnotherVersionIsRefused) {
   ASSERT_TRUE(session.next(nanoseconds(0)));
   session.take(greeting(2, 100).span(), milliseconds(1));
   EXPECT_EQ(session.stage(), SerialStage::refused);
-  EXPECT_THAT(session.refusal(), HasSubstr("version 2 of the line, and not 1"));
+  EXPECT_THAT(session.refusal(), HasSubstr("version 2 of the protocol instead of 1"));
   EXPECT_FALSE(session.next(seconds(1))) << "it is left alone";
 }
 

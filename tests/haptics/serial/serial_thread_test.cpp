@@ -58,7 +58,7 @@ TEST(SerialThread, ForcesAndFinalZeroReachTheBoard) {
     for (const std::string& notice : real->take_notices()) told += notice + "\n";
     std::this_thread::sleep_for(milliseconds(1));
   }
-  EXPECT_THAT(told, HasSubstr("Board is ready: forces are shown"));
+  EXPECT_THAT(told, HasSubstr("Board is ready: forces are active"));
   EXPECT_THAT(told, HasSubstr("was unplugged: its force is zero"));
 }
 

@@ -119,11 +119,11 @@ TEST(SpringScene, UnsupportedObjectsAreRefusedByName) {
     return "nothing is refused";
   };
   EXPECT_THAT(refused(scene_of(solid("ramp", PlaneShape{{1, 1, 0}}, at))),
-              HasSubstr("'ramp' has faces that stand along no axis"));
+              HasSubstr("'ramp' has faces that are not perpendicular"));
   EXPECT_THAT(refused(scene_of(solid("ball", SphereShape{0.01}, at))),
-              HasSubstr("'ball' is no plane and no box"));
+              HasSubstr("'ball' is neither a plane nor a box"));
   EXPECT_THAT(refused(scene_of(solid("table", PlaneShape{Vector3d::UnitZ()}, {0, 0, 0.01}))),
-              HasSubstr("'table' is wherever the handle is"));
+              HasSubstr("'table' encloses the handle"));
   EXPECT_EQ(refused(scene_of(solid("table", PlaneShape{Vector3d::UnitZ()}, {0, 0, -0.01}))),
             "nothing is refused");
   SceneObject rough = solid("rough", plane, at);

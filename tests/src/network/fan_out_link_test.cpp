@@ -47,8 +47,8 @@ TEST(UnicastPeers, AreWrittenAsTheyAreRead) {
 }
 
 TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
-  EXPECT_THAT(refusal("10.0.0.7,,a"), HasSubstr("names nobody"));
-  EXPECT_THAT(refusal("10.0.0.7,:3000"), HasSubstr("':3000' names nobody"));
+  EXPECT_THAT(refusal("10.0.0.7,,a"), HasSubstr("has no host"));
+  EXPECT_THAT(refusal("10.0.0.7,:3000"), HasSubstr("':3000' has no host"));
   EXPECT_THAT(refusal("[[::]"), HasSubstr("is not an address in brackets"));
   EXPECT_THAT(refusal("host]:3001"), HasSubstr("bracket"));
   EXPECT_THAT(refusal("a:0"), HasSubstr("'a:0' has a port outside 1 to 65535"));

@@ -103,7 +103,7 @@ TEST(DeviceDescriptor, RefusesBadKeysWithPlaceAndRemedy) {
       {std::string(kThree) + "mass = 0\n", "mine.toml:6:8:", "it must be 1 g to 100 kg"},
       {std::string(kThree) + "friction = -1\n", "mine.toml:6:12:", "it must be"},
       {std::string(kThree) + "work_space = { from = \"1 0 0 mm\", to = \"0 1 1 mm\" }\n",
-       "mine.toml:6:14:", "beyond 'from'"},
+       "mine.toml:6:14:", "greater than 'from'"},
       {"name = 3\n", "mine.toml:1:8:", "it needs text"},
       {"name = \"\"\nmax_force = 1\ndamping = 1\nresolution = 0\ndelay = 0\n",
        "mine.toml:1:8:", "is empty"},
@@ -265,11 +265,12 @@ TEST_F(DescribedDeviceSection, ReadsHowTheHandleMovesTheHand) {
   EXPECT_EQ(device.clutch_button, 3);
   EXPECT_EQ(device.stop_button, 0);
   EXPECT_EQ(device_of("").stop_button, -1);
-  EXPECT_THAT(refusal("clutch_button = 3\nstop_button = 3\n"), HasSubstr("name another"));
-  EXPECT_THAT(refusal("clutch_button = 3\ngrab_button = 3\n"), HasSubstr("name another"));
+  EXPECT_THAT(refusal("clutch_button = 3\nstop_button = 3\n"), HasSubstr("choose another"));
+  EXPECT_THAT(refusal("clutch_button = 3\ngrab_button = 3\n"), HasSubstr("choose another"));
   EXPECT_THAT(refusal("stop_button = 32\n"), HasSubstr("it must be 0 to 31"));
   EXPECT_THAT(refusal("scale = 0\n"), HasSubstr("it must be 0.01 to 100"));
-  EXPECT_THAT(refusal("kind = \"pointer\"\nscale = 2\n"), HasSubstr("a pointer has no 'scale'"));
+  EXPECT_THAT(refusal("kind = \"pointer\"\nscale = 2\n"),
+              HasSubstr("'scale' does not apply to a pointer"));
 }
 
 // The page contains the generated list.

@@ -232,7 +232,7 @@ TEST_F(EntityTracks, AreRefusedWithTheirPlaceInBothFiles) {
 
 TEST(EntitySection, RefusesInconsistentKeys) {
   const std::pair<std::string, const char*> cases[] = {
-      {"marking = \"TWELVE CHARS\"\n", "x.toml:2:11: 'marking' has 12 letters; use at most 11"},
+      {"marking = \"TWELVE CHARS\"\n", "x.toml:2:11: 'marking' has 12 characters; use at most 11"},
       {"marking = \"MÜHLE\"\n",
        "x.toml:2:11: 'marking' has a character that is not printable ASCII"},
       {"marking = \"A\\tB\"\n", "not printable ASCII"},

@@ -242,7 +242,7 @@ TEST(SceneFile, RefusesInconsistentKeys) {
       {"[network]\npeers = [\"10.0.0.2\", 3]\n", "it needs texts, any number"},
       {"[network]\npeers = [\"10.0.0.2\",\n \"a:0\"]\n",
        "x.toml:3:2: 'peers': 'a:0' has a port outside 1 to 65535"},
-      {"[network]\npeers = [\"\"]\n", "names nobody"},
+      {"[network]\npeers = [\"\"]\n", "has no host"},
       {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
       {"[impairment]\noutage = 3\n", "it needs tables"},
   };

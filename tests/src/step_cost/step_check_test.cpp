@@ -56,7 +56,7 @@ TEST_F(SlowScene, IsFoundByMeshesButNotByPrimitives) {
   EXPECT_GT(found->step(), 1e-9);
   EXPECT_EQ(found->period(), 1ns);
   EXPECT_THAT(found->finding(), HasSubstr("a servo step that touches corner takes "));
-  EXPECT_THAT(found->finding(), HasSubstr("(dearest: contact "));
+  EXPECT_THAT(found->finding(), HasSubstr("(costliest: contact "));
   EXPECT_THAT(found->what(), HasSubstr("or set FederateOptions::even_if_slow"));
   EXPECT_FALSE(find_step_too_dear(cheap.scene, cheap_plan, 0.005, 1ns));
   EXPECT_FALSE(find_step_too_dear(dear.scene, dear_plan, 0.005, 1h));

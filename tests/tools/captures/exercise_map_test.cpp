@@ -354,7 +354,7 @@ TEST(ExerciseMap, RefusesInvalidMapsWithTheRemedy) {
     EXPECT_THAT(error_of([&] { map_of({text}, {}, ""); }), HasSubstr("write FROM=TO, each 0 to"));
   for (const char* text : {"1:2:3", "1:2=3:4", "1:2:70000=1:2:3", "1:2:3=1:2:3=1:2:3", ""})
     EXPECT_THAT(error_of([&] { map_of({}, {text}, ""); }), HasSubstr("site:application:entity"));
-  EXPECT_THAT(error_of([] { map_of({}, {"1:2:*=1:2:3"}, ""); }), HasSubstr("become one"));
+  EXPECT_THAT(error_of([] { map_of({}, {"1:2:*=1:2:3"}, ""); }), HasSubstr("merge all entities"));
   for (const char* text : {"91,0", "1", "1,2,3,4", "a,b", "1,2=3,4=5,6", "nan,1", "1,2,1e9"})
     EXPECT_THAT(error_of([&] { map_of({}, {}, text); }), HasSubstr("LATITUDE,LONGITUDE"));
   EXPECT_THAT(error_of([] { map_of({}, {}, "1,2,3=4,5"); }), HasSubstr("give both heights"));

@@ -146,14 +146,13 @@ TEST(CommandLine, BlamesTheUnknownFlagInsteadOfItsValue) {
 }
 
 TEST(CommandLine, NamesTheMissingValueAndItsKind) {
-  EXPECT_THAT(parse({"here", "--for"}).err,
-              HasSubstr("--for is the last word and needs a value: DURATION"));
-  EXPECT_THAT(parse({"--pace"}).err, HasSubstr("needs a value: slow|fast"));
+  EXPECT_THAT(parse({"here", "--for"}).err, HasSubstr("--for needs a value after it: DURATION"));
+  EXPECT_THAT(parse({"--pace"}).err, HasSubstr("needs a value after it: slow|fast"));
 }
 
 TEST(CommandLine, NamesTheSuperfluousWordAndTheUsage) {
   EXPECT_THAT(parse({"here", "there"}).err,
-              HasSubstr("'there' is a word too many; write reckon walk [SOURCE] [FLAGS]"));
+              HasSubstr("unexpected argument 'there'; write reckon walk [SOURCE] [FLAGS]"));
 }
 
 TEST(CommandLine, TakesAValueThatLooksLikeAFlag) {

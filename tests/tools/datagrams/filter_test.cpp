@@ -175,7 +175,7 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
            {"beam_function == serach", 18, "did you mean 'search'?"},
            {"entity_appearance.damage == destroied", 29, "did you mean 'destroyed'?"},
            {"warhead == xyzzyxyzzy", 12, "it is a number, or "},
-           {"exercise_id == one", 16, "'one' is no number"},
+           {"exercise_id == one", 16, "'one' is not a number"},
            {"id == 1:2", 7, "three parts"},
            {"id == 1:70000:*", 9, "'70000' is neither * nor a number from 0 to 65535"},
            {"id < 1:*:*", 4, "allows == and != only"},

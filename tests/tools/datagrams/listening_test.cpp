@@ -31,10 +31,11 @@ TEST(Listening, ReportsAddressesAndCountsOfEachInterface) {
   peer::SourceReport report;
   report.interfaces = {{"lo", 3}, {"eth0", 1}, {"eth1", 0}};
   EXPECT_EQ(listening_text(choice, report), "239.1.2.3:3000 on lo, eth0 and eth1");
-  EXPECT_EQ(heard_text(report), "heard on lo: 3 datagrams, eth0: 1 datagram, eth1: none\n");
+  EXPECT_EQ(heard_text(report), "received on lo: 3 datagrams, eth0: 1 datagram, eth1: none\n");
   report.copies = 2;
   report.unheard = {"not all groups are received on eth1: No buffer space available"};
-  EXPECT_THAT(heard_text(report), HasSubstr("; 2 datagrams came over another interface too\nnot"));
+  EXPECT_THAT(heard_text(report),
+              HasSubstr("; 2 datagrams also arrived on another interface\nnot"));
   choice.source = "iface:lo";
   EXPECT_EQ(listening_text(choice, {}), "all UDP of lo");
   EXPECT_EQ(heard_text({}), "");

@@ -78,14 +78,14 @@ TEST(DatagramInspector, TakesLengthZeroAsTheRestIfLenient) {
                 "the length field is 0: the 144 octets to the end of the datagram are used"));
   octets.resize(288 + 5, std::byte{0xAB});
   EXPECT_EQ(std::get<2>(rows_of(octets, true).at(1)),
-            "the length field is 0, the 149 octets up to the end of the datagram are taken; 5 "
-            "octets behind the last field are kept: ababababab");
+            "the length field is 0: the 149 octets to the end of the datagram are used; 5 octets "
+            "after the last field are kept: ababababab");
   octets.resize(144 + 20);  // too short for its fields, whatever the length field
   EXPECT_EQ(
       rows_of(octets, true).at(1),
-      Row("entity_state", "E-LENGTH", "20 octets are there, entity_state needs at least 144"));
+      Row("entity_state", "E-LENGTH", "20 octets available, entity_state needs at least 144"));
   EXPECT_EQ(std::get<2>(rows_of(octets, false).at(1)),
-            "header says 0 octets, 20 are there, entity_state needs at least 144");
+            "length field: 0 octets, 20 available, entity_state needs at least 144");
 }
 
 TEST(DatagramInspector, NamesALittleEndianLength) {
@@ -97,7 +97,7 @@ TEST(DatagramInspector, NamesALittleEndianLength) {
   exchange(octets, 0);
   EXPECT_EQ(rows_of(octets, false).at(0),
             Row("entity_state", "E-BYTE-ORDER",
-                "header says 36864 octets, 144 remain; 36864 is 144 with its octets exchanged"));
+                "length field: 36864 octets, 144 remain; 36864 is 144 with its octets swapped"));
   append_pdu(octets, entity(2));  // the next one begins at the false length
   EXPECT_EQ(std::get<1>(rows_of(octets, false).at(0)), "E-BYTE-ORDER");
   octets.resize(octets.size() - 1);
@@ -110,10 +110,9 @@ TEST(DatagramInspector, NamesALittleEndianLength) {
   append_pdu(large, state);  // 512 octets: 2 when exchanged
   ASSERT_EQ(large.size(), 512U);
   exchange(large, 0);
-  EXPECT_EQ(rows_of(large, false).at(0),
-            Row("entity_state", "E-BYTE-ORDER",
-                "header says 2 octets, entity_state needs at least 144; 2 is 512 with its octets "
-                "exchanged"));
+  EXPECT_EQ(rows_of(large, false).at(0), Row("entity_state", "E-BYTE-ORDER",
+                                             "length field: 2 octets, entity_state needs at least "
+                                             "144; 2 is 512 with its octets swapped"));
 }
 
 TEST(DatagramInspector, KeepsAndNotesTrailingOctetsIfLenient) {
@@ -235,9 +234,9 @@ TEST(DatagramInspector, NotesDatagramsOfOtherProtocols) {
   ntp[0] = std::byte{0x23};
   const Octets ssdp = octets_of("M-SEARCH * HTTP/1.1\r\nHOST: 239.255.255.250:1900\r\n\r\n");
   const std::vector<std::tuple<Octets, std::uint16_t, std::string>> foreign{
-      {dns(0, false), 5353, "no PDU of any version of DIS in 29 octets; port 5353 is that of mDNS"},
-      {ntp, 123, "no PDU of any version of DIS in 48 octets; port 123 is that of NTP"},
-      {ssdp, 1900, "no DIS PDU in 51 octets; port 1900 is that of SSDP"},
+      {dns(0, false), 5353, "no DIS PDU in 29 octets; port 5353 is registered for mDNS"},
+      {ntp, 123, "no DIS PDU in 48 octets; port 123 is registered for NTP"},
+      {ssdp, 1900, "no DIS PDU in 51 octets; port 1900 is registered for SSDP"},
       {ssdp, 3000, "no DIS PDU in 51 octets"},
       {octets_of("ping"), 3000, "no DIS PDU in 4 octets"}};
   for (const auto& [octets, port, reason] : foreign) {

@@ -236,7 +236,7 @@ TEST(TableFields, ErrorsNameWrongNamesAndValues) {
   EXPECT_THAT(refusal("descriptor.munition_typ.kind == 2"),
               HasSubstr("did you mean 'descriptor.munition_type.kind'?"));
   EXPECT_THAT(refusal("qqqqqqqqqqqq == 2"), HasSubstr("--fields TYPE"));
-  EXPECT_THAT(refusal("frequency == loud"), HasSubstr("column 14: 'loud' is no number"));
+  EXPECT_THAT(refusal("frequency == loud"), HasSubstr("column 14: 'loud' is not a number"));
   EXPECT_THAT(refusal("entity_marking_string > 3"), HasSubstr("allows == and != only"));
   EXPECT_THAT(refusal("frequency >"), HasSubstr("expected a value of frequency"));
   for (const char* wrong : {".x == 1", "a..b == 1", "psi. == 1", "systems[ == 1", "systems[1 == 1",

@@ -78,7 +78,7 @@ TEST(Trailing, GivesPlaceNumberAndFirstOctets) {
   put16(octets, 8, octets.size());
   const PduRow row = row_of(octets);
   EXPECT_EQ(row.fault_offset, 144U);
-  EXPECT_EQ(row.reason, "20 octets behind the last field: 0102030405060708090a0b0c0d0e0f10...");
+  EXPECT_EQ(row.reason, "20 octets after the last field: 0102030405060708090a0b0c0d0e0f10...");
 }
 
 TEST(Trailing, NamesACountThatLeavesRecordsOut) {
@@ -88,10 +88,10 @@ TEST(Trailing, NamesACountThatLeavesRecordsOut) {
   Octets octets = encoded(state);
   octets[19] = std::byte{0};
   expect_trailing(octets, 32,
-                  "number_of_variable_parameter_records is 0, and 2 more records are there");
+                  "number_of_variable_parameter_records is 0, and 2 more records are present");
   octets[19] = std::byte{1};
   expect_trailing(octets, 16,
-                  "number_of_variable_parameter_records is 1, and 1 more record is there");
+                  "number_of_variable_parameter_records is 1, and 1 more record is present");
 }
 
 TEST(Trailing, NamesALengthInOctetsOfASignal) {
@@ -102,9 +102,9 @@ TEST(Trailing, NamesALengthInOctetsOfASignal) {
   ASSERT_EQ(row_of(octets).rule, "");
   put16(octets, 28, 160);
   expect_trailing(octets, 140,
-                  "data_length is 160 bits, 140 octets fewer than are there: given in octets?");
+                  "data_length is 160 bits, 140 octets fewer than are present: given in octets?");
   put16(octets, 28, 0);
-  expect_trailing(octets, 160, "data_length is 0 bits, 160 octets fewer than are there");
+  expect_trailing(octets, 160, "data_length is 0 bits, 160 octets fewer than are present");
   put16(octets, 28, 800);  // neither
   expect_trailing(octets, 60, "");
 }
@@ -119,8 +119,8 @@ TEST(Trailing, NamesACountOfAntennaPatterns) {
   ASSERT_EQ(row_of(octets).rule, "");
   put16(octets, 70, 1);
   expect_trailing(octets, 39,
-                  "length_of_antenna_pattern is 1 octet, 39 fewer than are there: a count in place "
-                  "of a length?");
+                  "length_of_antenna_pattern is 1 octet, 39 fewer than are present: a count in "
+                  "place of a length?");
 }
 
 TEST(Trailing, NamesALengthInOctetsOfADatum) {
@@ -136,10 +136,11 @@ TEST(Trailing, NamesALengthInOctetsOfADatum) {
   octets[47] = std::byte{16};  // bits, but there are 128
   expect_trailing(
       octets, 8,
-      "variable_datum_length is 16 bits, 14 octets fewer than are there: given in octets?");
+      "variable_datum_length is 16 bits, 14 octets fewer than are present: given in octets?");
   octets = encoded(data);
   octets[39] = std::byte{0};
-  expect_trailing(octets, 24, "number_of_variable_datum_records is 0, and 1 more record is there");
+  expect_trailing(octets, 24,
+                  "number_of_variable_datum_records is 0, and 1 more record is present");
 }
 
 TEST(Trailing, KnowsPaddingWithinTheLength) {

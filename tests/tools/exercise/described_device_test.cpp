@@ -118,9 +118,10 @@ TEST(DescribedHand, IsExplainedWithItsDescriptorAndItsMapping) {
   const std::string out = run_reckon({"scene", "explain", folder.file("x.toml")}).out;
   EXPECT_THAT(out, HasSubstr("3D Systems Touch (touch.toml): 45 g, dry friction 260 mN, work space "
                              "160 x 70 x 120 mm"));
-  EXPECT_THAT(out, AllOf(HasSubstr("2 times the way of the handle, so 1.65 N at most in the scene"),
-                         HasSubstr("left and right are swapped"),
-                         HasSubstr("it stays while button 1 is down")));
+  EXPECT_THAT(
+      out,
+      AllOf(HasSubstr("2 times as far as the handle, with at most 1.65 N in the scene"),
+            HasSubstr("left and right are swapped"), HasSubstr("it stays while button 1 is down")));
 }
 
 TEST(DevicesVerb, PrintsTheLimitsOfADescriptor) {
@@ -147,7 +148,7 @@ TEST(DevicesVerb, RefusesUnknownDevicesAndActions) {
   EXPECT_THAT(none.err, HasSubstr("searched"));
   const auto action = run_reckon({"devices", "show"});
   EXPECT_EQ(action.status, 2);
-  EXPECT_THAT(action.err, HasSubstr("there is describe, keys, measure"));
+  EXPECT_THAT(action.err, HasSubstr("is not one of describe, keys, measure"));
   EXPECT_EQ(run_reckon({"devices", "describe", "--install-rule"}).status, 2);
 }
 
@@ -175,7 +176,7 @@ TEST(DevicesVerb, NamesTheReasonOfAFailedMeasurement) {
       << "name = \"late\"\nmax_force = 8\ndamping = 1\nresolution = 0.00002\ndelay = 0.08\n";
   const auto late = run_reckon({"devices", "measure", "x", "--simulate", folder.file("late.toml")});
   EXPECT_EQ(late.status, 3);
-  EXPECT_THAT(late.err, HasSubstr("late: its forces come more than 50 ms late"));
+  EXPECT_THAT(late.err, HasSubstr("late: its forces are more than 50 ms late"));
   EXPECT_EQ(late.out, "");
   const auto six = run_reckon({"devices", "measure", "x", "--simulate", "freedom_6s"});
   EXPECT_THAT(six.err, HasSubstr("only devices of three axes can be measured"));

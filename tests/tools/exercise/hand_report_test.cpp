@@ -44,13 +44,14 @@ TEST_F(HandReport, IsEmptyWithoutReductions) { EXPECT_EQ(text(), ""); }
 TEST_F(HandReport, ReportsTimeAndAmountOfHeldBackContacts) {
   views_[1].servo.tally.held_back = {2.0, 0.4, 2.3};
   views_[2].servo.tally.held_back = {0.4, 0.1, 0.5};
-  EXPECT_THAT(text(), HasSubstr("held back                  3 % of the time in contact with hands, "
-                                "at worst 40 % of 2.3 N shown: energy was short (1:2:1, 1:3:1)"));
+  EXPECT_THAT(text(),
+              HasSubstr("held back                  3 % of the time in contact with hands, at "
+                        "worst 40 % of 2.3 N displayed: energy was short (1:2:1, 1:3:1)"));
   EXPECT_THAT(text(), Not(HasSubstr("crowded")));
   views_[3].servo.tally.guests = {1.0, 0.0, 3.0};
   EXPECT_THAT(text(),
-              HasSubstr("guests held back           1.2 % of the time in contact with hands, "
-                        "at worst 0 % of 3 N shown: energy was short beside hands (1:4:1)"));
+              HasSubstr("guests held back           1.2 % of the time in contact with hands, at "
+                        "worst 0 % of 3 N displayed: energy was short, with hands (1:4:1)"));
   views_[5].servo.tally.crowd = {1.0, 0.5, 4.0};
   views_[6].servo.tally.effects = {1.5, 0.0, 0.2};
   EXPECT_THAT(text(), AllOf(HasSubstr("crowded"), HasSubstr("50 % of 4 N displayed"),
@@ -59,8 +60,8 @@ TEST_F(HandReport, ReportsTimeAndAmountOfHeldBackContacts) {
 
 TEST_F(HandReport, ReportsHowLongTheDeviceLimitCutForces) {
   views_[2].servo.tally.limit = {0.25, 0.8, 12.5};
-  EXPECT_THAT(text(), HasSubstr("force cut                  0.25 s, at worst 80 % of 12.5 N shown: "
-                                "it was more than the device may show (1:3:1)"));
+  EXPECT_THAT(text(), HasSubstr("force cut                  0.25 s, at worst 80 % of 12.5 N "
+                                "displayed: it exceeded the limit of the device (1:3:1)"));
   const auto json = nlohmann::json::parse(hands_json(hands_));
   EXPECT_EQ(json[2]["force_cut"]["s"], 0.25);
   EXPECT_EQ(json[2]["force_cut"]["worst_asked_n"], 12.5);

@@ -125,7 +125,7 @@ def stopped(program):
         terminal.pump()
     terminal.press("q")
     after = terminal.expect_end().split(LEAVE_SCREEN)[-1]
-    for said in (b"all forces are stopped by the key s", b"forces come back: SIGUSR1", b"forces stopped             1 time,"):
+    for said in (b"all forces are stopped by the key s", b"forces are restored: SIGUSR1", b"forces stopped             1 time,"):
         assert said in after, after
     assert terminal.process.returncode == 0
 

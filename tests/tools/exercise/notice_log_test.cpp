@@ -56,7 +56,7 @@ TEST(NoticeLog, ReportsAFullDiskOnce) {
   log.add(refusal());
   log.add(refusal());
   EXPECT_EQ(err.text(),
-            "--log /dev/full: No space left on device; notices are not logged any more\n");
+            "--log /dev/full: No space left on device; further notices are not logged\n");
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ TEST(PointerHand, SceneIsGoodAndNamesItsPointer) {
   EXPECT_THAT(check.out, HasSubstr("good"));
   EXPECT_THAT(check.out, Not(HasSubstr("note:"))) << check.out;
   const auto explained = test::run_reckon({"scene", "explain", file()});
-  EXPECT_THAT(explained.out,
-              HasSubstr("a pointer, within 500 mm of where operator 1 is; 40 ms behind it"));
+  EXPECT_THAT(
+      explained.out,
+      HasSubstr("a pointer, within 500 mm of the start of operator 1, with a lag of 40 ms"));
 }
 
 TEST(PointerHand, VisitorPressesItWhileItsPointerRests) {

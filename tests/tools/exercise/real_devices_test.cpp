@@ -157,7 +157,7 @@ TEST(RealDevices, DriverFileIsLoadedAndReported) {
   EXPECT_THAT(real.take_notices(),
               ::testing::ElementsAre(AllOf(HasSubstr("dummy: assumes 1 N s/m"), HasSubstr(file))));
 
-  scene.devices[1].driver_values["plugin"] = std::filesystem::path("none.so");
+  scene.devices[1].driver_values["plugin"] = std::string("none.so");
   EXPECT_THROW(RealDevices({"none.so"}).plug_in(scene, 2, hands.wired), std::runtime_error);
   EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), UsageError);
 }
@@ -289,7 +289,7 @@ TEST(RealDevices, ASerialBoardGoesByItsLine) {
   };
   EXPECT_EQ(refused("/dev/ttyACM0"), "");
   EXPECT_EQ(refused("/dev/serial/by-id/usb-Board-if00"), "");
-  EXPECT_THAT(refused("serial"), HasSubstr("--device /dev/ttyACM0"));
+  EXPECT_THAT(refused("serial"), HasSubstr("write the port of a serial board (/dev/ttyACM0"));
   for (const char* baud : {"", "fast", "12e6", "1199", "12000001", "99999999999"})
     EXPECT_THAT(refused(std::string("/dev/ttyACM0@") + baud), HasSubstr("is not a baud rate"))
         << baud;

@@ -96,9 +96,9 @@ TEST(RealMeasuring, RefusesDevicesThatTakeNoForce) {
   EXPECT_THAT(test::run_reckon({"devices", "measure", "falcon", "--max-force", "1 N", "--yes"}).err,
               HasSubstr("--max-force applies to serial boards only"));
   EXPECT_THAT(test::run_reckon({"devices", "measure"}).err, HasSubstr("needs a device"));
-  EXPECT_THAT(test::run_reckon({"devices", "--yes"}).err, HasSubstr("--yes: of measure"));
+  EXPECT_THAT(test::run_reckon({"devices", "--yes"}).err, HasSubstr("--yes needs measure"));
   EXPECT_THAT(test::run_reckon({"devices", "measure", "m", "--simulate", "falcon", "--yes"}).err,
-              HasSubstr("--yes: of a real device"));
+              HasSubstr("--yes needs a real device"));
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(InspectViews, TakeSourceAndViewInEitherOrder) {
   }
   const auto wrong = run_reckon({"inspect", file, "stat"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("VIEW: 'stat' is none of tail, stats, "));
+  EXPECT_THAT(wrong.err, HasSubstr("VIEW: 'stat' is not one of tail, stats, "));
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'stats'?"));
 }
 

@@ -228,7 +228,7 @@ TEST(InspectJson, NamesEachInjectedFaultOfABundle) {
       Expected{"E-COUNT", 432 + 19,
                "number_of_variable_parameter_records 200 need 3200 octets, 0 remain", "1:2:4"},
       Expected{"E-TRUNCATED", 576 + 70,
-               "header says 9616 octets, 70 remain; ends inside entity_location.z", "1:2:5"}};
+               "length field: 9616 octets, 70 remain; ends inside entity_location.z", "1:2:5"}};
   const auto lines = result.lines();
   ASSERT_EQ(lines.size(), 5U);
   for (std::size_t i = 0; i < kExpected.size(); ++i) {

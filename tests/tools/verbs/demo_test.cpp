@@ -143,7 +143,8 @@ TEST(Demo, ReportsContactWithEntitiesWithoutComparison) {
   EXPECT_TRUE(json["force_error_n"]["p50"].is_null()) << "no hand touched another";
   const auto text = test::run_reckon({"demo", scene, "--simulated-time", "--for", "8s"});
   EXPECT_THAT(text.out, ::testing::ContainsRegex("the object 0.0 s, entities [3-6].[0-9] s"));
-  EXPECT_THAT(text.out, HasSubstr("none: no hand touched another; what entities press is not"));
+  EXPECT_THAT(text.out,
+              HasSubstr("none: no hand touched another; forces of entities are not compared"));
 }
 
 TEST(Demo, OfOnePeerReportsNoTraffic) {

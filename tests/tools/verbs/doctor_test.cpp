@@ -42,8 +42,8 @@ TEST(Doctor, PrintsOneFindingPerLineWithItsRemedy) {
 TEST(Doctor, ReportsWhetherProcessorsCanStayAwake) {
   const auto result = run_reckon({"doctor", "--iface", "lo"});
   const bool may = access("/dev/cpu_dma_latency", W_OK) == 0;
-  EXPECT_THAT(result.out, HasSubstr(may ? "/dev/cpu_dma_latency may be written: "
-                                        : "/dev/cpu_dma_latency may not be written: "));
+  EXPECT_THAT(result.out, HasSubstr(may ? "/dev/cpu_dma_latency is writable: "
+                                        : "/dev/cpu_dma_latency is not writable: "));
 }
 
 TEST(Doctor, ChecksTheScenesGroupAndPort) {

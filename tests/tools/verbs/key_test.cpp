@@ -73,7 +73,7 @@ TEST_F(KeyVerb, AddsTheSecretOfALaterTime) {
 TEST_F(KeyVerb, RefusesANextEpochInThePast) {
   const ProgramResult past = run_reckon({"key", "next", key(), "--from", "1970-01-01T00:00:00Z"});
   EXPECT_EQ(past.status, 2);
-  EXPECT_THAT(past.err, HasSubstr("--from 1970-01-01T00:00:00Z is over"));
+  EXPECT_THAT(past.err, HasSubstr("--from 1970-01-01T00:00:00Z is past"));
   EXPECT_THAT(run_reckon({"key", "show", key()}).out, Not(HasSubstr("epoch  2")));
 }
 

@@ -81,7 +81,7 @@ TEST(Record, TakesOnlyMatches) {
                send_some(group(25), 7, 2);
              });
   EXPECT_THAT(result.err, HasSubstr("recorded 7 datagrams"));
-  EXPECT_THAT(result.err, HasSubstr("20 datagrams did not match and are not in it"));
+  EXPECT_THAT(result.err, HasSubstr("20 datagrams did not match and were omitted"));
   EXPECT_EQ(info_of(path)["entities"][0]["id"], "1:2:2");
 }
 

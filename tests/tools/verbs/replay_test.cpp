@@ -65,12 +65,11 @@ TEST(Replay, ReachesTheSocketsOfThisHost) {
   const ProgramResult result = run_reckon({"replay", make_capture(folder, 20, 10ms)});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(result.out.empty());
-  EXPECT_THAT(result.err,
-              StartsWith("sending to " + group(0).text() + " on lo (this host alone; "));
+  EXPECT_THAT(result.err, StartsWith("sending to " + group(0).text() + " on lo (only this host; "));
   EXPECT_THAT(result.err, HasSubstr("replayed 20 datagrams"));
   EXPECT_THAT(result.err,
-              HasSubstr(" to " + group(0).text() + " and 1 more on lo (this host alone; --iface "));
-  EXPECT_THAT(result.err, HasSubstr("asked 1x, got "));
+              HasSubstr(" to " + group(0).text() + " and 1 more on lo (only this host; --iface "));
+  EXPECT_THAT(result.err, HasSubstr("requested 1x, got "));
   EXPECT_EQ(receiver.take().size(), 20U);
   EXPECT_EQ(receiver.senders().size(), 1U) << "one sender, from one port";
 }
@@ -85,7 +84,7 @@ TEST(Replay, SendsDatagramsStampedBeforeTheFirst) {
   EXPECT_EQ(receiver.take().size(), 6U);
   const ProgramResult part = run_reckon({"replay", in, "--from", "0s"});
   EXPECT_THAT(part.err, HasSubstr("replayed 1 datagram "));
-  EXPECT_THAT(part.err, HasSubstr("5 datagrams left out: not chosen by the flags"));
+  EXPECT_THAT(part.err, HasSubstr("5 datagrams left out: not selected by the flags"));
 }
 
 TEST(Replay, KeepsTheTimesOfTheCapture) {
@@ -110,7 +109,7 @@ TEST(Replay, SendsElsewhereChosenAndOften) {
       run_reckon({"replay", in, "--rate", "0", "--to", "udp://" + group(7).text(), "--loop", "3",
                   "--entity", "1:2:2", "--from", "100ms", "--to", "180ms"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("asked as fast as it goes, got "));
+  EXPECT_THAT(result.err, HasSubstr("requested as fast as possible, got "));
   EXPECT_EQ(receiver.take(), std::vector<Octets>(12, entity_state(2)));
 
   EXPECT_EQ(run_reckon({"replay", in, "--rate", "0", "--to", "udp://" + receiver.endpoint().text()})
@@ -339,7 +338,7 @@ TEST(Replay, ReportsThatNothingCouldBeSent) {
       run_reckon({"replay", make_capture(folder, 5, 1ms), "--to", "udp://192.0.2.1:3000"});
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.err, HasSubstr("replayed 0 datagrams"));
-  EXPECT_THAT(result.err, HasSubstr("5 refused by the kernel; lo reaches this host only"));
+  EXPECT_THAT(result.err, HasSubstr("5 refused by the kernel; lo reaches only this host"));
   EXPECT_EQ(result.err.find("got"), std::string::npos);
 }
 

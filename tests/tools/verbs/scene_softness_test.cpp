@@ -32,8 +32,8 @@ TEST(SceneCheck, ReportsWhatTheDefaultDeviceSoftens) {
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(
       text.out,
-      HasSubstr("note: object wall asks for 20000 N/m and is felt with 1425 N/m by its device"));
-  EXPECT_THAT(text.out, HasSubstr("note: hand asks for 1500 N/m and is felt with 950 N/m"));
+      HasSubstr("note: object wall has 20000 N/m, but is rendered with 1425 N/m by its device"));
+  EXPECT_THAT(text.out, HasSubstr("note: hand has 1500 N/m, but is rendered with 950 N/m"));
   const auto json =
       nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
   ASSERT_EQ(json["softened"].size(), 2u);
@@ -71,8 +71,8 @@ TEST(SceneCheck, ReportsRequestedAndReservedDamping) {
                 : run_reckon({"scene", "check", scene.path()}).out;
   };
   EXPECT_THAT(check("2", false),
-              HasSubstr("note: dampers of wall ask for 2.125 N s/m: 0.375 N s/m are kept for them "
-                        "by its device, and what is beyond is felt as far as"));
+              HasSubstr("note: dampers of wall have 2.125 N s/m: 0.375 N s/m are reserved for them "
+                        "by its device, and the rest is rendered if"));
   EXPECT_THAT(check("0.25", false), Not(HasSubstr("dampers")));
   const auto row = nlohmann::json::parse(check("2", true))["softened"].at(0);
   EXPECT_EQ(row["what"], "dampers of wall");
@@ -102,8 +102,8 @@ TEST(SceneCheck, ReportsDampersTooStrongForALightBody) {
         "[[operator]]\npassive = true\n[[device]]\npeer = 1\n");
     return run_reckon({"scene", "check", scene.path()}).out;
   };
-  EXPECT_THAT(check("7 g"), HasSubstr("drag of ball asks for 3 N s/m and is felt with 0.6 N s/m"));
-  EXPECT_THAT(check("7 g"), HasSubstr("damping of ball asks for 2 N s/m and is felt with 0.6 N"));
+  EXPECT_THAT(check("7 g"), HasSubstr("drag of ball has 3 N s/m, but is rendered with 0.6 N s/m"));
+  EXPECT_THAT(check("7 g"), HasSubstr("damping of ball has 2 N s/m, but is rendered with 0.6 N"));
   EXPECT_THAT(check("30 g"), HasSubstr("drag of ball"));
   EXPECT_THAT(check("30 g"), Not(HasSubstr("damping of ball")));
   EXPECT_THAT(check("40 g"), Not(HasSubstr("drag of ball")));
@@ -116,9 +116,9 @@ TEST(SceneCheck, ReportsOnlyTheWeakDevices) {
       "[[device]]\npeer = 2\nmarking = \"WEAK\"\ndamping = 2\n");
   const auto text = run_reckon({"scene", "check", scene.path()});
   EXPECT_THAT(text.out,
-              HasSubstr("20000 N/m and is felt with 2850 N/m by device 1 WEAK of peer 2"));
+              HasSubstr("20000 N/m, but is rendered with 2850 N/m by device 1 WEAK of peer 2"));
   EXPECT_THAT(text.out, Not(HasSubstr("STRONG")));
-  EXPECT_THAT(text.out, Not(HasSubstr("hand asks for"))) << "2 N s/m show 1900 N/m";
+  EXPECT_THAT(text.out, Not(HasSubstr("hand has"))) << "2 N s/m show 1900 N/m";
 }
 
 TEST(SceneCheck, ReportsTheSlopeLimitOfAHardeningHand) {
@@ -135,13 +135,13 @@ TEST(SceneCheck, ReportsTheSlopeLimitOfAHardeningHand) {
 
 TEST(SceneCheck, ReportsNoSofteningIfAllIsShown) {
   const TemporaryScene scene(std::string(kPlain) + "[hand]\nk1 = 475\n");
-  EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
+  EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("rendered with")));
   const TemporaryScene defaults{kPlain};
-  EXPECT_THAT(run_reckon({"scene", "check", defaults.path()}).out, Not(HasSubstr("felt with")));
+  EXPECT_THAT(run_reckon({"scene", "check", defaults.path()}).out, Not(HasSubstr("rendered with")));
   // The damper of 0.5 N s/m uses half of the spring that the device could show.
   const TemporaryScene stiffer(std::string(kPlain) + "[hand]\nk1 = 476\n");
   EXPECT_THAT(run_reckon({"scene", "check", stiffer.path()}).out,
-              HasSubstr("hand asks for 476 N/m and is felt with 475 N/m"));
+              HasSubstr("hand has 476 N/m, but is rendered with 475 N/m"));
 }
 
 TEST(SceneExplain, ShowsAWallsFeltStiffness) {
@@ -151,7 +151,7 @@ TEST(SceneExplain, ShowsAWallsFeltStiffness) {
   const auto text = run_reckon({"scene", "explain", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("stiffness 20000 N/m, damping 0 N s/m: felt with 1425 N/m"));
   EXPECT_THAT(text.out, Not(HasSubstr("300 N/m, damping 0 N s/m:")));
-  EXPECT_THAT(text.out, HasSubstr("hand asks for 1500 N/m and is felt with 950 N/m"));
+  EXPECT_THAT(text.out, HasSubstr("hand has 1500 N/m, but is rendered with 950 N/m"));
   const auto json = run_reckon({"scene", "explain", "--json", scene.path()});
   std::size_t rows = 0;
   for (const std::string& line : json.lines())

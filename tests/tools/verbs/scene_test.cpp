@@ -35,7 +35,7 @@ TEST(SceneCheck, NotesARadiusThatReachesAllGroups) {
   const TemporaryScene all("[aoim]\npool = 16\nradius = \"20 m\"\n");
   const auto everything = run_reckon({"scene", "check", all.path()});
   EXPECT_EQ(everything.status, 0);
-  EXPECT_THAT(everything.out, HasSubstr("note: the radius of 20 m reaches all 16 groups in use"));
+  EXPECT_THAT(everything.out, HasSubstr("note: the radius of 20 m needs all 16 groups in use"));
   const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n[hand]\nk1 = 400\n");
   const auto capped = run_reckon({"scene", "check", "--json", cap.path()});
   EXPECT_EQ(capped.status, 0);
@@ -113,9 +113,10 @@ TEST(SceneCheck, CountsPatchesAndReportsMissingOnes) {
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_THAT(result.out, HasSubstr("; patches: 1 felt (1)\n"));
-  EXPECT_THAT(result.out, HasSubstr("note: mesh of \"stone\": patch \"steel\" is no material or "
+  EXPECT_THAT(result.out, HasSubstr("note: mesh of \"stone\": patch \"steel\" is not a material or "
                                     "group of any face; the file has felt"));
-  EXPECT_THAT(result.out, HasSubstr("1 of 2 triangles is in no patch and feels as the object"));
+  EXPECT_THAT(result.out,
+              HasSubstr("1 of 2 triangles is in no patch and has the surface of the object"));
   const auto json = run_reckon({"scene", "check", "--json", scene.path()});
   const auto patches = nlohmann::json::parse(json.out)["meshes"][0]["patches"];
   ASSERT_EQ(patches.size(), 1u);
@@ -134,9 +135,10 @@ TEST(SceneCheck, ReportsRepairsOfAMesh) {
   EXPECT_THAT(result.out, HasSubstr("100 x 100 x 100 m, 11 triangles, open, both sides felt"));
   EXPECT_THAT(result.out, HasSubstr("note: mesh of \"stone\": is 173.2 m large"));
   EXPECT_THAT(result.out, HasSubstr("scale_to = \"173.2 mm\""));
-  EXPECT_THAT(result.out, HasSubstr("1 triangle was dropped that had the corners of another"));
-  EXPECT_THAT(result.out, HasSubstr("1 triangle ran against the neighbours and was turned (first: "
-                                    "line 11)"));
+  EXPECT_THAT(result.out,
+              HasSubstr("1 triangle was dropped, because another has the same corners"));
+  EXPECT_THAT(result.out, HasSubstr("1 triangle had the opposite orientation of the neighbours and "
+                                    "was turned (first: line 11)"));
   EXPECT_THAT(result.out, HasSubstr("is open: 3 edges of one triangle only, round 1 hole"));
 
   const auto json = run_reckon({"scene", "check", "--json", scene.path()});
@@ -161,7 +163,7 @@ TEST(SceneExplain, ReportsRepairsOfAMesh) {
   const auto text = run_reckon({"scene", "explain", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("open mesh, both sides felt, size 173.2 m"));
   EXPECT_THAT(text.out, testing::ContainsRegex("\nMESH +FILE +FOUND\nstone +[^ ]+ +100 x 100 x"));
-  EXPECT_THAT(text.out, HasSubstr("1 triangle ran against the neighbours"));
+  EXPECT_THAT(text.out, HasSubstr("1 triangle had the opposite orientation of the neighbours"));
   int meshes = 0;
   for (const std::string& line : run_reckon({"scene", "explain", "--json", scene.path()}).lines()) {
     const auto row = nlohmann::json::parse(line);
@@ -177,7 +179,7 @@ TEST(SceneCheck, ReportsAMeshFarAway) {
                                  test::obj_text(test::cube(), {4321012.25, 678901.5, 432.0}));
   const TemporaryScene scene(scene_of(mesh));
   const auto result = run_reckon({"scene", "check", scene.path()});
-  EXPECT_THAT(result.out, HasSubstr("lies 4374 km from the scene's origin"));
+  EXPECT_THAT(result.out, HasSubstr("is 4374 km from the scene's origin"));
   const TemporaryScene centred(scene_of(mesh) + "centre = true\n");
   EXPECT_THAT(run_reckon({"scene", "check", centred.path()}).out, Not(HasSubstr("note: mesh")));
 }
@@ -187,8 +189,8 @@ TEST(SceneCheck, NamesFileAndLineOfAMeshFault) {
   const TemporaryScene scene(scene_of(mesh));
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.out, HasSubstr(mesh.path().string() + ":3: vertex 2, counted from 0, is not "
-                                                           "finite; mend it"));
+  EXPECT_THAT(result.out, HasSubstr(mesh.path().string() +
+                                    ":3: vertex 2, counted from 0, is not finite; repair it"));
   EXPECT_THAT(result.out, HasSubstr("object \"stone\""));
 }
 
@@ -230,12 +232,12 @@ TEST(SceneCheck, NamesOverlappingBodiesAndTheirSeparation) {
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, scene.path() +
-                            ": object 'cube2' begins 3.1 mm deep in 'cube1', and they will spring "
-                            "apart: move 'cube2' by 3.1 mm along +z\n");
+                            ": object 'cube2' starts 3.1 mm deep in 'cube1', and contact will push "
+                            "them apart: move 'cube2' by 3.1 mm along +z\n");
   const auto json = run_reckon({"scene", "check", "--json", scene.path()});
   EXPECT_EQ(json.status, 1);
   EXPECT_THAT(nlohmann::json::parse(json.out)["problem"].get<std::string>(),
-              StartsWith("object 'cube2' begins 3.1 mm deep"));
+              StartsWith("object 'cube2' starts 3.1 mm deep"));
 }
 
 TEST(SceneCheck, AcceptsBodiesThatRestOnOneAnother) {
@@ -254,7 +256,7 @@ TEST(SceneCheck, ReportsBodiesInPlanesAndMeshes) {
       "[[object]]\nname = \"ground\"\nplane = \"0 0 1\"\nposition = \"0 0 15 mm\"\n"));
   const auto below = run_reckon({"scene", "check", floor.path()});
   EXPECT_EQ(below.status, 1);
-  EXPECT_THAT(below.out, HasSubstr("'cube1' begins 5 mm deep in 'ground'"));
+  EXPECT_THAT(below.out, HasSubstr("'cube1' starts 5 mm deep in 'ground'"));
   EXPECT_THAT(below.out, HasSubstr("move 'cube2' by 5 mm along +z"));
   EXPECT_THAT(below.out, Not(HasSubstr("table")));
 
@@ -268,7 +270,7 @@ TEST(SceneCheck, ReportsBodiesInPlanesAndMeshes) {
                   stone.path().string())));
   const auto lost = run_reckon({"scene", "check", within.path()});
   EXPECT_EQ(lost.status, 1) << lost.out;
-  EXPECT_THAT(lost.out, HasSubstr("'lost' begins 300 mm deep in 'stone'"));
+  EXPECT_THAT(lost.out, HasSubstr("'lost' starts 300 mm deep in 'stone'"));
   EXPECT_THAT(lost.out, HasSubstr("move 'lost' by 300 mm along +z"));
 }
 

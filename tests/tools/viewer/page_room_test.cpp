@@ -36,7 +36,7 @@ TEST(PageRoom, KeyNeedsTheWordToLook) {
   for (const std::string query : {"", "?word=", "?word=1f2f", "?word=1f2e0"}) {
     Tab stranger(served, query);
     for (int i = 0; i < 3; ++i) served.tick();
-    EXPECT_EQ(last_words(stranger), "this exercise has a key: open the address that reckon printed")
+    EXPECT_EQ(last_words(stranger), "this exercise has a key: open the address that Reckon printed")
         << query;
     EXPECT_TRUE(stranger.closed);
     EXPECT_EQ(stranger.texts.size(), 1U) << "and nothing of the exercise";

@@ -137,7 +137,7 @@ TEST_F(PoseTraceFile, AsksForOneRun) {
   EXPECT_FALSE(std::ifstream(path()));
   const auto circle = trace({"--circle"});
   EXPECT_EQ(circle.status, 2);
-  EXPECT_THAT(circle.err, HasSubstr("leave --circle out"));
+  EXPECT_THAT(circle.err, HasSubstr("remove --circle"));
 }
 
 TEST_F(PoseTraceFile, SendsAtAPeriodOrByAThreshold) {

@@ -65,7 +65,7 @@ TEST(ContactStudy, DistinguishesRequestedFromRenderedStiffness) {
   const double held = 0.01 / (2 / 300.0 + 1 / 950.0);
   EXPECT_NEAR(rows[0].from_asked.p50, held * (1500 / 950.0 - 1), 0.05);
   EXPECT_LT(rows[0].from_shown.p50, 0.02);
-  EXPECT_THAT(contact_text(rows, {}), HasSubstr("1500 N/m, of which the devices can show 950"));
+  EXPECT_THAT(contact_text(rows, {}), HasSubstr("1500 N/m, of which the devices can display 950"));
 }
 
 TEST(ContactStudy, DelayAndALowRateIncreaseForceErrors) {

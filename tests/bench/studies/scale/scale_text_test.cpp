@@ -177,7 +177,7 @@ TEST(ScaleCapacity, QuantityAtItsLimitEndsTheExercise) {
     EXPECT_NEAR(found.back().entities, 100 * found.back().peers, 1e-6);
     EXPECT_EQ(found.back().limit, "the CPU of a host");
     EXPECT_EQ(found.back().within, power == 2.0);
-    EXPECT_THAT(capacity_text(found, limits), HasSubstr("the CPU of a host limits first"));
+    EXPECT_THAT(capacity_text(found, limits), HasSubstr("the CPU of a host is the first limit"));
     std::istringstream lines(capacity_json(found));
     std::string line;
     std::getline(lines, line);
@@ -206,7 +206,7 @@ TEST(ScaleCapacity, FarExercisesAreNotExtrapolated) {
   const auto found = capacities(rows, limits);
   EXPECT_DOUBLE_EQ(found.back().peers, 20 * kFarthest);
   EXPECT_EQ(found.back().limit, "");
-  EXPECT_THAT(capacity_text(found, limits), HasSubstr("600 peers with 60,000 entities at least"));
+  EXPECT_THAT(capacity_text(found, limits), HasSubstr("at least 600 peers with 60,000 entities"));
   for (ScaleRow& row : rows) row.run.setting.crowd.entities += row.peers() == 20 ? 500 : 0;
   EXPECT_TRUE(capacities(rows, limits).empty()) << "other peers have other numbers of entities";
 }

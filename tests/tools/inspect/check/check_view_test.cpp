@@ -36,7 +36,7 @@ TEST(InspectCheck, WritesAFindingWithItsJsonKeys) {
   EXPECT_EQ(lines[0],
             R"({"rule":"W-SIDE","status":"warning","frame":1,"pdu":2,"offset":32,"at":50,)"
             R"("time":1700000000.000000000,"id":"1:2:3",)"
-            R"("reason":"force_id is 77, named are 0 to 30",)"
+            R"("reason":"force_id is 77, but 0 to 30 have names",)"
             R"("sentence":"The force ID has no name.","remedy":"send 0 to 30"})");
   EXPECT_EQ(json::parse(lines[1])["rule"], "I-BUNDLE-ORDER");
   EXPECT_EQ(lines[2],
@@ -50,9 +50,8 @@ TEST(InspectCheck, PrintsFrameOctetReasonAndRemedy) {
   in_fields([](auto& pdu) { pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm{77}; })(
       capture);
   const auto result = run_reckon({"inspect", capture.path(), "check"});
-  EXPECT_THAT(result.out,
-              StartsWith("frame 5     PDU 1  +88    W-DRM                  1:2:3        "
-                         "dead_reckoning_algorithm is 77, named are 0 to 9\n"));
+  EXPECT_THAT(result.out, StartsWith("frame 5     PDU 1  +88    W-DRM                  1:2:3       "
+                                     " dead_reckoning_algorithm is 77, but 0 to 9 have names\n"));
   EXPECT_THAT(result.out, HasSubstr("     1 x W-DRM"));
   EXPECT_THAT(result.out, HasSubstr("fix: send 0 to 9"));
   EXPECT_THAT(result.out, HasSubstr("6 PDUs in 5 datagrams: 0 errors, 1 warning, 0 notes\n"));
@@ -65,8 +64,8 @@ TEST(InspectCheck, WritesCsvWithTitles) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], "rule,frame,pdu,offset,at,time,id,reason,remedy");
   EXPECT_EQ(lines[1],
-            "W-SIDE,1,1,0,18,1700000004.000000000,1:2:3,\"force_id is 99, named are 0 to "
-            "30\",send 0 to 30");
+            "W-SIDE,1,1,0,18,1700000004.000000000,1:2:3,\"force_id is 99, but 0 to 30 have "
+            "names\",send 0 to 30");
 }
 
 TEST(InspectCheck, ReportsALastingFaultOnceUntilCorrected) {

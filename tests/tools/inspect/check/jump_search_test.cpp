@@ -198,7 +198,7 @@ TEST(JumpSearch, ReportsAlternatingPlacesOfOneSenderOnce) {
   EXPECT_EQ(found[0]["rule"], "W-SPIKE");
   EXPECT_EQ(found[1]["rule"], "W-DUPLICATE-ID");
   EXPECT_THAT(found[1]["reason"].get<std::string>(),
-              HasSubstr("at two places by turns, 5000 m apart"));
+              HasSubstr("alternates between two positions, 5000 m apart"));
 }
 
 TEST(JumpSearch, TakesARestartedProgramForNone) {

@@ -81,7 +81,7 @@ TEST(StampCourse, BearsJitterAndBurstsOfArrivals) {
 TEST(StampCourse, ReportsAConstantTimestamp) {
   const Told told = told_of(12, 1, [](double) { return 0U; });
   EXPECT_EQ(told.rules, ToldRules({"W-TIMESTAMP-STILL"}));
-  EXPECT_EQ(told.reason, "timestamp stays 0x00000000 for 4.000 s of arrivals");
+  EXPECT_EQ(told.reason, "the timestamp stays 0x00000000 while 4.000 s pass");
   EXPECT_EQ(told_of(2, 60, [](double) { return 77U; }).rules, ToldRules({"W-TIMESTAMP-STILL"}))
       << "at the end of a short capture";
   EXPECT_EQ(told_of(3, 1, [](double) { return 0U; }).rules, kNothing) << "nothing is off yet";
@@ -113,7 +113,7 @@ TEST(StampCourse, ReportsAnErrorOnceThePaceIsRight) {
   const auto ahead = [](double t) { return absolute(t + 60); };
   const Told told = told_of(10, 1, ahead);
   EXPECT_EQ(told.rules, ToldRules({"W-TIMESTAMP-TOLERANCE"}));
-  EXPECT_EQ(told.reason, "absolute timestamp is 60.000 s ahead of the arrival, 5 s are allowed");
+  EXPECT_EQ(told.reason, "absolute timestamp is 60.000 s ahead of the arrival; 5 s are allowed");
   EXPECT_EQ(told_of(1, 1, ahead).rules, ToldRules({"W-TIMESTAMP-TOLERANCE"})) << "one update alone";
   // A clock that runs 1.5 times too fast is a drifting one.
   EXPECT_EQ(told_of(30, 1, [](double t) { return relative(1.5 * t); }).rules,

@@ -245,8 +245,8 @@ def twin(reckon, scenes):
         page.wait(f"{made} < -0.05", "twins that make energy")
         page.wait("window.reckon.hands.some(({ twin }) => twin > 5)", "a twin that is thrown about")
         expect(page.ask(f"window.reckon.hands.every((hand) => ({PASSIVE})(hand) && hand.newtons < 4)"), "hands that stay calm")
-        page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('their twins began anew'))",
-                  "the log says that twins began anew")
+        page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('their twins were restarted'))",
+                  "a line of the log about restarted twins")
         page.wait("[...document.querySelectorAll('.plot')].filter((plot) => plot.parentElement.textContent.includes('without the gate')).length === 2",
                   "lines in the plots of force and energy")
         shows_no_fault(page)

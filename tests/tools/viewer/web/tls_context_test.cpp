@@ -41,7 +41,7 @@ TEST(TlsContext, RefusesACertificateOutOfDate) {
   EXPECT_THAT(refusal(old + ".crt", old + ".key"),
               AllOf(HasSubstr("old.crt: has expired on 2"), HasSubstr("renew it")));
   const std::string early = test::write_certificate(folder.file("early"), "localhost", 9000, 9999);
-  EXPECT_THAT(refusal(early + ".crt", early + ".key"), HasSubstr("early.crt: begins on 2"));
+  EXPECT_THAT(refusal(early + ".crt", early + ".key"), HasSubstr("early.crt: is valid from 2"));
 }
 
 TEST(TlsContext, RefusesTheKeyOfAnotherCertificate) {
