@@ -115,7 +115,7 @@ double factor(const Complex& a, const Complex& b) {
 
 double degrees(const Complex& value) { return std::arg(value) * 180 / std::numbers::pi; }
 
-// It prints the figures of docs/haptic_stability.md.
+// It prints the figures of docs/measurements/touch.md.
 TEST(Strokes, AreNearTheLimitsOfTheDelay) {
   int near = 0, all = 0;
   std::printf(
