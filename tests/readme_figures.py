@@ -3,8 +3,8 @@
 """Computes the README's table of measured figures again, with the commands that stand in it, and compares each figure.
 readme_figures.py ROOT [WORD]: only rows whose command has this word. Exit status 1 where a figure differs.
 
-All but the processor's time are of simulated runs: a figure is the same where it is within its last digit or 2 %, for
-compilers and processors round differently."""
+All runs are simulated: a figure is the same where it is within its last digit or 2 %, for compilers and processors
+round differently."""
 import json
 import pathlib
 import re
@@ -22,34 +22,43 @@ def objects(text):
 
 def demo(text):
     run = objects(text)[-1]
-    return [run["raw_packets_per_s"] / run["packets_per_s"], 1e3 * run["pose_error_m"]["p99"], run["force_error_n"]["p99"]]
+    return {
+        "packets": run["raw_packets_per_s"] / run["packets_per_s"],
+        "position error": 1e3 * run["pose_error_m"]["p99"],
+        "error of the 2 N": run["force_error_n"]["p99"],
+    }
 
 
 def least_energy(text):
-    return [objects(text)[-1]["energy_min_j"]]
+    return {"least energy": objects(text)[-1]["energy_min_j"]}
 
 
 def presses(text):
-    return [100 * float(re.search(r"after 3 s ([0-9.]+)", text)[1])]
+    return {"two hands": 100 * float(re.search(r"after 3 s ([0-9.]+)", text)[1])}
 
 
 def circle(text):
     rms = {(row["model"], row["curve"]): row["position_m"]["rms"] for row in objects(text)}
-    return [1e6 * rms["auto", "cubic"], 4, 1e3 * rms["rvw+adaptive", "cubic"]]
+    return {"RMS position error": 1e6 * rms["auto", "cubic"], "the same vehicle": 1e3 * rms["rvw+adaptive", "cubic"]}
 
 
 def stability(text):
     modes = {row["mode"]: row for row in objects(text) if row["kind"] == "mode"}
-    shown = "reckon", "passivity_controller", "printed_dead_reckoning", "effort_flow"
-    return [100 * modes[mode][key] for mode in shown for key in ("made_energy", "right")]
+    ours, rival = modes["reckon"], modes["passivity_controller"]
+    return {
+        "a hand on a remote surface": 100 * ours["made_energy"],
+        "the same share": 100 * rival["made_energy"],
+        "share of these": 100 * ours["right"],
+        "this share": 100 * rival["right"],
+    }
 
 
 def figures(text):
     row = next(row for row in objects(text) if row["name"] == "4.4")
-    return [row["ours"], row["thesis"]]
+    return {"Fig 4.4": row["ours"]}
 
 
-# By the words of a command: what makes its output readable here, and the figures of the cell in their order.
+# By the words of a command: flags for output that is readable here, and the figures by the first words of their rows.
 ROWS = {
     "demo --simulated-time --for 60s": ("--json", demo),
     "demo scenes/two_hands.toml": ("--json", demo),
@@ -59,9 +68,7 @@ ROWS = {
     "--for 10min": ("--json", least_energy),
     "reckon figures": ("--json --out build/readme_figures", figures),
 }
-EACH = {"position error": 1, "error of the force": 2}  # of the figures of a command that has several rows
 NUMBER = r"\d+(?:\.\d+)?"
-REMARKS = r"of 2 N|; 2 s$"  # what is no figure of the run, and the processor's time
 
 
 def rows_of(readme):
@@ -102,16 +109,12 @@ class Table:
         if len(found) != 1:
             sys.exit(f"failed: nothing computes the row '{what}' again: {command}")
         more, read = found[0]
-        stated = re.findall(NUMBER, re.sub(REMARKS, "", figure))
-        measured = read(self.output(command, more))
-        place = next((place for words, place in EACH.items() if what.startswith(words)), None)
-        measured = measured if place is None else [measured[place]]
-        if what.startswith("packets"):
-            measured = measured[:1]
-        if len(stated) != len(measured):
+        stated = re.findall(NUMBER, figure)
+        measured = [value for words, value in read(self.output(command, more)).items() if what.startswith(words)]
+        if len(stated) != 1 or len(measured) != 1:
             sys.exit(f"failed: {len(stated)} figures in '{figure}', {len(measured)} are computed")
-        good = all(map(agrees, stated, measured))
-        print(f"{'same' if good else 'OTHER':>8}  {figure}  |  " + ", ".join(f"{x:.4g}" for x in measured), flush=True)
+        good = agrees(stated[0], measured[0])
+        print(f"{'same' if good else 'OTHER':>8}  {figure}  |  {measured[0]:.4g}  {what}", flush=True)
         return good
 
 
