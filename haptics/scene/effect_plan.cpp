@@ -231,8 +231,8 @@ PlannedRegion plan_region(const SceneRegion& region) {
   PlannedRegion planned{
       region.name, {}, orientation.toRotationMatrix(), region.pose.position, plan_effects(region)};
   if (!region.shape) {
-    region.effects.for_each([]<class Effect>(const Effect&) {
-      if constexpr (ActsOutside<Effect>)
+    for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
+      if (ActsOutside<Effect> && region.effects.find<Effect>() != nullptr)
         throw std::invalid_argument("a region without a shape has no " + std::string(Effect::kKey) +
                                     ": give it a shape");
     });
