@@ -124,7 +124,7 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
   }
   if (const auto status = line.parse(arguments, console)) return *status;
   if (name.empty()) {
-    throw tools::UsageError("write a study: " + joined("", ", ", [](const StudyKind& kind) {
+    throw tools::UsageError("name a study: " + joined("", ", ", [](const StudyKind& kind) {
                               return fmt::format("reckon bench {}", kind.name);
                             }));
   }

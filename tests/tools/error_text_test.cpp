@@ -86,7 +86,7 @@ const Mistake kMistakes[] = {
     {{"inspect", "a.pcap", "stats", "--csv", "--json"}, "are alternatives", "remove one of them"},
     {{"doctor", "extra"}, "extra: there is no such file", "name a scene file"},
     {{"doctor", "--groups", "x"}, "--groups: 'x'", "whole number"},
-    {{"completion"}, "write a shell", "reckon completion bash"},
+    {{"completion"}, "name a shell", "reckon completion bash"},
     {{"completion", "bahs"}, "SHELL: 'bahs'", "did you mean 'bash'?"},
 };
 

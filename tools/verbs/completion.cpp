@@ -206,7 +206,7 @@ int run_completion(std::span<const Verb> verbs, Arguments arguments, const Conso
   line.choice("SHELL", shell, {"bash", "zsh", "fish"}, "the shell: bash, zsh or fish");
   if (const auto status = line.parse(arguments, console)) return *status;
 
-  if (shell.empty()) throw UsageError("write a shell: reckon completion bash, zsh or fish");
+  if (shell.empty()) throw UsageError("name a shell: reckon completion bash, zsh or fish");
   if (shell == "bash") print_bash(verbs, console.out);
   if (shell == "zsh") print_zsh(verbs, console.out);
   if (shell == "fish") print_fish(verbs, console.out);

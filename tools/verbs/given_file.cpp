@@ -39,7 +39,7 @@ const std::vector<Opening>& openings() {
       {FileKind::unknown,
        "not a capture, a scene (.toml) or a mesh (.obj, .ply, .stl, .off)",
        {},
-       "write a verb before it; `reckon help` lists them"}};
+       "put a verb before it; `reckon help` lists them"}};
   return kOpenings;
 }
 

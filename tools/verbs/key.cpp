@@ -103,7 +103,7 @@ int run_key(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
   if (options.action.empty()) throw UsageError("write an action: reckon key new, next or show");
   if (options.file.empty())
-    throw UsageError(fmt::format("write a key file: reckon key {} FILE", options.action));
+    throw UsageError(fmt::format("name a key file: reckon key {} FILE", options.action));
   try {
     if (options.action == "new") make_file(options, console);
     if (options.action == "next") add_epoch(options, console);

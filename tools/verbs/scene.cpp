@@ -179,7 +179,7 @@ int run_scene(Arguments arguments, const Console& console) {
   if (action == "new") return print_template(console);
   if (action.empty()) throw UsageError("write an action: reckon scene check, explain, new or keys");
   if (files.empty())
-    throw UsageError(fmt::format("write a scene file: reckon scene {} FILE", action));
+    throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
   return action == "check" ? check(files, json, console) : explain(files, json, console);
 }
 

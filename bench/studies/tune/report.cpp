@@ -78,7 +78,7 @@ void append_head(std::string& out, const TuneReport& report) {
   if (often)
     out += fmt::format(
         "The heartbeat of {} is due at nearly every sample, so thresholds have little effect; "
-        "write a longer --heartbeat to see it.\n",
+        "set a longer --heartbeat to see it.\n",
         peer::format_quantity(report.options.heartbeat, "s"));
   out += '\n';
 }

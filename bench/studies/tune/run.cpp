@@ -317,7 +317,7 @@ class TuneStudy final : public Study {
     if (words_.seed && words_.jitter.empty() && words_.loss.empty())
       throw tools::UsageError(kNothingDrawn);
     if (words_.file.empty())
-      throw tools::UsageError("write a FILE: a CSV table of motion, or a capture");
+      throw tools::UsageError("name a FILE: a CSV table of motion, or a capture");
     const TrackFile file = read_track_file(words_.file);
     const TrackSummary summary = summary_of(file.tracks);
     if (!(summary.interval > 0))

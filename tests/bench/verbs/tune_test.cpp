@@ -168,7 +168,7 @@ TEST_F(Tune, NamesTheMistake) {
   EXPECT_THAT(error_of({"--json", "--csv"}), HasSubstr("two formats"));
   EXPECT_THAT(error_of({"--columns", "x"}), HasSubstr("add --force"));
   EXPECT_THAT(error_of({"--force", "--error", "1m"}), HasSubstr("is for motion"));
-  EXPECT_THAT(run_bench({"tune"}).err, HasSubstr("write a FILE"));
+  EXPECT_THAT(run_bench({"tune"}).err, HasSubstr("name a FILE"));
   const ProgramResult missing = run_bench({"tune", "/nowhere/a.csv"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("/nowhere/a.csv"));
