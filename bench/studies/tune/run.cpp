@@ -347,7 +347,7 @@ class TuneStudy final : public Study {
     if (!contact || std::ranges::any_of(rows, &ForceRow::samples)) return output;
     output.code = tools::ExitCode::findings;
     output.note =
-        "the hands never touched, so there is no error; write a longer --for, a shorter --delay, "
+        "the hands never touched, so there is no error; set a longer --for, a shorter --delay, "
         "or operators with crossing paths\n";
     return output;
   }
