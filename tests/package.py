@@ -49,11 +49,18 @@ def problems_of(package, path):
         yield from (line for line in said.splitlines() if not any(tag in line for tag in STATED))
 
 
+def with_site(build):
+    """The site of ./run docs is in reckon-doc where it was made."""
+    if (build.parent / "docs/index.html").exists():
+        HOLDS["reckon-doc"][0].extend(f"usr/share/doc/reckon/html/{file}" for file in ("index.html", "searchindex.js", "docs/viewer.html"))
+
+
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     if not shutil.which("dpkg-deb") or not shutil.which("dpkg-shlibdeps") or not (build / "CPackConfig.cmake").exists():
         print("skipped: dpkg-deb, dpkg-shlibdeps or CPackConfig.cmake is not there")
         sys.exit(77)
+    with_site(build)
     if not shutil.which("lintian"):
         print("lintian is not there and says nothing")
     with tempfile.TemporaryDirectory() as folder:
