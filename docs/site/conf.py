@@ -20,6 +20,7 @@ myst_heading_anchors = 6
 breathe_projects = {"reckon": os.environ["RECKON_XML"]}
 breathe_default_project = "reckon"
 breathe_show_include = False
+autodoc_member_order = "bysource"  # functions and federates, then the PDUs
 html_theme = "furo"
 html_title = f"Reckon {release}"
 html_copy_source = False
@@ -60,6 +61,22 @@ def leave_out_jquery(app, pagename, templatename, context, doctree):
     context["script_files"] = [file for file in context["script_files"] if not re.search("jquery|underscore|frameworks_compat", file)]
 
 
+def write_docstring(app, what, name, obj, options, lines):
+    """Docstrings are plain text: marks of reStructuredText mean themselves, and what is indented behind an empty line is code."""
+    result, code = [], False
+    for line in lines:
+        indented = line.startswith("    ")
+        if indented and not code and (not result or not result[-1].strip()):
+            result += ["::", ""]
+            code = True
+        code = code and (indented or not line.strip())
+        result.append(line if code else stage.literal(line.strip()))
+    fields = getattr(obj, "__slots__", ()) if what == "class" else ()
+    if fields and not fields[0].startswith("_"):
+        result += ["", "Fields: " + ", ".join(f"``{field}``" for field in fields)]
+    lines[:] = result
+
+
 def leave_out_parameters(objects):
     """The search finds classes, functions and members, not their parameters."""
     return lambda domain: (found for found in objects(domain) if not found[2].endswith("Param"))
@@ -67,5 +84,6 @@ def leave_out_parameters(objects):
 
 def setup(app):
     CPPDomain.get_objects = leave_out_parameters(CPPDomain.get_objects)
+    app.connect("autodoc-process-docstring", write_docstring)
     app.connect("html-page-context", leave_out_jquery)
     app.connect("source-read", write_links_for_the_site)

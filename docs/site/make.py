@@ -36,9 +36,9 @@ INPUT_FILTER = "sed -E 's,^( *///)   ,\\1      ,'"
 
 
 def simplify(xml):
-    """Takes from Doxygen's XML what is private, and what breathe and Sphinx cannot read: values that are lambdas or requirements, partial specialisations,
-    several exceptions of one sentence, and equal IDs of overloads that differ by a concept. A file has no namespaces, which would be
-    defined once for each."""
+    """Takes from Doxygen's XML what is private, and what breathe and Sphinx cannot read: values that are lambdas or requirements,
+    partial specialisations, several exceptions of one sentence, and equal IDs of overloads that differ by a concept. A file has no
+    namespaces, which would be defined once for each."""
     for path in xml.glob("*.xml"):
         text = path.read_text(encoding="utf-8")
         if 'kind="file"' in text:

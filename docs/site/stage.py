@@ -26,7 +26,8 @@ def public_headers(root):
     for folder, component in COMPONENTS.items():
         listed = re.findall(r"\bPUBLIC\s+((?:[\w/.]+\.hp?p?\s+)+)", (root / folder / "CMakeLists.txt").read_text(encoding="utf-8"))
         doors = {path.name for path in (root / folder).glob("*.hpp")} | {name for block in listed for name in block.split()}
-        included = {name for door in doors for name in re.findall(rf'#include "reckon/{component}/([^"]+)"', (root / folder / door).read_text(encoding="utf-8"))}
+        texts = [(root / folder / door).read_text(encoding="utf-8") for door in doors]
+        included = {name for text in texts for name in re.findall(rf'#include "reckon/{component}/([^"]+)"', text)}
         result[folder] = sorted(doors | included)
     return result
 
@@ -52,7 +53,12 @@ def toctree(entries, caption="", hidden=False):
 
 
 def literal(text):
-    return re.sub(r"([\\*`|_])", r"\\\1", text)
+    """Plain text as reStructuredText; what is between backticks is code."""
+    parts = text.split("`")
+    if len(parts) % 2 == 0:
+        return re.sub(r"([\\*`|_])", r"\\\1", text)
+    return "".join(f"``{part}``" if place % 2 and part.strip() == part != "" else re.sub(r"([\\*|_])", r"\\\1", part)
+                   for place, part in enumerate(parts))
 
 
 class Site:
