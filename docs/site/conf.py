@@ -6,6 +6,7 @@ import pathlib
 import re
 import sys
 
+import furo
 from sphinx.domains.cpp import CPPDomain
 
 ROOT = pathlib.Path(os.environ["RECKON_ROOT"])
@@ -82,7 +83,23 @@ def leave_out_parameters(objects):
     return lambda domain: (found for found in objects(domain) if not found[2].endswith("Param"))
 
 
+def share_navigation(compute):
+    """Pages that the contents do not list have one navigation for each depth of folders. Furo computes it anew for each page."""
+    known = {}
+
+    def shared(context):
+        name = context["pagename"]
+        if not re.match("files/|api/.*/", name):
+            return compute(context)
+        depth = name.count("/")
+        if depth not in known:
+            known[depth] = compute(context)
+        return known[depth]
+    return shared
+
+
 def setup(app):
+    furo._compute_navigation_tree = share_navigation(furo._compute_navigation_tree)
     CPPDomain.get_objects = leave_out_parameters(CPPDomain.get_objects)
     app.connect("autodoc-process-docstring", write_docstring)
     app.connect("html-page-context", leave_out_jquery)

@@ -37,8 +37,8 @@ INPUT_FILTER = "sed -E 's,^( *///)   ,\\1      ,'"
 
 def simplify(xml):
     """Takes from Doxygen's XML what is private, and what breathe and Sphinx cannot read: values that are lambdas or requirements,
-    partial specialisations, several exceptions of one sentence, and equal IDs of overloads that differ by a concept. A file has no
-    namespaces, which would be defined once for each."""
+    partial specialisations, several exceptions of one sentence, types of C with two equal names, and equal IDs of overloads that
+    differ by a concept. A file has no namespaces, which would be defined once for each."""
     for path in xml.glob("*.xml"):
         text = path.read_text(encoding="utf-8")
         if 'kind="file"' in text:
@@ -46,6 +46,8 @@ def simplify(xml):
         text = re.sub(r'<sectiondef kind="private-.*?</sectiondef>', "", text, flags=re.S)
         text = re.sub(r"\s*<initializer>= *(\[\]|requires).*?</initializer>", "", text, flags=re.S)
         text = re.sub(r"<innerclass [^>]*>[^<]*&lt;.*?</innerclass>", "", text)
+        text = re.sub(r'<memberdef kind="typedef"(?:(?!</memberdef>).)*?<definition>typedef struct (\w+) \1<.*?</memberdef>', "", text,
+                      flags=re.S)
         text = re.sub(r"(</ref>)?</parametername>\s*<parametername>(<ref [^>]*>)?", ", ", text)
         seen = collections.Counter()
 

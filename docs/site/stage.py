@@ -5,12 +5,13 @@
 The generated pages are the table of contents (from the map of docs/README.md), one page for the public headers of each room, one for
 the Python module, one for each folder and each file of text that a page links to.
 """
-import itertools
 import os
 import pathlib
 import re
 
 COMPONENTS = {"pdu": "pdu", "deadreckon": "deadreckon", "aoim": "aoim", "haptics": "haptics", "src": "peer"}
+# What these include is the interface too: PDUs, and what a program hands to a federate or gets from it.
+SHOWN = {"pdu_types.hpp", "federate.hpp", "federate_options.hpp", "wire_conversion.hpp"}
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".h": "cpp", ".c": "c", ".ino": "cpp", ".py": "python", ".lua": "lua", ".xml": "xml",
              ".toml": "toml", ".sh": "bash"}
@@ -21,12 +22,12 @@ def markdown_pages(root):
 
 
 def public_headers(root):
-    """{component: headers}: those directly in its folder, those that it lists as PUBLIC, and those that these include."""
+    """{folder: headers}: those directly in the folder, those that it lists as PUBLIC, and the types that headers of SHOWN include."""
     result = {}
     for folder, component in COMPONENTS.items():
         listed = re.findall(r"\bPUBLIC\s+((?:[\w/.]+\.hp?p?\s+)+)", (root / folder / "CMakeLists.txt").read_text(encoding="utf-8"))
         doors = {path.name for path in (root / folder).glob("*.hpp")} | {name for block in listed for name in block.split()}
-        texts = [(root / folder / door).read_text(encoding="utf-8") for door in doors]
+        texts = [(root / folder / door).read_text(encoding="utf-8") for door in doors if door in SHOWN]
         included = {name for text in texts for name in re.findall(rf'#include "reckon/{component}/([^"]+)"', text)}
         result[folder] = sorted(doors | included)
     return result
@@ -104,16 +105,18 @@ class Site:
         self.headers, components = [], []
         for folder, names in public_headers(self._root).items():
             component = COMPONENTS[folder]
-            doors = [name for name in names if "/" not in name]
-            rooms = itertools.groupby((name for name in names if "/" in name), lambda name: name.split("/")[0])
+            rooms = {"": []}
+            for name in names:
+                rooms.setdefault(name.rpartition("/")[0], []).append(name)
             entries = []
-            for room, headers in [("", doors), *rooms]:
+            for room, headers in rooms.items():
                 path = "/".join(filter(None, ["reckon", component, room]))
                 sections = [self._header(folder, component, name) for name in headers]
                 if sections:
-                    entries.append(f"{component}/{room or 'door'}")
-                    write(self._source / f"api/{entries[-1]}.rst", titled(literal(path), "\n".join(sections)))
-            write(self._source / f"api/{component}.rst", titled(f"reckon::{component}", toctree(entries)))
+                    page = f"{component}/{room or 'door'}"
+                    entries.append(f"* :doc:`{path} <{page}>`: " + ", ".join(name.rpartition("/")[2] for name in headers) + "\n")
+                    write(self._source / f"api/{page}.rst", ":orphan:\n\n" + titled(literal(path), "\n".join(sections)))
+            write(self._source / f"api/{component}.rst", titled(f"reckon::{component}", "".join(entries)))
             components.append(component)
         write(self._source / "api/index.rst", titled("C++ headers", toctree(components)))
 
