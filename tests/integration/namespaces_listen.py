@@ -191,7 +191,7 @@ def as_typed(setup):
             time.sleep(0.05)
         check(recorder.wait() == 0 and "20 datagrams" in recorder.error_text(), recorder.error_text())
         place = f"{BASE_GROUP}:{PORT} on "
-        for more, reach, here, there in (([], place + "lo (this host alone; --iface e0 for the LAN)", 20, 0),
+        for more, reach, here, there in (([], place + "lo (only this host; --iface e0 for the LAN)", 20, 0),
                                          (["--iface", "e0"], place + "e0", 20, 20),
                                          (["--iface", "recorded"], place + "e0", 20, 20)):
             listeners = [listener(setup, bed, host, seconds=3) for host in (1, 2)]
