@@ -46,8 +46,8 @@ class KernelEventCalls final : public EventCalls {
         kernel_call([&] { return ::read(file, events.data(), events.size_bytes()); });
     if (octets < 0) return static_cast<int>(octets);
     if (octets == 0) return -ENODEV;
-    return octets % sizeof(input_event) == 0 ? static_cast<int>(octets / sizeof(input_event))
-                                             : -EIO;
+    const auto whole = static_cast<std::size_t>(octets);
+    return whole % sizeof(input_event) == 0 ? static_cast<int>(whole / sizeof(input_event)) : -EIO;
   }
   int write(int file, const input_event& event) noexcept override {
     const auto octets = kernel_call([&] { return ::write(file, &event, sizeof event); });
