@@ -13,10 +13,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Longer than the wait of a restart and the latest announcement: all receivers have accepted us.
+// After this time without a dispute, all receivers have accepted our ID: it is longer than the
+// pause of a restarted peer, plus the longest time to its first announcement.
 constexpr std::chrono::milliseconds kBelieved{850};
-// After the loss of this many IDs in a row, none held for long, a peer keeps the next. If witnesses
-// take that one too, the dispute about the one after it lasts longer: somebody follows the peer.
+// A peer that loses this many IDs in a row, each within kInPeace, keeps the next one: another
+// sender then claims each ID that it takes. Each further loss makes its next dispute last longer.
 constexpr int kMostYields = 3;
 constexpr std::chrono::seconds kInPeace{10};
 // Number of IDs to draw from, for each known peer: peers that lost the same ID then rarely collide

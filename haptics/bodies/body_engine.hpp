@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Time integration of the bodies: islands that hands push in small, predicted steps; all others
-// after the forces are written.
+// Time integration of the bodies. An island of touching bodies that hands push is integrated in
+// small steps, whose result is predicted for the hands' forces. The other bodies are integrated
+// after these forces are written to the devices, so that no force waits for them.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +32,8 @@ class BodyEngine {
 
   std::size_t add_hand() { return near_.add_hand(); }
 
-  /// This and the functions below: see BodyWorld. @return whether the time has advanced
+  /// BodyWorld documents this function and those below that have no comment; it calls them under
+  /// the same names. @return whether the time has advanced
   bool advance_to(std::chrono::nanoseconds now, bool frozen) noexcept;
 
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
@@ -116,7 +118,8 @@ class BodyEngine {
   BodySolver solver_;
   CarriedObjects carried_;
   std::vector<BodyState> states_;
-  // States at the end of the period, of the bodies that are ahead; of others the previous states.
+  // Of a body already integrated to the end of the period: its state there; of another body: its
+  // state before the last advance.
   std::vector<BodyState> next_;
   NearBodies near_;
   std::array<std::uint32_t, BodySlots::kMost> in_slot_ = all_nobody();  // bodies, by their slots
@@ -132,8 +135,8 @@ class BodyEngine {
   std::vector<double> works_;
   std::uint64_t stepped_ = 0, written_ = 0;  // hands with a step, and with a write, in this period
   BodySet rest_ = 0;                         // bodies moved to the end of the period
-  double ahead_ = 0.0;                       // [s], time by which they are ahead
-  double lead_ = 0.0;     // [s], time by which they are ahead of the hands after an early step
+  double ahead_ = 0.0;                       // [s], from now to the states of these bodies
+  double lead_ = 0.0;     // [s], the same for pushed bodies, if a servo step came early
   double period_ = 1e-3;  // [s]
   bool started_ = false;
   bool frozen_ = false;

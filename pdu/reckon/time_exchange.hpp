@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Time exchange (experimental PDU 143): lets each peer compute the offset between its clock and
-// ours. It repeats the send time of the addressed peer's latest datagram and states the arrival
-// time of that datagram.
+// Time exchange (experimental PDU 143): a peer repeats to each other peer the send time of that
+// peer's latest datagram, with its arrival time, so that both can compute the offset of their
+// clocks. Times are microseconds of UTC modulo 2^32, as in the trailer of each datagram.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@
 
 namespace reckon::pdu {
 
-/// One datagram received from one peer.
+/// The latest datagram that the sender of this PDU has received from one peer.
 struct TimeEcho {
-  std::uint32_t epoch = 0;  ///< of the addressed peer
-  std::uint32_t sent = 0;   ///< `send_time` of its trailer
-  std::uint32_t heard = 0;  ///< arrival time, on the clock of our trailers
+  std::uint32_t epoch = 0;  ///< of that peer, from the trailer of its datagram
+  std::uint32_t sent = 0;   ///< send time in that trailer, by that peer's clock
+  std::uint32_t heard = 0;  ///< arrival time, by the clock of the sender of this PDU
 };
 
 struct TimeExchange {
@@ -30,8 +30,8 @@ struct TimeExchange {
   using Echoes = Records<TimeEcho, std::uint16_t>;
 
   PduHeader header = header_of<TimeExchange>();
-  SimulationAddress simulation;  ///< the receiver
-  std::uint32_t epoch = 0;       ///< of the receiver, as in its trailers
+  SimulationAddress simulation;  ///< of the sender of this PDU
+  std::uint32_t epoch = 0;       ///< of the sender, as in its trailers
   std::uint16_t padding = 0;
   std::span<const std::byte> echoes;  ///< 12 n octets, read with records_of<TimeEcho>
 };
