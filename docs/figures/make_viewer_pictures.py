@@ -36,11 +36,11 @@ SHAKES = "window.reckon.hands.every((hand) => hand.newtons > 1) && window.reckon
 STILL = "window.reckon.hands.every((hand) => hand.newtons > 1.9 && !(hand.flags & 14)) && window.reckon.numbers.pdu_per_s < 60 && window.reckon.time > 25"
 FOLLOW = "document.querySelector('tbody tr:nth-child(3)').click()"
 PICTURES = [
-    Picture("viewer_touch", ["demo"], {"theme": "dark"}, (1280, 800), STILL),
-    Picture("viewer_network", ["demo", "--impair", "delay=100ms jitter=30ms loss=20%"], {"theme": "light"}, (1280, 800), PRESSED),
-    Picture("viewer_twin", ["demo", "--impair", "delay=150ms loss=20%"], {"theme": "dark"}, (1280, 800), SHAKES),
+    Picture("viewer_touch", ["demo"], {"theme": "dark", "tour": "off"}, (1280, 800), STILL),
+    Picture("viewer_network", ["demo", "--impair", "delay=100ms jitter=30ms loss=20%"], {"theme": "light", "tour": "off"}, (1280, 800), PRESSED),
+    Picture("viewer_twin", ["demo", "--impair", "delay=150ms loss=20%"], {"theme": "dark", "tour": "off"}, (1280, 800), SHAKES),
     Picture("viewer_world", ["demo", "{folder}/trucks.toml"], {"theme": "light", "main": "world"}, (1280, 800), "window.reckon.time > 30", FOLLOW),
-    Picture("viewer_narrow", ["demo"], {"theme": "dark"}, (400, 860), PRESSED),
+    Picture("viewer_narrow", ["demo"], {"theme": "dark", "tour": "off"}, (400, 860), PRESSED),
 ]
 
 

@@ -118,6 +118,9 @@ export class Bodies {
   }
 }
 
+// Of an entity of unknown size: a metre, or less in a small scene.
+export function sizeOf(moment, view, row) { return moment.radiusOf(row) ?? Math.min(1, 0.04 * (view.extent?.radius ?? 25)); }
+
 // Least drawn size of a body is some pixels, so that a vehicle is visible in a picture of
 // kilometres.
 export function leastScale(view) {

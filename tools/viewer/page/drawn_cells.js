@@ -8,7 +8,7 @@ import { NONE } from './picture.js';
 import { roundUp } from './words.js';
 
 export const drawnCells = {
-  name: 'cells', view: 'world', says: 'cell that the followed entity receives', mark: 'cell',
+  name: 'cells', view: 'world', says: 'cell, lit where received', mark: 'cell',
   make(group, view) { return new Cells(group, view); },
 };
 

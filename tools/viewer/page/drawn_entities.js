@@ -3,7 +3,7 @@
 // Entities as shown: the shape depends on the kind, the nose points forward, the colour depends on
 // the side. Entities that the followed one does not receive are faint.
 import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
-import { Bodies, leastScale, shapeOf } from './bodies.js';
+import { Bodies, leastScale, shapeOf, sizeOf } from './bodies.js';
 import { colour, SIDE_COLOURS } from './colours.js';
 import { NONE } from './picture.js';
 
@@ -41,6 +41,11 @@ class Entities {
       this.tinted = tinted;
       this.tint(moment);
     }
+    const sized = `${known} ${moment.touchNumber} ${this.view.extent?.radius.toPrecision(1)}`;
+    if (sized !== this.sized) {
+      this.sized = sized;
+      this.sizes = this.rows.map((row) => sizeOf(moment, this.view, row));
+    }
     const scale = leastScale(this.view);
     const { shown, turns } = moment;
     this.bodies.begin(this.view.orbit.anchor);
@@ -48,7 +53,7 @@ class Entities {
       const x = shown[3 * i];
       const y = shown[3 * i + 1];
       const z = shown[3 * i + 2];
-      this.bodies.set(i, x, y, z, turns, scale(x, y, z, this.rows[i]?.radius || 1));
+      this.bodies.set(i, x, y, z, turns, scale(x, y, z, this.sizes[i]));
     }
     this.bodies.end();
   }

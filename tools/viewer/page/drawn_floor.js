@@ -3,6 +3,7 @@
 // A grid below the touched objects, with the length of its squares as a scale.
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments } from './libraries.js';
 import { colour } from './colours.js';
+import { floorHeight } from './extents.js';
 import { roundUp } from './words.js';
 
 const HALF = 6; // squares from the middle to the edge
@@ -39,7 +40,7 @@ class Floor {
   make(step, { centre, radius }, key) {
     this.key = key;
     const [cx, cy] = centre.map((x) => Math.round(x / step) * step);
-    const z = centre[2] - 0.62 * radius;
+    const z = floorHeight({ centre, radius });
     const near = colour('grid');
     const far = colour('sky');
     const at = [];

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The followed entity: its name, and a mark above it.
 import { ConeGeometry, Mesh, MeshBasicMaterial } from './libraries.js';
-import { leastScale } from './bodies.js';
+import { leastScale, sizeOf } from './bodies.js';
 import { colour } from './colours.js';
 import { foreign } from './words.js';
 
@@ -26,7 +26,7 @@ class Followed {
     this.mark.visible = i >= 0;
     if (i < 0) return;
     const [x, y, z] = moment.shown.subarray(3 * i, 3 * i + 3);
-    const scale = leastScale(this.view)(x, y, z, moment.roster.get(moment.followed)?.radius || 1);
+    const scale = leastScale(this.view)(x, y, z, sizeOf(moment, this.view, moment.roster.get(moment.followed)));
     this.mark.scale.setScalar(scale);
     this.mark.position.set(x, y, z + 2.4 * scale);
     this.labels.put(this.view, x, y, z + 3.2 * scale, foreign(moment.name(moment.followed), 24), 'name', 4);

@@ -3,7 +3,7 @@
 // The predicted position of each entity, next to the shown one. The distance is drawn enlarged, so
 // that it is visible.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, LineBasicMaterial, LineSegments, MeshBasicMaterial } from './libraries.js';
-import { Bodies, leastScale, shapeOf } from './bodies.js';
+import { Bodies, leastScale, shapeOf, sizeOf } from './bodies.js';
 import { colour } from './colours.js';
 
 const TIMES = 4;
@@ -63,7 +63,8 @@ class Ghosts {
     return list.map(([i]) => i);
   }
 
-  write({ shown, predicted, turns }, off) {
+  write(moment, off) {
+    const { shown, predicted, turns } = moment;
     const scale = leastScale(this.view);
     const { way } = this;
     const { anchor } = this.view.orbit;
@@ -80,7 +81,7 @@ class Ghosts {
         return twin;
       });
       for (let k = 0; k < 4; ++k) turn[4 * n + k] = turns[4 * i + k];
-      this.bodies.set(n, x, y, z, turn, scale(x, y, z, this.rows[i]?.radius || 1));
+      this.bodies.set(n, x, y, z, turn, scale(x, y, z, sizeOf(moment, this.view, this.rows[i])));
     });
     this.bodies.end();
     const { position } = this.lines.geometry.attributes;

@@ -3,7 +3,7 @@
 // The members received recently in one near or contact group: an outline around them, in the colour
 // of that group.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshBasicMaterial, Vector3 } from './libraries.js';
-import { leastScale } from './bodies.js';
+import { leastScale, sizeOf } from './bodies.js';
 import { colour } from './colours.js';
 import { hull } from './hull.js';
 
@@ -67,7 +67,7 @@ class Groups {
       const i = moment.picture.indexOf(slot);
       if (i < 0) continue;
       const place = [...moment.shown.subarray(3 * i, 3 * i + 3)];
-      const radius = MARGIN + this.view.pixels(scale(...place, moment.roster.get(slot)?.radius || 1), place);
+      const radius = MARGIN + this.view.pixels(scale(...place, sizeOf(moment, this.view, moment.roster.get(slot))), place);
       this.corner.fromArray(place).project(this.view.orbit.camera);
       if (Math.abs(this.corner.z) > 1) continue;
       const [x, y] = [(this.corner.x * width) / 2, (this.corner.y * height) / 2];

@@ -11,7 +11,7 @@ import { foreign } from './words.js';
 const STATES = [[HAND_FLAGS.stopped, 'stopped'], [HAND_FLAGS.forceCut, 'force cut'], [HAND_FLAGS.softened, 'softened'], [HAND_FLAGS.limited, 'rate limited']];
 
 export const drawnHands = {
-  name: 'hands', view: 'touch', says: 'hand, held contact point', mark: 'ball hand-0',
+  name: 'hands', view: 'touch', says: 'hand, and its point on a surface', mark: 'ball hands',
   make(group, view, labels) { return new Hands(group, view, labels); },
 };
 

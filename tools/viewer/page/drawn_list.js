@@ -13,6 +13,7 @@ import { drawnEntities } from './drawn_entities.js';
 import { drawnContacts } from './drawn_contacts.js';
 import { drawnFollowed } from './drawn_followed.js';
 import { drawnFloor } from './drawn_floor.js';
+import { drawnDepth } from './drawn_depth.js';
 import { drawnSolids } from './drawn_solids.js';
 import { drawnRegions } from './drawn_regions.js';
 import { drawnPatches } from './drawn_patches.js';
@@ -25,5 +26,5 @@ import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
   drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
-  drawnFloor, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
+  drawnFloor, drawnDepth, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
 ];

@@ -7,7 +7,7 @@ import { colour } from './colours.js';
 import { solidReach, solidShape } from './solid_shapes.js';
 import { foreign } from './words.js';
 
-const MOST_NAMED = 24;
+const MOST_NAMED = 3; // of more, the name of the one under the pointer is shown
 
 export const drawnSolids = {
   name: 'solids', view: 'touch', says: 'solid of the scene', mark: 'body stone',
@@ -31,11 +31,12 @@ class Solids {
     if (moment.touchNumber !== this.number) this.rebuild(moment);
     for (const { mesh, body } of this.moving) this.move(mesh, moment.bodies[body]);
     const { solids } = moment.touch;
-    if (this.view.rectangle.width <= 400 || solids.length < 2 || solids.length > MOST_NAMED) return;
-    for (const { name, position, body } of solids) {
-      const [x, y, z] = moment.bodies[body]?.position ?? position;
-      this.labels.put(this.view, x, y, z, foreign(name ?? '', 31), 'solid', 8);
-    }
+    if (this.view.rectangle.width <= 400 || solids.length < 2) return;
+    const places = solids.map(({ position, body }) => moment.bodies[body]?.position ?? position);
+    const pointed = solids.length > MOST_NAMED ? this.labels.pointed(this.view, places) : null;
+    solids.forEach(({ name }, i) => {
+      if (pointed === null || pointed === i) this.labels.put(this.view, ...places[i], foreign(name ?? '', 31), 'solid', 8);
+    });
   }
 
   rebuild(moment) {

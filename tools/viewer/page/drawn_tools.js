@@ -10,7 +10,7 @@ const MOST = 8;
 const LEAST_TORQUE = 0.0005; // [N m], below it nothing is felt
 
 export const drawnTools = {
-  name: 'tools', view: 'touch', says: 'tool and its probes', mark: 'ball hand-0',
+  name: 'tools', view: 'touch', says: 'tool and its probes', mark: 'knobs',
   make(group, view, labels) { return new Tools(group, view, labels); },
 };
 

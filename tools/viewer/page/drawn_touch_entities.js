@@ -8,6 +8,7 @@ import { colour, SIDE_COLOURS } from './colours.js';
 import { foreign } from './words.js';
 
 const MOST_BALLS = 128;
+const NAMED_BALLS = 8;
 
 export const drawnTouchEntities = {
   name: 'felt entities', view: 'touch', says: 'entity of another peer', mark: 'ball side-friendly',
@@ -43,7 +44,7 @@ class TouchEntities {
       ball.position.fromArray(shown, 3 * i);
       const radius = row.radius || 0.01;
       ball.scale.setScalar(radius);
-      if (this.view.rectangle.width < 400 || this.balls.used > 8) continue;
+      if (this.view.rectangle.width < 400 || this.balls.used > NAMED_BALLS || moment.bodyOf(row)) continue;
       this.labels.put(this.view, shown[3 * i], shown[3 * i + 1], shown[3 * i + 2] - 1.25 * radius,
         foreign(moment.name(slot), 24), 'hand', -10);
     }

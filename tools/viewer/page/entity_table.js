@@ -9,11 +9,11 @@ const ROWS = 40;
 const PERIOD = 2000; // [ms]
 const COLUMNS = [
   { says: 'entity', key: (moment, i) => moment.name(moment.picture.slot(i)), text: (x) => foreign(x, 24), words: true },
-  { says: 'Hz', title: 'updates a second', key: ({ picture }, i) => picture.rate(i), text: (x) => digits(x, 2) },
-  { says: 'cause', title: 'reason of the last update', key: ({ picture }, i) => CAUSES[picture.cause(i)] ?? '?', text: (x) => x, words: true },
-  { says: 'jump', title: 'displacement by the last update [mm]', key: ({ picture }, i) => picture.jump(i), text: (x) => (x === NONE ? '>65 m' : digits(x)) },
+  { says: 'Hz', key: ({ picture }, i) => picture.rate(i), text: (x) => digits(x, 2) },
+  { says: 'cause', key: ({ picture }, i) => CAUSES[picture.cause(i)] ?? '?', text: (x) => x, words: true },
+  { says: 'jump', unit: 'mm', key: ({ picture }, i) => picture.jump(i), text: (x) => (x === NONE ? '>65 m' : digits(x)) },
   { says: 'cell', key: ({ picture }, i) => picture.cell(i), text: (x) => (x === NONE ? '–' : String(x)) },
-  { says: 'group', title: 'multicast group, last two octets', key: ({ picture }, i) => picture.group(i), text: (x) => (x ? `${x >> 8}.${x & 255}` : '–') },
+  { says: 'group', key: ({ picture }, i) => picture.group(i), text: (x) => (x ? `${x >> 8}.${x & 255}` : '–') },
 ];
 
 export class EntityTable {
@@ -24,7 +24,8 @@ export class EntityTable {
     this.down = true;
     this.heads = COLUMNS.map((column, k) => {
       const head = element('button', '', column.says);
-      if (column.title) head.title = column.title;
+      head.dataset.term = column.says;
+      if (column.unit) head.append(element('small', '', ` ${column.unit}`));
       head.addEventListener('click', () => this.sortBy(k));
       return head;
     });

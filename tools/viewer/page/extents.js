@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+import { reachOf } from './solid_shapes.js';
+
 // The sphere that a camera should show: of the world, and of the touched objects.
 
 const FARTHEST = 1e9; // [m] from the origin; more distant entities are ignored
@@ -24,7 +26,11 @@ export function worldExtent(moment) {
   return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
 }
 
-// Solids of finite size, and hands; at least 10 times the size of a hand.
+// Height of the grid below the touched objects.
+export function floorHeight({ centre, radius }) { return centre[2] - 0.62 * radius; }
+
+// Bodies that move, with the hands; without them solids of finite size, else hands; at least 10
+// times the size of a hand.
 export function touchExtent(moment) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -34,7 +40,10 @@ export function touchExtent(moment) {
       high[k] = Math.max(high[k], point[k] + radius);
     }
   };
-  for (const solid of moment.touch.solids) if (solid.shape !== 'plane') add(solid.position, solid.reach ?? solid.radius ?? 0.1);
+  const { solids } = moment.touch;
+  for (const solid of solids) if (solid.body !== undefined) add(moment.bodies[solid.body]?.position ?? solid.position, reachOf(solid) ?? 0.1);
+  if (Number.isFinite(low[0])) for (const { position, index } of moment.hands) add(position, 2 * moment.handRadius(index));
+  else for (const solid of solids) if (solid.shape !== 'plane') add(solid.position, reachOf(solid) ?? 0.1);
   for (const region of moment.touch.regions) if (region.shape !== 'plane') add(region.position, 0);
   if (!Number.isFinite(low[0])) {
     for (const { position, index } of moment.hands) add(position, 5 * moment.handRadius(index));

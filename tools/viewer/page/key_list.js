@@ -25,7 +25,7 @@ export const KEYS = [
   ['m', 'save the last minute', (page) => page.saveMinute(), 'm'],
   ['t', 'light, dark', (page) => page.swapTheme(), 't'],
   ['l', 'log of actions', (page) => page.log.toggle(), 'l'],
-  ['Esc', 'release the hand, stop following', (page) => page.escape(), 'Escape'],
+  ['Esc', 'leave the tour, release the hand, stop following', (page) => page.escape(), 'Escape'],
   ['?', 'this list', (page) => page.showKeys(), '?'],
 ];
 
@@ -35,7 +35,7 @@ const TAKEN = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End',
 export function listenForKeys(page) {
   const acts = new Map(KEYS.flatMap(([, , act, ...names]) => names.map((name) => [name, act])));
   const dialog = document.getElementById('keys');
-  dialog.querySelector('dl').append(...KEYS.flatMap(([name, what]) => [element('dt', '', name), element('dd', '', what)]));
+  document.getElementById('key-list').append(...KEYS.flatMap(([name, what]) => [element('dt', '', name), element('dd', '', what)]));
   addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || dialog.open) return;
     const { tagName } = event.target;

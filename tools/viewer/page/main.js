@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assembles the page: a source of pictures, the stage, plots, table, time line, and controls.
 import { EntityTable } from './entity_table.js';
+import { Filled } from './filled.js';
 import { listenForKeys } from './key_list.js';
 import { LogLine } from './log_line.js';
 import { Moment } from './moment.js';
 import { NetworkPanel } from './network_panel.js';
 import { NONE, PICTURE_FLAGS } from './picture.js';
-import { PictureKey } from './picture_key.js';
+import { PictureKey, listMarks } from './picture_key.js';
 import { Plots } from './plots.js';
 import { PointerHand } from './pointer_hand.js';
 import { Recorder } from './recorder.js';
@@ -15,13 +16,16 @@ import { Replay } from './replay.js';
 import { download, savePage } from './saving.js';
 import { Server } from './server.js';
 import { Stage } from './stage.js';
+import { Status } from './status.js';
 import { Steering } from './steering.js';
+import { Terms } from './terms.js';
 import { TimeLine } from './time_line.js';
-import { bitRate, byId, digits, foreign } from './words.js';
+import { Tour } from './tour.js';
+import { byId, digits, foreign } from './words.js';
 
 const VERSION = 2;
 const SLOW = 250; // [ms] between two updates of table and numbers
-const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine
+const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine, tour
 
 class Page {
   constructor() {
@@ -38,6 +42,12 @@ class Page {
     this.hand = new PointerHand(this.stage, tell, say);
     this.network = new NetworkPanel(tell, say);
     this.steering = new Steering(this);
+    this.status = new Status(this);
+    this.terms = new Terms();
+    this.tour = new Tour(this, wishes.get('tour'));
+    listMarks(byId('mark-list'));
+    byId('twin').addEventListener('change', () => this.showTwins(byId('twin').checked));
+    this.filled = new Filled();
     this.forget();
     this.theme = wishes.get('theme');
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.paint());
@@ -53,6 +63,7 @@ class Page {
     this.newer = null;
     this.slow = 0;
     this.least = Infinity;
+    this.filled.clear();
     this.moment.reset();
     this.recorder.clear();
     this.plots.clear();
@@ -93,6 +104,7 @@ class Page {
       roster: () => {
         moment.roster = new Map((message.entities ?? []).map((row) => [row.slot, row]));
         ++moment.rosterNumber;
+        this.choose();
       },
       cells: () => {
         moment.cells = { size: message.size || 0, shape: message.shape, cells: message.cells ?? [] };
@@ -106,6 +118,7 @@ class Page {
       },
       numbers: () => {
         moment.numbers = message;
+        byId('twins').hidden = !message.twin;
         if (message.span && this.source instanceof Server) this.timeLine.setSpan(message.span);
       },
       note: () => this.log.say(message.text, message.level),
@@ -130,18 +143,22 @@ class Page {
     this.timeLine.hello(message);
     byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.[a-z]\w*$)/, ''), 60);
     byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
-    byId('push').hidden = !message.may_push;
-    byId('network').hidden = message.kind !== 'demo';
+    // A program that was started anew has a new word.
+    const stale = !!wishes.get('word') && !message.may_push && ['demo', 'peer'].includes(message.kind);
+    byId('push').hidden = !message.may_push && !stale;
+    byId('network').hidden = message.kind !== 'demo' || stale;
+    this.hand.showStale(stale);
     this.network.show(message.network);
     if (this.moment.followed !== NONE) this.source.tell('follow', this.moment.followed);
   }
 
-  // A demo of hands opens with the touch view large, unless the user has already chosen a view.
+  // What can be felt opens with the touch view large, unless the user has already chosen a view.
   choose() {
+    const { roster, touch: { solids, hands } } = this.moment;
     if (this.chosen) return;
-    this.chosen = true;
-    const { solids, hands } = this.moment.touch;
-    this.stage.show(wishes.get('main') ?? (solids.length || hands.length > 1 ? 'touch' : 'world'));
+    const felt = solids.length > 0 || hands.length > 1 || (roster.size > 0 && [...roster.values()].every(({ haptic }) => haptic));
+    this.chosen = felt || roster.size > 0;
+    this.stage.show(wishes.get('main') ?? (felt ? 'touch' : 'world'));
   }
 
   picture(picture) {
@@ -150,10 +167,11 @@ class Page {
     const jumped = !this.newer || picture.time < this.newer.picture.time || picture.epoch !== this.newer.picture.epoch
       || (picture.flags & (PICTURE_FLAGS.gap | PICTURE_FLAGS.paused)) !== 0;
     this.older = jumped ? null : this.newer;
-    this.newer = { picture, came: now, credited: false };
+    const drawn = this.filled.take(picture, this.timeLine.whole);
+    this.newer = { picture, drawn, came: now, credited: false };
     this.recorder.picture(picture);
     if (picture.flags & PICTURE_FLAGS.live) this.least = Math.min(this.least, now / 1000 - picture.time);
-    this.moment.set(picture, picture, 1);
+    this.moment.set(drawn, drawn, 1);
     this.plots.take(this.moment, (picture.flags & PICTURE_FLAGS.gap) !== 0);
     this.fresh = true;
   }
@@ -185,7 +203,7 @@ class Page {
     const apart = older ? Math.min(250, Math.max(newer.came - older.came, 10)) : 1;
     const share = older ? Math.min(1, (begin - newer.came) / apart) : 1;
     const changed = this.fresh || share !== this.share;
-    if (changed) moment.set(older?.picture ?? newer.picture, newer.picture, share);
+    if (changed) moment.set(older?.drawn ?? newer.drawn, newer.drawn, share);
     this.fresh = false;
     this.share = share;
     this.timeLine.advance(newer.picture.time);
@@ -194,68 +212,17 @@ class Page {
     const gap = 1.2 * Math.max(1, this.timeLine.speed);
     if (begin - (this.plotted ?? 0) > 60) {
       this.plotted = begin;
-      this.plots.draw(newer.picture.time, gap);
+      this.plots.draw(newer.picture.time, gap, this.timeLine.whole ? this.timeLine.span : null);
     }
   }
 
   look(now) {
-    const { moment, newer } = this;
-    const { numbers } = moment;
-    if (newer) {
-      this.table.draw(moment, now);
-      byId('n-entities').textContent = moment.count.toLocaleString('en');
-    }
-    byId('n-pdu').textContent = digits(numbers.pdu_per_s);
-    byId('n-bits').textContent = bitRate(numbers.bit_per_s);
-    const ratio = numbers.raw_bit_per_s / numbers.bit_per_s;
-    byId('n-ratio').textContent = Number.isFinite(ratio) ? `${digits(ratio)} ×` : '–';
+    if (this.newer) this.table.draw(this.moment, now);
     this.timeLine.paintClock();
-    this.lookAtState(now);
-    this.lookAtFollowed();
-    this.tip();
+    this.key.look();
+    this.status.look(now);
+    this.tour.look(now);
     this.publish();
-  }
-
-  lookAtState(now) {
-    const { newer } = this;
-    const play = this.timeLine.state;
-    const words = { live: 'live', playing: 'playing', paused: 'paused', end: 'at the end' };
-    byId('state-word').textContent = this.state === 'live' ? (words[play] ?? play) : this.state === 'lost' ? 'no server' : 'connecting';
-    const fresh = newer && this.state === 'live' && play === 'live' && Number.isFinite(this.least);
-    this.age = fresh ? now / 1000 - newer.picture.time - this.least : null;
-    byId('age').textContent = fresh ? `${this.age.toFixed(2)} s old` : '';
-    const lost = this.state === 'lost';
-    const empty = newer ? !this.moment.count && !this.moment.hands.length && !this.moment.touch.solids.length : this.state === 'live';
-    const notice = byId('notice');
-    notice.hidden = !lost && !empty;
-    if (notice.hidden) return;
-    const bye = lost && this.source.bye;
-    notice.querySelector('h2').textContent = bye ? 'Closed' : lost ? 'No server' : 'No entity received yet';
-    notice.querySelector('p').textContent = bye ? `${foreign(bye, 300)}. The page reconnects by itself.` : lost
-      ? 'The program has ended, or the connection is lost. The page reconnects by itself; this is the last picture.'
-      : foreign(this.moment.hello.help || 'Start a peer: reckon peer SCENE, or reckon demo.', 300);
-  }
-
-  lookAtFollowed() {
-    const { moment } = this;
-    const { cells } = moment.cells;
-    const heard = moment.heardBy(moment.followed).size;
-    const name = foreign(moment.name(moment.followed), 30);
-    const at = moment.picture?.indexOf(moment.followed) ?? -1;
-    const by = cells.find(({ cell }) => at >= 0 && cell === moment.picture.cell(at))?.heard_by.length;
-    byId('hearing').textContent = moment.followed === NONE
-      ? (cells.length ? `${cells.length} cells · click an entity to see its cells` : '') : `${name} receives ${heard} of ${cells.length} cells${by === undefined ? '' : `, is received by ${by}`}`;
-  }
-
-  tip() {
-    const { mouse } = this.steering;
-    const tip = byId('tip');
-    const slot = mouse && this.newer && this.stage.large === 'world' ? this.stage.pick(this.moment, ...mouse) : -1;
-    tip.hidden = slot < 0;
-    if (slot < 0) return;
-    const row = this.moment.roster.get(slot);
-    tip.textContent = [this.moment.name(slot), row?.id, row?.kind].filter(Boolean).map((text) => foreign(text, 40)).join(' · ');
-    tip.style.transform = `translate(${mouse[0] + 14}px, ${mouse[1] + 14}px)`;
   }
 
   follow(slot) {
@@ -302,10 +269,16 @@ class Page {
     this.key.paint();
   }
 
+  showTwins(shown) {
+    this.plots.showsTwins = shown;
+    this.log.say(shown ? 'Plots show what happens without the energy gate.' : 'Plots show the hands alone.');
+  }
+
   outage() { if (!byId('network').hidden && !byId('push').hidden) this.network.toggleOutage(); }
 
   escape() {
-    if (this.hand.index !== null) this.hand.askOrGive();
+    if (this.tour.leave()) this.log.say('Left the tour; it begins again from the list behind ?.');
+    else if (this.hand.index !== null) this.hand.askOrGive();
     else if (this.moment.followed !== NONE) this.follow(this.moment.followed);
   }
 
@@ -365,9 +338,9 @@ class Page {
   publish() {
     const { seen, moment } = this;
     window.reckon = {
-      ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
+      ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.status.age, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, target: this.stage.view('world').orbit.goal.target.toArray(), kind: moment.hello.kind,
-      numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
+      numbers: moment.numbers, yours: this.hand.index, tour: this.tour.step, window: this.plots.window, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
       depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };
   }

@@ -3,6 +3,9 @@
 // The world at the drawn instant: interpolated between the last two pictures, with the names and
 // shapes from text messages.
 import { NONE } from './picture.js';
+import { reachOf } from './solid_shapes.js';
+
+const MARKING = 11; // letters of a marking
 
 export class Moment {
   constructor() {
@@ -74,6 +77,18 @@ export class Moment {
     }
     const scale = length > 0 ? 1 / Math.sqrt(length) : 0;
     for (let k = 0; k < 4; ++k) this.turns[4 * i + k] *= scale;
+  }
+
+  // Whether the touch view shows every entity.
+  get touchesAll() { return [...this.roster.values()].every((row) => row.haptic || this.bodyOf(row)); }
+
+  // The body of the scene that an entity is, by its name.
+  bodyOf({ marking }) { return this.touch.solids.find(({ name, body }) => body !== undefined && marking && name?.slice(0, MARKING) === marking); }
+
+  // Radius of an entity [m]: of its force model, or of the body of the scene that it is; else null.
+  radiusOf(row) {
+    const body = row && this.bodyOf(row);
+    return row?.radius || (body ? reachOf(body) : null);
   }
 
   name(slot) {

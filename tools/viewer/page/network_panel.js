@@ -13,6 +13,7 @@ export class NetworkPanel {
       input.addEventListener('input', () => this.send());
       input.addEventListener('change', () => this.say(`The demo's network: ${name} ${input.value} ${FIELDS[name]}.`));
     }
+    this.twins = document.getElementById('twins');
     this.outage.addEventListener('click', () => this.toggleOutage());
   }
 

@@ -1,17 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+import { twinsOf } from './twins.js';
+
+// Twins exchange energy, so only their sum has to stay above zero. Beside it the sum of their hands
+// is shown, not each hand.
 export const plotEnergy = {
-  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Good: never below zero by more than the dashed loans of contacts and regions, which are repaid.',
+  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Below its dashed loan a contact makes energy, and shakes.',
   lines: [
-    { says: 'energy', colour: 'hand-0', at: ({ hands }) => millijoules(hands[0]?.energy) },
-    { says: 'energy', colour: 'hand-1', at: ({ hands }) => millijoules(hands[1]?.energy) },
-    { says: 'loan', colour: 'hand-0', dash: true, at: ({ hands }) => millijoules(hands[0]?.loan) },
-    { says: 'loan', colour: 'hand-1', dash: true, at: ({ hands }) => millijoules(hands[1]?.loan) },
-    { says: 'without the gate', colour: 'twin', at: ({ numbers }) => millijoules(together(numbers.twin)) },
+    { brief: true, says: 'energy', colour: 'hand-0', at: ofHand(0, 'energy') },
+    { brief: true, says: 'energy', colour: 'hand-1', at: ofHand(1, 'energy') },
+    { brief: true, says: 'loan', colour: 'hand-0', dash: true, at: ofHand(0, 'loan', -1) },
+    { brief: true, says: 'loan', colour: 'hand-1', dash: true, at: ofHand(1, 'loan', -1) },
+    { brief: true, says: 'hands together', colour: 'hand-0', at: together('energy') },
+    { brief: true, says: 'their loans', colour: 'hand-0', dash: true, at: together('loan', -1) },
+    { brief: true, twin: true, says: 'without the gate, together', colour: 'twin', at: ({ numbers }) => millijoules(sum(twinsOf(numbers), 'energy')) },
   ],
 };
 
-// Energy that one twin adds to another comes out there. The sum over all twins is never below zero
-// if the coupling is passive.
-function together(twins) { return twins?.reduce((sum, { energy }) => sum + energy, 0); }
-function millijoules(x) { return Number.isFinite(x) ? 1000 * x : null; }
+function ofHand(i, what, sign = 1) {
+  return ({ hands, numbers }) => (twinsOf(numbers).length ? null : millijoules(hands[i]?.[what], sign));
+}
+
+// Of the hands that have a twin.
+function together(what, sign = 1) {
+  return ({ hands, numbers }) => {
+    const twins = twinsOf(numbers);
+    return millijoules(sum(hands.filter(({ index }) => twins.some(({ hand }) => hand === index)), what), sign);
+  };
+}
+
+function sum(rows, what) { return rows.length ? rows.reduce((total, row) => total + row[what], 0) : null; }
+function millijoules(x, sign = 1) { return Number.isFinite(x) ? 1000 * sign * x : null; }

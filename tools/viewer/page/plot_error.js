@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 export const plotError = {
   name: 'error', title: 'Shown against true', unit: 'mm',
-  good: 'Good: the mean below the threshold, the worst near it; at most three thresholds are dashed.',
+  good: 'The mean error should stay below the dashed threshold.',
   lines: [
     { says: 'mean', colour: 'hand-0', at: ofAll('mean_m') },
     { says: 'worst', colour: 'hand-1', at: ofAll('worst_m') },

@@ -3,10 +3,10 @@
 import { shownTwin } from './twins.js';
 
 export const plotForce = {
-  name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt equals true, and is constant when the hand rests.',
+  name: 'force', title: 'Force on the hand', unit: 'N', good: 'Felt should lie on true, and be flat while a hand rests.',
   // Drawn in this order: the felt force is above the force of the twin.
   lines: [
-    { says: 'without the gate', colour: 'twin', at: twinForce },
+    { twin: true, says: 'without the gate', colour: 'twin', at: twinForce },
     { says: 'felt', colour: 'hand-0', at: ({ hands }) => hands[0]?.newtons },
     { says: 'felt', colour: 'hand-1', at: ({ hands }) => hands[1]?.newtons },
     { says: 'true', colour: 'hand-0', dash: true, at: ({ hands }) => hands[0]?.trueForce },

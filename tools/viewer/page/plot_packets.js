@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 export const plotPackets = {
-  name: 'packets', title: 'Sent, against a raw stream', unit: 'kbit/s', log: true, good: 'Good: far below the stream of every sample.',
+  name: 'packets', title: 'Sent, against a raw stream', unit: 'kbit/s', log: true, good: 'Far less is sent than a stream of every sample (dashed).',
   lines: [
     { says: 'sent', colour: 'hand-0', at: ({ numbers }) => kilobits(numbers.bit_per_s) },
     { says: 'raw stream', colour: 'dim', dash: true, at: ({ numbers }) => kilobits(numbers.raw_bit_per_s) },

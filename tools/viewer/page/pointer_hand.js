@@ -25,7 +25,7 @@ export class PointerHand {
   }
 
   askOrGive() {
-    if (byId('push').hidden) {
+    if (byId('push').hidden || this.button.hidden) {
       this.say('This page can only watch: open the address that the program printed, with its word.');
     } else if (this.index === null) {
       this.tell('askHand');
@@ -35,6 +35,12 @@ export class PointerHand {
       this.tell('giveHand');
       this.say('Released the hand.');
     }
+  }
+
+  // `stale`: this tab has the word of an earlier program.
+  showStale(stale) {
+    this.button.hidden = stale;
+    this.text.textContent = stale ? 'The program was started anew, with a new word. To take a hand, open the address that it printed.' : '';
   }
 
   answer({ index, text }) {

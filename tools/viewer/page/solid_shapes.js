@@ -40,3 +40,9 @@ export function solidReach(solid, shape) {
   shape.computeBoundingSphere();
   return shape.boundingSphere.radius + shape.boundingSphere.center.length();
 }
+
+// The same, if it is known without the shape; else null.
+export function reachOf(solid) {
+  const half = Array.isArray(solid.size) ? Math.hypot(...solid.size) / 2 : null;
+  return solid.reach ?? solid.radius ?? half;
+}

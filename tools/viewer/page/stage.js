@@ -86,6 +86,7 @@ export class Stage {
     this.hidden = new Set();
     this.things = DRAWN.map((row) => this.add(row));
     this.restless = true;
+    this.folded = false; // the inset has nothing of its own to show
   }
 
   add(row) {
@@ -110,6 +111,12 @@ export class Stage {
     if (!this.hidden.delete(name)) this.hidden.add(name);
     this.restless = true;
     return !this.hidden.has(name);
+  }
+
+  // Where the mouse is on the picture [pixels], or null.
+  pointed(mouse) {
+    this.labels.pointer = mouse;
+    this.restless = true;
   }
 
   paint() {
@@ -142,17 +149,19 @@ export class Stage {
     this.restless = false;
     this.labels.begin();
     for (const { row, view, group, thing } of this.things) {
-      group.visible = !this.hidden.has(row.name) && (view.name === this.large || (!row.large && !this.inset.hidden));
+      group.visible = !this.hidden.has(row.name) && (view.name === this.large || (!row.large && !this.inset.hidden && !this.folded));
       if (group.visible) thing.update(moment);
     }
     this.labels.end();
     this.renderer.setScissorTest(true);
     this.render(this.views[this.large]);
-    if (!this.inset.hidden) this.render(this.views[this.small]);
+    if (!this.inset.hidden && !this.folded) this.render(this.views[this.small]);
     return true;
   }
 
   take(moment, seconds) {
+    // A world of one cell, in which all is felt, shows no more than the touch view.
+    this.folded = this.large === 'touch' && moment.cells.cells.length < 2 && moment.touchesAll;
     const strongest = (list) => list.reduce((most, { newtons }) => Math.max(most, newtons), 0);
     this.views.touch.weigh(Math.max(strongest(moment.hands), strongest(moment.contacts)), seconds);
     this.views.world.weigh(strongest(moment.contacts), seconds);
@@ -172,8 +181,9 @@ export class Stage {
   lay(width, height) {
     const inner = this.inset;
     inner.hidden = !this.views[this.small].extent;
+    inner.classList.toggle('folded', this.folded);
     this.views[this.large].rectangle = { x: 0, y: 0, width, height };
-    if (inner.hidden) return;
+    if (inner.hidden || this.folded) return;
     const box = { width: inner.clientWidth, height: inner.clientHeight };
     this.views[this.small].rectangle = {
       x: inner.offsetLeft + inner.clientLeft, y: height - inner.offsetTop - inner.clientTop - box.height, ...box,

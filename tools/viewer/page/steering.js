@@ -18,6 +18,7 @@ export class Steering {
     canvas.addEventListener('pointercancel', (event) => this.up(event));
     canvas.addEventListener('pointerleave', (event) => {
       this.mouse = null;
+      page.stage.pointed(null);
       if (this.handed && event.pointerType !== 'touch') page.hand.release(); // this includes a lifted finger
     });
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
@@ -40,6 +41,7 @@ export class Steering {
 
   move(event) {
     this.mouse = [event.offsetX, event.offsetY];
+    this.page.stage.pointed(this.mouse);
     const old = this.fingers.get(event.pointerId);
     const dx = event.movementX;
     const dy = event.movementY;

@@ -6,7 +6,6 @@ import { byId, clock, element } from './words.js';
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
-
 export class TimeLine {
   // `tell(name, value)` sends a request to the source; `say(text)` logs.
   constructor(tell, say) {
@@ -56,8 +55,9 @@ export class TimeLine {
 
   playOrPause() {
     if (this.still) {
+      const from = this.state === 'end' ? this.span[0] : this.time; // at the end it begins anew
       this.tell('speed', this.speed || 1);
-      this.say(`Plays at ${this.speed || 1} × from ${this.words(this.time)}.`);
+      this.say(`Plays at ${this.speed || 1} × from ${this.words(from)}.`);
     } else {
       this.tell('speed', 0);
       this.say(`Paused at ${this.words(this.time)}; the exercise continues.`);

@@ -11,9 +11,11 @@
   hand    a hand taken by the pointer presses the other one: more than 1 N at both within 5 s, the same within 5 % when held
           still for 3 s, energy never below zero; without delay, and at 100 ms with 20 % loss
   twin    what a hand would feel without the gate: the same without delay, thrown about at 150 ms with 20 % loss, and said
+  tour    the tour goes through its five steps by what its user does, and does not come back once left
   peer    a peer lends its own hand: it goes where the pointer goes
+  recording  a capture opens with touch large, holds its last moment with somebody in it, and has axes of its own length
   empty   a world in which nobody sends says what to do
-  lost    a program that ends is told, and is found again at the same port
+  lost    a program that ends is told, and is found again at the same port; a tab with the old word says so
 """
 import contextlib
 import json
@@ -25,7 +27,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page_driver import CHROMIUM, DRIVER, PATIENCE, ActionChains, browser, expect, program, shows_no_fault, skip
+from page_driver import CHROMIUM, DRIVER, PATIENCE, ActionChains, Keys, browser, expect, program, shows_no_fault, skip
 
 # Numbers of a picture have single precision, and a late step on a busy machine takes energy that the servo cannot
 # know in time [J].
@@ -49,6 +51,8 @@ def demo(reckon, scenes):
                 shows_no_fault(page)
                 page.driver.save_screenshot(str(pictures_folder() / f"demo-{theme}-{width}.png"))
         expect(page.ask("window.reckon.large") == "touch", "a demo of hands opens with touch large")
+        explains_itself(page)
+        overlaps_nothing(page)
         page.press("v")
         page.wait("window.reckon.large === 'world'", "the world large")
         page.press(" ")
@@ -65,6 +69,32 @@ def demo(reckon, scenes):
         own = re.match(r"http://[^/]+/", started.address)[0]
         asked = [url for url in page.requests() if not url.startswith((own, "data:", "about:"))]
         expect(not asked, f"nobody else is asked for anything: {asked}")
+
+
+def explains_itself(page):
+    page.wait("document.getElementById('says').textContent.startsWith('Two hands')", "a sentence of what is seen")
+    page.size(1280, 800)
+    rows = "[...document.querySelectorAll('#key .touch')].filter((row) => !row.hidden).map((row) => row.textContent)"
+    page.wait(f"{rows}.includes('solid of the scene')", "a legend of what is in the picture")
+    others = {"region of the scene", "tool and its probes", "entity of another peer"} & set(page.ask(rows))
+    expect(not others, f"a legend without what is not in the picture: {others}")
+    page.driver.execute_script("document.querySelector('#plot-energy h2').focus()")
+    page.wait("!document.getElementById('term').hidden", "a term is explained at the focus of the keyboard")
+    page.wait("window.reckon.tour === 0", "the tour")
+    page.press(Keys.ESCAPE)
+    page.wait("window.reckon.tour === null && document.getElementById('tour').hidden", "Esc leaves the tour")
+
+
+def overlaps_nothing(page):
+    """Between the narrow and the wide layout nothing lies on the picture but its own labels."""
+    for width, height in ((800, 600), (900, 700), (1000, 700)):
+        page.size(width, height)
+        page.wait_for_pictures(3)
+        boxes = page.ask("['labels', 'push', 'slider', 'plots'].map((id) => document.getElementById(id).getBoundingClientRect()).map((box) => [box.top, box.bottom, box.width])")
+        for above, below in zip(boxes, boxes[1:]):
+            expect(above[1] <= below[0] + 1, f"at {width} px one below the other: {boxes}")
+        expect(boxes[2][2] > 300, f"at {width} px a slider, not a dot: {boxes}")
+        shows_no_fault(page)
 
 
 def saved(reckon, scenes):
@@ -253,6 +283,36 @@ def twin(reckon, scenes):
         page.driver.save_screenshot(str(pictures_folder() / "twin.png"))
 
 
+def tour(reckon, scenes):
+    with resting_hands() as scene, program(reckon, "demo", scene, "--view=0", "--for", "10min") as started, browser() as page:
+        page.size(1280, 800)
+        page.open(started.address)
+        page.wait("window.reckon?.tour === 0", "the first step")
+        page.click("hand")
+        page.wait("window.reckon.tour === 1", "a hand is taken")
+        other = OtherHand(page)
+        other.press()
+        page.wait("window.reckon.tour === 2", "something is pressed")
+        set_network(page, 150, 20)
+        page.wait("window.reckon.tour === 3", "the network is slow")
+        begin = time.monotonic()
+        while page.ask("window.reckon.tour") == 3:
+            expect(time.monotonic() - begin < 2 * PATIENCE, "the twin shakes while the hands press each other")
+            other.reach()
+        expect("toured" in page.ask("document.getElementById('plot-energy').className"), "the plot of energy is outlined")
+        page.driver.save_screenshot(str(pictures_folder() / "tour.png"))
+        page.click("tour-next")
+        page.wait("window.reckon.tour === null && document.getElementById('tour').hidden", "the end")
+        page.open(started.address)
+        page.wait("window.reckon?.hands?.length === 2 && !document.getElementById('twins').hidden", "the page anew")
+        page.wait_for_pictures()
+        expect(page.ask("window.reckon.tour") is None, "it does not come back")
+        page.press("?")
+        page.click("tour-again")
+        page.wait("window.reckon.tour === 0", "it begins again where its user wants it")
+        shows_no_fault(page)
+
+
 def peer(reckon, scenes):
     with resting_hands() as scene, browser() as page, \
             program(reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--view=0", "--for", "10min") as started:
@@ -269,6 +329,21 @@ def peer(reckon, scenes):
         for aside in (0, 100):
             chain.move_to_element_with_offset(canvas, int(x - canvas.size["width"] / 2) + aside, int(y - canvas.size["height"] / 2)).perform()
         page.wait(f"Math.hypot(...window.reckon.hands[0].position.map((x, i) => x - {json.dumps(before)}[i])) > 0.005", "it follows the pointer")
+        shows_no_fault(page)
+
+
+def recording(reckon, scenes):
+    there = "window.reckon.entities === 2 && document.getElementById('notice').hidden"
+    with program(reckon, "view", f"{scenes}/exercise.pcapng", "--port", "0") as started, browser() as page:
+        page.open(started.address)
+        page.wait("window.reckon?.play === 'end'", "the end")
+        page.wait(f"{there} && document.getElementById('says').textContent.startsWith('Nobody sends')", "the last moment with somebody in it")
+        expect(page.ask("window.reckon.large") == "touch", "hands open with touch large")
+        expect(page.ask("window.reckon.window") < 4, "plots as long as the capture")
+        page.press(" ")
+        page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('from 0:00.0'))", "it begins anew, and says so")
+        page.driver.execute_script("const slider = document.getElementById('slider'); slider.value = slider.min; slider.dispatchEvent(new Event('input'))")
+        page.wait(f"window.reckon.time < 0.1 && {there}", "somebody at the begin")
         shows_no_fault(page)
 
 
@@ -290,9 +365,10 @@ def lost(reckon, scenes):
         with program(reckon, "demo", f"{scenes}/two_hands.toml", f"--view={port}", "--for", "10min"):
             page.wait("window.reckon.state === 'live' && document.getElementById('notice').hidden", "it comes back by itself")
             page.wait_for_pictures()
+            page.wait("document.getElementById('push').textContent.includes('started anew') && document.getElementById('hand').hidden", "an old word is told")
 
 
-CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, peer, empty, lost)}
+CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour, peer, recording, empty, lost)}
 
 
 def main(arguments):

@@ -134,7 +134,7 @@ function touched(hasHand) {
   const canvas = { addEventListener: (type, act) => listeners.set(type, act), setPointerCapture() {} };
   const orbit = { zoom: note('zoom'), pan: note('pan'), turn: note('turn') };
   const hand = { index: hasHand ? 0 : null, move: note('move'), deepen: note('deepen'), release: note('release') };
-  new Steering({ stage: { canvas, large: 'touch', view: () => ({ orbit }) }, hand, moment: {}, fit() {}, follow() {} });
+  new Steering({ stage: { canvas, large: 'touch', pointed() {}, view: () => ({ orbit }) }, hand, moment: {}, fit() {}, follow() {} });
   const finger = (id) => {
     let last = [0, 0];
     const send = (type, [x, y]) => {
