@@ -16,12 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder of the installed program, then the source folder.
+/// The folder of the installed program, then the source folder: above the build folder, then where
+/// it was at the build.
 std::vector<fs::path> folders() {
   std::vector<fs::path> places;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) places.push_back(program.parent_path() / "../share/reckon/scenes");
+  if (const fs::path build = build_folder(); !build.empty())
+    places.push_back(build / "../../scenes");
   places.emplace_back(RECKON_SCENES);
   return places;
 }
@@ -34,6 +37,12 @@ std::optional<fs::path> shipped(const fs::path& name) {
 }
 
 }  // namespace
+
+fs::path build_folder() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  return !error && fs::exists(folder / "CMakeCache.txt", error) ? folder : fs::path();
+}
 
 fs::path scene_path(const std::string& given, std::string_view fallback) {
   if (!given.empty()) return given;

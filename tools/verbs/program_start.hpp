@@ -10,7 +10,8 @@ namespace reckon::tools {
 /// Runs `PROGRAM VERB ARGUMENTS`. It replaces this process if `console` has this process's streams,
 /// so that signals, terminal and exit status belong to the program.
 /// @return its exit status
-/// @throws EnvironmentError with the remedy if the program is missing
+/// @throws EnvironmentError with the remedy if the program is missing. In a build folder it first
+/// offers, on a terminal, to build it.
 int start_program(const VerbRow& row, Arguments arguments, const Console& console);
 
 }  // namespace reckon::tools

@@ -40,6 +40,7 @@ TEST_F(StudyVerbs, NameTheRemedyForAMissingProgram) {
     EXPECT_EQ(result.status, 3) << verb;
     EXPECT_TRUE(result.out.empty()) << verb;
     EXPECT_THAT(result.err, HasSubstr("./run build reckon-bench")) << verb;
+    EXPECT_THAT(result.err, HasSubstr("the Debian package reckon has it")) << verb;
   }
   EXPECT_THAT(run_reckon({"help", "--man"}).out, HasSubstr("SS reckon zwidth"));
   EXPECT_EQ(run_reckon({"completion", "bash"}).status, 0);
