@@ -58,14 +58,18 @@ install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc
 # The site of ./run docs, where it was made.
 install(DIRECTORY build/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT doc OPTIONAL PATTERN ".buildinfo" EXCLUDE)
 install(FILES tools/wireshark/reckon.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/wireshark COMPONENT program)
+# reckon_install_page(PART WORDS FILE): what `reckon WORDS` prints.
+function(reckon_install_page part words file)
+  install(CODE "set(page_command \"$<TARGET_FILE:reckon>\")
+set(page_words \"${words}\")
+set(page_file \"\${CMAKE_INSTALL_PREFIX}/${file}\")" COMPONENT ${part})
+  install(SCRIPT cmake/install_page.cmake COMPONENT ${part})
+endfunction()
 if(RECKON_BUILD_TOOLS AND NOT CMAKE_CROSSCOMPILING)
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT man)  # compressed for Debian
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.bash RENAME reckon
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.zsh RENAME _reckon
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
-    COMPONENT program)
+  reckon_install_page(man "help;--man" ${CMAKE_INSTALL_MANDIR}/man1/reckon.1)  # compressed for Debian
+  reckon_install_page(program "completion;bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions/reckon)
+  reckon_install_page(program "completion;zsh" ${CMAKE_INSTALL_DATADIR}/zsh/site-functions/_reckon)
+  reckon_install_page(program "completion;fish" ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d/reckon.fish)
 endif()
 # What the docs tell programmers to copy.
 set(examples CMakeLists.txt decoder.cpp honey.cpp honey.hpp honey_module.cpp peer.cpp truck.cpp truck.hpp)

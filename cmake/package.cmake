@@ -88,15 +88,19 @@ foreach(part IN LISTS parts)
   install(FILES cmake/debian/copyright ${debian}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
     COMPONENT debian_${part} EXCLUDE_FROM_ALL)
 endforeach()
-add_custom_command(OUTPUT ${debian}/reckon.1.gz DEPENDS ${PROJECT_BINARY_DIR}/reckon.1 VERBATIM
-  COMMAND ${GZIP} -9nc ${PROJECT_BINARY_DIR}/reckon.1 > ${debian}/reckon.1.gz)
+set(programs reckon reckon-peer reckon-inspect)
+if(TARGET reckon-bench)
+  list(APPEND programs reckon-bench)
+endif()
+add_custom_command(OUTPUT ${debian}/reckon.1.gz DEPENDS ${programs} VERBATIM
+  COMMAND $<TARGET_FILE:reckon> help --man > ${debian}/reckon.1
+  COMMAND ${GZIP} -9nc ${debian}/reckon.1 > ${debian}/reckon.1.gz)
 add_custom_target(reckon_debian_pages ALL DEPENDS ${debian}/reckon.1.gz)
 install(FILES ${debian}/reckon.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT debian_program EXCLUDE_FROM_ALL)
-foreach(program reckon-peer reckon-inspect reckon-bench)
-  if(TARGET ${program})
-    install(FILES ${debian}/reckon.1.gz RENAME ${program}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
-      COMPONENT debian_program EXCLUDE_FROM_ALL)
-  endif()
+list(REMOVE_ITEM programs reckon)
+foreach(program IN LISTS programs)
+  install(FILES ${debian}/reckon.1.gz RENAME ${program}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+    COMPONENT debian_program EXCLUDE_FROM_ALL)
 endforeach()
 install(FILES cmake/debian/reckon-record.service DESTINATION lib/systemd/system COMPONENT debian_program EXCLUDE_FROM_ALL)
 

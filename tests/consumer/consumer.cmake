@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 # cmake -D BUILD=<Reckon's build folder> -D SOURCE=<this folder> -D CXX=<compiler> -D PKG_CONFIG=<program>
-#   -P consumer.cmake: installs into a stage, then uses it as other projects do.
+#   -P consumer.cmake: installs into a stage what `./run build` makes, without reckon-bench, then uses it as other projects do.
 cmake_policy(VERSION 3.25)
 set(work ${BUILD}/consumer)
 set(stage ${work}/stage)
@@ -18,8 +18,25 @@ endfunction()
 set(configure ${CMAKE_COMMAND} -S ${SOURCE} -G Ninja -D CMAKE_PREFIX_PATH=${stage} -D CMAKE_CXX_COMPILER=${CXX}
   -D CMAKE_BUILD_TYPE=Release)
 
-do(${CMAKE_COMMAND} --install ${BUILD} --prefix ${stage})
+# The install scripts of the build folder, for a folder without reckon-bench.
+file(GLOB_RECURSE scripts RELATIVE ${BUILD} ${BUILD}/cmake_install.cmake ${BUILD}/*/cmake_install.cmake)
+list(FILTER scripts EXCLUDE REGEX "^(consumer|_CPack_Packages)/")
+foreach(script IN LISTS scripts)
+  file(READ ${BUILD}/${script} text)
+  string(REPLACE "include(\"${BUILD}/" "include(\"${work}/scripts/" text "${text}")
+  string(REPLACE "${BUILD}/reckon-bench" "${work}/absent/reckon-bench" text "${text}")
+  file(WRITE ${work}/scripts/${script} "${text}")
+endforeach()
+do(${CMAKE_COMMAND} -D CMAKE_INSTALL_PREFIX=${stage} -P ${work}/scripts/cmake_install.cmake)
 do(${stage}/bin/reckon --version)
+if(EXISTS ${stage}/bin/reckon-bench)
+  message(FATAL_ERROR "reckon-bench is not hidden from the install scripts")
+endif()
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PATH=/usr/bin:/bin ${stage}/bin/reckon bench INPUT_FILE /dev/null
+  RESULT_VARIABLE status ERROR_VARIABLE words)
+if(NOT status EQUAL 3 OR NOT words MATCHES "Debian package reckon")
+  message(FATAL_ERROR "an installed reckon without reckon-bench does not name its package: ${status} ${words}")
+endif()
 foreach(file man/man1/reckon.1 bash-completion/completions/reckon reckon/wireshark/reckon.lua)
   if(NOT EXISTS ${stage}/share/${file})
     message(FATAL_ERROR "share/${file} is not installed")
@@ -64,6 +81,7 @@ do(${CMAKE_COMMAND} --build ${work}/build)
 foreach(program ${programs})
   do(${work}/build/${program})
 endforeach()
+do(${work}/build/truck lo 1)
 
 # 2. One component where none of the others' libraries can be found.
 file(MAKE_DIRECTORY ${work}/no_libraries)
