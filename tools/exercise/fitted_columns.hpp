@@ -24,13 +24,14 @@ struct FittedColumn {
   std::size_t more = 0;  ///< maximum extra width in a wide terminal
 };
 
-/// Rows of one kind: columns of the greatest rank are dropped until the rest fits.
+/// Rows of one kind: columns of the greatest rank are dropped until the rest fits. A row whose
+/// texts are wider than their columns ends before the column that does not fit.
 template <typename Cell, std::size_t N>
 class FittedColumns {
  public:
   /// @param columns outlive it; at most one of them has `more`  @param room width of the terminal
   FittedColumns(const std::array<FittedColumn<Cell>, N>& columns, std::size_t room)
-      : columns_(columns) {
+      : columns_(columns), room_(room) {
     for (std::size_t i = 0; i < N; ++i) shown_[i] = true;
     while (width() > room && widest_rank() > 0) {
       const int worst = widest_rank();
@@ -73,6 +74,7 @@ class FittedColumns {
       if (!line.empty()) line += ' ';
       end += columns_[i].width + (columns_[i].more > 0 ? more_ : 0) + (end > 0 ? 1 : 0);
       const std::size_t padding = std::max(end, begin + text.size()) - begin - text.size();
+      if (begin > 0 && begin + padding + text.size() > room_) break;
       if (columns_[i].align == TextTable::Align::right) line.append(padding, ' ');
       line += text;
       if (columns_[i].align == TextTable::Align::left) line.append(padding, ' ');
@@ -82,7 +84,7 @@ class FittedColumns {
 
   const std::array<FittedColumn<Cell>, N>& columns_;
   std::array<bool, N> shown_{};
-  std::size_t more_ = 0;
+  std::size_t room_, more_ = 0;
 };
 
 }  // namespace reckon::tools

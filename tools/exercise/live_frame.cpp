@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "reckon/tools/exercise/hand_report.hpp"
@@ -20,11 +22,17 @@ constexpr double kDegrees = 57.29577951308232;
 
 }  // namespace
 
-std::string title_of(const LivePicture& picture, double bar_end) {
+std::string title_of(const LivePicture& picture, double bar_end, std::size_t columns) {
   const auto& thresholds = picture.scene.dead_reckoning.thresholds;
-  return fmt::format("{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N   bars to {:g} N",
-                     picture.scene.name, picture.elapsed, 1e3 * thresholds.position,
-                     thresholds.angle * kDegrees, thresholds.force, bar_end);
+  const std::array<std::string, 3> parts{
+      fmt::format("{}  {:.1f} s", picture.scene.name, picture.elapsed),
+      fmt::format("thresholds {:.2g} mm, {:.2g} deg, {:.2g} N", 1e3 * thresholds.position,
+                  thresholds.angle * kDegrees, thresholds.force),
+      fmt::format("bars to {:g} N", bar_end)};
+  std::string title = parts.front();
+  for (const std::string& part : std::span(parts).subspan(1))
+    if (text_width(title) + part.size() + 3 <= columns) title += "   " + part;
+  return title;
 }
 
 std::string softer_text(const LivePicture& picture) {

@@ -14,8 +14,8 @@
 
 namespace reckon::tools {
 
-/// @param bar_end [N], force of a full bar
-[[nodiscard]] std::string title_of(const LivePicture& picture, double bar_end);
+/// The parts that fit into the columns.  @param bar_end [N], force of a full bar
+[[nodiscard]] std::string title_of(const LivePicture& picture, double bar_end, std::size_t columns);
 /// Sentences of all peers, each once; empty if all is shown as asked.
 [[nodiscard]] std::string softer_text(const LivePicture& picture);
 /// Text of the peer that simulates the bodies; empty without bodies.

@@ -302,7 +302,8 @@ class Table {
 }  // namespace
 
 std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) {
-  std::vector<ScreenLine> out{{title_of(picture, bar_end(picture)), LineStyle::title}};
+  std::vector<ScreenLine> out{
+      {title_of(picture, bar_end(picture), size.columns), LineStyle::title}};
   if (size.rows >= kRowsForKeys) append_head(picture.head, size.columns, out);
   const std::string softer = softer_text(picture);
   if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});

@@ -88,6 +88,20 @@ TEST(LiveTable, FitsATerminalOfAnySize) {
   }
 }
 
+TEST(LiveTable, CutsOnlyWholeColumns) {
+  EXPECT_EQ(Peers(1, 1).shown(8, 40).front(), "a scene  12.0 s   bars to 1 N");
+  Peers all(1, 1);
+  all.view(0).rows[0].jump_m = 1234.5;  // wider than its column
+  for (std::size_t columns = 40; columns < 120; ++columns) {
+    const auto lines = all.shown(8, columns);
+    const auto row = std::ranges::find_if(
+        lines, [](const std::string& line) { return line.starts_with("  7:7:1"); });
+    ASSERT_NE(row, lines.end());
+    const bool is_cut = row->find("1234500.00") != row->npos && row->find("00.00 mm") == row->npos;
+    EXPECT_FALSE(is_cut || row->ends_with("1234500")) << columns << ": " << *row;
+  }
+}
+
 TEST(LiveTable, ReportsStoppedForcesAndTheirKey) {
   Peers all(2, 1);
   EXPECT_THAT(all.shown(24, 80).back(), AllOf(HasSubstr("[s] stop all forces"), HasSubstr("[q]")));

@@ -14,7 +14,6 @@
 namespace reckon::tools {
 namespace {
 
-constexpr std::size_t kShiftStep = 8;
 constexpr std::size_t kMostHeadLines = 3;
 constexpr std::size_t kRowsForAdvice = 16;
 constexpr std::string_view kGap = "  ";
@@ -24,12 +23,6 @@ constexpr auto kKeys = std::to_array<std::string_view>(
      "[c] check", "[space] freeze"});
 constexpr auto kPaneKeys =
     std::to_array<std::string_view>({"[q] quit", "[Esc] back", "[space] freeze"});
-
-/// The visible part of a line: from column `shift` on, `columns` wide.
-std::string window_of(std::string_view text, std::size_t shift, std::size_t columns) {
-  const auto begin = text.substr(std::min(shift, text.size()));
-  return std::string(begin.substr(0, columns));
-}
 
 /// The first keys that fit, without cutting one.
 std::string keys_text(std::span<const std::string_view> keys, std::size_t columns) {
@@ -43,7 +36,8 @@ std::string keys_text(std::span<const std::string_view> keys, std::size_t column
   return line;
 }
 
-/// Breaks a line between its items, which are separated by three spaces.
+/// Breaks a line between its items, which are separated by three spaces. Items beyond `most` lines
+/// are left out.
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t most) {
   constexpr std::string_view kPart = "   ";
   std::vector<std::string> lines{""};
@@ -54,10 +48,12 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std
     std::string& line = lines.back();
     if (line.empty())
       line = item;
-    else if (line.size() + kPart.size() + item.size() <= columns || lines.size() == most)
+    else if (line.size() + kPart.size() + item.size() <= columns)
       (line += kPart) += item;
-    else
+    else if (lines.size() < most)
       lines.emplace_back(item);
+    else
+      break;
   }
   return lines;
 }
@@ -75,14 +71,30 @@ std::vector<std::string> folded(std::string_view text, std::size_t columns) {
   return lines;
 }
 
-std::string row_text(const std::vector<std::string>& cells,
-                     const std::vector<std::size_t>& widths) {
+/// The items of a cell that fit; two spaces separate them.
+std::string items_within(std::string cell, std::size_t room) {
+  while (cell.size() > room) {
+    const std::size_t gap = cell.rfind(kGap);
+    cell.resize(gap == std::string::npos ? 0 : cell.find_last_not_of(' ', gap) + 1);
+  }
+  return cell;
+}
+
+/// The cells from column `first` on that fit as a whole; of the last column, whose items vary, the
+/// items that fit.
+std::string row_text(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                     std::size_t first, std::size_t room) {
   const auto columns = top_columns();
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) line += kGap;
-    const std::string padding(widths[i] - std::min(widths[i], cells[i].size()), ' ');
-    line += columns[i].align == TextTable::Align::right ? padding + cells[i] : cells[i] + padding;
+  for (std::size_t i = first; i < cells.size(); ++i) {
+    const std::string_view gap = i == first ? std::string_view() : kGap;
+    const bool is_last = i + 1 == cells.size();
+    const std::size_t width = is_last ? columns[i].title.size() : widths[i];
+    if (i > first && line.size() + gap.size() + width > room) break;
+    line += gap;
+    const std::string cell = is_last ? items_within(cells[i], room - line.size()) : cells[i];
+    const std::string padding(widths[i] - std::min(widths[i], cell.size()), ' ');
+    line += columns[i].align == TextTable::Align::right ? padding + cell : cell + padding;
   }
   return line;
 }
@@ -229,16 +241,16 @@ void TopScreen::move(Key key) {
       cursor_ += page_;
       return;
     case Key::home:
-      cursor_ = shift_ = 0;
+      cursor_ = first_column_ = 0;
       return;
     case Key::end:
       cursor_ = EntityTable::kMostRows;
       return;
     case Key::left:
-      shift_ = back(shift_, kShiftStep);
+      first_column_ = back(first_column_, 1);
       return;
     case Key::right:
-      shift_ += kShiftStep;
+      first_column_ = std::min(first_column_ + 1, top_columns().size() - 1);
       return;
     default:
       return;
@@ -281,7 +293,7 @@ std::vector<ScreenLine> TopScreen::lines(const TopData& live, const TrafficRates
   out.resize(std::max(size.rows, foot.size()) - foot.size());
   out.insert(out.end(), foot.begin(), foot.end());
   out.resize(size.rows);
-  for (ScreenLine& line : out) line.text = window_of(line.text, 0, size.columns);
+  for (ScreenLine& line : out) line.text.resize(std::min(line.text.size(), size.columns));
   return out;
 }
 
@@ -310,11 +322,14 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
     for (std::size_t i = 0; i < cells.size(); ++i)
       widths_[i] = std::max(widths_[i], cells[i].size());
 
-  out.push_back({window_of(row_text(titles, widths_), shift_, size.columns), LineStyle::title});
+  const auto fitted = [&](const std::vector<std::string>& cells) {
+    return row_text(cells, widths_, first_column_, size.columns);
+  };
+  out.push_back({fitted(titles), LineStyle::title});
   for (std::size_t i = top_; i < end; ++i) {
     const TopCell cell(data.entities, places[i], data.now);
     const LineStyle style = i == cursor_ ? LineStyle::selected : style_of(cell);
-    out.push_back({window_of(row_text(rows[i - top_ + 1], widths_), shift_, size.columns), style});
+    out.push_back({fitted(rows[i - top_ + 1]), style});
   }
   if (!places.empty()) return;
   out.push_back({filter_.has_value() ? "no entity passes the filter" : "no entity received yet"});

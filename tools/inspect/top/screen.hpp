@@ -51,10 +51,10 @@ class TopScreen {
   TrafficRates::Rates rates_;  // as last shown
   std::size_t sort_ = 0;       // column
   bool reverse_ = false;
-  std::size_t cursor_ = 0;  // among the selected rows
-  std::size_t top_ = 0;     // first row shown
-  std::size_t shift_ = 0;   // columns scrolled out to the left
-  std::size_t page_ = 1;    // number of rows last shown
+  std::size_t cursor_ = 0;        // among the selected rows
+  std::size_t top_ = 0;           // first row shown
+  std::size_t first_column_ = 0;  // those before it are scrolled out to the left
+  std::size_t page_ = 1;          // number of rows last shown
   std::vector<std::size_t> widths_;
   std::uint64_t followed_ = 0;  // key of the entity in its pane
   std::uint64_t under_cursor_ = 0;

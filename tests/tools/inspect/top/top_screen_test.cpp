@@ -77,6 +77,28 @@ TEST(TopScreen, FitsEveryTerminal) {
   }
 }
 
+TEST(TopScreen, CutsOnlyWholeColumns) {
+  const TopData data = data_of(3);
+  TopScreen wide;
+  const auto all = wide.lines(data, {}, {24, 400});
+  const auto row_of = [](const std::vector<ScreenLine>& lines) {
+    return std::ranges::find_if(lines,
+                                [](const ScreenLine& one) { return one.text.starts_with("1:2:2"); })
+        ->text;
+  };
+  const std::string whole = row_of(all);
+  for (std::size_t columns = 40; columns < 200; ++columns) {
+    TopScreen screen;
+    std::string row = row_of(screen.lines(data, {}, {24, columns}));
+    row.erase(row.find_last_not_of(' ') + 1);
+    ASSERT_TRUE(whole.starts_with(row)) << row;
+    EXPECT_TRUE((whole + "  ").substr(row.size()).starts_with("  ")) << columns << ": " << row;
+  }
+  TopScreen screen;
+  screen.press({Key::right}, data);
+  EXPECT_TRUE(screen.lines(data, {}, {8, 40})[3].text.starts_with("MARK")) << "a column of a key";
+}
+
 TEST(TopScreen, ShowsHowToQuitInAnyTerminal) {
   const TopData data = data_of(5);
   TopScreen screen;
