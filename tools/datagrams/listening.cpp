@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "reckon/pdu/codec/pdu_header.hpp"
 #include "reckon/peer/network/bound_endpoints.hpp"
+#include "reckon/peer/sealing/envelope.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -74,6 +76,8 @@ Places other_places(const Places& own, bool own_too, const Places& bound, std::s
   };
   const IpEndpoint& first = own.front();
   if (own_too) add(first);
+  if (first.is_multicast() && first.port < std::numeric_limits<std::uint16_t>::max())
+    add(peer::sealed_group(first));
   // Peers that send in the groups after a base also announce themselves in the base group.
   const peer::GroupPool plain =
       first.is_v6 ? peer::GroupPool::ipv6_default() : peer::GroupPool::ipv4_default();
@@ -130,19 +134,27 @@ void SilenceWatch::begin(const peer::SourceReport& report, std::vector<std::stri
   }
 }
 
+std::string SilenceWatch::remedy_for(const peer::SourceDatagram& datagram) const {
+  return holds(own_, datagram.group)
+             ? fmt::format("write --iface {}, or remove it", datagram.interface)
+             : fmt::format("write udp://{} as the source", datagram.group.text());
+}
+
 void SilenceWatch::listen(std::vector<std::string>& out) {
   constexpr int kMostAtOnce = 256;
   peer::SourceDatagram datagram;
   for (int i = 0; i < kMostAtOnce && stated_.size() < kMostStated; ++i) {
     if (elsewhere_->next(datagram, nanoseconds::zero()) != peer::SourceEvent::datagram) return;
-    if (!begins_with_pdu(datagram.bytes) || holds(stated_, datagram.group)) continue;
+    const bool is_sealed = peer::is_sealed(datagram.bytes);
+    if (!is_sealed && !begins_with_pdu(datagram.bytes)) continue;
+    if (holds(stated_, datagram.group)) continue;
     stated_.push_back(datagram.group);
-    out.push_back(
-        fmt::format("received by this host: {} on {}, from {}; {}", datagram.group.text(),
-                    datagram.interface, datagram.source.text(),
-                    holds(own_, datagram.group)
-                        ? fmt::format("write --iface {}, or remove it", datagram.interface)
-                        : fmt::format("write udp://{} as the source", datagram.group.text())));
+    const std::string place = fmt::format("{} on {}, from {}", datagram.group.text(),
+                                          datagram.interface, datagram.source.text());
+    out.push_back(is_sealed && !choice_.sealed
+                      ? fmt::format("sealed datagrams arrive on port {}; give --key FILE ({})",
+                                    datagram.group.port, place)
+                      : fmt::format("received by this host: {}; {}", place, remedy_for(datagram)));
   }
 }
 

@@ -26,8 +26,9 @@ namespace reckon::tools {
 /// Watches a source of groups that may be silent. After kPatience of silence from the start it
 /// reports where the source listens and tries kMostPlaces other places of this host: the broadcast
 /// addresses and the default groups, on every interface, the groups of other programs of this host,
-/// and the source's own group on the interfaces that it leaves out. DIS traffic found there is
-/// reported once for each place; after kTried without any, its absence is reported. One thread.
+/// and the source's own group on the interfaces that it leaves out. DIS traffic or sealed datagrams
+/// found there are reported once for each place; after kTried without any, its absence is reported.
+/// One thread.
 class SilenceWatch {
  public:
   using nanoseconds = std::chrono::nanoseconds;
@@ -46,6 +47,7 @@ class SilenceWatch {
  private:
   void begin(const peer::SourceReport& report, std::vector<std::string>& out);
   void listen(std::vector<std::string>& out);
+  [[nodiscard]] std::string remedy_for(const peer::SourceDatagram& datagram) const;
 
   const SourceChoice& choice_;
   nanoseconds start_;

@@ -3,6 +3,7 @@
 // The reports to the user about a live source.
 #include "reckon/tools/datagrams/listening.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/sealing/envelope.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -46,9 +48,9 @@ TEST(OtherPlaces, AreBroadcastDefaultAndBoundAddresses) {
   const std::vector bound{endpoint("239.7.7.8:7000"),   endpoint("239.9.9.9:6400"),
                           endpoint("0.0.0.0:68"),       endpoint("239.9.9.9:6400"),
                           endpoint("239.192.1.1:3000"), endpoint("239.192.1.1:3001")};
-  const std::vector rest{endpoint("239.192.1.0:3000"), endpoint("239.192.1.0:3001"),
-                         endpoint("255.255.255.255:7000"), endpoint("255.255.255.255:3000"),
-                         endpoint("239.9.9.9:6400")};
+  const std::vector rest{endpoint("239.7.7.7:7001"),       endpoint("239.192.1.0:3000"),
+                         endpoint("239.192.1.0:3001"),     endpoint("255.255.255.255:7000"),
+                         endpoint("255.255.255.255:3000"), endpoint("239.9.9.9:6400")};
   EXPECT_EQ(other_places(own, false, bound, 32), rest);
   EXPECT_EQ(other_places(own, true, bound, 32).front(), own.front());
   EXPECT_EQ(other_places(own, false, bound, 2).size(), 2U);
@@ -83,6 +85,30 @@ TEST(SilenceWatch, ReportsAfterThreeSecondsWithTrafficElsewhere) {
               Contains(AllOf(HasSubstr("received by this host: " + elsewhere.text() + " on lo"),
                              HasSubstr("write udp://" + elsewhere.text()))));
   EXPECT_THAT(silence.look(report, 120s), IsEmpty());
+}
+
+TEST(SilenceWatch, AsksForTheKeyOfSealedDatagrams) {
+  const auto port = static_cast<std::uint16_t>(20000 + getpid() % 20000);
+  SourceChoice choice;
+  choice.source = fmt::format("udp://239.192.77.6:{}", port);
+  choice.interface = "lo";
+  SilenceWatch silence(choice, 0s);
+  (void)silence.look({}, 3s);
+  const peer::SteadyClock clock;
+  peer::UdpMulticastOptions options;
+  options.interface = "lo";
+  peer::UdpMulticast sender(options, clock);
+  const peer::GroupAddress sealed = endpoint(fmt::format("239.192.77.6:{}", port + 1).c_str());
+  ASSERT_FALSE(sender.join(sealed)) << "a program of this host listens there";
+  std::array<std::byte, peer::kEnvelope> envelope{std::byte{peer::kSealedOctet}};
+  std::vector<std::string> told;
+  for (int i = 0; i < 200 && told.empty(); ++i) {
+    ASSERT_TRUE(sender.send(sealed, envelope));
+    std::this_thread::sleep_for(5ms);
+    told = silence.look({}, 4s);
+  }
+  EXPECT_THAT(told, Contains(HasSubstr(fmt::format(
+                        "sealed datagrams arrive on port {}; give --key FILE", port + 1))));
 }
 
 TEST(SilenceWatch, ReportsOnceThatNothingIsReceivedElsewhere) {
