@@ -128,6 +128,23 @@ std::string describe_all(std::span<const NetworkInterface> candidates, bool ipv6
   return text;
 }
 
+// "interface eth0 (10.0.0.5), the best of 3; --iface names another".
+std::string sentence_of(const NetworkInterface& best, std::span<const NetworkInterface> candidates,
+                        bool ipv6) {
+  if (!best.loopback) {
+    return "interface " + best.name + " (" + best.address(ipv6).value().address_text() +
+           "), the best of " + std::to_string(candidates.size()) + "; --iface names another";
+  }
+  std::string others;
+  for (const NetworkInterface& one : candidates) {
+    if (!one.loopback)
+      others += (others.empty() ? "" : ", ") + one.name + ": " + rate(one, ipv6).reason;
+  }
+  return "WARNING: no other host is reached: interface " + best.name +
+         (others.empty() ? " is the only one" : ", because no other can be used (" + others + ")") +
+         "; write --iface " + best.name + " if that is intended, else see reckon doctor";
+}
+
 InterfaceChoice choose_requested(std::span<const NetworkInterface> candidates,
                                  std::string_view requested, bool ipv6) {
   for (const NetworkInterface& interface : candidates) {
@@ -138,8 +155,9 @@ InterfaceChoice choose_requested(std::span<const NetworkInterface> candidates,
                                "" +
                                describe_all(candidates, ipv6));
     }
-    return {interface, "interface " + interface.name + ", as asked for" +
-                           (interface.running ? "\n" : "; it has no carrier yet\n")};
+    const std::string sentence = "interface " + interface.name + ", as asked for" +
+                                 (interface.running ? "" : "; it has no carrier yet");
+    return {interface, sentence + '\n', sentence};
   }
   throw std::runtime_error("no interface is named, numbered or addressed '" +
                            std::string(requested) + "'; there are:\n" +
@@ -227,8 +245,10 @@ InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
     throw std::runtime_error(std::string("no interface has an ") + (ipv6 ? "IPv6" : "IPv4") +
                              " address and is up; there are:\n" + describe_all(candidates, ipv6));
   }
-  return {*best, "interface " + best->name + ", by score (choose another with --iface):\n" +
-                     describe_all(candidates, ipv6)};
+  return {*best,
+          "interface " + best->name + ", by score (choose another with --iface):\n" +
+              describe_all(candidates, ipv6),
+          sentence_of(*best, candidates, ipv6)};
 }
 
 InterfaceStanding find_again(std::span<const NetworkInterface> candidates,

@@ -56,10 +56,12 @@ struct InterfaceScore {
 /// +2 not a virtual device, +1 not wireless; loopback counts 0 and comes last.
 [[nodiscard]] InterfaceScore rate(const NetworkInterface& interface, bool ipv6);
 
-/// The chosen interface with the reason, as lines for the user.
+/// The chosen interface with the reason, for the user.
 struct InterfaceChoice {
   NetworkInterface interface;
-  std::string explanation;
+  std::string explanation;  ///< lines, with the scores of all interfaces
+  /// One line. It begins with "WARNING" if loopback was taken because no other can be used.
+  std::string sentence;
 };
 
 /// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable

@@ -67,10 +67,9 @@ class LanLink {
     impaired_->change_law(law);
   }
   [[nodiscard]] const UdpMulticast& udp() const noexcept { return udp_; }
-  /// Sentences for the user: the chosen interface with the reason, then what falls short of the
-  /// request.
+  /// Sentences for the user: the chosen interface, then what falls short of the request.
   [[nodiscard]] std::vector<std::string> report() const {
-    std::vector<std::string> sentences{udp_.choice().explanation};
+    std::vector<std::string> sentences{udp_.choice().sentence};
     if (fan_out_) {
       sentences.push_back("to no group: each datagram goes to " +
                           std::to_string(fan_out_->peers()) +

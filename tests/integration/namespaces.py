@@ -103,8 +103,9 @@ def three_peers(setup):
     names = ("ALICE", "BOB", "CAROL")
     with setup.testbed(3) as bed:
         sniffer = bed.sniff()
+        scene = setup.scene_of(3)
         for victim in range(3):
-            peers = [bed.peer(i + 1, setup.scene, names[i], i + 1) for i in range(3)]
+            peers = [bed.peer(i + 1, scene, names[i], i + 1) for i in range(3)]
             for i, peer in enumerate(peers):
                 for other in set(names) - {names[i]}:
                     check(peer.wait_event("appeared", 5, other), f"{names[i]} never saw {other}")
@@ -323,6 +324,11 @@ class Setup:
         path = self.folder / "scenes" / f"{name}.toml"
         path.write_text(text.replace(old, new) + more)
         return path
+
+    def scene_of(self, peers):
+        """The scene with so many operators; the further ones rest."""
+        resting = "".join(f'\n[[operator]]\npassive = true\nposition = "{60 * number} 80 60 mm"\n' for number in range(3, peers + 1))
+        return self.changed_scene(f"of_{peers}", "[hand]", "[hand]", resting)
 
 
 def run(case):

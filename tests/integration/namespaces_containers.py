@@ -13,7 +13,7 @@ NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--boun
 
 
 def start(setup, bed, host, name, more=()):
-    return bed.run(host, [*NOBODY, setup.reckon, "peer", str(setup.scene), "--name", name, "--operator", str(host), "--events",
+    return bed.run(host, [*NOBODY, setup.reckon, "peer", str(setup.scene), "--name", name, "--operator", str(min(host, 2)), "--events",
                           "--json", *more], PeerProgram)
 
 

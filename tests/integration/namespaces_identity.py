@@ -31,7 +31,8 @@ def eight_at_once(setup):
     """Eight peers with hands start in one instant on one host: distinct within 2 s, and nobody moves after that."""
     with setup.testbed(1) as bed:
         sniffer = bed.sniff()
-        peers = [bed.peer(1, setup.scene, f"P{i}", i) for i in range(1, 9)]
+        scene = setup.scene_of(8)
+        peers = [bed.peer(1, scene, f"P{i}", i) for i in range(1, 9)]
         time.sleep(12)
         first, last = {}, {}
         for when, epoch, own, _ in announcements(sniffer):

@@ -168,6 +168,16 @@ void check_application(const peer::SceneFile& scene, const PeerVerbOptions& opti
                                  *options.application, kMostApplications));
 }
 
+// A scene of one peer has no number for others: any may be written.
+void check_operator(const peer::SceneFile& scene, const PeerVerbOptions& options) {
+  const std::uint32_t most = peer::peers_of(scene);
+  if (options.operator_number.value_or(1) <= most || most == 1 || scene.network.interop) return;
+  throw UsageError(fmt::format(
+      "--operator {}: the peers of this scene have the numbers 1 to {}: write one of them, or "
+      "leave --operator out to join beside them",
+      *options.operator_number, most));
+}
+
 /// @param lines whether the output is a stream of lines, without a summary
 void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& finished,
                const Console& console) {
@@ -184,6 +194,7 @@ peer::SceneFile checked_scene(const PeerVerbOptions& options, const Console& con
   say_native_code(scene, console);
   check_balance(scene, options);
   check_application(scene, options);
+  check_operator(scene, options);
   if (const auto flags = flags_of_switch(options.view))
     (void)server_options(*flags, !scene.network.key.empty());  // reports bad options before it
                                                                // joins
@@ -236,6 +247,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1, options.log);
   if (metrics) display.add({metrics->sentence()});
+  if (display.is_drawn()) display.add(running->link_warnings());
   PageWhenSeen page(options, scene);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};

@@ -33,6 +33,12 @@ RunningPeer::RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& op
   joined_.run();
 }
 
+std::vector<std::string> RunningPeer::link_warnings() const {
+  std::vector<std::string> warnings = joined_.link_report();
+  std::erase_if(warnings, [](const std::string& one) { return !one.starts_with("WARNING"); });
+  return warnings;
+}
+
 std::vector<std::string> RunningPeer::device_notices() {
   std::vector<std::string> all = real_.take_notices();
   for (std::string& sentence : hands_.take_notices()) all.push_back(std::move(sentence));

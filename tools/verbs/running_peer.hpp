@@ -54,6 +54,8 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
+  /// Sentences about the interface that a drawn table must not hide.
+  [[nodiscard]] std::vector<std::string> link_warnings() const;
   /// Notices of its devices and of the software stop.
   [[nodiscard]] std::vector<std::string> device_notices();
   void press_stop_key() { stop_.press_key(now()); }

@@ -39,6 +39,7 @@ TEST(InterfaceChoice, TakesTheCableOfALaptop) {
   EXPECT_NE(choice.explanation.find("eth0 (index 5, 192.168.1.4): score 15"), std::string::npos)
       << choice.explanation;
   EXPECT_NE(choice.explanation.find("--iface"), std::string::npos);
+  EXPECT_EQ(choice.sentence, "interface eth0 (192.168.1.4), the best of 5; --iface names another");
 }
 
 TEST(InterfaceChoice, FindsAnInterfaceAgainByItsName) {
@@ -85,7 +86,13 @@ TEST(InterfaceChoice, UsesLinkLocalAddressesOnlyAsLastResort) {
 TEST(InterfaceChoice, FallsBackToLoopback) {
   std::vector<NetworkInterface> all = laptop();
   for (std::size_t i = 1; i < all.size(); ++i) all[i].running = false;
-  EXPECT_EQ(choose_interface(all, "", false).interface.name, "lo");
+  const InterfaceChoice choice = choose_interface(all, "", false);
+  EXPECT_EQ(choice.interface.name, "lo");
+  EXPECT_EQ(choice.sentence.find("WARNING: no other host is reached: interface lo, because no "
+                                 "other can be used (wlan0: it has no carrier, tun0: "),
+            0U)
+      << choice.sentence;
+  EXPECT_EQ(choose_interface(all, "lo", false).sentence, "interface lo, as asked for");
 }
 
 TEST(InterfaceChoice, TakesTheLowerIndexAmongEquals) {
