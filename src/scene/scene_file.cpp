@@ -96,12 +96,14 @@ namespace {
 // Bodies move under the hands of the first peer.
 void check_bodies(TomlReader& file, const SceneFile& scene) {
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
-  if (std::ranges::none_of(scene.scene.objects, moves)) return;
+  const auto body = std::ranges::find_if(scene.scene.objects, moves);
+  if (body == scene.scene.objects.end()) return;
   const auto first = [](const DeviceConfig& device) { return device.peer == 1; };
   const auto one = std::ranges::find_if(scene.devices, first);
   if (one == scene.devices.end()) {
-    file.problem("object",
-                 "the first peer moves the bodies (mass) of a scene: add a [[device]] of peer 1");
+    file.problem_at(fmt::format("object[{}].mass", body - scene.scene.objects.begin()),
+                    "the first peer moves the bodies (mass) of a scene with a device that the "
+                    "scene lists: add a [[device]] of peer 1");
     return;
   }
   const auto same = [&](const DeviceConfig& device) {

@@ -51,4 +51,15 @@ FileKind kind_of_file(const std::string& path) {
   return found == kEndings.end() ? FileKind::unknown : found->kind;
 }
 
+std::string no_scene_remedy(const std::string& path) {
+  switch (kind_of_file(path)) {
+    case FileKind::capture:
+      return "this is a capture: reckon inspect " + path;
+    case FileKind::mesh:
+      return "this is a mesh: reckon demo --mesh " + path;
+    default:
+      return {};
+  }
+}
+
 }  // namespace reckon::tools

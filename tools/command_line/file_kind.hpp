@@ -15,4 +15,7 @@ enum class FileKind : std::uint8_t { unknown, capture, scene, mesh, key, table }
 /// cannot be read.
 [[nodiscard]] FileKind kind_of_file(const std::string& path);
 
+/// For a capture or a mesh in place of a scene: the command that opens it; else empty.
+[[nodiscard]] std::string no_scene_remedy(const std::string& path);
+
 }  // namespace reckon::tools

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/exercise/scene_options.hpp"
 
+#include <fmt/format.h>
+
 #include <exception>
+#include <filesystem>
 
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 #include "reckon/tools/command_line/impairment_text.hpp"
 #include "reckon/tools/command_line/scene_folder.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -28,6 +32,22 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
 }
 
 namespace {
+
+void check_given(std::string_view flag, const std::string& file, std::string_view kinds,
+                 std::string_view example) {
+  std::error_code ignored;
+  if (file.empty() || std::filesystem::exists(file, ignored)) return;
+  throw UsageError(fmt::format("{}: there is no file '{}': write the path of {}, for example {}",
+                               flag, file, kinds, example));
+}
+
+// Files of flags, before anything is read.
+void check_files_given(const SceneOptions& options) {
+  check_given("--mesh", options.mesh, "an OBJ, PLY, STL or OFF file", "scenes/touchstone.obj");
+  check_given("--hand", options.hand, "a CSV file", "scenes/hand_trace.csv");
+  if (const std::string remedy = no_scene_remedy(options.scene); !remedy.empty())
+    throw UsageError(options.scene + ": " + remedy);
+}
 
 // Reports problems of the key before anything starts.
 void check_key(const peer::SceneFile& scene) {
@@ -53,6 +73,7 @@ bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept {
 
 peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
                            std::size_t hands) {
+  check_files_given(options);
   peer::SceneFile scene;
   try {
     scene = peer::load_scene_file(scene_path(options.scene, shipped), options.effects);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <net/if.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -48,6 +49,11 @@ const std::vector<Opening>& openings() {
 std::optional<std::vector<std::string>> words_for_file(Arguments words, const Console& console) {
   const std::string file(words.front());
   std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) && if_nametoindex(file.c_str()) != 0)
+    throw UsageError(
+        fmt::format("it is a network interface: `reckon inspect --iface {0}` shows "
+                    "its traffic, `reckon peer SCENE --iface {0}` joins there",
+                    file));
   if (!std::filesystem::exists(file, ignored) || std::filesystem::is_directory(file, ignored))
     return std::nullopt;
   const Opening& opening = *std::ranges::find(openings(), kind_of_file(file), &Opening::kind);

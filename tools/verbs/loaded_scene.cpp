@@ -11,6 +11,7 @@
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 #include "reckon/tools/exercise/felt_device.hpp"
 
 namespace reckon::tools {
@@ -18,6 +19,8 @@ namespace reckon::tools {
 using peer::format_quantity;
 
 LoadedScene load_whole_scene(const std::string& path) {
+  if (std::string remedy = no_scene_remedy(path); !remedy.empty())
+    throw peer::SceneFileError(path, {{0, 0, std::move(remedy)}});
   LoadedScene scene{peer::load_scene_file(path), {}};
   try {
     scene.plan = haptics::EffectPlan(scene.file.scene);

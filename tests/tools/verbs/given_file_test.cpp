@@ -76,6 +76,23 @@ TEST_F(GivenFile, IsReportedIfMissingAndVerbsTakePrecedence) {
   EXPECT_EQ(run_reckon({test::source_dir() + "/scenes"}).status, 2);
 }
 
+TEST_F(GivenFile, MayBeANetworkInterface) {
+  const auto result = run_reckon({"lo"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("it is a network interface: `reckon inspect --iface lo`"));
+}
+
+TEST_F(GivenFile, IsNoSceneIfACaptureOrMesh) {
+  const std::string capture = shipped("exercise.pcapng"), mesh = shipped("touchstone.obj");
+  const auto checked = run_reckon({"scene", "check", capture});
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_EQ(checked.out, capture + ": this is a capture: reckon inspect " + capture + "\n");
+  const auto joined = run_reckon({"peer", capture, "--iface", "lo"});
+  EXPECT_EQ(joined.status, 2);
+  EXPECT_THAT(joined.err, HasSubstr("this is a capture: reckon inspect " + capture));
+  EXPECT_THAT(run_reckon({"demo", mesh}).err, HasSubstr("a mesh: reckon demo --mesh " + mesh));
+}
+
 TEST_F(GivenFile, IsACaptureForEveryVerbByContent) {
   const std::string path = folder_.file("recorded.toml");
   std::filesystem::copy_file(shipped("exercise.pcapng"), path);

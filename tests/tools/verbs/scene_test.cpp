@@ -62,6 +62,16 @@ TEST(SceneCheck, NamesPlaceAndRemedyOfEachProblem) {
             scene.path() + ":4:13: unknown key 'stifness' (did you mean 'stiffness'?)\n");
 }
 
+TEST(SceneCheck, PointsAtABodyWithoutADevice) {
+  const TemporaryScene scene(
+      "[[object]]\nname = \"wall\"\nplane = [0.0, 0.0, 1.0]\n"
+      "[[object]]\nname = \"cube\"\nbox = \"40 40 40 mm\"\nposition = [0.0, 0.0, 0.1]\n"
+      "mass = \"60 g\"\n");
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, StartsWith(scene.path() + ":8:8: the first peer moves the bodies"));
+}
+
 TEST(SceneCheck, ChecksEveryFileAndReturnsTheWorst) {
   const TemporaryScene good(kPlain);
   const TemporaryScene bad("[scene]\nnane = 3\n");
