@@ -30,27 +30,28 @@ constexpr std::array kStudies{
               "simulated network",
               "--report --delay",
               "reckon bench scale --peers 16,32,64 --entities 6400 --movement vehicles\n"
-              "reckon bench scale town.csv --peers 64 --entities 2000 --delay 20ms --loss 1%",
+              "reckon bench scale scenes/truck_track.csv --peers 64 --entities 2000 --delay 20ms "
+              "--loss 1%",
               scale_study},
     StudyKind{"stability",
               "energy generated and force errors of each coupling over a simulated network",
               "--csv --report",
               "reckon bench stability --report maps.html\n"
-              "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep "
+              "reckon bench stability scenes/two_hands.toml --sweep delay=0..200ms/5 --sweep "
               "hand.k1=200,800N/m\n"
               "reckon bench stability --sweep loss=0..50%/6 --sweep delay=50ms --csv loss.csv",
               stability_study},
-    StudyKind{"accuracy",
-              "traffic and error of a pose, for each model, threshold and convergence curve",
-              "--csv --report --delay",
-              "reckon bench accuracy --motion circle,hand\n"
-              "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
-              "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
-              "reckon bench accuracy --against rvw:1m cars.csv\n"
-              "reckon bench accuracy --circle\n"
-              "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
-              "reckon bench accuracy --touch --axis order,precision --report touch.html",
-              accuracy_study},
+    StudyKind{
+        "accuracy", "traffic and error of a pose, for each model, threshold and convergence curve",
+        "--csv --report --delay",
+        "reckon bench accuracy --motion circle,hand\n"
+        "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
+        "reckon bench accuracy scenes/truck_track.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
+        "reckon bench accuracy --against rvw:1m scenes/truck_track.csv\n"
+        "reckon bench accuracy --circle\n"
+        "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
+        "reckon bench accuracy --touch --axis order,precision --report touch.html",
+        accuracy_study},
     StudyKind{"latency",
               "latency of a touch between two peers with threads and sockets, and of a bare "
               "datagram",

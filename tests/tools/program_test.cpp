@@ -18,6 +18,7 @@
 #include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -94,6 +95,27 @@ TEST(Program, GivesAnExampleInEachVerbsHelp) {
     EXPECT_TRUE(result.err.empty()) << verb.name;
     EXPECT_EQ(run_reckon({"help", std::string(verb.name)}).out, result.out) << verb.name;
   }
+}
+
+TEST(Program, GivesExamplesWithFilesThatExist) {
+  const std::regex file(
+      "reckon (?:inspect|view|replay|info|cut|peer|demo|scene \\w+) (\\S+\\.\\w+)|--(?:mesh|hand) "
+      "(\\S+\\.\\w+)");
+  std::size_t found = 0;
+  for (const Verb& verb : verbs()) {
+    if (verb.program == kBenchProgram) continue;
+    std::istringstream help(run_reckon({std::string(verb.name), "--help"}).out);
+    for (std::string line; std::getline(help, line);) {
+      if (!line.starts_with("  reckon ") || line.find("--key") != line.npos) continue;
+      for (std::sregex_iterator at(line.begin(), line.end(), file), end; at != end; ++at) {
+        const std::string name = (*at)[1].matched ? (*at)[1] : (*at)[2];
+        if (name.find_first_of(":*") != name.npos) continue;
+        ++found;
+        EXPECT_TRUE(std::filesystem::exists(test::source_dir() + "/" + name)) << line;
+      }
+    }
+  }
+  EXPECT_GT(found, 20U);
 }
 
 TEST(Program, PrintsItsVersion) {

@@ -22,11 +22,13 @@ constexpr std::string_view kCutSummary =
     "in .zst is compressed. With --audio it writes a 16-bit WAV file with the sound of one radio\n"
     "instead: its Signal PDUs in mu-law or linear PCM, placed by capture time.";
 constexpr std::string_view kCutExamples =
-    "reckon cut day.pcapng part.pcapng --from 90s --to 2min\n"
-    "reckon cut day.pcapng one.pcapng --entity 1:2:3\n"
-    "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state\n"
-    "reckon cut day.pcapng foes.pcapng.zst --where 'side == opposing and domain == land'\n"
-    "reckon cut day.pcapng --audio net.wav --entity 1:2:3 --where 'radio_number == 1'";
+    "reckon cut scenes/exercise.pcapng part.pcapng --from 1s --to 2s\n"
+    "reckon cut scenes/exercise.pcapng one.pcapng --entity 1:2:1\n"
+    "reckon cut scenes/exercise.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type "
+    "entity_state\n"
+    "reckon cut scenes/exercise.pcapng foes.pcapng.zst --where 'side == opposing and domain == "
+    "land'\n"
+    "reckon cut scenes/exercise.pcapng --audio net.wav --entity 1:2:3 --where 'radio_number == 1'";
 
 struct CutOptions {
   std::string in;

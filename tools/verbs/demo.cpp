@@ -50,7 +50,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo\n"
                    "reckon demo --for 60s --json\n"
                    "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
-                   "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
+                   "reckon demo --mesh scenes/touchstone.obj --hand scenes/hand_trace.csv\n"
                    "reckon demo --simulated-time --for 10min\n"
                    "reckon demo --view");
   line.word("SCENE", options.scene.scene, false,

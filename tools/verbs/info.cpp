@@ -16,8 +16,8 @@ constexpr std::string_view kInfoSummary =
     "Summarises a capture: times, datagrams, PDUs by type, senders, groups, entities, damage.\n\n"
     "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 if it is damaged.";
 constexpr std::string_view kInfoExamples =
-    "reckon info exercise.pcapng\n"
-    "reckon info exercise.pcapng --json | jq '.types[]'";
+    "reckon info scenes/exercise.pcapng\n"
+    "reckon info scenes/exercise.pcapng --json | jq '.types[]'";
 
 ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report) {
   const InspectTally& tally = summary.tally();

@@ -22,12 +22,12 @@ constexpr std::string_view kSummary =
     "Keys on a terminal: space pauses and resumes, left and right skip 10 s, + and - double and\n"
     "halve the speed, q quits.";
 constexpr std::string_view kExamples =
-    "reckon replay exercise.pcapng\n"
-    "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
-    "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
-    "reckon replay exercise.pcapng --to udp://192.168.1.255:3000\n"
-    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'\n"
-    "reckon replay exercise.pcapng --map-exercise 1=7 --map-id 1:2:*=9:2:* --map-place "
+    "reckon replay scenes/exercise.pcapng\n"
+    "reckon replay scenes/exercise.pcapng --rate 4 --from 1s --to 2s\n"
+    "reckon replay scenes/exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
+    "reckon replay scenes/exercise.pcapng --to udp://192.168.1.255:3000\n"
+    "reckon replay scenes/exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'\n"
+    "reckon replay scenes/exercise.pcapng --map-exercise 1=7 --map-id 1:2:*=9:2:* --map-place "
     "34.05,-118.24";
 
 /// Distinguishes a destination from a time, and finds the interface of a broadcast address.

@@ -55,8 +55,8 @@ struct ViewOptions {
 
 std::optional<int> parse(Arguments arguments, const Console& console, ViewOptions& options) {
   CommandLine line("view", kSummary,
-                   "reckon view exercise.pcapng --open\n"
-                   "reckon view exercise.pcapng --save run.html\n"
+                   "reckon view scenes/exercise.pcapng --open\n"
+                   "reckon view scenes/exercise.pcapng --save run.html\n"
                    "reckon view scenes/two_hands.toml --iface eth0\n"
                    "reckon view udp://239.192.1.0:3000 --port 9000\n"
                    "reckon view --listen 0.0.0.0 --for 1h");

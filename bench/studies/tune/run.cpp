@@ -31,12 +31,12 @@ constexpr std::string_view kSummary =
     "if no setting reaches --error or --budget, if the capture is damaged, or if hands never "
     "touched.";
 constexpr std::string_view kExamples =
-    "reckon tune tracks.csv\n"
-    "reckon tune tracks.csv --error 0.5m --plot curve.svg\n"
-    "reckon tune exercise.pcapng --budget 10kB/s\n"
-    "reckon tune tracks.csv --delay 80ms --jitter 40% --loss 10% --json\n"
+    "reckon tune scenes/truck_track.csv\n"
+    "reckon tune scenes/truck_track.csv --error 0.5m --plot curve.svg\n"
+    "reckon tune scenes/exercise.pcapng --budget 10kB/s\n"
+    "reckon tune scenes/truck_track.csv --delay 80ms --jitter 40% --loss 10% --json\n"
     "reckon tune --force touch.csv --columns fx_N,fy_N,fz_N\n"
-    "reckon tune --force two_hands.toml --for 60s --delay 20ms";
+    "reckon tune --force scenes/two_hands.toml --for 60s --delay 20ms";
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLeastThreshold = 1e-6, kMostThreshold = 1e4;  // [m], as in scene files

@@ -34,7 +34,7 @@ constexpr std::string_view kSummary =
 constexpr std::string_view kExamples =
     "reckon zwidth\n"
     "reckon zwidth --damping 2 --rate 4kHz --delay 1ms --report zwidth.html\n"
-    "reckon zwidth two_hands.toml --device 2 --walls 0..0.5/11\n"
+    "reckon zwidth scenes/two_hands.toml --device 2 --walls 0..0.5/11\n"
     "reckon zwidth --delay 20ms --json | jq .passive";
 
 constexpr std::size_t kDampings = 21;

@@ -315,7 +315,8 @@ TEST(InspectViews, AreShownInHelpWithExamples) {
   const auto result = run_reckon({"inspect", "--help"});
   for (const char* part : {"stats", "check", "bundles", "--by", "--csv", "--rules"})
     EXPECT_THAT(result.out, HasSubstr(part));
-  EXPECT_THAT(result.out, HasSubstr("reckon inspect capture.pcapng stats --by entity --csv"));
+  EXPECT_THAT(result.out,
+              HasSubstr("reckon inspect scenes/exercise.pcapng stats --by entity --csv"));
 }
 
 }  // namespace
