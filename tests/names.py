@@ -31,7 +31,7 @@ LISTS = {
                "give effect_hooks.hpp a concept and ask that"),
     "effect of a region": ("haptics/regions/region_types.hpp", r"RegionTypes = std::tuple<(.*?)>;", r"\w+",
                            "give region_hooks.hpp a concept and ask that"),
-    "study": ("bench/verbs/bench.cpp", r"kStudies\{(.*?)\n\};", r'StudyKind\{"(\w+)"',
+    "study": ("bench/verbs/bench.cpp", r"kStudies\{(.*?)\n\};", r'StudyKind\{\s*"(\w+)"',
               "ask the rows of kStudies, or move what is common to a room of its own"),
 }
 # File -> mentions of effects that it may have; they may only shrink. A study of effects gives each its values. Each
