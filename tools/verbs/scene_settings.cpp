@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/notation/units.hpp"
 #include "reckon/peer/peer.hpp"
