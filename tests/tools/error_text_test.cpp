@@ -62,7 +62,7 @@ const Mistake kMistakes[] = {
     {{"inspect", "a.pcap", "--where", "knd == 1"}, "column 1", "did you mean 'kind'?"},
     {{"scene"}, "write an action", "reckon scene check"},
     {{"scene", "chekc"}, "ACTION: 'chekc'", "did you mean 'check'?"},
-    {{"scene", "explain"}, "write a scene file", "reckon scene explain FILE"},
+    {{"scene", "explain"}, "name a scene file", "reckon scene explain FILE"},
     {{"demo", "--peers", "65"}, "65 peers", "choose 1 to 64"},
     {{"demo", "--mesh", "missing.ply"}, "--mesh: there is no file 'missing.ply'", "OBJ, PLY, STL"},
     {{"demo", "--hand", "missing.csv"}, "--hand: there is no file 'missing.csv'", "for example"},

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
 namespace reckon::tools {
 namespace {
@@ -32,14 +34,23 @@ constexpr std::array kEndings{
     Ending{".stl", FileKind::mesh},     Ending{".off", FileKind::mesh},
     Ending{".key", FileKind::key},      Ending{".csv", FileKind::table}};
 
+/// A pipe or a device has none: a read of it can wait for ever, and takes the octets away.
+std::string head_of(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::string octets(kLongestHead, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(octets.data(), static_cast<std::streamsize>(octets.size()));
+  octets.resize(static_cast<std::size_t>(file.gcount()));
+  return octets;
+}
+
 }  // namespace
 
 FileKind kind_of_file(const std::string& path) {
-  std::array<char, kLongestHead> octets{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return FileKind::unknown;
-  file.read(octets.data(), octets.size());
-  const std::string_view head(octets.data(), static_cast<std::size_t>(file.gcount()));
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return FileKind::unknown;
+  const std::string head = head_of(path);
   if (std::ranges::any_of(kCaptureHeads, [&](auto known) { return head.starts_with(known); }))
     return FileKind::capture;
   std::string name = path;

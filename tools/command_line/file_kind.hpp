@@ -11,8 +11,8 @@ namespace reckon::tools {
 /// Kinds of files that verbs take.
 enum class FileKind : std::uint8_t { unknown, capture, scene, mesh, key, table };
 
-/// By its first octets if they are characteristic, else by the end of its name. Unknown if it
-/// cannot be read.
+/// By the first octets of a regular file if they are characteristic, else by the end of its name.
+/// Unknown if there is no such file.
 [[nodiscard]] FileKind kind_of_file(const std::string& path);
 
 /// For a capture or a mesh in place of a scene: the command that opens it; else empty.

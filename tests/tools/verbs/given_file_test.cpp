@@ -3,6 +3,7 @@
 // `reckon FILE`: captures, scenes and meshes are opened; for other files the verb is named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -114,6 +115,9 @@ TEST_F(GivenFile, IsDetectedByItsContentOrName) {
   EXPECT_EQ(kind_of_file(write("b", "\x1f\x8b\x08")), FileKind::capture);
   EXPECT_EQ(kind_of_file(write("c", "x")), FileKind::unknown);
   EXPECT_EQ(kind_of_file(folder_.file("absent.csv")), FileKind::unknown);
+  // A read of a pipe without a writer would wait for ever.
+  ASSERT_EQ(mkfifo(folder_.file("pipe.toml").c_str(), 0600), 0);
+  EXPECT_EQ(kind_of_file(folder_.file("pipe.toml")), FileKind::scene);
 }
 
 }  // namespace
