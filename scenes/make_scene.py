@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Writes the shipped scenes' mesh, picture, hand traces and tracks: touchstone.obj, land.pgm, meeting_1.csv,
-meeting_2.csv, hand_trace.csv, hand_trace_2.csv, wall_trace.csv, tip_track.csv, truck_track.csv.
+meeting_2.csv, hand_trace.csv, hand_trace_2.csv, wall_trace.csv, and the tracks of entities.
 
     make_scene.py [FOLDER]        default: the folder of this script
 
@@ -329,6 +329,19 @@ def truck(time):
     return side * (STRAIGHT / 2.0 + BEND * math.sin(angle)), -side * BEND * math.cos(angle), 0.0
 
 
+def ellipse(east, north, seconds):
+    """Round an ellipse of these half axes [m], anticlockwise, once in a time."""
+    def at(time):
+        angle = 2.0 * math.pi * time / seconds
+        return east * math.cos(angle), north * math.sin(angle), 0.0
+    return at
+
+
+# Once round [s], and the half axes [m].
+ELLIPSES = {"walk_track.csv": (60.0, 16.0, 8.0), "flight_track.csv": (120.0, 1000.0, 600.0),
+            "ferry_track.csv": (400.0, 700.0, 90.0)}
+
+
 LAND = (129, 97)  # pixels
 
 
@@ -370,6 +383,8 @@ def main():
     wall_hand().write(folder / "wall_trace.csv")
     write_track(folder / "tip_track.csv", 50, 14.0, tip)
     write_track(folder / "truck_track.csv", 5, LAP_S, truck)
+    for name, (seconds, east, north) in ELLIPSES.items():
+        write_track(folder / name, 60.0 / seconds, seconds, ellipse(east, north, seconds))
 
 
 if __name__ == "__main__":

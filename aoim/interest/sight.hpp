@@ -44,21 +44,36 @@ class Sight {
   /// locales or a cut, an entity in a cell without a subscription is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
-    if (is_walled_off(position)) return interest_.judge_hidden();
-    return interest_.judge(position, nimbus, kind, shown, is_followed(position, shown));
+    return judge(position, nimbus, kind, shown, is_followed(position, shown ? kLingers : kBorder));
   }
-  /// As Interest::gap, but 0 in the cell of a followed beacon.
+  /// The same with the answer of keeps().
+  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind, bool shown,
+                        bool is_kept) noexcept {
+    if (is_walled_off(position)) return interest_.judge_hidden();
+    return interest_.judge(position, nimbus, kind, shown, is_kept);
+  }
+  /// Whether the cell of a followed beacon keeps a shown entity in sight. Its owner sends an update
+  /// in the cell that it leaves, and no more after that: `stated` is in another cell then. If the
+  /// beacon has moved with it, the map of groups follows within kLingersFor.
+  /// @param age time since its last update  @param stated its position in that update
+  [[nodiscard]] bool keeps(const Position& predicted, const Position& stated,
+                           std::chrono::nanoseconds age) const noexcept {
+    return is_followed(predicted, kLingers) && (age < kLingersFor || is_followed(stated, kBorder));
+  }
+  static constexpr std::chrono::seconds kLingersFor{2};
+  /// As Interest::gap. It has no exception for the cell of a followed beacon, because the position
+  /// of an entity that was received elsewhere can be old: the leader of the cell introduces it.
   [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
-    if (is_followed(position, false)) return 0.0;
     const double away = interest_.gap(position, nimbus);
     return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
   /// See Interest::withdrawn; it jumps when a locale or the cell of a beacon is left.
   [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
   /// See Interest::spare; 0 in a cell without a subscription that judge() hides.
-  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind) noexcept {
+  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind,
+                             bool is_kept) noexcept {
     if (is_walled_off(position)) return 0.0;
-    return interest_.spare(position, nimbus, kind, is_followed(position, true));
+    return interest_.spare(position, nimbus, kind, is_kept);
   }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
@@ -107,15 +122,16 @@ class Sight {
   }
 
  private:
-  // A shown entity stays shown within this share of a cell beyond the followed cell. When the
-  // beacon crosses a border, it is received in the next cell before the map has it there.
+  // Shares of the side of a cell. A shown entity lingers beyond the followed cell; one on a border
+  // is in one cell for its owner, and may be in the other by the rounding of the wire format; and
+  // it may be predicted in the other within its owner's threshold.
   static constexpr double kLingers = 0.5;
-  // An entity on a border is in one cell for its owner, and may be predicted in the other: by the
-  // rounding of the wire format, and within its owner's threshold.
-  static constexpr double kBorder = 0.05;
+  static constexpr double kBorder = 1e-8;
+  static constexpr double kPredicted = 0.05;
 
-  [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
-    return !followed_.empty() && is_in_followed_cell(position, shown);
+  /// @param share as in is_in_or_near
+  [[nodiscard]] bool is_followed(const Position& position, double share) const noexcept {
+    return !followed_.empty() && is_in_followed_cell(position, share);
   }
   /// @param share of a cell's side by which the cell may be away
   [[nodiscard]] bool is_in_or_near(const Position& position, double share,
@@ -130,9 +146,9 @@ class Sight {
     });
     return found;
   }
-  [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept {
+  [[nodiscard]] bool is_in_followed_cell(const Position& position, double share) const noexcept {
     if (!is_finite(position)) return false;
-    return is_in_or_near(position, shown ? kLingers : kBorder, [this](GroupIndex number) {
+    return is_in_or_near(position, share, [this](GroupIndex number) {
       return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
     });
   }
@@ -146,7 +162,7 @@ class Sight {
     // A position beyond the wall of a locale is another locale, at any distance.
     if (!is_finite(position)) return false;
     if (cells_.as<LocaleMap>() != nullptr) return !subscription_.is_joined(cells_.group(position));
-    return !is_in_or_near(position, kBorder,
+    return !is_in_or_near(position, kPredicted,
                           [this](GroupIndex number) { return subscription_.is_joined(number); });
   }
   void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }

@@ -66,6 +66,11 @@ class Subscription {
   /// Groups joined after the last update, ascending.
   [[nodiscard]] std::span<const GroupIndex> joined() const noexcept { return joined_; }
   [[nodiscard]] bool is_joined(GroupIndex group) const noexcept;
+  /// Whether it is joined and was joined before this time.
+  [[nodiscard]] bool is_joined_since(GroupIndex group,
+                                     std::chrono::nanoseconds time) const noexcept {
+    return is_joined(group) && entries_[group.value - 1u].since <= time;
+  }
   /// A cell of this group: the one that was nearest to a focus when last within reach.
   [[nodiscard]] CellId cell(GroupIndex group) const noexcept {
     return entries_[group.value - 1u].cell;

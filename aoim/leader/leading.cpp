@@ -116,10 +116,9 @@ void Leading::note_attribute(std::span<const std::byte> octets, std::uint32_t se
   }
 }
 
-// The number under which a state received in `group` is kept: its cell's number, or the base group
-// if the cell is not ours.
-GroupIndex Leading::kept_as(GroupIndex group, const pdu::EntityState& state) const {
-  if (!hands_out()) return group;
+// The number under which a state is kept, whatever the group in which it is received: its cell's
+// number, or the base group if the cell is not ours.
+GroupIndex Leading::kept_as(const pdu::EntityState& state) const {
   const pdu::WorldCoordinates& at = state.location;
   const GroupIndex cell = cells_.group(locate_ ? locate_(at) : Position{at.x, at.y, at.z});
   return subscription_.is_joined(cell) ? cell : kBaseGroup;
@@ -138,7 +137,7 @@ void Leading::receive(GroupIndex group, std::span<const std::byte> datagram, std
       pdu::EntityState state;
       const bool counts = is_kept && decodes(bundled, state) &&
                           presence_.epoch_of(state.entity_id.simulation()) == sender;
-      const GroupIndex number = counts ? kept_as(group, state) : kBaseGroup;
+      const GroupIndex number = counts ? kept_as(state) : kBaseGroup;
       if (number != kBaseGroup) {
         role_.note(number, sender, state, bundled.bytes, now);
       } else if (counts) {  // it has moved to a cell that is not ours

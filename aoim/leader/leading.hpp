@@ -90,7 +90,7 @@ class Leading {
 
  private:
   void read_cells(Nanoseconds now);
-  [[nodiscard]] GroupIndex kept_as(GroupIndex group, const pdu::EntityState& state) const;
+  [[nodiscard]] GroupIndex kept_as(const pdu::EntityState& state) const;
   void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
 
   LeaderConfig config_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -228,11 +229,13 @@ bool EntitySender::send(Decision& decision, const Dispatch& how,
       octets += send_at_once(tier, position, records, now);
   }
   if (audiences == nullptr || how.audience >= audiences->last()) {
-    entity.last_group = aoim_.route(position);
+    const aoim::GroupIndex former = std::exchange(entity.last_group, aoim_.route(position));
     if (!hooks_.routing.empty()) reroute(entity, position);
     const Written written =
         send_to_all(entity, position, records, terms, how.reason == SendReason::event, now);
     octets += written.octets;
+    if (aoim_.sends_departures() && former != aoim::kBaseGroup && former != entity.last_group)
+      octets += send_departure(position, former, records, terms);
     entity.last_sent = now;
     if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = now;
   } else if (how.audience >= urgent_of(audiences)) {
@@ -243,6 +246,18 @@ bool EntitySender::send(Decision& decision, const Dispatch& how,
   counters_.sent(how.reason, octets);
   if (how.is_asked) aoim_.introductions().note_sent(octets, now);
   return true;
+}
+
+// Receivers in the group `former` alone would extrapolate its last state there.
+std::size_t EntitySender::send_departure(const aoim::RoutedPosition& position,
+                                         aoim::GroupIndex former,
+                                         std::span<const std::byte> records,
+                                         const aoim::BundleTerms& terms) noexcept {
+  aoim::RoutedPosition left = position;
+  left.group = former;
+  static_cast<void>(
+      aoim_.send(aoim::kCellTier, aoim::StatePayload{update_.state, records}, left, terms));
+  return pdu::wire_size(update_.state) + records.size();
 }
 
 void EntitySender::reroute(const OwnedEntity& entity,

@@ -90,6 +90,9 @@ class EntitySender {
   bool send(Decision& decision, const Dispatch& how,
             std::span<const EnergyAccount> accounts) noexcept;
   void reroute(const OwnedEntity& entity, aoim::RoutedPosition& position) const noexcept;
+  std::size_t send_departure(const aoim::RoutedPosition& position, aoim::GroupIndex former,
+                             std::span<const std::byte> records,
+                             const aoim::BundleTerms& terms) noexcept;
   std::size_t send_at_once(std::size_t tier, const aoim::RoutedPosition& position,
                            std::span<const std::byte> records, Nanoseconds now) noexcept;
   std::size_t send_to_row(OwnedEntity& entity, const aoim::RoutedPosition& position,

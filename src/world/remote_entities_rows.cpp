@@ -72,9 +72,12 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
     const auto kind = static_cast<std::uint8_t>(row.type.kind);
     const double nimbus = nimbus_of(settings_.nimbus, row.type);
     const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
-    double spare = aoim_.sight().spare(position, nimbus, kind);
+    const bool kept =
+        aoim_.sight().keeps(position, to_position(row.state.position), now - row.state_time);
+    double spare = aoim_.sight().spare(position, nimbus, kind, kept);
     // judge() counts entities that leave; on the very border an entity stays.
-    if (!(spare > 0.0) && aoim::is_accepted(aoim_.sight().judge(position, nimbus, kind, true)))
+    if (!(spare > 0.0) &&
+        aoim::is_accepted(aoim_.sight().judge(position, nimbus, kind, true, kept)))
       spare = kLeastStep;
     return {spare, speed};
   };
@@ -93,7 +96,11 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
         return aoim_.sight().gap(to_position(entity.position(now)),
                                  nimbus_of(settings_.nimbus, entity.type()));
       },
-      [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
+      [&](const OutsideEntity& entity, nanoseconds owner_heard) {
+        // After a gap it may have moved elsewhere; its owner or a leader introduces it.
+        if (aoim_.has_received_since(to_position(entity.state().position), entity.arrival().now))
+          enter(entity, owner_heard);
+      });
 }
 
 // As if the entity had been within the radius when it was received.

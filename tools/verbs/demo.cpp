@@ -56,8 +56,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.word("SCENE", options.scene.scene, false,
             fmt::format("scene file; default: {} as installed", kDefaultScene));
   line.option("--peers", options.asked_peers,
-              "number of peers, 1 to 64; default: 2, or in a scene with bodies the peers that have "
-              "a device");
+              "number of peers, 1 to 64; default: as many as own a device or an entity of the "
+              "scene, at least 2, or 1 with bodies");
   line.option("--for", options.duration, "stop after this time, e.g. 10s");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
@@ -151,14 +151,15 @@ void say_where(const DemoOptions& options, const peer::SceneFile& scene, const C
              scene.network.exercise_named ? "" : ", chosen at random, because the scene has none");
 }
 
-/// For a scene with bodies, the number of peers that have a device.
+/// As many as own a device or an entity, but at least 2, or 1 in a scene with bodies.
 std::uint64_t peers_of(const DemoOptions& options, const peer::SceneFile& scene) {
+  if (options.asked_peers) return *options.asked_peers;
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
-  if (options.asked_peers || std::ranges::none_of(scene.scene.objects, moves))
-    return options.asked_peers.value_or(2);
-  std::uint64_t most = 1;
+  std::uint64_t most = std::ranges::any_of(scene.scene.objects, moves) ? 1 : 2;
   for (const peer::DeviceConfig& device : scene.devices)
     most = std::max<std::uint64_t>(most, device.peer);
+  for (const peer::EntityConfig& entity : scene.entities)
+    most = std::max<std::uint64_t>(most, entity.peer);
   return most;
 }
 

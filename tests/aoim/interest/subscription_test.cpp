@@ -142,8 +142,13 @@ TEST(Subscription, KeepsAGroupForAtLeastTwoSeconds) {
   focus.position.x = 900.0;  // a jump
   EXPECT_TRUE(subscription.update({&focus, 1}, seconds(11)).leave.empty());
   EXPECT_TRUE(subscription.is_joined(home));
+  EXPECT_TRUE(subscription.is_joined_since(home, seconds(10)));
   subscription.update({&focus, 1}, seconds(12));
   EXPECT_FALSE(subscription.is_joined(home));
+  focus.position.x = 0.0;
+  subscription.update({&focus, 1}, seconds(13));
+  EXPECT_FALSE(subscription.is_joined_since(home, seconds(12))) << "it was left in the meantime";
+  EXPECT_TRUE(subscription.is_joined_since(home, seconds(13)));
 }
 
 TEST(Subscription, LeavesOnlyBeyondElevenTenthsOfTheRadius) {

@@ -157,10 +157,15 @@ TEST(Beacons, MakeTheirCellVisibleFromAnywhere) {
   AreaOfInterestManager& follower = *two.managers[1];
   const Position beside{80.0, 20.0, 0.0}, beyond{-30.0, 50.0, 0.0}, far{-70.0, 50.0, 0.0};
   EXPECT_EQ(follower.sight().judge(beside, 0.0, 1, false), InterestVerdict::inside);
-  EXPECT_EQ(follower.sight().gap(beside, 0.0), 0.0);
+  EXPECT_GT(follower.sight().gap(beside, 0.0), 0.0) << "the leader of the cell introduces it";
   EXPECT_EQ(follower.sight().judge(beyond, 0.0, 1, false), InterestVerdict::outside);
   EXPECT_EQ(follower.sight().judge(beyond, 0.0, 1, true), InterestVerdict::inside) << "it is shown";
   EXPECT_EQ(follower.sight().judge(far, 0.0, 1, true), InterestVerdict::left);
+  EXPECT_TRUE(follower.sight().keeps(beside, beside, seconds(60)));
+  EXPECT_TRUE(follower.sight().keeps(beyond, beyond, seconds(1)));
+  EXPECT_TRUE(follower.sight().keeps(beyond, beside, seconds(60))) << "it has not left the cell";
+  EXPECT_FALSE(follower.sight().keeps(beside, beyond, seconds(60))) << "it has left the cell";
+  EXPECT_FALSE(follower.sight().keeps(far, beside, seconds(1)));
   EXPECT_EQ(two.managers[0]->sight().judge({780.0, 20.0, 0.0}, 0.0, 1, false),
             InterestVerdict::outside);
 }
