@@ -20,6 +20,8 @@ export const KEYS = [
   ['h', 'take or release a hand', (page) => page.hand.askOrGive(), 'h'],
   ['w a s d', 'move your hand up, left, down, right', null],
   ['q e', 'move your hand away, nearer', null],
+  ['Gamepad', 'left stick: your hand in the plane; right stick or triggers: depth', null],
+  ['A B', 'gamepad (✕ ○): take a hand, hold what it touches; release it', null],
   ['o', 'outage of the demo\u2019s network', (page) => page.outage(), 'o'],
   ['p', 'save the picture', (page) => page.savePicture(), 'p'],
   ['m', 'save the last minute', (page) => page.saveMinute(), 'm'],

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assembles the page: a source of pictures, the stage, plots, table, time line, and controls.
 import { EntityTable } from './entity_table.js';
+import { FeltHand } from './felt_hand.js';
 import { Filled } from './filled.js';
 import { listenForKeys } from './key_list.js';
 import { LogLine } from './log_line.js';
@@ -40,6 +41,7 @@ class Page {
     this.table = new EntityTable(byId('table'), (slot) => this.follow(slot));
     this.timeLine = new TimeLine(tell, say);
     this.hand = new PointerHand(this.stage, tell, say);
+    this.felt = new FeltHand(this);
     this.network = new NetworkPanel(tell, say);
     this.steering = new Steering(this);
     this.status = new Status(this);
@@ -208,6 +210,7 @@ class Page {
     this.share = share;
     this.timeLine.advance(newer.picture.time);
     this.hand.advance(moment, seconds);
+    this.felt.advance(begin, seconds);
     if (this.stage.draw(moment, seconds, changed)) ++this.seen.frames;
     const gap = 1.2 * Math.max(1, this.timeLine.speed);
     if (begin - (this.plotted ?? 0) > 60) {

@@ -5,11 +5,11 @@
 
 const MOST_CORNERS = 20000; // of a mesh; a larger one is left out
 
-const minus = (a, b) => a.map((x, k) => x - b[k]);
+export const minus = (a, b) => a.map((x, k) => x - b[k]);
 const length = (a) => Math.hypot(...a);
 
 // Rotated by a quaternion w x y z, or back.
-function rotated([w, x, y, z], [a, b, c], back) {
+export function rotated([w, x, y, z], [a, b, c], back) {
   const [u, v, t] = back ? [-x, -y, -z] : [x, y, z];
   const p = 2 * (v * c - t * b);
   const q = 2 * (t * a - u * c);
@@ -39,19 +39,19 @@ function nearestCorner(corners, [x, y, z]) {
   return best < 0 ? null : corners.slice(best, best + 3);
 }
 
-// { point, distance } [m] from the ball of a hand; the distance is negative inside a surface. Null
-// without any surface.
+// { point, distance } [m] from the ball of a hand, and its solid if it is not a ball; the distance is
+// negative inside a surface. Null without any surface.
 export function nearestSurface(moment, hand, balls) {
   const points = balls.filter(({ slot, position }) => slot !== hand.slot && position !== hand.position).map(({ position, radius }) => {
     const away = minus(hand.position, position);
-    return position.map((x, k) => x + (away[k] * radius) / (length(away) || 1));
+    return { point: position.map((x, k) => x + (away[k] * radius) / (length(away) || 1)) };
   });
   for (const solid of moment.touch.solids) {
     const pose = moment.bodies[solid.body] ?? { position: solid.position, turn: solid.quaternion };
     const point = pointOn(solid, rotated(pose.turn, minus(hand.position, pose.position), true));
-    if (point) points.push(rotated(pose.turn, point, false).map((x, k) => x + pose.position[k]));
+    if (point) points.push({ solid, point: rotated(pose.turn, point, false).map((x, k) => x + pose.position[k]) });
   }
   const radius = moment.handRadius(hand.index);
-  return points.map((point) => ({ point, distance: length(minus(hand.position, point)) - radius }))
+  return points.map(({ solid, point }) => ({ solid, point, distance: length(minus(hand.position, point)) - radius }))
     .reduce((best, one) => (!best || one.distance < best.distance ? one : best), null);
 }

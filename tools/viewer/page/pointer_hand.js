@@ -13,6 +13,7 @@ export class PointerHand {
     Object.assign(this, { stage, tell, say });
     this.index = null;
     this.held = false;
+    this.by = null; // while it is held: kind of the pointer that was pressed, or pad
     this.grabs = false;
     this.wanted = new Vector3();
     this.keys = new Set();
@@ -46,6 +47,7 @@ export class PointerHand {
   answer({ index, text }) {
     this.index = Number.isInteger(index) ? index : null;
     this.held = false;
+    this.by = null;
     this.button.textContent = this.index === null ? 'Take a hand' : 'Release it';
     const how = matchMedia('(pointer: coarse)').matches ? 'One finger moves it, a second one moves it in depth. Lifting the first releases it.'
       : 'Move the mouse; wheel or shift for depth; the button holds the touched object. Leaving the picture releases the hand.';
@@ -107,6 +109,7 @@ export class PointerHand {
     this.keys.clear();
     if (!this.held) return;
     this.held = false;
+    this.by = null;
     this.grabs = false;
     this.tell('pointer', this.index, this.wanted.toArray(), false, false);
   }
@@ -130,12 +133,15 @@ export class PointerHand {
   }
 
   moveByKeys(seconds) {
-    const step = this.metresPerPixel * 160 * Math.min(seconds, 0.1);
+    for (const key of this.keys) this.shift(MOVES[key], 160 * Math.min(seconds, 0.1));
+  }
+
+  // Moves the hand right, up and away, each by a share of some pixels.
+  shift(shares, pixels) {
+    const step = this.metresPerPixel * pixels;
     const matrix = this.camera.camera.matrixWorld;
-    for (const key of this.keys) {
-      MOVES[key].forEach((sign, k) => {
-        this.wanted.addScaledVector(new Vector3().setFromMatrixColumn(matrix, k), (k === 2 ? -sign : sign) * step);
-      });
-    }
+    shares.forEach((share, k) => {
+      this.wanted.addScaledVector(new Vector3().setFromMatrixColumn(matrix, k), (k === 2 ? -share : share) * step);
+    });
   }
 }

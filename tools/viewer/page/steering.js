@@ -27,7 +27,8 @@ export class Steering {
   }
 
   get orbit() { return this.page.stage.view(this.page.stage.large).orbit; }
-  get handed() { return this.page.hand.index !== null && this.page.stage.large === 'touch'; }
+  // Whether the mouse or a finger moves the hand: not while a gamepad does.
+  get handed() { return this.page.hand.index !== null && this.page.stage.large === 'touch' && this.page.hand.by !== 'pad'; }
 
   down(event) {
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
@@ -36,6 +37,7 @@ export class Steering {
     if (!this.handed || event.button !== 0 || this.fingers.size !== 1) return;
     this.holder = event.pointerId;
     this.page.hand.grabs = event.pointerType !== 'touch';
+    this.page.hand.by = event.pointerType;
     this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
   }
 

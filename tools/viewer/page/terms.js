@@ -17,6 +17,9 @@ export const TERMS = {
   loss: 'This share of the messages never arrives.',
   outage: 'No message arrives while it is on.',
   gate: 'The energy gate limits a force so that a contact never gives out more energy than was put in. A hidden twin of each hand feels the same contact without it.',
+  // A hand that people hold and feel.
+  gamepad: 'The left stick moves your hand in the plane of the picture, the right stick or the triggers in depth. Rumble: a short pulse when a contact begins, the weak motor with the speed of slipping, the strong one with the force, full at 5 N.',
+  vibrate: 'A pulse when a contact begins, then pulses that get longer with the force, up to 5 N.',
   // Plots.
   force: 'The force that a hand feels. Felt: what its device shows. True: what it would be without any network, known in a demo. Without the gate: what its hidden twin feels.',
   energy: 'Energy that a hand has put into its contacts, less what it got back. Below zero a contact has made energy, and shakes. The loan says how far below it may go for a moment. With twins, sums over all hands and all twins are shown side by side.',

@@ -371,7 +371,7 @@ def lost(reckon, scenes):
 CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour, peer, recording, empty, lost)}
 
 
-def main(arguments):
+def main(arguments, cases=CASES):
     name, reckon, scenes = arguments
     for path in (CHROMIUM, DRIVER):
         if not os.access(path, os.X_OK):
@@ -379,7 +379,7 @@ def main(arguments):
     told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
     if "--view" not in told.stdout:
         skip("this program serves no page")
-    CASES[name](reckon, scenes)
+    cases[name](reckon, scenes)
     print(f"{name}: good")
 
 

@@ -183,6 +183,13 @@ test('The button of a mouse that is a hand holds what the hand touches, a finger
   assert.ok(!hand.grabs);
 });
 
+test('A mouse turns the picture while a gamepad moves the hand', () => {
+  const { mouse, hand, told } = touched(true);
+  hand.by = 'pad';
+  for (const [type, buttons] of [['pointerdown', 1], ['pointermove', 1], ['pointerleave', 0]]) mouse(type, buttons);
+  assert.deepEqual(told(), [['turn', 0, 0]]);
+});
+
 test('Without a hand two fingers move the camera alone', () => {
   const { finger, told } = touched(false);
   const [one, two] = [finger(1), finger(2)];
