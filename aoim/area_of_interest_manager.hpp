@@ -73,16 +73,6 @@ class AreaOfInterestManager {
   AddResult send(std::size_t tier, const UpdatePayload& update, const RoutedPosition& position,
                  const BundleTerms& terms);
 
-  /// Whether the updates of the cell at this position have been received without a gap since this
-  /// time.
-  [[nodiscard]] bool has_received_since(const Position& position,
-                                        std::chrono::nanoseconds time) const noexcept {
-    return config_.interop ||
-           subscriptions_.of(kCellTier).is_joined_since(cells_.group(position), time);
-  }
-  /// Whether an update of an entity that has entered a cell goes to the group that it leaves, too:
-  /// with leaders, who would introduce it there for ever.
-  [[nodiscard]] bool sends_departures() const noexcept { return leading_.has_value(); }
   /// The last update of an entity to a tier.
   struct LastSent {
     std::chrono::nanoseconds at{};  ///< far in the past if never

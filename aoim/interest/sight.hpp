@@ -33,9 +33,14 @@ class Sight {
  public:
   /// @param cells, subscription outlive this; groups are numbered as in both
   /// @param follow tags of beacons  @param finest side of the smallest cell [m]
+  /// @param receives_all plain DIS: without cells
   Sight(const InterestConfig& config, const CellPartition& cells, const Subscription& subscription,
-        std::span<const std::uint32_t> follow, double finest)
-      : cells_(cells), subscription_(subscription), interest_(config), finest_(finest) {
+        std::span<const std::uint32_t> follow, double finest, bool receives_all = false)
+      : cells_(cells),
+        subscription_(subscription),
+        interest_(config),
+        finest_(finest),
+        receives_all_(receives_all) {
     for (const std::uint32_t tag : follow) followed_.push_back({tag, false, {}, {}, {}, {}});
     besides_.reserve(followed_.size());
   }
@@ -44,23 +49,45 @@ class Sight {
   /// locales or a cut, an entity in a cell without a subscription is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
-    return judge(position, nimbus, kind, shown, is_followed(position, shown ? kLingers : kBorder));
-  }
-  /// The same with the answer of keeps().
-  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind, bool shown,
-                        bool is_kept) noexcept {
     if (is_walled_off(position)) return interest_.judge_hidden();
-    return interest_.judge(position, nimbus, kind, shown, is_kept);
+    const bool wanted = is_followed(position, shown ? kLingers : kBorder);
+    return interest_.judge(position, nimbus, kind, shown, wanted);
+  }
+  /// A shown entity, to be judged again.
+  struct Shown {
+    Position predicted;
+    Position stated;               ///< its position in its last update
+    std::chrono::nanoseconds age;  ///< time since then
+    double nimbus;                 ///< [m]
+    std::uint8_t kind;
+  };
+  /// Judges it; see Interest::spare. On the very border it is `least`.
+  double check(const Shown& one, double least) noexcept {
+    const bool kept = keeps(one.predicted, one.stated, one.age);
+    const bool walled = is_walled_off(one.predicted);
+    const double spare = walled ? 0.0 : interest_.spare(one.predicted, one.nimbus, one.kind, kept);
+    if (spare > 0.0) return spare;
+    // These count entities that leave.
+    if (walled)
+      interest_.judge_hidden();
+    else if (is_accepted(interest_.judge(one.predicted, one.nimbus, one.kind, true, kept)))
+      return least;
+    return 0.0;
   }
   /// Whether the cell of a followed beacon keeps a shown entity in sight. Its owner sends an update
   /// in the cell that it leaves, and no more after that: `stated` is in another cell then. If the
   /// beacon has moved with it, the map of groups follows within kLingersFor.
-  /// @param age time since its last update  @param stated its position in that update
   [[nodiscard]] bool keeps(const Position& predicted, const Position& stated,
                            std::chrono::nanoseconds age) const noexcept {
     return is_followed(predicted, kLingers) && (age < kLingersFor || is_followed(stated, kBorder));
   }
   static constexpr std::chrono::seconds kLingersFor{2};
+  /// Whether the updates of the cell at this position have been received without a gap since this
+  /// time.
+  [[nodiscard]] bool has_received_since(const Position& position,
+                                        std::chrono::nanoseconds time) const noexcept {
+    return receives_all_ || subscription_.is_joined_since(cells_.group(position), time);
+  }
   /// As Interest::gap. It has no exception for the cell of a followed beacon, because the position
   /// of an entity that was received elsewhere can be old: the leader of the cell introduces it.
   [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
@@ -69,12 +96,6 @@ class Sight {
   }
   /// See Interest::withdrawn; it jumps when a locale or the cell of a beacon is left.
   [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
-  /// See Interest::spare; 0 in a cell without a subscription that judge() hides.
-  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind,
-                             bool is_kept) noexcept {
-    if (is_walled_off(position)) return 0.0;
-    return interest_.spare(position, nimbus, kind, is_kept);
-  }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
   [[nodiscard]] const Interest& interest() const noexcept { return interest_; }
@@ -171,6 +192,7 @@ class Sight {
   const Subscription& subscription_;
   Interest interest_;
   double finest_;
+  bool receives_all_;
   double cut_ = std::numeric_limits<double>::infinity();
   double leapt_ = 0.0;  // [m], see withdrawn()
   std::vector<FollowedBeacon> followed_;

@@ -234,7 +234,7 @@ bool EntitySender::send(Decision& decision, const Dispatch& how,
     const Written written =
         send_to_all(entity, position, records, terms, how.reason == SendReason::event, now);
     octets += written.octets;
-    if (aoim_.sends_departures() && former != aoim::kBaseGroup && former != entity.last_group)
+    if (aoim_.leading() != nullptr && former != aoim::kBaseGroup && former != entity.last_group)
       octets += send_departure(position, former, records, terms);
     entity.last_sent = now;
     if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = now;
@@ -248,7 +248,8 @@ bool EntitySender::send(Decision& decision, const Dispatch& how,
   return true;
 }
 
-// Receivers in the group `former` alone would extrapolate its last state there.
+// Receivers in the group `former` alone would extrapolate its last state there, and the leader of
+// its cell would introduce it.
 std::size_t EntitySender::send_departure(const aoim::RoutedPosition& position,
                                          aoim::GroupIndex former,
                                          std::span<const std::byte> records,

@@ -68,17 +68,11 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
   const auto look = [&](std::size_t place) -> Sight {
     const RemoteEntity& row = table_.rows()[place];
     const deadreckon::Pose pose = row.predicted(now);
-    const aoim::Position position = to_position(pose.position);
-    const auto kind = static_cast<std::uint8_t>(row.type.kind);
-    const double nimbus = nimbus_of(settings_.nimbus, row.type);
     const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
-    const bool kept =
-        aoim_.sight().keeps(position, to_position(row.state.position), now - row.state_time);
-    double spare = aoim_.sight().spare(position, nimbus, kind, kept);
-    // judge() counts entities that leave; on the very border an entity stays.
-    if (!(spare > 0.0) &&
-        aoim::is_accepted(aoim_.sight().judge(position, nimbus, kind, true, kept)))
-      spare = kLeastStep;
+    const double spare = aoim_.sight().check(
+        {to_position(pose.position), to_position(row.state.position), now - row.state_time,
+         nimbus_of(settings_.nimbus, row.type), static_cast<std::uint8_t>(row.type.kind)},
+        kLeastStep);
     return {spare, speed};
   };
   sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
@@ -96,17 +90,16 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
         return aoim_.sight().gap(to_position(entity.position(now)),
                                  nimbus_of(settings_.nimbus, entity.type()));
       },
-      [&](const OutsideEntity& entity, nanoseconds owner_heard) {
-        // After a gap it may have moved elsewhere; its owner or a leader introduces it.
-        if (aoim_.has_received_since(to_position(entity.state().position), entity.arrival().now))
-          enter(entity, owner_heard);
-      });
+      [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
 }
 
 // As if the entity had been within the radius when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
   if (!ownership_.may_update(entity.id(), entity.arrival(), nullptr)) return;
+  // After a gap it may have moved elsewhere; its owner or a leader introduces it.
+  const aoim::Position stated = to_position(entity.state().position);
+  if (!aoim_.sight().has_received_since(stated, entity.arrival().now)) return;
   Arrival arrival = entity.arrival();
   arrival.now = owner_heard;
   RemoteEntity* row = add_row(entity.id(), arrival);

@@ -32,12 +32,13 @@ constexpr double kRadius = 1000;  // [m]
 class Receiver {
  public:
   explicit Receiver(std::size_t capacity = 1000)
-      : half_("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n", [capacity](const SceneFile&) {
-          RemoteSettings settings;
-          settings.capacity = capacity;
-          settings.strangers_memory = std::size_t{1} << 30;
-          return settings;
-        }) {}
+      : half_("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\npool = 1\n",
+              [capacity](const SceneFile&) {
+                RemoteSettings settings;
+                settings.capacity = capacity;
+                settings.strangers_memory = std::size_t{1} << 30;
+                return settings;
+              }) {}
 
   void stand_at(const Vector3d& place, double seconds, double speed = 0) {
     half_.stand_at(place, pdu::from_seconds(seconds), speed);
@@ -383,10 +384,7 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
         }
         if (away > kRadius - 1 || silent) {
           within.erase(number);
-          continue;
-        }
-        const double since = within.emplace(number, t).first->second;
-        if (t - since > 1.01) {
+        } else if (t - within.emplace(number, t).first->second > 1.01) {
           ASSERT_NE(receiver.find({7, 8, number}), nullptr)
               << "seed " << seed << ", entity " << number << " at " << t << " s";
         }
