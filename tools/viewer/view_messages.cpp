@@ -132,7 +132,7 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "hello")
-      .value("version", 2)
+      .value("version", 3)
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)
@@ -140,6 +140,8 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   if (watcher.may_push) append_network(object.member("network"), options_.controls->network());
   object.member("span") +=
       fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  if (const auto first = history_.first_entity())
+    object.decimals("first_entity", seconds(*first), 3);
   if (frame_)
     append_origin(object.member("origin"));
   else
@@ -269,7 +271,7 @@ ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
   const bool tells_groups =
       groups_ && !tells_cells && std::exchange(watcher.groups_tick, cells_tick_) != cells_tick_;
   if (!tells_cells && !tells_groups) return nullptr;
-  const Time time = shown_time(watcher);
+  const Time time = drawn_time(watcher);
   PictureRows rows;
   if (is_past(watcher)) fill(world_for(watcher, time), time, rows);
   const auto& entities = is_past(watcher) ? rows.entities : live_rows().entities;

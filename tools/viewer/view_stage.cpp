@@ -137,6 +137,11 @@ nanoseconds ViewStage::shown_time(const Watcher& watcher) const {
   return std::clamp(watcher.time, history_.begin(), std::max(history_.begin(), live_end()));
 }
 
+nanoseconds ViewStage::drawn_time(const Watcher& watcher) const {
+  const Time time = shown_time(watcher);
+  return options_.is_capture ? std::max(time, history_.first_entity().value_or(time)) : time;
+}
+
 // Advances a playing tab; if it reaches the present it becomes live, at the end of a capture it
 // stops.
 void ViewStage::advance(Watcher& watcher) const {
@@ -321,10 +326,13 @@ bool ViewStage::wants_picture(const Watcher& watcher) const {
 ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
   const Time time = shown_time(watcher);
   PictureRows& rows = is_past(watcher) ? past_ : live_;
-  if (is_past(watcher))
-    fill(world_for(watcher, time), time, past_);
-  else
+  if (is_past(watcher)) {
+    const Time drawn = drawn_time(watcher);
+    fill(world_for(watcher, drawn), drawn, past_);
+    past_.time = seconds(time);
+  } else {
     (void)live_rows();
+  }
   rows.flags = flags_for(watcher, time);
   auto octets = std::make_shared<std::string>();
   encode_picture(rows, *octets);

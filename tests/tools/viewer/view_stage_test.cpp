@@ -39,7 +39,7 @@ TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   live.run(seconds(2), {&tab});
   ASSERT_FALSE(tab.texts.empty());
   EXPECT_EQ(tab.texts[0]["type"], "hello");
-  EXPECT_EQ(tab.texts[0]["version"], 2);
+  EXPECT_EQ(tab.texts[0]["version"], 3);
   EXPECT_EQ(tab.texts[0]["may_push"], false);
   EXPECT_TRUE(tab.texts[0]["origin"].is_null());
   EXPECT_EQ(tab.texts[1]["type"], "play");
@@ -198,6 +198,46 @@ TEST(ViewStage, PlaysACaptureFromBeginningToEnd) {
   tab.ask(3, 0.1F);
   run(seconds(1), tab);
   EXPECT_NEAR(tab.head().time, 0.1, 0.02) << "from the begin again, slowly";
+}
+
+TEST(ViewStage, NamesTypeAndOwnerOfEachEntity) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(2), {&tab});
+  const json row = tab.last("roster")["entities"][0];
+  EXPECT_EQ(row["type"], "Platform Land");
+  EXPECT_EQ(row["type_numbers"], "1.1.0.0.0.0.0");
+  EXPECT_EQ(row["peer"], "1:2");
+  EXPECT_EQ(row["host"], "10.0.0.7:3000");
+  constexpr std::size_t kSpeedAt = kPictureHead + 56, kAgeAt = kPictureHead + 60;
+  float speed = 0, age = 0;
+  std::memcpy(&speed, tab.pictures.back().data() + kSpeedAt, sizeof speed);
+  std::memcpy(&age, tab.pictures.back().data() + kAgeAt, sizeof age);
+  EXPECT_NEAR(speed, 10, 1e-3);
+  EXPECT_NEAR(age, tab.head().time - 1.5, 0.1) << "its last update came after 1.501 s";
+}
+
+TEST(ViewStage, ShowsTheFirstEntityBeforeItsTime) {
+  ViewStage stage(capture_options());
+  Sent other{.octets = {std::byte{7}}, .time = kStart - seconds(3)};  // no PDU
+  (void)stage.take(trucks::datagram_of(other));
+  for (const Sent& sent : trucks::drive(1, 5)) (void)stage.take(trucks::datagram_of(sent));
+  nanoseconds now = kStart;
+  stage.pass(now);
+  Tab tab(stage, false);
+  const auto place = [&](double time) {
+    tab.ask(2, time);
+    stage.pass(now += kTick);
+    tab.take();
+    EXPECT_NEAR(tab.head().time, time, 1e-9);
+    EXPECT_EQ(tab.head().entities, 1);
+    double east = 0;
+    std::memcpy(&east, tab.pictures.back().data() + kPictureHead + 8, sizeof east);
+    return east;
+  };
+  EXPECT_NEAR(place(0), place(3.001), 1e-9);
+  EXPECT_GT(std::abs(place(5) - place(1)), 1.0);
+  EXPECT_NEAR(tab.texts[0]["first_entity"].get<double>(), 3.001, 1e-9);
 }
 
 TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {

@@ -68,6 +68,10 @@ class History {
 
   /// Start of the source; zero while unknown.
   [[nodiscard]] std::chrono::nanoseconds start() const noexcept { return start_.value_or(Time{}); }
+  /// Arrival of the first entity; none before it.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> first_entity() const noexcept {
+    return first_entity_;
+  }
   /// The first and the last instant that can be shown.
   [[nodiscard]] std::chrono::nanoseconds begin() const noexcept;
   [[nodiscard]] std::chrono::nanoseconds end() const noexcept { return end_; }
@@ -122,7 +126,7 @@ class History {
   std::deque<std::unique_ptr<Segment>> segments_;
   std::uint64_t first_number_ = 0;  // of segments_.front()
   std::size_t weight_ = 0;
-  std::optional<Time> start_;
+  std::optional<Time> start_, first_entity_;
   Time end_{};
 };
 

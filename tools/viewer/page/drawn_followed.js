@@ -29,6 +29,6 @@ class Followed {
     const scale = leastScale(this.view)(x, y, z, sizeOf(moment, this.view, moment.roster.get(moment.followed)));
     this.mark.scale.setScalar(scale);
     this.mark.position.set(x, y, z + 2.4 * scale);
-    this.labels.put(this.view, x, y, z + 3.2 * scale, foreign(moment.name(moment.followed), 24), 'name', 4);
+    if (!moment.exercise) this.labels.put(this.view, x, y, z + 3.2 * scale, foreign(moment.name(moment.followed), 24), 'name', 4);
   }
 }

@@ -27,7 +27,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page_driver import CHROMIUM, DRIVER, PATIENCE, ActionChains, Keys, browser, expect, program, shows_no_fault, skip
+from page_driver import PATIENCE, ActionChains, Keys, browser, expect, needs_browser, program, shows_no_fault, skip
 
 # Numbers of a picture have single precision, and a late step on a busy machine takes energy that the servo cannot
 # know in time [J].
@@ -373,12 +373,7 @@ CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour
 
 def main(arguments):
     name, reckon, scenes = arguments
-    for path in (CHROMIUM, DRIVER):
-        if not os.access(path, os.X_OK):
-            skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
-    told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
-    if "--view" not in told.stdout:
-        skip("this program serves no page")
+    needs_browser(reckon)
     CASES[name](reckon, scenes)
     print(f"{name}: good")
 
