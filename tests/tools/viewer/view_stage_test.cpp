@@ -22,6 +22,7 @@ using tabs::Tab;
 using trucks::milliseconds;
 using trucks::nanoseconds;
 using trucks::seconds;
+using trucks::kStart;
 using trucks::Sent;
 
 StageOptions capture_options() {
@@ -214,7 +215,7 @@ TEST(ViewStage, NamesTypeAndOwnerOfEachEntity) {
   std::memcpy(&speed, tab.pictures.back().data() + kSpeedAt, sizeof speed);
   std::memcpy(&age, tab.pictures.back().data() + kAgeAt, sizeof age);
   EXPECT_NEAR(speed, 10, 1e-3);
-  EXPECT_NEAR(age, tab.head().time - 1.5, 0.1) << "its last update came after 1.501 s";
+  EXPECT_NEAR(age, tab.head().time - 2.001, 1e-3) << "its last update came after 2.001 s";
 }
 
 TEST(ViewStage, ShowsTheFirstEntityBeforeItsTime) {

@@ -53,7 +53,7 @@ function joined(...parts) {
 
 // Drawn where there are few: length 2 with the nose at 1, or a height of 2.
 const DETAILED = {
-  land: joined(prism(outline([[1, 0], [0.62, 0.52], [-0.95, 0.52], [-1, 0]]), 0.06, 0.42, 0.94), prism(outline([[0.18, 0.4], [-0.86, 0.4]]), 0.42, 0.76, 0.84, -0.03, 0.82)),
+  land: joined(prism(outline([[1, 0], [0.45, 0.54], [-1, 0.54]]), 0.06, 0.4, 0.94), prism(outline([[0.12, 0.42], [-0.88, 0.42]]), 0.4, 0.74, 0.84, -0.03, 0.76)),
   air: joined(prism(outline([[1, 0], [0.62, 0.13], [-0.7, 0.11], [-1, 0.03]]), -0.04, 0.16, 0.9), prism(outline([[0.28, 0], [-0.28, 1], [-0.52, 1], [-0.4, 0]]), 0, 0.06, 0.97, 0, 0.9),
     prism(outline([[-0.68, 0], [-0.88, 0.42], [-1, 0.42], [-0.94, 0]]), 0, 0.06, 0.97, 0, 0.9), prism(outline([[-0.66, 0.03], [-0.98, 0.03]]), 0.1, 0.42, 0.7, -0.05, 0.76)),
   surface: joined(prism(outline([[1, 0], [0.55, 0.2], [-0.85, 0.22], [-1, 0.15]]), 0, 0.14, 1.05), prism(outline([[0.2, 0.12], [-0.5, 0.14]]), 0.14, 0.34, 0.86, -0.02, 0.8),
@@ -192,17 +192,23 @@ export function sizeOf(moment, view, row) {
   return row?.kind && moment.exercise ? Math.min(nominalRadius(row), 0.1 * reach) : Math.min(1, 0.04 * reach);
 }
 
-export const FEW_SYMBOLS = 60; // these are larger, and have their details
+const FEW_SYMBOLS = 60; // these are larger, and have their details
 const SYMBOL = 12; // [pixels], least radius of one of few
+const SYMBOL_OF_SOME = 10; // of one of more than 20
 const SMALL = 7.7; // of one of many, or in the inset
 
-export function drawsFew(moment, view) { return moment.exercise && moment.count <= FEW_SYMBOLS && view.rectangle.width > 300; }
+// Least radius of a symbol of few [pixels]; 0 if there are many.
+export function fewSymbols(moment, view) {
+  if (!moment.exercise || moment.count > FEW_SYMBOLS || view.rectangle.width <= 300) return 0;
+  return moment.count > 20 ? SYMBOL_OF_SOME : SYMBOL;
+}
 
 // Least drawn size of a body is some pixels, so that a vehicle is visible in a picture of
 // kilometres.
-export function leastScale(view, few = view.few) {
+export function leastScale(view) {
+  const { few } = view;
   const { position, fov } = view.orbit.camera;
   const { height } = view.rectangle;
-  const share = ((few ? SYMBOL : SMALL * Math.min(1, height / 200)) * 2 * Math.tan((fov * Math.PI) / 360)) / height;
+  const share = ((few || SMALL * Math.min(1, height / 200)) * 2 * Math.tan((fov * Math.PI) / 360)) / height;
   return (x, y, z, radius) => Math.max(radius, share * Math.hypot(x - position.x, y - position.y, z - position.z));
 }

@@ -3,7 +3,7 @@
 // Entities as shown: the shape depends on the kind, the nose points forward, the colour depends on
 // the side. Entities that the followed one does not receive are faint.
 import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
-import { Bodies, drawsFew, leastScale, shapeOf, sizeOf } from './bodies.js';
+import { Bodies, fewSymbols, leastScale, shapeOf, sizeOf } from './bodies.js';
 import { colour, SIDE_COLOURS } from './colours.js';
 import { EntityNames } from './entity_names.js';
 import { NONE } from './picture.js';
@@ -30,7 +30,7 @@ class Entities {
 
   update(moment) {
     const { picture } = moment;
-    this.view.few = drawsFew(moment, this.view);
+    this.view.few = fewSymbols(moment, this.view);
     const known = `${moment.rosterNumber} ${picture.epoch} ${moment.count} ${this.view.few}`;
     if (known !== this.known) {
       this.known = known;

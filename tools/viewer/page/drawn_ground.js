@@ -10,7 +10,10 @@ import { roundUp } from './words.js';
 const EDGE = 8; // lines to each side
 const CLOSEST = 105; // [pixels] between two lines
 const METRES_A_DEGREE = 111320;
-const RAIL = 20; // [pixels] from the edge of the picture to a label
+const RAIL = 20; // [pixels] from the lower edge of the picture to a label
+const HIGH_RAIL = 58; // the same above the buttons of a narrow picture
+const NARROW = 700;
+const SAMPLES = 100; // entities whose height counts
 
 export const drawnGround = {
   name: 'ground', view: 'world', says: 'latitude and longitude', mark: 'cell-plain',
@@ -46,7 +49,8 @@ class Ground {
 
   // Height of the ground [m], slightly below the lowest twentieth of the entities; in steps.
   level(moment, distance) {
-    const heights = Array.from({ length: moment.count }, (_, i) => moment.geodeticOf(moment.shown.subarray(3 * i, 3 * i + 3))?.height).filter(Number.isFinite).sort((a, b) => a - b);
+    const every = Math.ceil(moment.count / SAMPLES);
+    const heights = Array.from({ length: Math.ceil(moment.count / every) }, (_, k) => moment.geodeticOf(moment.shown.subarray(3 * every * k, 3 * every * k + 3))?.height).filter(Number.isFinite).sort((a, b) => a - b);
     const fine = distance / 500;
     return Math.floor((heights[Math.floor(heights.length / 20)] ?? 0) / fine - 0.3) * fine;
   }
@@ -78,36 +82,42 @@ class Ground {
     this.lines.geometry.setAttribute('color', new Float32BufferAttribute(tint, 3));
   }
 
-  // Each line has its degrees where it leaves the picture, to the left or at the bottom.
+  // Each line has its degrees where it leaves the picture: lines that run up and down at the lower
+  // edge, the others at the left one.
   label(step, near) {
     const places = this.nodes.map((row) => row.map((node) => this.labels.placed(this.view, ...node)));
+    const columns = places.map((_, k) => places.map((row) => row[k]));
     const digitsOf = (x) => Math.max(0, -Math.floor(Math.log10(x) + 1e-9));
-    for (let k = -EDGE + 2; k <= EDGE - 2; ++k) {
-      const lon = (near.lon + k) * step.lon;
-      this.put(places.map((row) => row[k + EDGE]), degrees(((lon + 540) % 360) - 180, digitsOf(step.lon), 'EW'), [this.bottom, this.left]);
-      this.put(places[k + EDGE], degrees((near.lat + k) * step.lat, digitsOf(step.lat), 'NS'), [this.left, this.bottom]);
+    const edgeOf = (points) => {
+      const [a, b] = [points[EDGE - 1], points[EDGE + 1]];
+      return a && b && Math.abs(a[0] - b[0]) > Math.abs(a[1] - b[1]) ? this.left : this.bottom;
+    };
+    const edges = { lat: edgeOf(places[EDGE]), lon: edgeOf(columns[EDGE]) };
+    for (let k = 2 - EDGE; k <= EDGE - 2; ++k) {
+      const lon = (((near.lon + k) * step.lon + 540) % 360) - 180;
+      this.put(columns[k + EDGE], degrees(lon, digitsOf(step.lon), 'EW'), edges.lon);
+      this.put(places[k + EDGE], degrees((near.lat + k) * step.lat, digitsOf(step.lat), 'NS'), edges.lat);
     }
   }
 
-  put(points, text, edges) {
+  put(points, text, edge) {
     const width = this.labels.widthOf(text) * 0.92;
-    for (const edge of edges) {
-      for (let i = 1; i < points.length; ++i) {
-        const [a, b] = [points[i - 1], points[i]];
-        const at = a && b ? edge.call(this, a, b, width) : null;
-        if (!at) continue;
-        if (this.labels.claim(at[0] - 3, at[1], width + 6, 15)) this.labels.write(at[0] + width / 2, at[1], text, 'degrees');
-        return;
-      }
+    for (let i = 1; i < points.length; ++i) {
+      const [a, b] = [points[i - 1], points[i]];
+      const at = a && b ? edge.call(this, a, b, width) : null;
+      if (!at) continue;
+      if (this.labels.claim(at[0] - 3, at[1], width + 6, 15)) this.labels.write(at[0] + width / 2, at[1], text, 'degrees');
+      return;
     }
   }
 
   // Where a text stands if a piece crosses the lower edge.
   bottom([ax, ay], [bx, by], width) {
-    const rail = this.view.rectangle.height - RAIL;
+    const { width: wide, height } = this.view.rectangle;
+    const rail = height - (wide < NARROW ? HIGH_RAIL : RAIL);
     if ((ay < rail) === (by < rail)) return null;
     const x = ax + ((bx - ax) * (rail - ay)) / (by - ay);
-    return x > 0 && x < this.view.rectangle.width ? [x - width / 2, rail] : null;
+    return x > 0 && x < wide ? [x - width / 2, rail] : null;
   }
 
   left([ax, ay], [bx, by]) {

@@ -20,7 +20,7 @@ const NEEDS_ENTITY = ['place', 'speed', 'heading', 'last update', 'Hz'];
 
 function placeAt({ shown }, i) { return [...shown.subarray(3 * i, 3 * i + 3)]; }
 
-function placeText(at) { return at ? [`${degrees(at.lat, 5, 'NS')}  ${degrees(at.lon, 5, 'EW')}`, `${at.height.toFixed(0)} m high`] : ['–']; }
+function placeText(at) { return at ? [`${degrees(at.lat, 5, 'NS')}, ${degrees(at.lon, 5, 'EW')}`, `height ${at.height.toFixed(0)} m`] : ['–']; }
 
 export class EntityCard {
   constructor(host, close) {

@@ -6,7 +6,9 @@ import { NONE } from './picture.js';
 import { foreign, speedText } from './words.js';
 
 const MOST_NAMES = 60;
-const MOST_ROOM = 300; // symbols that no name covers
+const MOST_ROOM = 1200; // symbols that no name covers
+const CROWD = 300; // of so many, fewer are named
+const NAMES_OF_CROWD = 24;
 const TALL = 16; // [pixels], of a line
 
 export class EntityNames {
@@ -19,8 +21,8 @@ export class EntityNames {
   draw(moment, rows, sizeAt) {
     if (this.view.rectangle.width <= 300) return;
     const symbols = this.symbols(moment, sizeAt);
-    for (const { left, top, half } of symbols.slice(0, MOST_ROOM)) this.labels.take(left - half, top - half, left + half, top + half);
-    for (const symbol of symbols.slice(0, MOST_NAMES)) this.name(moment, rows[symbol.i], symbol);
+    for (const { left, top, half } of symbols) this.labels.take(left - half, top - half, left + half, top + half);
+    for (const symbol of symbols.slice(0, symbols.length > CROWD ? NAMES_OF_CROWD : MOST_NAMES)) this.name(moment, rows[symbol.i], symbol);
   }
 
   // In the picture, the followed one first.

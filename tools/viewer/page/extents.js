@@ -27,8 +27,13 @@ export function worldExtent(moment) {
   const high = columns.map((list) => cut(list, 1 - share));
   const centre = low.map((x, k) => (x + high[k]) / 2);
   const spread = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
-  if (moment.exercise) return { centre, radius: Math.max(spread, surroundings(moment), 0.55 * moment.cells.size) };
+  if (moment.exercise) return { centre, radius: Math.max(cut(distances(moment, centre), 1 - share), surroundings(moment), 0.55 * moment.cells.size) };
   return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
+}
+
+// Of all entities from a place [m], ascending.
+function distances({ count, shown }, [x, y, z]) {
+  return Array.from({ length: count }, (_, i) => Math.hypot(shown[3 * i] - x, shown[3 * i + 1] - y, shown[3 * i + 2] - z)).filter((far) => far < FARTHEST).sort((a, b) => a - b);
 }
 
 // What is seen around the entities of an exercise [m].

@@ -241,7 +241,7 @@ class Page {
     this.source.tell('follow', moment.followed);
     this.fresh = true;
     const orbit = this.stage.view('world').orbit;
-    if (moment.exercise) this.lead(true);
+    if (moment.exercise) this.stage.restless = true;
     else if (moment.followed === NONE) this.stage.fit('world');
     else if (this.stage.view('world').extent) {
       orbit.goal.distance = Math.min(orbit.goal.distance, 1.6 * this.stage.view('world').extent.radius);

@@ -177,6 +177,7 @@ export class Stage {
   }
 
   take(moment, seconds) {
+    if (this.exercise !== moment.exercise) this.host.classList.toggle('exercise', moment.exercise);
     this.exercise = moment.exercise;
     // A world of one cell, in which all is felt, shows no more than the touch view.
     this.folded = this.large === 'touch' && moment.cells.cells.length < 2 && moment.touchesAll;

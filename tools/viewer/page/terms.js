@@ -38,7 +38,7 @@ export const TERMS = {
   heading: 'Where the nose points: degrees from north, by east.',
   'last update': 'Time since the last state of this entity came, and why it was sent.',
   owner: 'The program that sends this entity, and the address that its messages come from.',
-  camera: 'On: the camera keeps everything in the picture, or the entity that you follow. Moving the picture switches it off.',
+  camera: 'On: the camera keeps everything in the picture, or the entity that you follow. Moving the picture switches it off, and so does zooming among several entities.',
   scale: 'This length in the middle of the picture. The arrow points north.',
   // Marks of the pictures, by their names in the list of drawn things.
   cells: 'The world is divided into cells. A lit one is received by the entity that you follow.',
@@ -50,7 +50,7 @@ export const TERMS = {
   contacts: 'A force between two entities, computed from what they sent.',
   'near groups': 'Entities that share a multicast group because they are near each other.',
   'contact groups': 'Entities that share a multicast group because they touch, or soon will.',
-  followed: 'The entity that you follow. Esc ends it.',
+  followed: 'The entity that you follow; its card has its state. Esc ends it.',
   floor: 'A grid; the label is the side of a square. A drop line shows above which place a hand is.',
   'drop lines': 'A line down to the grid and a shadow there: how near a hand is. The thin line of your own hand ends at the nearest surface.',
   solids: 'An object of the scene that hands feel.',
