@@ -72,6 +72,10 @@ void append_optional(JsonObject& object, std::string_view key, std::optional<dou
   if (value) object.decimals(key, *value, decimals);
 }
 
+void append_span(JsonObject& object, double from, double to) {
+  object.member("span") += fmt::format("[{:.3f},{:.3f}]", from, to);
+}
+
 void append_delay(JsonObject& object, std::optional<double> median, std::optional<double> p95) {
   if (!median) return;
   JsonObject(object.member("delay_ms"))
@@ -136,12 +140,10 @@ std::string ViewStage::hello(const Watcher& watcher) const {
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)
-      .value("may_push", watcher.may_push);
+      .value("may_push", watcher.may_push)
+      .decimals("first_entity", seconds(history_.peopled(history_.begin())), 3);
   if (watcher.may_push) append_network(object.member("network"), options_.controls->network());
-  object.member("span") +=
-      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
-  if (const auto first = history_.first_entity())
-    object.decimals("first_entity", seconds(*first), 3);
+  append_span(object, seconds(history_.begin()), seconds(live_end()));
   if (frame_)
     append_origin(object.member("origin"));
   else
@@ -198,8 +200,7 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "numbers").decimals("time", seconds(time), 3);
-  object.member("span") +=
-      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  append_span(object, seconds(history_.begin()), seconds(live_end()));
   if (const NumbersSample* sample = history_.numbers().at(time)) {
     object.decimals("pdu_per_s", sample->pdu_per_s, 1).decimals("bit_per_s", sample->bit_per_s, 0);
     append_optional(object, "lost_share", sample->lost_share, 5);
@@ -271,7 +272,7 @@ ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
   const bool tells_groups =
       groups_ && !tells_cells && std::exchange(watcher.groups_tick, cells_tick_) != cells_tick_;
   if (!tells_cells && !tells_groups) return nullptr;
-  const Time time = drawn_time(watcher);
+  const Time time = shown_time(watcher);
   PictureRows rows;
   if (is_past(watcher)) fill(world_for(watcher, time), time, rows);
   const auto& entities = is_past(watcher) ? rows.entities : live_rows().entities;

@@ -137,11 +137,6 @@ nanoseconds ViewStage::shown_time(const Watcher& watcher) const {
   return std::clamp(watcher.time, history_.begin(), std::max(history_.begin(), live_end()));
 }
 
-nanoseconds ViewStage::drawn_time(const Watcher& watcher) const {
-  const Time time = shown_time(watcher);
-  return options_.is_capture ? std::max(time, history_.first_entity().value_or(time)) : time;
-}
-
 // Advances a playing tab; if it reaches the present it becomes live, at the end of a capture it
 // stops.
 void ViewStage::advance(Watcher& watcher) const {
@@ -244,7 +239,7 @@ void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
 
 const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   if (!is_past(watcher)) return history_.live();
-  history_.seek(watcher.cursor, time);
+  history_.seek(watcher.cursor, history_.peopled(time));
   return watcher.cursor->world();
 }
 
@@ -257,7 +252,8 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.time = seconds(time);
   rows.epoch = history_.roster().epoch();
   if (frame_) {
-    world.add_marks(time, history_.start(), history_.roster(), *frame_, rows.entities);
+    world.add_marks(history_.peopled(time), history_.start(), history_.roster(), *frame_,
+                    rows.entities);
     if (cells_) cells_->place(rows.entities);
     add_contacts(world, time, rows);
   }
@@ -326,13 +322,10 @@ bool ViewStage::wants_picture(const Watcher& watcher) const {
 ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
   const Time time = shown_time(watcher);
   PictureRows& rows = is_past(watcher) ? past_ : live_;
-  if (is_past(watcher)) {
-    const Time drawn = drawn_time(watcher);
-    fill(world_for(watcher, drawn), drawn, past_);
-    past_.time = seconds(time);
-  } else {
+  if (is_past(watcher))
+    fill(world_for(watcher, time), time, past_);
+  else
     (void)live_rows();
-  }
   rows.flags = flags_for(watcher, time);
   auto octets = std::make_shared<std::string>();
   encode_picture(rows, *octets);

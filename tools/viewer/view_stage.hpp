@@ -127,8 +127,6 @@ class ViewStage {
   void advance(Watcher& watcher) const;
   void show_at(Watcher& watcher, Time time, PlayState state) const;
   [[nodiscard]] Time shown_time(const Watcher& watcher) const;
-  /// shown_time(); in a capture not before its first entity, so that no picture is empty.
-  [[nodiscard]] Time drawn_time(const Watcher& watcher) const;
   [[nodiscard]] bool is_past(const Watcher& watcher) const noexcept;
   [[nodiscard]] const ReceivedWorld& world_for(Watcher& watcher, Time time);
 

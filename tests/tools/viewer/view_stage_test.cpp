@@ -19,10 +19,10 @@ using tabs::Head;
 using tabs::kTick;
 using tabs::LiveTrucks;
 using tabs::Tab;
+using trucks::kStart;
 using trucks::milliseconds;
 using trucks::nanoseconds;
 using trucks::seconds;
-using trucks::kStart;
 using trucks::Sent;
 
 StageOptions capture_options() {

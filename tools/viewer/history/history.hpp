@@ -4,6 +4,7 @@
 // intervals. Any instant can be shown by replay from the snapshot before it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -68,9 +69,10 @@ class History {
 
   /// Start of the source; zero while unknown.
   [[nodiscard]] std::chrono::nanoseconds start() const noexcept { return start_.value_or(Time{}); }
-  /// Arrival of the first entity; none before it.
-  [[nodiscard]] std::optional<std::chrono::nanoseconds> first_entity() const noexcept {
-    return first_entity_;
+  /// The instant at which the world is shown for `time`: of a whole capture at the earliest that of
+  /// its first entity, so that no picture is empty before it.
+  [[nodiscard]] std::chrono::nanoseconds peopled(std::chrono::nanoseconds time) const noexcept {
+    return options_.span ? time : std::max(time, first_entity_.value_or(time));
   }
   /// The first and the last instant that can be shown.
   [[nodiscard]] std::chrono::nanoseconds begin() const noexcept;

@@ -343,7 +343,7 @@ def recording(reckon, scenes):
         page.press(" ")
         page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('from 0:00.0'))", "it begins anew, and says so")
         page.driver.execute_script("const slider = document.getElementById('slider'); slider.value = slider.min; slider.dispatchEvent(new Event('input'))")
-        page.wait(f"window.reckon.time < 0.1 && {there}", "somebody at the begin")
+        page.wait("window.reckon.time < 0.1 && window.reckon.entities > 0 && document.getElementById('notice').hidden", "somebody at the begin")
         shows_no_fault(page)
 
 
