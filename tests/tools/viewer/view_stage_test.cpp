@@ -220,25 +220,23 @@ TEST(ViewStage, NamesTypeAndOwnerOfEachEntity) {
 
 TEST(ViewStage, ShowsTheFirstEntityBeforeItsTime) {
   ViewStage stage(capture_options());
-  Sent other{.octets = {std::byte{7}}, .time = kStart - seconds(3)};  // no PDU
-  (void)stage.take(trucks::datagram_of(other));
+  const Sent no_pdu{.octets = {std::byte{7}}, .time = kStart - seconds(3)};
+  (void)stage.take(trucks::datagram_of(no_pdu));
   for (const Sent& sent : trucks::drive(1, 5)) (void)stage.take(trucks::datagram_of(sent));
-  nanoseconds now = kStart;
-  stage.pass(now);
+  stage.pass(kStart);
   Tab tab(stage, false);
-  const auto place = [&](double time) {
+  tab.take();
+  EXPECT_NEAR(tab.texts[0]["first_entity"].get<double>(), 3.001, 1e-9);
+  nanoseconds now = kStart;
+  const auto entity_at = [&](double time) {
     tab.ask(2, time);
     stage.pass(now += kTick);
     tab.take();
     EXPECT_NEAR(tab.head().time, time, 1e-9);
-    EXPECT_EQ(tab.head().entities, 1);
-    double east = 0;
-    std::memcpy(&east, tab.pictures.back().data() + kPictureHead + 8, sizeof east);
-    return east;
+    return tab.pictures.back().substr(kPictureHead);
   };
-  EXPECT_NEAR(place(0), place(3.001), 1e-9);
-  EXPECT_GT(std::abs(place(5) - place(1)), 1.0);
-  EXPECT_NEAR(tab.texts[0]["first_entity"].get<double>(), 3.001, 1e-9);
+  EXPECT_EQ(entity_at(0), entity_at(3.001));
+  EXPECT_NE(entity_at(5), entity_at(1));
 }
 
 TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {

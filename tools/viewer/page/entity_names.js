@@ -21,7 +21,10 @@ export class EntityNames {
   draw(moment, rows, sizeAt) {
     if (this.view.rectangle.width <= 300) return;
     const symbols = this.symbols(moment, sizeAt);
-    for (const { left, top, half } of symbols) this.labels.take(left - half, top - half, left + half, top + half);
+    for (const { left, top, half } of symbols) {
+      const room = Math.min(half, 9 + 0.4 * half); // long ones are slender
+      this.labels.take(left - room, top - room, left + room, top + room);
+    }
     for (const symbol of symbols.slice(0, symbols.length > CROWD ? NAMES_OF_CROWD : MOST_NAMES)) this.name(moment, rows[symbol.i], symbol);
   }
 

@@ -27,7 +27,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page_driver import PATIENCE, ActionChains, Keys, browser, expect, needs_browser, program, shows_no_fault, skip
+from page_driver import PATIENCE, ActionChains, Keys, browser, expect, needs_browser, program, record, shows_no_fault, skip
 
 # Numbers of a picture have single precision, and a late step on a busy machine takes energy that the servo cannot
 # know in time [J].
@@ -135,13 +135,7 @@ def capture(reckon, scenes):
     marking = "</script><b"  # a marking has eleven letters
     with tempfile.TemporaryDirectory() as folder, resting_hands() as scene:
         heard, file = Path(folder) / f"{markup.replace('/', '%')}.pcapng", Path(folder) / "run.html"
-        speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--name", marking, "--for", "1min", "--json"],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            subprocess.run([reckon, "record", heard, scene, "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
-        finally:
-            speaker.terminate()
-            speaker.wait(PATIENCE)
+        record(reckon, scene, heard, "--name", marking)
         told = subprocess.run([reckon, "view", heard, "--save", file], check=True, capture_output=True, text=True).stderr
         expect(re.search(r"\d s, 1 entity, \d+ pictures", told), f"it says what is saved: {told}")
         with browser() as page:

@@ -78,6 +78,17 @@ def program(*arguments):
         started.end()
 
 
+def record(reckon, scene, file, *flags):
+    """Four seconds of the scene's first peer."""
+    speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", *flags, "--for", "1min", "--json"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        subprocess.run([reckon, "record", file, scene, "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
+    finally:
+        speaker.terminate()
+        speaker.wait(PATIENCE)
+
+
 @contextlib.contextmanager
 def browser():
     options = webdriver.ChromeOptions()

@@ -4,9 +4,9 @@
 
   page_exercise.py CASE RECKON SCENES DATA     exit status 77 = skipped, with a message
 
-  sessions  each real session, at its start, quarter, half, three quarters and end, and while it begins to play
+  sessions  each real session, as it opens, and at its start, quarter, half, three quarters and end
   shipped   the same of scenes/exercise.pcapng, in both views
-  truck     a recorded truck: the ground, the scale, the camera and its switch, the card; three sizes, no overlap; saved
+  truck     a recorded truck: ground, scale, switch of the camera, card; three sizes, no overlap; saved
 """
 import subprocess
 import sys
@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page_driver import PATIENCE, ActionChains, Keys, browser, expect, needs_browser, program, shows_no_fault, skip
+from page_driver import ActionChains, Keys, browser, expect, needs_browser, program, record, shows_no_fault, skip
 
 SHARES = (0, 0.25, 0.5, 0.75, 1)
 LEAST = 12  # [pixels], larger side of an entity
@@ -71,13 +71,7 @@ def shipped(reckon, scenes, _):
 def truck(reckon, scenes, _):
     with tempfile.TemporaryDirectory() as folder, browser() as page:
         heard, file = Path(folder) / "truck.pcapng", Path(folder) / "truck.html"
-        speaker = subprocess.Popen([reckon, "peer", f"{scenes}/truck.toml", "--iface", "lo", "--operator", "1", "--for", "1min", "--json"],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            subprocess.run([reckon, "record", heard, f"{scenes}/truck.toml", "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
-        finally:
-            speaker.terminate()
-            speaker.wait(PATIENCE)
+        record(reckon, f"{scenes}/truck.toml", heard)
         with program(reckon, "view", heard, "--port", "0") as started:
             for width, height in SIZES:
                 page.size(width, height)
@@ -86,7 +80,7 @@ def truck(reckon, scenes, _):
             page.size(1280, 800)
             has_ground(page)
             has_card(page)
-            has_camera(page)
+            has_switch(page)
         subprocess.run([reckon, "view", heard, "--save", file], check=True, capture_output=True)
         page.open(f"file://{file}")
         page.wait("window.reckon?.frames > 5 && window.reckon.boxes().length > 0", "a saved page")
@@ -100,7 +94,6 @@ LABELS = "[...document.querySelectorAll('#labels span, #lead, #scale, #over > *,
 
 def overlaps_nothing(page):
     time.sleep(0.4)  # what lies over the picture is measured five times a second
-    page.wait_for_pictures(1) if page.ask("window.reckon.play") == "playing" else None
     boxes = page.ask(f"{LABELS}.map((part) => [part.textContent, ...Object.values(part.getBoundingClientRect().toJSON()).slice(0, 4)])")
     expect(len(boxes) > 4, f"texts in the picture: {boxes}")
     for i, (text, x, y, width, height) in enumerate(boxes):
@@ -133,17 +126,10 @@ def has_card(page):
     page.wait("document.getElementById('card').hidden", "Esc closes it")
 
 
-def has_camera(page):
-    seek(page, 0.2)
-    expect(page.ask("window.reckon.auto"), "the camera leads by itself")
-    canvas = page.driver.find_element("css selector", "canvas")
-    ActionChains(page.driver).key_down(Keys.SHIFT).click_and_hold(canvas).move_by_offset(120, 40).release().key_up(Keys.SHIFT).perform()
-    seek(page, 0.8)
-    page.wait("!window.reckon.auto && document.getElementById('lead').ariaPressed === 'false'", "moving the picture switches that off")
-    page.click("lead")
-    page.wait("window.reckon.auto", "the switch")
-    seek(page, 1)
-    boxes_are_seen(page, "after the switch")
+def has_switch(page):
+    for on in (False, True):
+        page.click("lead")
+        page.wait(f"window.reckon.auto === {str(on).lower()}", "the switch of the camera")
 
 
 CASES = {case.__name__: case for case in (sessions, shipped, truck)}
