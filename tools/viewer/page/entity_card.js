@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The state of the followed entity, in words.
+// The state of the followed entity of an exercise, in words.
 import { degrees, headingOf } from './geodesy.js';
 import { CAUSES, NONE } from './picture.js';
 import { digits, element, foreign, speedText } from './words.js';
@@ -40,7 +40,7 @@ export class EntityCard {
 
   draw(moment, large) {
     const { followed } = moment;
-    const shown = followed !== NONE && large === 'world' && !!moment.picture;
+    const shown = followed !== NONE && moment.exercise && large === 'world' && !!moment.picture;
     if (this.host.hidden === shown) this.host.hidden = !shown;
     if (!shown) return;
     const row = moment.roster.get(followed);

@@ -50,7 +50,7 @@ export const TERMS = {
   contacts: 'A force between two entities, computed from what they sent.',
   'near groups': 'Entities that share a multicast group because they are near each other.',
   'contact groups': 'Entities that share a multicast group because they touch, or soon will.',
-  followed: 'The entity that you follow; its card has its state. Esc ends it.',
+  followed: 'The entity that you follow. In an exercise its card has its state. Esc ends it.',
   floor: 'A grid; the label is the side of a square. A drop line shows above which place a hand is.',
   'drop lines': 'A line down to the grid and a shadow there: how near a hand is. The thin line of your own hand ends at the nearest surface.',
   solids: 'An object of the scene that hands feel.',
