@@ -23,7 +23,7 @@ namespace reckon::tools {
 namespace {
 
 /// Texts that a saved file keeps, as in recorder.js; numbers once a second.
-constexpr std::array<std::string_view, 6> kKeptText{"hello", "roster", "touch",
+constexpr std::array<std::string_view, 7> kKeptText{"hello", "origin", "roster", "touch",
                                                     "cells", "groups", "numbers"};
 /// Pictures farther apart are played faster: at normal speed the stage would mark a gap.
 constexpr double kApart = 0.25;  // [s]

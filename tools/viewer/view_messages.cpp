@@ -72,6 +72,10 @@ void append_optional(JsonObject& object, std::string_view key, std::optional<dou
   if (value) object.decimals(key, *value, decimals);
 }
 
+void append_span(JsonObject& object, double from, double to) {
+  object.member("span") += fmt::format("[{:.3f},{:.3f}]", from, to);
+}
+
 void append_delay(JsonObject& object, std::optional<double> median, std::optional<double> p95) {
   if (!median) return;
   JsonObject(object.member("delay_ms"))
@@ -132,14 +136,14 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "hello")
-      .value("version", 2)
+      .value("version", 3)
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)
-      .value("may_push", watcher.may_push);
+      .value("may_push", watcher.may_push)
+      .decimals("first_entity", seconds(history_.peopled(history_.begin())), 3);
   if (watcher.may_push) append_network(object.member("network"), options_.controls->network());
-  object.member("span") +=
-      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  append_span(object, seconds(history_.begin()), seconds(live_end()));
   if (frame_)
     append_origin(object.member("origin"));
   else
@@ -196,8 +200,7 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "numbers").decimals("time", seconds(time), 3);
-  object.member("span") +=
-      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  append_span(object, seconds(history_.begin()), seconds(live_end()));
   if (const NumbersSample* sample = history_.numbers().at(time)) {
     object.decimals("pdu_per_s", sample->pdu_per_s, 1).decimals("bit_per_s", sample->bit_per_s, 0);
     append_optional(object, "lost_share", sample->lost_share, 5);

@@ -239,7 +239,7 @@ void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
 
 const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   if (!is_past(watcher)) return history_.live();
-  history_.seek(watcher.cursor, time);
+  history_.seek(watcher.cursor, history_.peopled(time));
   return watcher.cursor->world();
 }
 
@@ -252,7 +252,8 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.time = seconds(time);
   rows.epoch = history_.roster().epoch();
   if (frame_) {
-    world.add_marks(time, history_.start(), history_.roster(), *frame_, rows.entities);
+    world.add_marks(history_.peopled(time), history_.start(), history_.roster(), *frame_,
+                    rows.entities);
     if (cells_) cells_->place(rows.entities);
     add_contacts(world, time, rows);
   }

@@ -65,6 +65,7 @@ inline peer::SourceDatagram datagram_of(const Sent& sent) {
   peer::SourceDatagram datagram;
   datagram.frame = 1;
   datagram.time = sent.time;
+  datagram.source = peer::IpEndpoint::v4(0x0A000007, 3000);
   datagram.group = peer::IpEndpoint::v4(0xEFC00105, 3000);
   datagram.bytes = sent.octets;
   return datagram;

@@ -128,7 +128,7 @@ TEST(SavedRun, PutsPicturesApartUntilTheyFit) {
     for (const std::string& picture : parts.pictures) octets += picture.size();
     EXPECT_LE(octets, budget + 2 * parts.pictures[0].size());
     EXPECT_GE(octets, budget / 2);
-    EXPECT_NEAR(run.spacing, 5632.0 * 60 / static_cast<double>(budget), 0.1 * run.spacing);
+    EXPECT_NEAR(run.spacing, 6432.0 * 60 / static_cast<double>(budget), 0.1 * run.spacing);
     EXPECT_NEAR(run.seconds, 60, 0.1);
     for (const std::string& picture : parts.pictures)
       EXPECT_EQ(value_at<std::uint16_t>(picture, 22) & kPictureGap, 0) << budget;

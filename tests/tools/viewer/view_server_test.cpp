@@ -126,7 +126,7 @@ TEST(ViewServer, SendsAPictureEachTickToDrawingTabs) {
     served.tick();
     ASSERT_TRUE(tab.take());
     ASSERT_FALSE(tab.pictures.empty());
-    EXPECT_EQ(tab.pictures.back().size(), 32U + 3 * 56);
+    EXPECT_EQ(tab.pictures.back().size(), 32U + 3 * 64);
     tab.draw();
   }
   EXPECT_NEAR(static_cast<double>(tab.pictures.size()), 31, 1);
@@ -143,7 +143,7 @@ TEST(ViewServer, SendsTwoPicturesToAStalledTab) {
     busy.draw();
   }
   EXPECT_GT(busy.pictures.size(), 95U);
-  const auto sent_to_busy = static_cast<std::uint64_t>(32 + 200 * 56) * busy.pictures.size();
+  const auto sent_to_busy = static_cast<std::uint64_t>(32 + 200 * 64) * busy.pictures.size();
   EXPECT_LT(served.server.counts().octets - octets, sent_to_busy + 3 * 100'000);
   stalled.take();
   EXPECT_EQ(stalled.pictures.size(), 2U);

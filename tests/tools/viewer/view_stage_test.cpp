@@ -19,6 +19,7 @@ using tabs::Head;
 using tabs::kTick;
 using tabs::LiveTrucks;
 using tabs::Tab;
+using trucks::kStart;
 using trucks::milliseconds;
 using trucks::nanoseconds;
 using trucks::seconds;
@@ -39,7 +40,7 @@ TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   live.run(seconds(2), {&tab});
   ASSERT_FALSE(tab.texts.empty());
   EXPECT_EQ(tab.texts[0]["type"], "hello");
-  EXPECT_EQ(tab.texts[0]["version"], 2);
+  EXPECT_EQ(tab.texts[0]["version"], 3);
   EXPECT_EQ(tab.texts[0]["may_push"], false);
   EXPECT_TRUE(tab.texts[0]["origin"].is_null());
   EXPECT_EQ(tab.texts[1]["type"], "play");
@@ -198,6 +199,44 @@ TEST(ViewStage, PlaysACaptureFromBeginningToEnd) {
   tab.ask(3, 0.1F);
   run(seconds(1), tab);
   EXPECT_NEAR(tab.head().time, 0.1, 0.02) << "from the begin again, slowly";
+}
+
+TEST(ViewStage, NamesTypeAndOwnerOfEachEntity) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(2), {&tab});
+  const json row = tab.last("roster")["entities"][0];
+  EXPECT_EQ(row["type"], "Platform Land");
+  EXPECT_EQ(row["type_numbers"], "1.1.0.0.0.0.0");
+  EXPECT_EQ(row["peer"], "1:2");
+  EXPECT_EQ(row["host"], "10.0.0.7:3000");
+  constexpr std::size_t kSpeedAt = kPictureHead + 56, kAgeAt = kPictureHead + 60;
+  float speed = 0, age = 0;
+  std::memcpy(&speed, tab.pictures.back().data() + kSpeedAt, sizeof speed);
+  std::memcpy(&age, tab.pictures.back().data() + kAgeAt, sizeof age);
+  EXPECT_NEAR(speed, 10, 1e-3);
+  EXPECT_NEAR(age, tab.head().time - 2.001, 1e-3) << "its last update came after 2.001 s";
+}
+
+TEST(ViewStage, ShowsTheFirstEntityBeforeItsTime) {
+  ViewStage stage(capture_options());
+  const Sent no_pdu{.octets = {std::byte{7}}, .time = kStart - seconds(3)};
+  (void)stage.take(trucks::datagram_of(no_pdu));
+  for (const Sent& sent : trucks::drive(1, 5)) (void)stage.take(trucks::datagram_of(sent));
+  stage.pass(kStart);
+  Tab tab(stage, false);
+  tab.take();
+  EXPECT_NEAR(tab.texts[0]["first_entity"].get<double>(), 3.001, 1e-9);
+  nanoseconds now = kStart;
+  const auto entity_at = [&](double time) {
+    tab.ask(2, time);
+    stage.pass(now += kTick);
+    tab.take();
+    EXPECT_NEAR(tab.head().time, time, 1e-9);
+    return tab.pictures.back().substr(kPictureHead);
+  };
+  EXPECT_EQ(entity_at(0), entity_at(3.001));
+  EXPECT_NE(entity_at(5), entity_at(1));
 }
 
 TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {

@@ -73,6 +73,7 @@ bool History::take(const peer::SourceDatagram& datagram) {
     live_.take_pdu(row, datagram, roster_, *start_);
     return true;
   });
+  if (!first_entity_ && live_.first_place()) first_entity_ = end_;
   numbers_.datagram(datagram, live_.take_jumps());
   numbers_.pass(end_);
   return true;

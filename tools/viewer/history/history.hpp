@@ -4,6 +4,7 @@
 // intervals. Any instant can be shown by replay from the snapshot before it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +69,11 @@ class History {
 
   /// Start of the source; zero while unknown.
   [[nodiscard]] std::chrono::nanoseconds start() const noexcept { return start_.value_or(Time{}); }
+  /// The instant at which the world is shown for `time`: of a whole capture at the earliest that of
+  /// its first entity, so that no picture is empty before it.
+  [[nodiscard]] std::chrono::nanoseconds peopled(std::chrono::nanoseconds time) const noexcept {
+    return options_.span ? time : std::max(time, first_entity_.value_or(time));
+  }
   /// The first and the last instant that can be shown.
   [[nodiscard]] std::chrono::nanoseconds begin() const noexcept;
   [[nodiscard]] std::chrono::nanoseconds end() const noexcept { return end_; }
@@ -122,7 +128,7 @@ class History {
   std::deque<std::unique_ptr<Segment>> segments_;
   std::uint64_t first_number_ = 0;  // of segments_.front()
   std::size_t weight_ = 0;
-  std::optional<Time> start_;
+  std::optional<Time> start_, first_entity_;
   Time end_{};
 };
 

@@ -28,17 +28,17 @@ std::uint8_t side_of(const ReceivedEntity& entity) {
 
 /// Called by the table for an update before it takes it.
 struct ReceivedWorld::Watching final : EntityTable::Watch {
-  Watching(ReceivedWorld& the_world, const peer::GroupAddress& the_group, Roster& the_roster,
+  Watching(ReceivedWorld& the_world, const peer::SourceDatagram& the_datagram, Roster& the_roster,
            nanoseconds the_start)
-      : world(the_world), group(the_group), roster(the_roster), start(the_start) {}
+      : world(the_world), datagram(the_datagram), roster(the_roster), start(the_start) {}
   void before_state(const StateUpdate& update) override {
-    world.note_update(update, group, roster, start);
+    world.note_update(update, datagram, roster, start);
   }
   void before_model(const ReceivedEntity& entity, const ModelUpdate& update) override {
     roster.note_model(entity.key, update.model.radius, update.arrival);
   }
   ReceivedWorld& world;
-  const peer::GroupAddress& group;
+  const peer::SourceDatagram& datagram;
   Roster& roster;
   nanoseconds start;
 };
@@ -47,15 +47,15 @@ void ReceivedWorld::take_pdu(const PduRow& row, const peer::SourceDatagram& data
                              Roster& roster, nanoseconds start) {
   if (row.decoded && row.header.pdu_type == pdu::PduType::cell_roles)
     return groups_.take_roles(row.bytes, datagram.time);
-  Watching watching(*this, datagram.group, roster, start);
+  Watching watching(*this, datagram, roster, start);
   table_.take_pdu(row, datagram, &watching);
 }
 
-void ReceivedWorld::note_update(const StateUpdate& update, const peer::GroupAddress& group,
+void ReceivedWorld::note_update(const StateUpdate& update, const peer::SourceDatagram& datagram,
                                 Roster& roster, nanoseconds start) {
-  const std::uint16_t slot = roster.admit(table_.listener(), update);
+  const std::uint16_t slot = roster.admit(table_.listener(), update, datagram.source);
   if (slot == kNoNumber) return;
-  groups_.note_update(slot, group, update.arrival);
+  groups_.note_update(slot, datagram.group, update.arrival);
   if (slot >= errors_.size()) errors_.resize(slot + std::size_t{1});
   if (update.is_first) {
     errors_[slot] = {};
@@ -111,6 +111,8 @@ void ReceivedWorld::add_marks(nanoseconds time, nanoseconds start, const Roster&
     }
     mark.rate = row.rate(entity, time);
     mark.jump = row.jump;
+    mark.speed = static_cast<float>(pose.velocity.norm());
+    mark.age = static_cast<float>(entity.age(time));
   }
 }
 

@@ -61,7 +61,7 @@ class ReceivedWorld {
 
  private:
   struct Watching;  // handles one PDU
-  void note_update(const StateUpdate& update, const peer::GroupAddress& group, Roster& roster,
+  void note_update(const StateUpdate& update, const peer::SourceDatagram& datagram, Roster& roster,
                    std::chrono::nanoseconds start);
 
   EntityTable table_;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/tools/datagrams/survey.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -42,6 +43,19 @@ std::string kind_text(std::span<const std::byte> type) {
   if (kind != pdu::EntityKind::platform) return lower_case(named);
   return lower_case(
       fmt::format("{} {}", named, pdu::name(static_cast<pdu::EntityDomain>(type[1]))));
+}
+
+pdu::EntityType type_of(std::span<const std::byte> octets) {
+  const auto part = [octets](std::size_t i) { return std::to_integer<std::uint8_t>(octets[i]); };
+  pdu::EntityType type;
+  type.kind = static_cast<pdu::EntityKind>(part(0));
+  type.domain = static_cast<pdu::EntityDomain>(part(1));
+  type.country = static_cast<std::uint16_t>(part(2) << 8 | part(3));
+  type.category = part(4);
+  type.subcategory = part(5);
+  type.specific = part(6);
+  type.extra = part(7);
+  return type;
 }
 
 std::string side_text(std::byte side) {
@@ -95,7 +109,8 @@ std::uint16_t Roster::place(std::uint64_t key) {
   return slot;
 }
 
-std::uint16_t Roster::admit(const Listener& listener, const StateUpdate& update) {
+std::uint16_t Roster::admit(const Listener& listener, const StateUpdate& update,
+                            const peer::IpEndpoint& sender) {
   const ReceivedEntity& entity = listener.entities()[update.place];
   const std::uint16_t slot = place(entity.key);
   if (slot == kNoNumber) return slot;
@@ -108,6 +123,7 @@ std::uint16_t Roster::admit(const Listener& listener, const StateUpdate& update)
   changed_ |= renew(entry.side, update.octets, kSideAt);
   changed_ |= renew(entry.type, update.octets, kTypeAt);
   changed_ |= renew(entry.marking, update.octets, kMarkingAt);
+  changed_ |= std::exchange(entry.sender, sender) != sender;
   return slot;
 }
 
@@ -137,15 +153,19 @@ void Roster::forget_before(std::chrono::nanoseconds time) {
 void Roster::append_entry(std::string& out, std::size_t slot) const {
   const Entry& entry = entries_[slot];
   const pdu::EntityId& id = entry.id;
+  const pdu::EntityType type = type_of(entry.type);
   JsonObject(out)
       .value("slot", slot)
       .text("id", fmt::format("{}:{}:{}", id.site, id.application, id.entity))
       .text("marking", letters(entry.marking))
       .text("kind", kind_text(entry.type))
+      .text("type", peer::entity_type_words(type))
+      .text("type_numbers", peer::entity_type_numbers(type))
       .text("side", side_text(entry.side[0]))
       .value("haptic", entry.haptic)
       .decimals("radius", entry.radius, 4)
       .text("peer", fmt::format("{}:{}", id.site, id.application))
+      .text("host", entry.sender.is_unspecified() ? std::string() : entry.sender.text())
       .end();
 }
 

@@ -26,8 +26,9 @@ class Roster {
   explicit Roster(std::size_t most) : most_(most) {}
 
   /// The slot of an entity of the listener; assigns a new one if it has none, kNoNumber if
-  /// there is no room. Keeps the properties from the newest state.
-  std::uint16_t admit(const Listener& listener, const StateUpdate& update);
+  /// there is no room. Keeps the properties from the newest state, and its sender.
+  std::uint16_t admit(const Listener& listener, const StateUpdate& update,
+                      const peer::IpEndpoint& sender);
   /// Notes the force model of an entity that has a slot, unless a newer state was received.
   void note_model(std::uint64_t key, double radius, std::chrono::nanoseconds arrival);
   /// By ReceivedEntity::key; kNoNumber if the entity has none.
@@ -69,6 +70,7 @@ class Roster {
     std::array<std::byte, 1> side{};  // force ID
     std::array<std::byte, 8> type{};
     std::array<std::byte, 12> marking{};  // including the character set
+    peer::IpEndpoint sender;
     bool haptic = false;
     bool published = false;
     double radius = 0;  // [m] of the force model

@@ -75,7 +75,7 @@ class Beacons {
 }
 
 // A flat ring around a point, with an outer radius of 1.
-function flatRing(inner, count) {
+export function flatRing(inner, count) {
   const at = Array.from({ length: count }, (_, i) => {
     const [a, b] = [i, i + 1].map((k) => (2 * Math.PI * k) / count);
     const point = (radius, angle) => [radius * Math.cos(angle), radius * Math.sin(angle), 0];

@@ -34,14 +34,14 @@ class Cells {
     const { cells, size, shape } = moment.cells;
     const reach = roundUp((this.view.extent?.radius ?? 1) * 1.2);
     const { anchor, anchored } = this.view.orbit;
-    const key = `${moment.cellsNumber} ${moment.followed} ${cells.length ? '' : reach} ${anchored}`;
+    const key = `${moment.cellsNumber} ${moment.followed} ${cells.length ? '' : reach} ${anchored} ${moment.exercise}`;
     if (key === this.key) return;
     this.key = key;
     const z = this.floor(moment);
     const corners = cornersOf(shape, size || 0.04 * reach);
     const around = ({ x, y }) => corners.map(([dx, dy]) => [x + dx, y + dy]);
     const sides = cells.flatMap((cell) => around(cell).flatMap((corner, i, all) => [corner, all[(i + 1) % all.length]]));
-    const lines = cells.length ? sides : plainGrid(reach, this.view.extent?.centre ?? [0, 0, 0]);
+    const lines = cells.length ? sides : moment.exercise && moment.geodesy ? [] : plainGrid(reach, this.view.extent?.centre ?? [0, 0, 0]);
     const heard = moment.followed === NONE ? [] : cells.filter((cell) => cell.heard_by.includes(moment.followed));
     const faces = heard.flatMap((cell) => {
       const all = around(cell);

@@ -3,18 +3,20 @@
 // Entities as shown: the shape depends on the kind, the nose points forward, the colour depends on
 // the side. Entities that the followed one does not receive are faint.
 import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
-import { Bodies, leastScale, shapeOf, sizeOf } from './bodies.js';
+import { Bodies, fewSymbols, leastScale, shapeOf, sizeOf } from './bodies.js';
 import { colour, SIDE_COLOURS } from './colours.js';
+import { EntityNames } from './entity_names.js';
 import { NONE } from './picture.js';
 
 export const drawnEntities = {
   name: 'entities', view: 'world', says: 'entity as shown', mark: 'body side-friendly',
-  make(group, view) { return new Entities(group, view); },
+  make(group, view, labels) { return new Entities(group, view, labels); },
 };
 
 class Entities {
-  constructor(group, view) {
+  constructor(group, view, labels) {
     this.view = view;
+    this.names = new EntityNames(view, labels);
     this.bodies = new Bodies(group, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
     this.known = '';
     this.tinted = '';
@@ -28,11 +30,12 @@ class Entities {
 
   update(moment) {
     const { picture } = moment;
-    const known = `${moment.rosterNumber} ${picture.epoch} ${moment.count}`;
+    this.view.few = fewSymbols(moment, this.view);
+    const known = `${moment.rosterNumber} ${picture.epoch} ${moment.count} ${this.view.few}`;
     if (known !== this.known) {
       this.known = known;
       this.rows = Array.from({ length: moment.count }, (_, i) => moment.roster.get(picture.slot(i)));
-      this.bodies.shape(this.rows.map((row) => shapeOf(row?.kind, row?.haptic)));
+      this.bodies.shape(this.rows.map((row) => shapeOf(row?.kind, row?.haptic, this.view.few)));
       this.tinted = '';
     }
     // Entities change cells, so the set of faint entities is updated once a second.
@@ -56,6 +59,7 @@ class Entities {
       this.bodies.set(i, x, y, z, turns, scale(x, y, z, this.sizes[i]));
     }
     this.bodies.end();
+    if (moment.exercise) this.names.draw(moment, this.rows, (i, x, y, z) => scale(x, y, z, this.sizes[i]));
   }
 
   tint(moment) {

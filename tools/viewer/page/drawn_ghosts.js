@@ -32,11 +32,11 @@ class Ghosts {
   }
 
   update(moment) {
-    const known = `${moment.rosterNumber} ${moment.picture.epoch} ${moment.count}`;
+    const known = `${moment.rosterNumber} ${moment.picture.epoch} ${moment.count} ${this.view.few}`;
     if (known !== this.known) {
       this.known = known;
       this.rows = Array.from({ length: moment.count }, (_, i) => moment.roster.get(moment.picture.slot(i)));
-      this.slots = this.rows.map((row) => shapeOf(row?.kind, row?.haptic));
+      this.slots = this.rows.map((row) => shapeOf(row?.kind, row?.haptic, this.view.few));
     }
     if (!this.way || this.way.length < 6 * moment.count) {
       this.way = new Float32Array(6 * Math.ceil(1.2 * moment.count));

@@ -4,6 +4,7 @@
 //   { name, view: 'world' or 'touch', large: true if an inset is too small for it,
 //     says: words of the key, mark: shape and colour of the key,
 //     make(group, view, labels) -> { paint(), update(moment) } }
+import { drawnGround } from './drawn_ground.js';
 import { drawnCells } from './drawn_cells.js';
 import { drawnBeacons } from './drawn_beacons.js';
 import { drawnGroups, drawnContactGroups } from './drawn_groups.js';
@@ -25,6 +26,6 @@ import { drawnForces } from './drawn_forces.js';
 import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
-  drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
+  drawnGround, drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
   drawnFloor, drawnDepth, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
 ];

@@ -86,7 +86,7 @@ class Trails {
     this.write(moment, count, now);
     this.last = time;
     this.material.uniforms.now.value = now;
-    this.material.uniforms.strength.value = moment.followed === NONE ? 0.5 : 0.2; // keeps highlighted cells visible
+    this.material.uniforms.strength.value = moment.exercise && count < 100 ? 0.9 : moment.followed === NONE ? 0.5 : 0.2; // keeps highlighted cells visible
   }
 
   write({ picture, shown }, count, now) {

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+import { nominalRadius } from './bodies.js';
 import { reachOf } from './solid_shapes.js';
 
 // The sphere that a camera should show: of the world, and of the touched objects.
 
 const FARTHEST = 1e9; // [m] from the origin; more distant entities are ignored
+const LEAST_AROUND = 25; // [m] around an entity of an exercise
+const SIZES = 11; // or so many times its own size
+const AHEAD = 4; // [s], or its way in this time
 
 // All entities except the outermost fiftieth, so that one distant entity does not reduce all others
 // to dots; at least a cell.
@@ -23,7 +27,22 @@ export function worldExtent(moment) {
   const high = columns.map((list) => cut(list, 1 - share));
   const centre = low.map((x, k) => (x + high[k]) / 2);
   const spread = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
+  if (moment.exercise) return { centre, radius: Math.max(cut(distances(moment, centre), 1 - share), surroundings(moment), 0.55 * moment.cells.size) };
   return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
+}
+
+// Of all entities from a place [m], ascending.
+function distances({ count, shown }, [x, y, z]) {
+  return Array.from({ length: count }, (_, i) => Math.hypot(shown[3 * i] - x, shown[3 * i + 1] - y, shown[3 * i + 2] - z)).filter((far) => far < FARTHEST).sort((a, b) => a - b);
+}
+
+// What is seen around the entities of an exercise [m].
+function surroundings({ count, picture, roster }) {
+  let radius = LEAST_AROUND;
+  for (let i = 0; i < count; ++i) {
+    radius = Math.max(radius, SIZES * nominalRadius(roster.get(picture.slot(i))), AHEAD * Math.min(picture.speed(i), 1e4));
+  }
+  return radius;
 }
 
 // Height of the grid below the touched objects.

@@ -12,6 +12,7 @@ export const KEYS = [
   ['End', 'live, or the end of a capture', (page) => page.timeLine.live(), 'End'],
   ['v', 'swap world and touch', (page) => page.swap(), 'v'],
   ['f', 'fit the picture', (page) => page.fit(), 'f'],
+  ['k', 'keep all in the picture, or leave the camera', (page) => page.toggleLead(), 'k'],
   ['[ ]', 'turn the picture', (page, event) => page.turn(event.key === '[' ? -20 : 20, 0), '[', ']'],
   ['PgUp PgDn', 'tilt the picture', (page, event) => page.turn(0, event.key === 'PageUp' ? 20 : -20), 'PageUp', 'PageDown'],
   ['+ −', 'nearer, farther', (page, event) => page.zoom(event.key === '-' ? 1.15 : 1 / 1.15), '+', '=', '-'],

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Assembles the page: a source of pictures, the stage, plots, table, time line, and controls.
+import { EntityCard } from './entity_card.js';
 import { EntityTable } from './entity_table.js';
 import { FeltHand } from './felt_hand.js';
 import { Filled } from './filled.js';
@@ -24,7 +25,7 @@ import { TimeLine } from './time_line.js';
 import { Tour } from './tour.js';
 import { byId, digits, foreign } from './words.js';
 
-const VERSION = 2;
+const VERSION = 3;
 const SLOW = 250; // [ms] between two updates of table and numbers
 const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine, tour
 
@@ -39,6 +40,7 @@ class Page {
     this.recorder = new Recorder();
     this.plots = new Plots(byId('plots'));
     this.table = new EntityTable(byId('table'), (slot) => this.follow(slot));
+    this.card = new EntityCard(byId('card'), () => { if (this.moment.followed !== NONE) this.follow(this.moment.followed); });
     this.timeLine = new TimeLine(tell, say);
     this.hand = new PointerHand(this.stage, tell, say);
     this.felt = new FeltHand(this);
@@ -67,6 +69,7 @@ class Page {
     this.least = Infinity;
     this.filled.clear();
     this.moment.reset();
+    this.stage.auto.forget();
     this.recorder.clear();
     this.plots.clear();
   }
@@ -106,7 +109,12 @@ class Page {
       roster: () => {
         moment.roster = new Map((message.entities ?? []).map((row) => [row.slot, row]));
         ++moment.rosterNumber;
+        moment.judge();
         this.choose();
+      },
+      origin: () => {
+        moment.hello = { ...moment.hello, origin: message.origin };
+        moment.setOrigin(message.origin);
       },
       cells: () => {
         moment.cells = { size: message.size || 0, shape: message.shape, cells: message.cells ?? [] };
@@ -116,6 +124,7 @@ class Page {
       touch: () => {
         moment.touch = { solids: message.solids ?? [], regions: message.regions ?? [], hands: message.hands ?? [] };
         ++moment.touchNumber;
+        moment.judge();
         this.choose();
       },
       numbers: () => {
@@ -141,6 +150,7 @@ class Page {
       this.recorder.text(message);
     }
     this.moment.hello = message;
+    this.moment.setOrigin(message.origin);
     this.chosen = false;
     this.timeLine.hello(message);
     byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.[a-z]\w*$)/, ''), 60);
@@ -156,9 +166,8 @@ class Page {
 
   // What can be felt opens with the touch view large, unless the user has already chosen a view.
   choose() {
-    const { roster, touch: { solids, hands } } = this.moment;
+    const { roster, felt } = this.moment;
     if (this.chosen) return;
-    const felt = solids.length > 0 || hands.length > 1 || (roster.size > 0 && [...roster.values()].every(({ haptic }) => haptic));
     this.chosen = felt || roster.size > 0;
     this.stage.show(wishes.get('main') ?? (felt ? 'touch' : 'world'));
   }
@@ -221,6 +230,7 @@ class Page {
 
   look(now) {
     if (this.newer) this.table.draw(this.moment, now);
+    this.card.draw(this.moment, this.stage.large);
     this.timeLine.paintClock();
     this.key.look();
     this.status.look(now);
@@ -234,12 +244,26 @@ class Page {
     this.source.tell('follow', moment.followed);
     this.fresh = true;
     const orbit = this.stage.view('world').orbit;
-    if (moment.followed === NONE) this.stage.fit('world');
+    if (moment.exercise) this.stage.restless = true;
+    else if (moment.followed === NONE) this.stage.fit('world');
     else if (this.stage.view('world').extent) {
       orbit.goal.distance = Math.min(orbit.goal.distance, 1.6 * this.stage.view('world').extent.radius);
       orbit.touched = true;
     }
-    this.log.say(moment.followed === NONE ? 'Follows no entity.' : `Follows ${moment.name(slot)}; its received cells are highlighted.`);
+    this.log.say(moment.followed === NONE ? 'Follows no entity.' : `Follows ${moment.name(slot)}${moment.cells.cells.length ? '; its received cells are highlighted' : ''}.`);
+  }
+
+  // Switches the camera that keeps an exercise in the picture.
+  lead(on) {
+    if (!this.moment.exercise) return;
+    this.stage.auto.setOn(on);
+    this.stage.restless = true;
+    this.fresh = true;
+  }
+
+  toggleLead() {
+    this.lead(!this.stage.auto.on);
+    this.log.say(this.stage.auto.on ? 'The camera keeps all in the picture.' : 'The camera stays where you move it.');
   }
 
   swap() {
@@ -328,6 +352,7 @@ class Page {
     byId('save-picture').addEventListener('click', () => this.savePicture());
     byId('save-minute').addEventListener('click', () => this.saveMinute());
     byId('help').addEventListener('click', () => this.showKeys());
+    byId('lead').addEventListener('click', () => this.toggleLead());
     byId('inset').addEventListener('click', () => this.swap());
   }
 
@@ -344,7 +369,8 @@ class Page {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.status.age, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, target: this.stage.view('world').orbit.goal.target.toArray(), kind: moment.hello.kind,
       numbers: moment.numbers, yours: this.hand.index, tour: this.tour.step, window: this.plots.window, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
-      depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
+      boxes: () => [...moment.roster.keys()].map((slot) => this.stage.boxOf(moment, slot)).filter(Boolean), auto: this.stage.auto.on, scale: this.stage.scaleBar.length,
+      shares: this.share >= 1, depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The world at the drawn instant: interpolated between the last two pictures, with the names and
 // shapes from text messages.
+import { Geodesy, LEVEL } from './geodesy.js';
 import { NONE } from './picture.js';
 import { reachOf } from './solid_shapes.js';
 
@@ -28,8 +29,11 @@ export class Moment {
     this.touch = { solids: [], regions: [], hands: [] };
     this.touchNumber = (this.touchNumber ?? 0) + 1;
     this.numbers = {};
+    this.isExercise = false;
     this.bodies = [];
     this.hello = {};
+    this.geodesy = null;
+    this.judge();
   }
 
   // Interpolates with share s from picture a to picture b.
@@ -78,6 +82,24 @@ export class Moment {
     const scale = length > 0 ? 1 / Math.sqrt(length) : 0;
     for (let k = 0; k < 4; ++k) this.turns[4 * i + k] *= scale;
   }
+
+  // Whether there is something to feel, rather than vehicles and people alone.
+  get felt() {
+    const { roster, touch: { solids, hands } } = this;
+    return solids.length > 0 || hands.length > 1 || (roster.size > 0 && [...roster.values()].every(({ haptic }) => haptic));
+  }
+
+  // Whether the place of each entity on the earth matters.
+  get exercise() { return this.isExercise; }
+
+  // Called when the roster or what can be felt has changed.
+  judge() { this.isExercise = this.roster.size > 0 && !this.felt && !this.touch.hands.length; }
+
+  // Of a place in a picture; null without an origin.
+  geodeticOf(place) { return this.geodesy?.geodeticOf(place) ?? null; }
+  frameAt(place) { return this.geodesy?.frameAt(place) ?? LEVEL; }
+
+  setOrigin(origin) { this.geodesy = origin ? new Geodesy(origin) : null; }
 
   // Whether the touch view shows every entity.
   get touchesAll() { return [...this.roster.values()].every((row) => row.haptic || this.bodyOf(row)); }

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A camera that rotates around a point, z up, and fits itself to a sphere. Corners are stored
+// A camera that rotates around a point, above its own east, north and up, and fits itself to a
+// sphere. Corners are stored
 // relative to its anchor, because a graphics card has single precision. Places of meshes and
 // cameras are multiplied in double precision before they are sent to it.
 import { PerspectiveCamera, Vector3 } from './libraries.js';
+import { LEVEL } from './geodesy.js';
 
 const FIELD = 36; // degrees, of the shorter side
 const REACH = 10; // of the anchor, in distances of the camera: the error of a corner is then a hundredth of a pixel
@@ -18,6 +20,18 @@ export class OrbitCamera {
     this.anchor = new Vector3();
     this.anchored = 0; // number of its movements
     this.touched = false;
+    this.panned = false;
+    this.zoomed = false;
+    this.setFrame(LEVEL);
+  }
+
+  // East, north and up at the target; a camera at a yaw of -90 degrees looks north.
+  setFrame(axes) { this.axes = axes.map((axis) => new Vector3(...axis)); }
+
+  // Moves with a target that moves.
+  shift(by) {
+    this.now.target.add(by);
+    this.goal.target.add(by);
   }
 
   // Fits the camera to a sphere.
@@ -25,6 +39,8 @@ export class OrbitCamera {
     this.goal.target.fromArray(centre);
     this.goal.distance = (1.12 * radius) / Math.sin((FIELD / 2) * (Math.PI / 180));
     this.touched = false;
+    this.panned = false;
+    this.zoomed = false;
     if (!this.fitted || calm.matches) this.jump();
     this.fitted = true;
   }
@@ -43,6 +59,7 @@ export class OrbitCamera {
   zoom(factor) {
     this.goal.distance = Math.min(1e8, Math.max(0.01, this.goal.distance * factor));
     this.touched = true;
+    this.zoomed = true;
   }
 
   pan(dx, dy) {
@@ -51,6 +68,7 @@ export class OrbitCamera {
     const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
     this.goal.target.addScaledVector(right, -dx * step).addScaledVector(up, dy * step);
     this.touched = true;
+    this.panned = true;
   }
 
   // Moves towards its goal; true while it moves.
@@ -67,7 +85,10 @@ export class OrbitCamera {
     now.distance *= (goal.distance / now.distance) ** share;
     this.keepAnchor();
     const flat = Math.cos(now.tilt) * now.distance;
-    camera.position.set(flat * Math.cos(now.yaw), flat * Math.sin(now.yaw), Math.sin(now.tilt) * now.distance).add(now.target);
+    const [east, north, up] = this.axes;
+    camera.position.copy(now.target).addScaledVector(east, flat * Math.cos(now.yaw)).addScaledVector(north, flat * Math.sin(now.yaw))
+      .addScaledVector(up, Math.sin(now.tilt) * now.distance);
+    camera.up.copy(up);
     camera.lookAt(now.target);
     camera.aspect = width / height;
     // FIELD is the angle of the shorter side.

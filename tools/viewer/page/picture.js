@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures from the server: little endian, fixed sizes, read in place without a copy.
 
-const MAGIC = 0x32564b52; // "RKV2"
+const MAGIC = 0x33564b52; // "RKV3"
 const HEAD = 32;
-const ENTITY = 56;
+const ENTITY = 64;
 const HAND = 72;
 const CONTACT = 40;
 const TOOL = 124;
@@ -109,6 +109,10 @@ class Picture {
   turnAt(i) { return (HEAD >> 1) + (ENTITY >> 1) * i + 16; }
   rate(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 26] / 100; }
   jump(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 27]; }
+  // Of the prediction [m/s].
+  speed(i) { return number(this.floats[((HEAD + ENTITY * i) >> 2) + 14]); }
+  // Of the last update [s].
+  age(i) { return number(this.floats[((HEAD + ENTITY * i) >> 2) + 15]); }
 
   // Index of the entity in a slot, or -1.
   indexOf(slot) {

@@ -5,7 +5,7 @@
 
 export const FULL_FORCE = 5; // [N] at which the strong motor is at its full
 export const FULL_SLIP = 0.2; // [m/s] at which the weak motor is
-const AHEAD = 100; // [ms], duration of one command
+const COMMAND_MS = 100; // [ms], duration of one command
 const ONSET = 0.8; // both motors, as a contact begins
 const ONSET_LENGTH = 60; // [ms]
 const ONSETS_APART = 150; // [ms]; a contact that flickers is no drum
@@ -24,7 +24,7 @@ export function magnitudes({ newtons, touches, slip }, begins) {
 export function pulse({ newtons, touches }, begins) {
   const duty = touches ? share(newtons, FULL_FORCE) : 0;
   const least = begins ? ONSET_LENGTH : duty > FAINTEST ? SHORTEST_PULSE : 0;
-  return Math.max(least, Math.round(AHEAD * duty));
+  return Math.max(least, Math.round(COMMAND_MS * duty));
 }
 
 export function canRumble(pad) {
@@ -71,14 +71,14 @@ export const RUMBLE = {
   start(pad, feeling, begins) {
     const wanted = magnitudes(feeling, begins);
     const runs = canRumble(pad) && Math.max(...Object.values(wanted)) >= FAINTEST;
-    if (runs) attempt(() => pad.vibrationActuator.playEffect('dual-rumble', { startDelay: 0, duration: AHEAD, ...wanted }));
+    if (runs) attempt(() => pad.vibrationActuator.playEffect('dual-rumble', { startDelay: 0, duration: COMMAND_MS, ...wanted }));
     return runs;
   },
   stop: (pad) => pad.vibrationActuator.reset?.(),
 };
 
 export const VIBRATION = {
-  period: AHEAD,
+  period: COMMAND_MS,
   start(browser, feeling, begins) {
     const length = pulse(feeling, begins);
     if (length > 0) attempt(() => browser.vibrate(length));

@@ -28,5 +28,5 @@ function touchSentence({ hands, hello, count, touch }) {
 }
 
 function worldSentence({ count }) {
-  return `${many(count, 'entity', 'entities')}, as a receiver shows ${count === 1 ? 'it' : 'them'} between two updates. A line is the path of the last 10 s.`;
+  return `${many(count, 'entity', 'entities')}, as a receiver shows ${count === 1 ? 'it' : 'them'} between two updates. A line is the path of the last 10\u00a0s.`;
 }

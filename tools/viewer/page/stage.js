@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The large picture and the inset: two scenes on one canvas, each with its things of drawn_list.js.
 import { Color, DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from './libraries.js';
+import { AutoCamera } from './auto_camera.js';
 import { cssColour } from './colours.js';
 import { DRAWN } from './drawn_list.js';
 import { Labels } from './labels.js';
 import { OrbitCamera } from './orbit_camera.js';
 import { worldExtent, touchExtent } from './extents.js';
+import { ScaleBar } from './scale_bar.js';
 
 const MANY_MEASURED = 100; // entities
 
@@ -82,6 +84,8 @@ export class Stage {
       world: new View('world', -1.1, 0.68, worldExtent, software), touch: new View('touch', -1.15, 0.36, touchExtent, software),
     };
     this.labels = new Labels(host.querySelector('#labels'));
+    this.auto = new AutoCamera(this.views.world);
+    this.scaleBar = new ScaleBar(host.querySelector('#scale'));
     this.large = 'world';
     this.hidden = new Set();
     this.things = DRAWN.map((row) => this.add(row));
@@ -127,7 +131,8 @@ export class Stage {
 
   fit(name) {
     const view = this.views[name];
-    if (view.extent) view.orbit.fit(view.extent.centre, view.extent.radius);
+    if (name === 'world' && this.exercise) this.auto.setOn(true);
+    else if (view.extent) view.orbit.fit(view.extent.centre, view.extent.radius);
     this.restless = true;
   }
 
@@ -141,13 +146,15 @@ export class Stage {
       this.restless = true;
     }
     this.lay(width, height);
+    this.views.world.orbit.setFrame(moment.frameAt(this.views.world.orbit.now.target.toArray()));
     let moving = false;
     for (const view of Object.values(this.views)) {
       moving = view.orbit.advance(seconds, view.rectangle.width, view.rectangle.height) || moving;
     }
     if (!changed && !moving && !this.restless) return false;
     this.restless = false;
-    this.labels.begin();
+    this.labels.begin(this.covered());
+    this.scaleBar.draw(this.views.world, this.exercise && this.large === 'world');
     for (const { row, view, group, thing } of this.things) {
       group.visible = !this.hidden.has(row.name) && (view.name === this.large || (!row.large && !this.inset.hidden && !this.folded));
       if (group.visible) thing.update(moment);
@@ -159,7 +166,19 @@ export class Stage {
     return true;
   }
 
+  // Parts of the page that lie over the picture; they are measured some times a second.
+  covered() {
+    const now = performance.now();
+    if (now - (this.measuredAt ?? -Infinity) < 200) return this.labels.fixed;
+    this.measuredAt = now;
+    const { left, top } = this.host.getBoundingClientRect();
+    return [...this.host.querySelectorAll('[data-over]')].map((part) => part.getBoundingClientRect()).filter(({ width }) => width > 0)
+      .map((box) => [box.left - left - 4, box.top - top - 4, box.right - left + 4, box.bottom - top + 4]);
+  }
+
   take(moment, seconds) {
+    if (this.exercise !== moment.exercise) this.host.classList.toggle('exercise', moment.exercise);
+    this.exercise = moment.exercise;
     // A world of one cell, in which all is felt, shows no more than the touch view.
     this.folded = this.large === 'touch' && moment.cells.cells.length < 2 && moment.touchesAll;
     const strongest = (list) => list.reduce((most, { newtons }) => Math.max(most, newtons), 0);
@@ -169,13 +188,14 @@ export class Stage {
       const extent = view.measure(moment);
       if (!extent) continue;
       view.extent = extent;
-      if (!view.fitted || (view.outgrown() && !view.orbit.touched)) {
+      if (view.name === 'world' && this.exercise) this.auto.lead(moment, extent);
+      else if (!view.fitted || (view.outgrown() && !view.orbit.touched)) {
         view.fitted = extent;
         view.orbit.fit(extent.centre, extent.radius);
       }
     }
     const followed = moment.picture.indexOf(moment.followed);
-    if (followed >= 0) this.views.world.orbit.goal.target.fromArray(moment.shown, 3 * followed);
+    if (followed >= 0 && !this.exercise) this.views.world.orbit.goal.target.fromArray(moment.shown, 3 * followed);
   }
 
   lay(width, height) {
@@ -202,6 +222,20 @@ export class Stage {
     const { orbit, rectangle } = this.views[name];
     const { x, y } = new Vector3().fromArray(point).project(orbit.camera);
     return [rectangle.x + ((x + 1) / 2) * rectangle.width, this.canvas.clientHeight - rectangle.y - ((y + 1) / 2) * rectangle.height];
+  }
+
+  // What an entity covers of the large picture: [left, top, right, bottom] in pixels, or null.
+  boxOf(moment, slot) {
+    const i = moment.picture?.indexOf(slot) ?? -1;
+    if (i < 0) return null;
+    const [x, y, z] = moment.shown.subarray(3 * i, 3 * i + 3);
+    const radius = moment.radiusOf(moment.roster.get(slot)) ?? 0.01;
+    const around = [-radius, radius].flatMap((by) => [[x + by, y, z], [x, y + by, z], [x, y, z + by]]);
+    const corners = this.large === 'touch' ? around : this.things.find(({ row }) => row.name === 'entities').thing.bodies.cornersOf(i);
+    if (!corners.length) return null;
+    const places = corners.map((corner) => this.placeOf(this.large, corner));
+    const [columns, rows] = [0, 1].map((k) => places.map((place) => place[k]));
+    return [Math.min(...columns), Math.min(...rows), Math.max(...columns), Math.max(...rows)];
   }
 
   // The drawn slot nearest to a point of the large picture, within 14 pixels.

@@ -4,7 +4,7 @@
 // the notice over an empty one, and the tip at the pointer.
 import { NONE } from './picture.js';
 import { sentence } from './sentence.js';
-import { bitRate, byId, digits, foreign } from './words.js';
+import { bitRate, byId, digits, foreign, speedText } from './words.js';
 
 const LATE = 1; // [s]: an older picture is not called live
 const PLAY_WORDS = { live: 'live', playing: 'playing', paused: 'paused', end: 'at the end' };
@@ -33,6 +33,7 @@ export class Status {
     this.lookAtState(now);
     this.lookAtNotice();
     this.lookAtFollowed();
+    this.lookAtCamera();
     this.tip();
   }
 
@@ -49,7 +50,9 @@ export class Status {
 
   lookAtNotice() {
     const { moment, newer, state, source, stage, timeLine, filled } = this.page;
-    const held = filled.holds ? moment.time - timeLine.span[0] : null;
+    const first = moment.hello.first_entity;
+    const early = timeLine.whole && newer?.picture.time < first - 0.02;
+    const held = early ? first - timeLine.span[0] : filled.holds ? moment.time - timeLine.span[0] : null;
     write('says', newer ? sentence(moment, stage.large, held) : '');
     const lost = state === 'lost';
     const nobody = !moment.count && !moment.hands.length && !moment.touch.solids.length && !(timeLine.whole && moment.roster.size);
@@ -76,6 +79,13 @@ export class Status {
     write('hearing', moment.followed === NONE ? all : `${own}${own && by !== undefined ? `, ${by} receive it` : ''}`);
   }
 
+  lookAtCamera() {
+    const { moment, stage } = this.page;
+    const lead = byId('lead');
+    lead.hidden = !moment.exercise || stage.large !== 'world';
+    lead.setAttribute('aria-pressed', String(stage.auto.on));
+  }
+
   tip() {
     const { moment, newer, stage, steering } = this.page;
     const { mouse } = steering;
@@ -84,7 +94,8 @@ export class Status {
     tip.hidden = slot < 0;
     if (slot < 0) return;
     const row = moment.roster.get(slot);
-    tip.textContent = [moment.name(slot), row?.id, row?.kind].filter(Boolean).map((text) => foreign(text, 40)).join(' · ');
+    const speed = moment.exercise ? speedText(moment.picture.speed(moment.picture.indexOf(slot))) : null;
+    tip.textContent = [moment.name(slot), row?.id, row?.kind, speed].filter(Boolean).map((text) => foreign(text, 40)).join(' · ');
     tip.style.transform = `translate(${mouse[0] + 14}px, ${mouse[1] + 14}px)`;
   }
 }

@@ -25,6 +25,8 @@ export function metres(x) {
   return size < 1000 ? `${digits(x)} m` : `${digits(x / 1e3)} km`;
 }
 
+export function speedText(x) { return `${x.toFixed(x < 9.95 ? 1 : 0)} m/s`; }
+
 export function clock(seconds) {
   if (!Number.isFinite(seconds)) return '–';
   const minutes = Math.floor(seconds / 60);
@@ -41,6 +43,18 @@ export function foreign(text, most = 80) {
 export function roundUp(x) {
   const power = 10 ** Math.floor(Math.log10(Math.max(x, 1e-9)));
   return power * [1, 2, 5, 10].find((step) => step * power >= x * 0.999999);
+}
+
+// The last of 1, 2, 5, 10, .. that is at most x.
+export function roundDown(x) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(x, 1e-9)));
+  return power * [5, 2, 1].find((step) => step * power <= x * 1.000001);
+}
+
+// "500 mm", "20 m", "5 km", of a round length.
+export function roundMetres(x) {
+  const [of, unit] = x < 1 ? [1e-3, 'mm'] : x < 1e3 ? [1, 'm'] : [1e3, 'km'];
+  return `${Number((x / of).toPrecision(3)).toLocaleString('en')} ${unit}`;
 }
 
 export function element(tag, className, text, ...children) {

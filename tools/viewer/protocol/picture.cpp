@@ -77,6 +77,8 @@ void write_entity(Writer& out, const EntityMark& entity) {
   out.vector(entity.error);
   out.u16(rounded_u16(100 * entity.rate));
   out.u16(rounded_u16(1000 * entity.jump));
+  out.f32(entity.speed);
+  out.f32(entity.age);
 }
 
 void write_hand(Writer& out, const HandMark& hand) {

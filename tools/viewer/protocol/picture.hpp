@@ -16,8 +16,8 @@
 
 namespace reckon::tools {
 
-inline constexpr std::uint32_t kPictureMagic = 0x32564B52;  ///< "RKV2": the version of the layout
-inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 56, kHandOctets = 72,
+inline constexpr std::uint32_t kPictureMagic = 0x33564B52;  ///< "RKV3": the version of the layout
+inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 64, kHandOctets = 72,
                              kContactOctets = 40, kToolOctets = 28 + 12 * 8, kBodyOctets = 20;
 inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
 /// Limit of rows of one kind in a picture; further ones are left out.
@@ -57,6 +57,8 @@ struct EntityMark {
   Eigen::Vector3f error = Eigen::Vector3f::Zero();                  ///< shown minus predicted
   double rate = 0;                                                  ///< updates a second
   double jump = 0;                                                  ///< of the last update [m]
+  float speed = 0;                                                  ///< predicted [m/s]
+  float age = 0;                                                    ///< of the last update [s]
 };
 
 /// A hand of this program.

@@ -27,7 +27,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page_driver import CHROMIUM, DRIVER, PATIENCE, ActionChains, Keys, browser, expect, program, shows_no_fault, skip
+from page_driver import PATIENCE, ActionChains, Keys, browser, expect, needs_browser, program, record, shows_no_fault, skip
 
 # Numbers of a picture have single precision, and a late step on a busy machine takes energy that the servo cannot
 # know in time [J].
@@ -135,13 +135,7 @@ def capture(reckon, scenes):
     marking = "</script><b"  # a marking has eleven letters
     with tempfile.TemporaryDirectory() as folder, resting_hands() as scene:
         heard, file = Path(folder) / f"{markup.replace('/', '%')}.pcapng", Path(folder) / "run.html"
-        speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--name", marking, "--for", "1min", "--json"],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            subprocess.run([reckon, "record", heard, scene, "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
-        finally:
-            speaker.terminate()
-            speaker.wait(PATIENCE)
+        record(reckon, scene, heard, "--name", marking)
         told = subprocess.run([reckon, "view", heard, "--save", file], check=True, capture_output=True, text=True).stderr
         expect(re.search(r"\d s, 1 entity, \d+ pictures", told), f"it says what is saved: {told}")
         with browser() as page:
@@ -343,7 +337,7 @@ def recording(reckon, scenes):
         page.press(" ")
         page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('from 0:00.0'))", "it begins anew, and says so")
         page.driver.execute_script("const slider = document.getElementById('slider'); slider.value = slider.min; slider.dispatchEvent(new Event('input'))")
-        page.wait(f"window.reckon.time < 0.1 && {there}", "somebody at the begin")
+        page.wait("window.reckon.time < 0.1 && window.reckon.entities > 0 && document.getElementById('notice').hidden", "somebody at the begin")
         shows_no_fault(page)
 
 
@@ -373,12 +367,7 @@ CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour
 
 def main(arguments, cases=CASES):
     name, reckon, scenes = arguments
-    for path in (CHROMIUM, DRIVER):
-        if not os.access(path, os.X_OK):
-            skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
-    told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
-    if "--view" not in told.stdout:
-        skip("this program serves no page")
+    needs_browser(reckon)
     cases[name](reckon, scenes)
     print(f"{name}: good")
 

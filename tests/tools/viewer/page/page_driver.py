@@ -32,6 +32,15 @@ except ImportError:
     skip("no python3-selenium: apt-get install chromium chromium-driver python3-selenium")
 
 
+def needs_browser(reckon):
+    for path in (CHROMIUM, DRIVER):
+        if not os.access(path, os.X_OK):
+            skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
+    told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
+    if "--view" not in told.stdout:
+        skip("this program serves no page")
+
+
 class Program:
     """`reckon` with a page; its address is the first one that it prints."""
 
@@ -67,6 +76,17 @@ def program(*arguments):
         yield started
     finally:
         started.end()
+
+
+def record(reckon, scene, file, *flags):
+    """Four seconds of the scene's first peer."""
+    speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", *flags, "--for", "1min", "--json"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        subprocess.run([reckon, "record", file, scene, "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
+    finally:
+        speaker.terminate()
+        speaker.wait(PATIENCE)
 
 
 @contextlib.contextmanager

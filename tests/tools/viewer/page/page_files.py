@@ -10,7 +10,7 @@
   bundle     imports and exports of the form that a saved page joins to one script, no name twice
   listed     each plot_*.js stands in plot_list.js, each drawn_*.js in drawn_list.js, by import and by row
   replaced   index.html has the places where a saved page puts its parts, each once
-  size       at most 700 kB, 200 kB compressed
+  size       at most 700 kB, 220 kB compressed
 """
 import gzip
 import hashlib
@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 MOST_OCTETS = 700_000
-MOST_COMPRESSED = 200_000
+MOST_COMPRESSED = 220_000
 LIBRARIES = "third_party/libraries.js"
 FORBIDDEN = {
     r"innerHTML|outerHTML|insertAdjacentHTML|document\.write": "text is written as markup",

@@ -35,6 +35,8 @@ PictureRows rows() {
   entity.error = {0.25F, 0, -0.25F};
   entity.rate = 12.34;
   entity.jump = 0.0123;
+  entity.speed = 13.5F;
+  entity.age = 0.75F;
   picture.hands.resize(1);
   picture.hands[0].index = 3;
   picture.hands[0].flags = kHandInContact;
@@ -58,7 +60,7 @@ PictureRows rows() {
 TEST(Picture, HasTheLengthOfItsCounts) {
   std::string octets;
   encode_picture(rows(), octets);
-  EXPECT_EQ(octets.size(), 32U + 2 * 56 + 72 + 40 + 124 + 20);
+  EXPECT_EQ(octets.size(), 32U + 2 * 64 + 72 + 40 + 124 + 20);
   encode_picture({}, octets);
   EXPECT_EQ(octets.size(), 32U);
 }
@@ -67,7 +69,7 @@ TEST(Picture, HasEachThingAtItsPlace) {
   std::string octets;
   encode_picture(rows(), octets);
   number_picture(octets, 99);
-  EXPECT_EQ(octets.substr(0, 4), "RKV2");
+  EXPECT_EQ(octets.substr(0, 4), "RKV3");
   EXPECT_EQ(at<std::uint32_t>(octets, 4), 99U);
   EXPECT_EQ(at<double>(octets, 8), 12.5);
   EXPECT_EQ(at<std::uint16_t>(octets, 16), 2);
@@ -75,7 +77,7 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<std::uint16_t>(octets, 20), 1);
   EXPECT_EQ(at<std::uint16_t>(octets, 22), 9);
   EXPECT_EQ(at<std::uint32_t>(octets, 24), 7U);
-  const std::size_t entity = 32 + 56;
+  const std::size_t entity = 32 + 64;
   EXPECT_EQ(at<std::uint16_t>(octets, entity), 300);
   EXPECT_EQ(octets[entity + 2], 2);
   EXPECT_EQ(octets[entity + 3], 4);
@@ -87,7 +89,9 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<float>(octets, entity + 48), -0.25F);
   EXPECT_EQ(at<std::uint16_t>(octets, entity + 52), 1234);
   EXPECT_EQ(at<std::uint16_t>(octets, entity + 54), 12);
-  const std::size_t hand = 32 + 2 * 56;
+  EXPECT_EQ(at<float>(octets, entity + 56), 13.5F);
+  EXPECT_EQ(at<float>(octets, entity + 60), 0.75F);
+  const std::size_t hand = 32 + 2 * 64;
   EXPECT_EQ(at<std::uint16_t>(octets, hand), 3);
   EXPECT_EQ(at<std::uint16_t>(octets, hand + 6), 6);
   EXPECT_EQ(at<float>(octets, hand + 68), 4.5F);
@@ -110,9 +114,9 @@ TEST(Picture, MarksAHandAsItsReadersOwn) {
   const PictureRows picture = rows();
   encode_picture(picture, octets);
   mark_own_hand(picture, 2, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 112 + 2), kHandInContact);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 2 * 64 + 2), kHandInContact);
   mark_own_hand(picture, 3, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 112 + 2), kHandInContact | kHandYours);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 2 * 64 + 2), kHandInContact | kHandYours);
 }
 
 TEST(Picture, ResolvesMillimetresSixThousandKilometresAway) {
@@ -124,7 +128,7 @@ TEST(Picture, ResolvesMillimetresSixThousandKilometresAway) {
   picture.entities[0].position.y() += 0.001;
   picture.contacts[0].point = picture.entities[0].position;
   encode_picture(picture, after);
-  for (const std::size_t place : {32U + 8 + 8, 32U + 2 * 56 + 72 + 4 + 8})
+  for (const std::size_t place : {32U + 8 + 8, 32U + 2 * 64 + 72 + 4 + 8})
     EXPECT_NEAR(at<double>(after, place) - at<double>(before, place), 0.001, 1e-8) << place;
 }
 
