@@ -63,7 +63,11 @@ class Beacons {
     ring.material.opacity = Math.max(0, 0.75 * (1 - age / PULSE));
     ring.scale.setScalar(Math.max(size, (0.2 + (0.8 * age) / PULSE) * reach));
     ring.position.set(x, y, z);
-    if (this.view.rectangle.width > 400) this.labels.put(this.view, x, y, z + 2.6 * size, foreign(name, 31), 'beacon', 8);
+    if (this.view.rectangle.width <= 400) return;
+    const text = foreign(name, 31);
+    const at = this.labels.put(this.view, x, y, z + 2.6 * size, text, 'beacon', 8);
+    const half = this.labels.widthOf(text) / 2 + 2; // bold
+    if (at) this.labels.take(at[0] - half, at[1] - 25, at[0] + half, at[1] - 6);
   }
 
   // Height of the lowest entity.

@@ -57,11 +57,12 @@ export class Labels {
     label.hidden = false;
   }
 
-  // `lift` and `aside` [pixels]: distance above the place and beside it.
+  // `lift` and `aside` [pixels]: distance above the place and beside it. Returns where the place is.
   put(view, x, y, z, text, className, lift = 0, aside = 0) {
     const at = this.placed(view, x, y, z);
-    if (!at || Math.abs(this.place.x) > 1 || Math.abs(this.place.y) > 1) return;
+    if (!at || Math.abs(this.place.x) > 1 || Math.abs(this.place.y) > 1) return null;
     this.write(at[0] + aside, at[1] - lift, text, className);
+    return at;
   }
 
   // The nearest of some places to the pointer, or -1 if all are farther than 60 pixels.

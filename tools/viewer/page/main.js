@@ -124,6 +124,7 @@ class Page {
       touch: () => {
         moment.touch = { solids: message.solids ?? [], regions: message.regions ?? [], hands: message.hands ?? [] };
         ++moment.touchNumber;
+        this.hand.offer(moment.touch.hands.length);
         moment.judge();
         this.choose();
       },

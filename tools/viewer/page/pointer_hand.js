@@ -26,7 +26,9 @@ export class PointerHand {
   }
 
   askOrGive() {
-    if (byId('push').hidden || this.button.hidden) {
+    if (!byId('push').hidden && !this.stale && this.button.hidden) {
+      this.say('Nothing here has a hand.');
+    } else if (byId('push').hidden || this.button.hidden) {
       this.say('This page can only watch: open the address that the program printed, with its word.');
     } else if (this.index === null) {
       this.tell('askHand');
@@ -40,9 +42,13 @@ export class PointerHand {
 
   // `stale`: this tab has the word of an earlier program.
   showStale(stale) {
-    this.button.hidden = stale;
+    this.stale = stale;
+    this.offer(0);
     this.text.textContent = stale ? 'The program was started anew, with a new word. To take a hand, open the address that it printed.' : '';
   }
+
+  // The number of hands of the world.
+  offer(hands) { this.button.hidden = this.stale || hands === 0; }
 
   answer({ index, text }) {
     this.index = Number.isInteger(index) ? index : null;

@@ -66,6 +66,13 @@ def shipped(reckon, scenes, _):
         page.size(1280, 800)
         for view in ("touch", "world"):
             is_seen(page, started, view, main=view)
+        with program(reckon, "demo", f"{scenes}/exercise.toml", "--view=0") as started:
+            page.open(started.address)
+            page.wait("window.reckon?.entities === 40 && window.reckon.boxes().length === 40", "40 entities")
+            time.sleep(2)
+            boxes_are_seen(page, "40 entities of three peers")
+            overlaps_nothing(page)
+            expect(page.ask("document.getElementById('hand').hidden"), "no hand is offered where there is none")
 
 
 def truck(reckon, scenes, _):
