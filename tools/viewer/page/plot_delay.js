@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Delay and loss between the program's own peers, if it has any; else at the page's listener.
 export const plotDelay = {
-  name: 'delay', title: 'One-way delay and loss', unit: 'ms', good: 'Touch stays stable at any delay, and with lost messages.',
+  name: 'delay', title: 'One-way delay and loss', unit: 'ms', good: 'Low and flat is good; touch stays stable at any delay.',
   lines: [
     { says: 'median at the peers', colour: 'hand-0', at: ({ numbers }) => numbers.peers?.delay_ms?.median },
     { says: '95 % below', colour: 'hand-2', at: ({ numbers }) => numbers.peers?.delay_ms?.p95 },

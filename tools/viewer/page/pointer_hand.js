@@ -48,7 +48,10 @@ export class PointerHand {
   }
 
   // The number of hands of the world.
-  offer(hands) { this.button.hidden = this.stale || hands === 0; }
+  offer(hands) {
+    this.button.hidden = this.stale || hands === 0;
+    this.button.parentElement.hidden = this.button.hidden && !this.stale;
+  }
 
   answer({ index, text }) {
     this.index = Number.isInteger(index) ? index : null;
