@@ -104,7 +104,7 @@ void RefusalWatch::look(std::span<const Touched> touched, RemoteEntities& remote
   const auto pusher = pushers_.take_news(now);
   if (!pusher) return;
   report(
-      make_notice(NoticeKind::presses, "{}:{} at {} presses a hand: see touch in the scene",
+      make_notice(NoticeKind::presses, "{}:{} at {} presses a hand; touch in the scene decides who may",
                   pusher->name.site, pusher->name.application, AddressText(pusher->speaker).view()),
       pusher->speaker, now);
 }

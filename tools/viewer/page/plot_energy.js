@@ -5,7 +5,7 @@ import { twinsOf } from './twins.js';
 // Twins exchange energy, so only their sum has to stay above zero. Beside it the sum of their hands
 // is shown, not each hand.
 export const plotEnergy = {
-  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Below its dashed loan a contact makes energy.',
+  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Good above the dashed line; below it a contact makes energy.',
   lines: [
     { brief: true, says: 'energy', colour: 'hand-0', at: ofHand(0, 'energy') },
     { brief: true, says: 'energy', colour: 'hand-1', at: ofHand(1, 'energy') },

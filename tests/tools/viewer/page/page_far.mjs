@@ -50,7 +50,7 @@ class World {
     this.orbit.goal.distance = 20;
     this.view = { orbit: this.orbit, rectangle: { width: 800, height: 600 }, extent: { centre: place, radius: 20 }, scale: 2, pixels: () => 10 };
     this.words = [];
-    const labels = { put: (view, x, y, z, text) => this.words.push([text, x - place[0], y - place[1], z - place[2]]) };
+    const labels = { widthOf: () => 0, take: () => {}, put: (view, x, y, z, text) => this.words.push([text, x - place[0], y - place[1], z - place[2]]) };
     this.things = DRAWN.filter(({ name, view }) => (view === 'world' && name !== 'ground') || name === 'floor').map((row) => {
       const group = new Group();
       const thing = row.make(group, this.view, labels);
