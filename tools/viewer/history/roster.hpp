@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/tools/listener/listener.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
 
