@@ -27,8 +27,7 @@ constexpr std::string_view kCutExamples =
     "reckon cut scenes/exercise.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type "
     "entity_state\n"
     "reckon cut scenes/exercise.pcapng foes.pcapng.zst --where 'side == opposing and domain == "
-    "land'\n"
-    "reckon cut scenes/exercise.pcapng --audio net.wav --entity 1:2:3 --where 'radio_number == 1'";
+    "land'";
 
 struct CutOptions {
   std::string in;
