@@ -56,6 +56,14 @@ TEST_F(DemoExercise, IsConstantInSimulatedTime) {
   EXPECT_THAT(said("", {"--simulated-time"}), Not(HasSubstr("DIS exercise")));
 }
 
+TEST_F(DemoExercise, ComparesEntitiesOfPeersWithoutHands) {
+  const std::string scene = test::source_dir() + "/scenes/exercise.toml";
+  const auto result = test::run_reckon({"demo", scene, "--for", "2s", "--json"});
+  if (result.status == exit_status(ExitCode::environment)) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(nlohmann::json::parse(result.out)["pose_error_m"]["p50"].is_number()) << result.out;
+}
+
 // Forty posts of the second peer within reach of the first one's hand: eight more than a servo
 // takes.
 TEST(DemoWalls, AreReportedInNoticesSummaryAndJson) {
