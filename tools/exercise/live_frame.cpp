@@ -8,7 +8,9 @@
 #include <array>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -20,15 +22,35 @@ using peer::PeerView;
 
 constexpr double kDegrees = 57.29577951308232;
 
+std::string thresholds_text(const deadreckon::Thresholds& thresholds) {
+  const bool is_small = thresholds.position < 0.1;
+  return fmt::format("thresholds {:.2g} {}, {:.2g} deg",
+                     (is_small ? 1e3 : 1.0) * thresholds.position, is_small ? "mm" : "m",
+                     thresholds.angle * kDegrees);
+}
+
+// Without hands: of the entities, if all have the same.
+std::vector<std::string> title_parts(const LivePicture& picture, double bar_end) {
+  const auto& scene = picture.scene;
+  std::vector<std::string> parts{fmt::format("{}  {:.1f} s", scene.name, picture.elapsed)};
+  const auto has_hands = [](const TablePeer& peer) { return !peer.view->own_hands().empty(); };
+  if (std::ranges::any_of(picture.peers, has_hands)) {
+    const auto& thresholds = scene.dead_reckoning.thresholds;
+    parts.push_back(fmt::format("{}, {:.2g} N", thresholds_text(thresholds), thresholds.force));
+    parts.push_back(fmt::format("bars to {:g} N", bar_end));
+    return parts;
+  }
+  std::set<std::string> all;
+  for (const peer::EntityConfig& entity : scene.entities)
+    all.insert(thresholds_text(entity.dead_reckoning.thresholds));
+  if (all.size() == 1) parts.push_back(*all.begin());
+  return parts;
+}
+
 }  // namespace
 
 std::string title_of(const LivePicture& picture, double bar_end, std::size_t columns) {
-  const auto& thresholds = picture.scene.dead_reckoning.thresholds;
-  const std::array<std::string, 3> parts{
-      fmt::format("{}  {:.1f} s", picture.scene.name, picture.elapsed),
-      fmt::format("thresholds {:.2g} mm, {:.2g} deg, {:.2g} N", 1e3 * thresholds.position,
-                  thresholds.angle * kDegrees, thresholds.force),
-      fmt::format("bars to {:g} N", bar_end)};
+  const std::vector<std::string> parts = title_parts(picture, bar_end);
   std::string title = parts.front();
   for (const std::string& part : std::span(parts).subspan(1))
     if (text_width(title) + part.size() + 3 <= columns) title += "   " + part;

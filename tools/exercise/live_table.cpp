@@ -305,17 +305,16 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
   std::vector<ScreenLine> out{
       {title_of(picture, bar_end(picture), size.columns), LineStyle::title}};
   if (size.rows >= kRowsForKeys) append_head(picture.head, size.columns, out);
-  const std::string softer = softer_text(picture);
-  if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});
-
   std::vector<const PeerView*> views;
   for (const TablePeer& peer : picture.peers) views.push_back(peer.view);
+  const auto add = [&](const std::string& sentence, LineStyle style) {
+    if (size.rows < kRowsForNotices || sentence.empty()) return;
+    for (std::string& line : wrap(sentence, size.columns)) out.push_back({std::move(line), style});
+  };
+  add(softer_text(picture), LineStyle::bad);
   const std::string leaders = leaders_text(views);
-  if (size.rows >= kRowsForNotices && !leaders.empty())
-    out.push_back({"leaders: " + leaders, LineStyle::faint});
-
-  const std::string bodies = bodies_text(picture);
-  if (size.rows >= kRowsForNotices && !bodies.empty()) out.push_back({bodies, LineStyle::faint});
+  add(leaders.empty() ? leaders : "leaders: " + leaders, LineStyle::faint);
+  add(bodies_text(picture), LineStyle::faint);
 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)
