@@ -276,7 +276,6 @@ void Exercise::collect(bool all) {
   collect_bodies();
   collect_stages();
   if (!options_.measure) return;
-  // Each step of a hand shows all others; without hands, each pass of a model loop.
   std::size_t most_shown = hands_.empty() ? most_steps(std::chrono::milliseconds(1)) : 0;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const std::size_t most = all ? kTraceSteps : most_steps(hands_[i].period);
