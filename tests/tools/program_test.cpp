@@ -214,6 +214,11 @@ TEST(Program, CompletesValuesOfFlagsAndInterfaces) {
   }
 }
 
+TEST(Program, CompletesTypesOfPdusForFields) {
+  EXPECT_THAT(run_reckon({"completion", "bash"}).out,
+              testing::ContainsRegex("inspect:--fields[^\n]*entity_state_update"));
+}
+
 TEST(Program, NeedsToKnowForWhichShell) {
   EXPECT_EQ(run_reckon({"completion"}).status, 2);
   EXPECT_EQ(run_reckon({"completion", "tcsh"}).status, 2);

@@ -92,5 +92,7 @@ class Filter {
 /// The fields of one PDU type in the field tables, one per line, named as in --full.
 /// @throws UsageError for a word that is no PDU type.
 [[nodiscard]] std::string table_fields_text(std::string_view type);
+/// The types that table_fields_text() takes: "entity_state fire ", a space after each.
+[[nodiscard]] std::string types_with_fields();
 
 }  // namespace reckon::tools

@@ -209,6 +209,15 @@ std::string filter_fields_text() {
          "as\nfrequency, munition_type.kind or beams[0].beam_function; --fields TYPE lists them.";
 }
 
+std::string types_with_fields() {
+  std::string words;
+  for (unsigned number = 0; number < 256; ++number) {
+    const auto type = static_cast<pdu::PduType>(number);
+    if (pdu::is_listed(type)) words.append(pdu::snake_name(type)).append(" ");
+  }
+  return words;
+}
+
 std::string table_fields_text(std::string_view type) {
   std::vector<std::string_view> types;
   for (unsigned number = 0; number < 256; ++number) {

@@ -353,6 +353,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   for (const FilterField& field : filter_fields()) fields.append(field.name).append(" ");
   line.offer("--where", fields);
   line.option("--fields", options.fields, "list the fields of this PDU type for --where, and exit");
+  line.offer("--fields", types_with_fields());
   line.option("--from", options.from,
               "recordings: start here: 90s after the first datagram, 14:03:20 (UTC) or "
               "2026-11-26T14:03:20Z");

@@ -47,6 +47,7 @@ export class Tour {
     byId('tour-next').addEventListener('click', () => this.next());
     byId('tour-leave').addEventListener('click', () => this.leave());
     byId('tour-again').addEventListener('click', () => this.begin());
+    addEventListener('resize', () => { if (this.step !== null) this.point(); });
   }
 
   // Whether there is a demo with a hand to take.
@@ -89,7 +90,7 @@ export class Tour {
   }
 
   show(step) {
-    const { title, text, at } = STEPS[step];
+    const { title, text } = STEPS[step];
     this.step = step;
     this.doneAt = null;
     this.host.hidden = false;
@@ -100,6 +101,12 @@ export class Tour {
     const last = step === STEPS.length - 1;
     byId('tour-next').textContent = last ? 'Done' : 'Next';
     byId('tour-leave').hidden = last;
+    this.point();
+  }
+
+  // Outlines what the step is about, and scrolls to it where the page is narrow.
+  point() {
+    const { at } = STEPS[this.step];
     this.outline(at && byId(at));
   }
 

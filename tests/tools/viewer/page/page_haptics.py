@@ -146,7 +146,9 @@ def holds_and_pauses(page):
     run(page, "window.dispatchEvent(new Event('blur'))")
     quiet(page, PLAYED, "no rumble in a page without the focus")
     expect(page.ask("window.holds === 0 && 'reset' in window.rumbles.at(-1)"), "it releases the hand and stops the motors")
+    page.wait(f"{MINE}.newtons < 0.5", "the other hand pushes it away")
     press_by_sticks(page)
+    page.wait("window.holds === 1", "the sticks hold it again")
 
 
 def pulls_out(page):
