@@ -92,7 +92,7 @@ def plain(program):
         said = terminal.expect_end(drawn=False)
         assert b"\x1b" not in said, said
         assert b"8 peers: each sees 7 others" in said and b"peers cost" in said, said
-        assert said.count(b"\n") < 30, said
+        assert said.count(b"\n") < 60, said  # a busy host adds notices; a screen would be hundreds of lines
         assert terminal.process.returncode == 0
 
 
