@@ -110,4 +110,6 @@ if __name__ == "__main__":
         lines = list(complaints())
         print(*lines, sep="\n")
         sys.exit(1 if lines else 0)
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
     sys.exit(main(pathlib.Path(sys.argv[1]), *map(int, sys.argv[2:3]), *sys.argv[3:4]))
