@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The last decided act, and the next one as far as this peer has accepted it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "reckon/peer/ownership/act.hpp"
+
+namespace reckon::peer {
+
+/// A voter's part in the decision on the next act: Paxos, with both phases in one message. A
+/// proposal states the highest ballot that its proposer knows to be accepted, and has that ballot's
+/// content. A voter that has accepted a higher ballot refuses, and returns it. So two proposals of
+/// one number that a majority accepts have the same content. One thread; no allocation.
+class ActBook {
+ public:
+  [[nodiscard]] bool exists() const noexcept { return decided_.number > 0; }
+  /// Number 0 if there is none.
+  [[nodiscard]] const Act& decided() const noexcept { return decided_; }
+  /// The accepted next act; null if there is none, or it is decided.
+  [[nodiscard]] const Act* pending() const noexcept { return pending_ ? &*pending_ : nullptr; }
+  /// Ballot of the accepted next act.
+  [[nodiscard]] const Ballot& accepted() const noexcept { return accepted_; }
+  /// The highest ballot that this peer has answered or received for the next act.
+  [[nodiscard]] const Ballot& promised() const noexcept { return promised_; }
+  [[nodiscard]] std::chrono::nanoseconds pending_since() const noexcept { return since_; }
+
+  /// The accepted next act, or the decided one.
+  [[nodiscard]] const Act& newest() const noexcept { return pending_ ? *pending_ : decided_; }
+  /// Its hash.
+  [[nodiscard]] std::uint32_t hash() const noexcept { return hash_; }
+
+  /// Whether a proposal of the next act may be accepted, as far as ballots decide.
+  [[nodiscard]] bool may_accept(const Act& act, const Ballot& ballot,
+                                const Ballot& seen) const noexcept;
+  void accept(const Act& act, const Ballot& ballot, std::chrono::nanoseconds now) noexcept;
+  /// Skips attempts up to this one in our own next ballot.
+  void note_ballot(const Ballot& ballot) noexcept;
+  /// A decided act. False if it is not newer than ours.
+  bool decide(const Act& act) noexcept;
+  void clear() noexcept { *this = {}; }
+
+ private:
+  Act decided_;
+  std::optional<Act> pending_;
+  Ballot accepted_, promised_;
+  std::uint32_t hash_ = 0;
+  std::chrono::nanoseconds since_{0};
+};
+
+}  // namespace reckon::peer

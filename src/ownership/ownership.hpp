@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who owns which object: one peer's part of the protocol. Pure code: messages and the time go in,
+// messages and events come out.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/peer/ownership/chair.hpp"
+#include "reckon/peer/ownership/hand_overs.hpp"
+#include "reckon/peer/ownership/ownership_core.hpp"
+
+namespace reckon::peer {
+
+/// At most one peer of a world owns an object at any instant, whatever the network does.
+///
+/// An owner acts while a majority of the voters has received it in the last 2 s (LeaseBook), and
+/// gives objects away by itself (HandOvers). A majority removes a voter that it has not received
+/// for 3 s, and gives its objects to the chair (Chair, ActBook). Peers fail by stopping for ever: a
+/// restarted process is a new peer. Peers without a majority keep their objects at rest until a
+/// majority returns, or until go_alone().
+///
+/// One thread. Allocates nothing after its first messages. Some us for a message.
+class Ownership {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+  /// Time between two calls of step() after which this peer has slept.
+  static constexpr Nanoseconds kSlept = std::chrono::milliseconds(500);
+
+  /// @param user outlives this
+  Ownership(const OwnershipConfig& config, OwnershipUser& user)
+      : core_(config, user), hand_overs_(core_), chair_(core_) {}
+  Ownership(const Ownership&) = delete;
+  Ownership& operator=(const Ownership&) = delete;
+
+  /// @param from epoch of a live peer of this scene, as proved by its address or seal
+  void receive(std::uint32_t from, const OwnershipMessage& message, Nanoseconds now);
+  void step(Nanoseconds now);
+  /// Messages to send now; valid until the next call of a function that is not const.
+  [[nodiscard]] std::span<const OutgoingMessage> outgoing() const noexcept { return core_.out; }
+  void clear_outgoing() noexcept { core_.out.clear(); }
+  [[nodiscard]] std::span<const OwnershipEvent> events() const noexcept { return core_.events; }
+  void clear_events() noexcept { core_.events.clear(); }
+
+  /// Wants the object, until withdraw(). The owner grants it when nothing holds it there.
+  void ask(std::size_t object) noexcept { hand_overs_.ask(object); }
+  void withdraw(std::size_t object) { hand_overs_.withdraw(object); }
+  /// Answers OwnershipEvent::Kind::yield.
+  void yielded(std::uint32_t transaction, Nanoseconds now) {
+    hand_overs_.yielded(transaction, now);
+  }
+  /// Gives all objects to another voter. Call step() until has_left(), at most a second.
+  void leave() noexcept { core_.is_leaving = true; }
+  [[nodiscard]] bool has_left() const noexcept;
+  /// Goes on without the other voters, by the user's word: founds a world and owns all objects.
+  /// @param utc [s] since 1970
+  void go_alone(std::uint32_t utc, Nanoseconds now);
+
+  /// Whether this peer may move the object now.
+  [[nodiscard]] bool owns(std::size_t object, Nanoseconds now) const noexcept;
+  /// Owner and version as known here.
+  [[nodiscard]] const Tenure& tenure(std::size_t object) const noexcept {
+    return core_.table[object];
+  }
+  /// Whether a majority receives this peer.
+  [[nodiscard]] bool has_lease(Nanoseconds now) const noexcept { return core_.has_lease(now); }
+  /// Whether this peer votes in the last decided act.
+  [[nodiscard]] bool is_voter() const noexcept {
+    return core_.acts.decided().roll.contains(core_.config.epoch);
+  }
+  [[nodiscard]] const WorldId& world() const noexcept { return core_.world; }
+  [[nodiscard]] const ActBook& acts() const noexcept { return core_.acts; }
+  [[nodiscard]] const TenureTable& table() const noexcept { return core_.table; }
+  [[nodiscard]] const OwnershipCounts& counts() const noexcept { return core_.counts; }
+
+ private:
+  void receive(const Round& round, std::uint32_t from, Nanoseconds now);
+  void receive(const Proposal& proposal, std::uint32_t from, Nanoseconds now);
+  void receive(const Vote& vote, std::uint32_t from, Nanoseconds now);
+  [[nodiscard]] bool is_of_world(const WorldId& world, const Round* round, std::uint32_t from,
+                                 Nanoseconds now);
+  void merge(const WorldId& older);
+  void found_if_due(Nanoseconds now);
+  void note_round(const Round& round, std::uint32_t from, Nanoseconds now);
+  void compare_tables(const Round& round, std::uint32_t from, Nanoseconds now);
+  void send_table(Nanoseconds now);
+  void send_decided(std::uint32_t to, Nanoseconds now);
+  [[nodiscard]] bool accepts(const Proposal& proposal, Nanoseconds now);
+  [[nodiscard]] bool accepts_removals(const Act& act, Nanoseconds now) const;
+  [[nodiscard]] bool accepts_gifts(const Proposal& proposal, Nanoseconds now);
+  void decide(const Act& act, Nanoseconds now);
+  void send_round(Nanoseconds now);
+  [[nodiscard]] std::uint32_t yields_to(Nanoseconds now) noexcept;
+  [[nodiscard]] bool is_active(Nanoseconds now) const;
+  void note_threat(const Act& act, Nanoseconds now) noexcept;
+  void comply(Nanoseconds now);
+  void propose(Nanoseconds now);
+
+  /// Proposed acts of one number that remove this peer or take its objects.
+  struct Threat {
+    std::uint32_t act = 0;
+    Nanoseconds since{0}, seen{0};
+    bool removes = false;
+    ObjectSet takes;
+  };
+  static constexpr Nanoseconds kNever = Nanoseconds::min() / 4;
+
+  OwnershipCore core_;
+  HandOvers hand_overs_;
+  Chair chair_;
+  Nanoseconds started_ = kNever, stepped_ = kNever;
+  Nanoseconds joined_ = kNever;          // when we began to follow a world
+  Nanoseconds round_at_ = kNever;        // our last round
+  Nanoseconds active_at_ = kNever;       // last round of an active peer
+  Nanoseconds old_lease_ = kNever;       // end of the lease when the pending act was accepted
+  Nanoseconds decided_sent_ = kNever;
+  Nanoseconds table_sent_ = kNever, differs_since_ = kNever, differed_ = kNever;
+  Threat threat_;
+  std::array<std::uint32_t, Roll::kMost> tables_{};  // hashes of the voters' tables
+  bool complies_ = false, agrees_ = false;
+};
+
+}  // namespace reckon::peer
