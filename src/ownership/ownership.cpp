@@ -14,6 +14,7 @@ constexpr nanoseconds kSlowRound = milliseconds(500);
 constexpr nanoseconds kFound = milliseconds(1200);      // without an older peer
 constexpr nanoseconds kActive = milliseconds(1000);     // after the last active round
 constexpr nanoseconds kQuietVoter = milliseconds(1200); // then rounds are fast
+constexpr nanoseconds kShortLease = milliseconds(1300);  // then rounds are fast
 constexpr nanoseconds kDecidedGap = milliseconds(30);
 constexpr nanoseconds kTableGap = milliseconds(150), kDiffers = milliseconds(100);
 constexpr nanoseconds kThreat = milliseconds(1000);
@@ -181,6 +182,7 @@ std::uint32_t Ownership::yields_to(nanoseconds now) noexcept {
 bool Ownership::is_active(nanoseconds now) const {
   if (core_.user.is_any_awake() || hand_overs_.is_busy()) return true;
   if (core_.acts.pending() != nullptr || core_.is_leaving) return true;
+  if (hand_overs_.held().any() && core_.lease_end(now) - now < kShortLease) return true;
   return std::ranges::any_of(core_.acts.decided().roll.voters(), [&](const Voter& voter) {
     return voter.epoch != core_.config.epoch &&
            now - core_.leases.silent_since(voter.epoch) > kQuietVoter;
@@ -229,14 +231,18 @@ bool Ownership::accepts_removals(const Act& act, nanoseconds now) const {
   return act.chair == last.chair || act.removes(last.chair);
 }
 
-// An object is given only if its owner is removed or has released it, and if this peer knows of no
+// An object is given only if its owner is removed or silent, or has released it, and if this peer knows of no
 // newer owner than the proposer.
 bool Ownership::accepts_gifts(const Proposal& proposal, nanoseconds now) {
   const Act& act = proposal.act;
   if (act.given.none()) return true;
   if (now - core_.leases.restarted() < LeaseBook::kDead) return false;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (act.given[i] && act.roll.contains(core_.table[i].owner)) return false;
+    if (!act.given[i]) continue;
+    const std::uint32_t owner = core_.table[i].owner;
+    const bool is_silent = owner != core_.config.epoch &&
+                           now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
+    if (act.roll.contains(owner) && !is_silent) return false;
   }
   if (core_.table.digest(act.given) == proposal.digest) return true;
   if (now - table_sent_ >= kTableGap / 3) send_table(now);

@@ -11,7 +11,8 @@ namespace {
 
 std::uint64_t bits_of(std::size_t object, const Tenure& tenure) noexcept {
   if (tenure == Tenure{}) return 0;
-  return pdu::split_mix(pdu::split_mix(tenure.version + object) ^ tenure.owner);
+  return pdu::split_mix(pdu::split_mix(tenure.version) ^
+                        (std::uint64_t{tenure.owner} << 32 | object));
 }
 
 }  // namespace

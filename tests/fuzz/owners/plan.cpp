@@ -19,7 +19,7 @@ Line line_of(Dice& dice) {
   Line line;
   line.loss = std::min(0.4, 0.6 * dice.unit() * dice.unit());
   line.doubled = dice.chance(0.5) ? 0.1 * dice.unit() : 0.0;
-  line.late = dice.chance(0.3) ? 0.02 * dice.unit() : 0.0;
+  line.late = dice.chance(0.5) ? 0.1 * dice.unit() : 0.0;
   const double least = 0.05 * dice.unit() * dice.unit();
   line.least = pdu::from_seconds(0.0001 + least);
   line.most = line.least + pdu::from_seconds(0.15 * dice.unit() * dice.unit());
@@ -49,12 +49,12 @@ void add_touches(Plan& plan, Dice& dice) {
 }
 
 void add_faults(Plan& plan, Dice& dice) {
-  const std::size_t count = dice.below(5);
+  const std::size_t count = dice.below(6);
   for (std::size_t i = 0; i < count; ++i) {
     Fault fault;
-    fault.kind = static_cast<FaultKind>(dice.below(6));
+    fault.kind = static_cast<FaultKind>(dice.below(kFaultKinds));
     fault.at = kWarmUp + dice.between(seconds(1), seconds(15));
-    fault.until = std::min(kHealed, fault.at + dice.between(milliseconds(200), seconds(7)));
+    fault.until = std::min(kHealed, fault.at + dice.between(milliseconds(200), seconds(8)));
     fault.peer = dice.below(plan.peers);
     fault.other = dice.below(plan.peers);
     fault.side = 1 + static_cast<std::uint32_t>(dice.below((std::size_t{1} << plan.peers) - 2));
@@ -69,7 +69,7 @@ Plan plan_of(std::uint64_t seed) {
   Dice dice(mixed(seed, 77));
   Plan plan;
   plan.seed = seed;
-  plan.peers = 2 + dice.below(5);
+  plan.peers = 2 + dice.below(6);
   plan.objects = dice.chance(0.05) ? 20 + dice.below(45) : 1 + dice.below(4);
   plan.island = dice.chance(0.3) ? 1 + dice.below(plan.objects) : 1;
   const std::size_t hosts = dice.chance(0.3) ? 1 + dice.below(plan.peers) : plan.peers;
@@ -100,7 +100,7 @@ std::string text_of(const Plan& plan) {
 
 std::string text_of(const Fault& fault) {
   static constexpr const char* kNames[] = {"crash",     "restart", "pause",
-                                           "partition", "one-way cut", "leave"};
+                                           "partition", "one-way cut", "leave",   "deaf",      "choke"};
   return fmt::format("{} at {:.2f} s until {:.2f} s: peer {}, other {}, side {:b}",
                      kNames[static_cast<std::size_t>(fault.kind)], pdu::to_seconds(fault.at),
                      pdu::to_seconds(fault.until), fault.peer, fault.other, fault.side);

@@ -26,7 +26,17 @@ struct Line {
   friend bool operator==(const Line&, const Line&) = default;
 };
 
-enum class FaultKind : std::uint8_t { crash, restart, pause, partition, one_way, leave };
+enum class FaultKind : std::uint8_t {
+  crash,
+  restart,
+  pause,
+  partition,
+  one_way,  ///< from `peer` to `other`
+  leave,
+  deaf,   ///< nothing arrives at the peer
+  choke,  ///< only rounds pass between the peer and others, as through a path with a small MTU
+};
+inline constexpr std::size_t kFaultKinds = 8;
 
 struct Fault {
   FaultKind kind = FaultKind::crash;

@@ -51,7 +51,7 @@ class Trial {
       owners_.emplace_back(plan, i);
       owners_.back().begin(static_cast<std::uint32_t>(i));
     }
-    outcome_.is_calm = plan.faults.empty();
+    outcome_.is_calm = plan.faults.empty() && plan.line.late == 0.0;
     loss_ = plan.line.loss;
   }
 
@@ -113,7 +113,8 @@ class Trial {
   }
   void happen(const Yielded& yielded) {
     SimulatedOwner& owner = owners_[yielded.peer];
-    if (!owner.runs() || owner.epoch() != yielded.epoch) return;
+    if (!owner.is_up() || owner.epoch() != yielded.epoch) return;
+    if (!owner.runs()) return agenda_.add(now_ + milliseconds(10), yielded);
     owner.protocol().yielded(yielded.transaction, now_);
     flush(yielded.peer);
   }
@@ -148,6 +149,8 @@ class Trial {
         return;
       case FaultKind::partition:
       case FaultKind::one_way:
+      case FaultKind::deaf:
+      case FaultKind::choke:
         if (change.begins) return cuts_.push_back(fault);
         std::erase_if(cuts_, [&](const Fault& cut) { return cut.at == fault.at; });
     }
@@ -170,7 +173,8 @@ class Trial {
           return owner.epoch() == voter.epoch && owner.runs();
         });
       };
-      if (!owners_[i].runs() || !acts.exists() || roll.is_majority(lives)) continue;
+      const bool has_majority = roll.is_majority(lives) && acts.newest().roll.is_majority(lives);
+      if (!owners_[i].runs() || !acts.exists() || has_majority) continue;
       const auto first = std::ranges::find_if(roll.voters(), lives);
       if (first != roll.voters().end() && first->epoch != owners_[i].epoch()) continue;
       note(fmt::format("peer {} goes alone", i));
@@ -185,9 +189,12 @@ class Trial {
     }
   }
 
-  [[nodiscard]] bool is_cut(std::size_t from, std::size_t to) const {
+  [[nodiscard]] bool is_cut(std::size_t from, std::size_t to, bool is_round) const {
     return std::ranges::any_of(cuts_, [&](const Fault& cut) {
       if (cut.kind == FaultKind::one_way) return cut.peer == from && cut.other == to;
+      if (cut.kind == FaultKind::deaf) return cut.peer == to;
+      if (cut.kind == FaultKind::choke)
+        return !is_round && (cut.peer == from || cut.peer == to);
       return ((cut.side >> from ^ cut.side >> to) & 1U) != 0;
     });
   }
@@ -211,7 +218,8 @@ class Trial {
     owner.protocol().clear_outgoing();
   }
   void carry(std::size_t from, std::size_t to) {
-    if (is_cut(from, to)) return;
+    const bool is_round = std::holds_alternative<peer::Round>(store_.back());
+    if (is_cut(from, to, is_round)) return;
     const int copies = dice_.chance(plan_.line.doubled) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (dice_.chance(loss_)) continue;

@@ -51,7 +51,7 @@ class Watch {
   };
   void find(int invariant, Nanoseconds now, std::string sentence);
   void look_at(std::size_t object, Nanoseconds now);
-  [[nodiscard]] bool is_calm() const { return plan_.faults.empty(); }
+  [[nodiscard]] bool is_calm() const { return plan_.faults.empty() && plan_.line.late == 0.0; }
 
   const Plan& plan_;
   std::span<const SimulatedOwner> owners_;

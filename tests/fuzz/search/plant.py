@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plants faults in copies of sources of aoim, one at a time. The simulation of peers, or of leaders, must find each
+"""Plants faults in copies of sources, one at a time. The simulation of peers, of leaders or of owners must find each
 one. This is `./run fuzz peers --plant`. The faults are in plants.py of each simulation.
 
   plant.py BUILD [SEEDS [TARGET]]  builds in BUILD/plants on BUILD/release, prints a table; status 1 if a fault was not found
@@ -17,10 +17,12 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from leaders.plants import PLANTS as PLANTS_OF_LEADERS  # noqa: E402
+from owners.plants import PLANTS as PLANTS_OF_OWNERS  # noqa: E402
 from peers.plants import PLANTS as PLANTS_OF_PEERS  # noqa: E402
 
-PEERS, LEADERS = "peers", "leaders"
-PLANTS = {PEERS: PLANTS_OF_PEERS, LEADERS: PLANTS_OF_LEADERS}
+PEERS, LEADERS, OWNERS = "peers", "leaders", "owners"
+PLANTS = {PEERS: PLANTS_OF_PEERS, LEADERS: PLANTS_OF_LEADERS, OWNERS: PLANTS_OF_OWNERS}
+FOLDERS = {PEERS: "aoim", LEADERS: "aoim", OWNERS: "src/ownership"}
 ROOT = HERE.parents[2]
 FLAGS = ["-std=c++20", "-O1", "-DNDEBUG", "-ffp-contract=off"]
 SEEDS = 10_000
@@ -28,14 +30,32 @@ SEEDS = 10_000
 
 def complaints():
     """A line for each plant that cannot be applied."""
-    for name, file, old, new in PLANTS[PEERS] + PLANTS[LEADERS]:
-        count = (ROOT / "aoim" / file).read_text(encoding="utf-8").count(old)
-        if count != 1 or old == new:
-            yield f"{name}: aoim/{file} has {count} of what it replaces: {old.splitlines()[0].strip()}"
+    for target, plants in PLANTS.items():
+        folder = FOLDERS[target]
+        for name, file, old, new in plants:
+            count = (ROOT / folder / file).read_text(encoding="utf-8").count(old)
+            if count != 1 or old == new:
+                yield f"{name}: {folder}/{file} has {count} of what it replaces: {old.splitlines()[0].strip()}"
 
 
 def program_of(target, release):
     return release / "tests/fuzz" / target / f"{target}_simulation"
+
+
+def united_with(file, faulty, release):
+    """The united source of all files of aoim that are compiled together with this one, with the faulty copy."""
+    line = f'#include "reckon/aoim/{file}"\n'
+    united = next(text for unit in (release / "aoim/united/reckon_aoim").glob("*.cpp")
+                  if line in (text := unit.read_text(encoding="utf-8")))
+    return united.replace(line, f'#include "{faulty}"\n')
+
+
+def room_with(file, text, folder):
+    """A source of all files of the room of ownership, in a copy of the room that the includes find first."""
+    room = folder.resolve() / "include/reckon/peer/ownership"
+    shutil.copytree(ROOT / FOLDERS[OWNERS], room)
+    (room / file).write_text(text, encoding="utf-8")
+    return "".join(f'#include "{path}"\n' for path in sorted(room.glob("*.cpp")))
 
 
 def planted_program(plant, target, folder, release):
@@ -44,18 +64,17 @@ def planted_program(plant, target, folder, release):
     _, file, old, new = plant
     folder.mkdir(parents=True)
     faulty = folder / pathlib.Path(file).name
-    faulty.write_text((ROOT / "aoim" / file).read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
-    line = f'#include "reckon/aoim/{file}"\n'
-    united = next(text for unit in (release / "aoim/united/reckon_aoim").glob("*.cpp")
-                  if line in (text := unit.read_text(encoding="utf-8")))
+    text = (ROOT / FOLDERS[target] / file).read_text(encoding="utf-8").replace(old, new)
+    faulty.write_text(text, encoding="utf-8")
     unit = folder / "unit.cpp"
-    unit.write_text(united.replace(line, f'#include "{faulty}"\n'), encoding="utf-8")
+    unit.write_text(room_with(file, text, folder) if target == OWNERS else united_with(file, faulty, release),
+                    encoding="utf-8")
     compiler = os.environ.get("CXX", "c++")
     main = release / f"tests/fuzz/{target}/CMakeFiles/{target}_simulation.dir/simulate.cpp.o"
     libraries = [release / f"tests/fuzz/{target}/libreckon_{target}.a",
                  release / "aoim/libreckon_aoim.a", release / "pdu/libreckon_pdu.a"]
     program = folder / "simulation"
-    command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", unit, main, *libraries, "-lfmt", "-o",
+    command = ["nice", compiler, *FLAGS, f"-I{folder / 'include'}", f"-I{release / 'include'}", unit, main, *libraries, "-lfmt", "-o",
                program]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     if done.returncode != 0:
