@@ -16,7 +16,6 @@ constexpr nanoseconds kLeastLease = milliseconds(200);  // remainder that an own
 constexpr nanoseconds kFreshRound = milliseconds(1000);
 // Time that an unconfirmed owner loses, for clocks of different rates.
 constexpr nanoseconds kMargin = milliseconds(100);
-constexpr std::size_t kPart = 10;  // objects of a part, with their states
 
 // Repeats come after 3, 6, 12 .. 192 ms, and then every 200 ms.
 nanoseconds wait_after(std::size_t sent) noexcept {
@@ -314,12 +313,14 @@ void HandOvers::send_grant(const Outgoing& grant) {
   part.objects = grant.objects;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!grant.objects[i]) continue;
-    part.part.add(i, {core_.table[i].version + 1, grant.to});
-    if (part.part.count < kPart) continue;
+    part.part[part.count] = {static_cast<std::uint16_t>(i),
+                             {core_.table[i].version + 1, grant.to}};
+    part.states[part.count++] = rows_[i].state;
+    if (part.count < part.part.size()) continue;
     core_.send(0, part);
-    part.part = {};
+    part.count = 0;
   }
-  if (part.part.count > 0) core_.send(0, part);
+  if (part.count > 0) core_.send(0, part);
 }
 
 void HandOvers::receive(const Refusal& refusal, std::uint32_t from) {

@@ -31,7 +31,14 @@ class HandOvers {
   /// Wants the object until withdraw().
   void ask(std::size_t object) noexcept { rows_[object].wanted = true; }
   void withdraw(std::size_t object);
-  /// The objects of a yield are at rest here: the grant is sent.
+  /// The state in which the object was granted to us, or in which we grant it.
+  [[nodiscard]] const ObjectState& state(std::size_t object) const noexcept {
+    return rows_[object].state;
+  }
+  void set_state(std::size_t object, const ObjectState& state) noexcept {
+    rows_[object].state = state;
+  }
+  /// The objects of a yield are at rest here, and their states are set: the grant is sent.
   void yielded(std::uint32_t transaction, Nanoseconds now);
 
   void receive(const Request& request, std::uint32_t from, Nanoseconds now);
@@ -86,6 +93,7 @@ class HandOvers {
     Nanoseconds ask_at{0};                  // next request
     std::size_t asks = 0;
     std::array<Asker, kAskers> askers{};  // oldest first
+    ObjectState state;
   };
   struct Outgoing {
     std::uint32_t transaction = 0;  // 0: none

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -96,7 +97,18 @@ struct Request {
   bool withdraws = false;
 };
 
-/// Objects that change owner together. Each part names all of them and has the tenures of some.
+/// Pose and motion of an object at an instant.
+struct ObjectState {
+  std::chrono::nanoseconds utc{0};
+  std::array<double, 3> position{};                ///< [m], S
+  std::array<double, 4> orientation{1, 0, 0, 0};   ///< w, x, y, z: from the object's axes to S
+  std::array<double, 3> velocity{}, turn_rate{};   ///< [m/s], [rad/s], S
+};
+
+/// Most objects of one part of a grant.
+inline constexpr std::size_t kMostGranted = 8;
+
+/// Objects that change owner together. Each part names all of them and has some.
 struct Grant {
   WorldId world;
   std::uint32_t transaction = 0;
@@ -104,7 +116,13 @@ struct Grant {
   std::uint8_t round = 0;      ///< last round of the new owner that the sender received
   std::uint32_t lease_ms = 0;  ///< remainder of the sender's lease, rounded down
   ObjectSet objects;
-  Holdings part;  ///< with the new version
+  std::size_t count = 0;
+  std::array<Holding, kMostGranted> part{};  ///< with the new version
+  std::array<ObjectState, kMostGranted> states{};
+
+  [[nodiscard]] std::span<const Holding> holdings() const noexcept {
+    return std::span(part).first(count);
+  }
 };
 
 /// The new owner does not take the objects.

@@ -27,7 +27,9 @@ void Ownership::receive(std::uint32_t from, const OwnershipMessage& message, nan
   if (from == 0 || from == core_.config.epoch) return;
   const WorldId world = std::visit([](const auto& sent) { return sent.world; }, message);
   const Round* round = std::get_if<Round>(&message);
-  if (!is_of_world(world, round, from, now)) return;
+  // An Acknowledge PDU names no world.
+  const bool is_refusal = std::holds_alternative<Refusal>(message);
+  if (!is_refusal && !is_of_world(world, round, from, now)) return;
   std::visit(
       [&](const auto& sent) {
         using Message = std::decay_t<decltype(sent)>;
@@ -57,8 +59,8 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   if (!world.exists()) return false;
   if (core_.world == world) return true;
   if (core_.acts.exists()) {
-    // A world with a majority has precedence, then the older one.
-    const bool is_older = world < core_.world || !core_.has_lease(now);
+    // An older world has precedence, and any that has a majority if ours has none for long.
+    const bool is_older = world < core_.world || now - leased_ > LeaseBook::kDead;
     if (round == nullptr || !round->has_lease || !is_older) return false;
     merge(world);
   }
@@ -82,9 +84,10 @@ void Ownership::found_if_due(nanoseconds now) {
   if (!core_.acts.exists() && core_.world.exists() && now - joined_ > LeaseBook::kDead)
     core_.world = {};
   if (!core_.config.votes || core_.world.exists() || now - started_ < kFound) return;
-  const WorldId own{core_.config.started, core_.config.epoch};
+  const WorldId own{core_.config.started + founded_, core_.config.epoch};
   if (chair_.is_preceded(own, now)) return;
   core_.world = own;
+  ++founded_;
   Act act;
   act.number = 1;
   act.chair = core_.config.epoch;
@@ -211,7 +214,8 @@ void Ownership::send_round(nanoseconds now) {
     round.heard[i] = core_.leases.round_of(voters[i].epoch, now);
   core_.send(0, round);
   if (core_.acts.exists()) return;
-  std::get<Round>(core_.out.back().message).world = {core_.config.started, core_.config.epoch};
+  std::get<Round>(core_.out.back().message).world = {core_.config.started + founded_,
+                                                     core_.config.epoch};
 }
 
 // Acts
@@ -308,6 +312,7 @@ void Ownership::decide(const Act& act, nanoseconds now) {
     core_.table.set(i, {version_of(act.number, 0), act.chair});
     ours[i] = act.chair == core_.config.epoch;
   }
+  if (is_first) leased_ = now;
   hand_overs_.follow_act(lease_end);
   if (!is_voter()) core_.table.clear();
   chair_.end();
@@ -370,6 +375,7 @@ void Ownership::step(nanoseconds now) {
   stepped_ = now;
   found_if_due(now);
   if (core_.acts.exists()) {
+    if (core_.has_lease(now)) leased_ = now;
     comply(now);
     propose(now);
     hand_overs_.step(now);

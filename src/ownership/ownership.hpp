@@ -48,6 +48,14 @@ class Ownership {
   /// Wants the object, until withdraw(). The owner grants it when nothing holds it there.
   void ask(std::size_t object) noexcept { hand_overs_.ask(object); }
   void withdraw(std::size_t object) { hand_overs_.withdraw(object); }
+  /// The state of an object as it was granted to us.
+  [[nodiscard]] const ObjectState& granted_state(std::size_t object) const noexcept {
+    return hand_overs_.state(object);
+  }
+  /// The state in which this peer has stopped simulating an object; before yielded().
+  void set_state(std::size_t object, const ObjectState& state) noexcept {
+    hand_overs_.set_state(object, state);
+  }
   /// Answers OwnershipEvent::Kind::yield.
   void yielded(std::uint32_t transaction, Nanoseconds now) {
     hand_overs_.yielded(transaction, now);
@@ -113,11 +121,13 @@ class Ownership {
   Chair chair_;
   Nanoseconds started_ = kNever, stepped_ = kNever;
   Nanoseconds joined_ = kNever;          // when we began to follow a world
+  Nanoseconds leased_ = kNever;          // last time with a lease
   Nanoseconds round_at_ = kNever;        // our last round
   Nanoseconds active_at_ = kNever;       // last round of an active peer
   Nanoseconds old_lease_ = kNever;       // end of the lease when the pending act was accepted
   Nanoseconds decided_sent_ = kNever;
   Nanoseconds table_sent_ = kNever, differs_since_ = kNever, differed_ = kNever;
+  std::uint32_t founded_ = 0;            // worlds that this peer has founded
   Threat threat_;
   std::array<std::uint32_t, Roll::kMost> tables_{};  // hashes of the voters' tables
   bool complies_ = false, agrees_ = false;

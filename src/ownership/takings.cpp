@@ -26,7 +26,7 @@ bool HandOvers::may_take(const Grant& grant, std::uint32_t from, nanoseconds now
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (grant.objects[i] && !core_.user.may_take(i, core_.config.epoch)) return false;
   }
-  return std::ranges::all_of(grant.part.list(), [&](const Holding& holding) {
+  return std::ranges::all_of(grant.holdings(), [&](const Holding& holding) {
     if (holding.object >= core_.table.size() || !grant.objects[holding.object]) return false;
     return holding.tenure.owner == core_.config.epoch &&
            is_newer(holding.tenure, core_.table[holding.object]) &&
@@ -37,7 +37,7 @@ bool HandOvers::may_take(const Grant& grant, std::uint32_t from, nanoseconds now
 
 // Whether the table is as new as the grant.
 bool HandOvers::is_outdated(const Grant& grant) const noexcept {
-  return std::ranges::any_of(grant.part.list(), [&](const Holding& holding) {
+  return std::ranges::any_of(grant.holdings(), [&](const Holding& holding) {
     return holding.object < core_.table.size() &&
            core_.table[holding.object].version >= holding.tenure.version;
   });
@@ -63,7 +63,7 @@ HandOvers::Incoming* HandOvers::incoming_of(const Grant& grant, std::uint32_t fr
 // Every peer that receives a grant is a witness of the new owner. Only an object that we wanted is
 // taken, or one in its company.
 void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
-  for (const Holding& holding : grant.part.list()) {
+  for (const Holding& holding : grant.holdings()) {
     if (holding.tenure.owner == grant.to && grant.to != from)
       core_.table.name(holding.object, holding.tenure);
   }
@@ -83,9 +83,11 @@ void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now)
     refusal.transaction = grant.transaction;
     return core_.send(from, refusal);
   }
-  for (const Holding& holding : grant.part.list()) {
+  for (std::size_t i = 0; i < grant.count; ++i) {
+    const Holding& holding = grant.part[i];
     incoming->arrived.set(holding.object);
     incoming->tenures[holding.object] = holding.tenure.version;
+    rows_[holding.object].state = grant.states[i];
   }
   if (incoming->arrived == incoming->objects) take(*incoming, grant, now);
 }
@@ -97,7 +99,9 @@ void HandOvers::take(const Incoming& grant, const Grant& last, nanoseconds now) 
     core_.table.set(i, {grant.tenures[i], core_.config.epoch});
     Row& row = rows_[i];
     const bool wanted = row.wanted;
+    const ObjectState state = row.state;
     row = {};
+    row.state = state;
     row.hold = Hold::owned;
     row.wanted = wanted;
     row.first_serial = serial_ + 1;

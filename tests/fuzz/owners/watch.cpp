@@ -37,7 +37,7 @@ void Watch::look_at(std::size_t object, Nanoseconds now) {
                        one.version, i, other.version));
     }
     if (first == owners_.size()) first = i;
-    std::uint64_t& newest = versions_[{world.founder, object}];
+    std::uint64_t& newest = versions_[{world, object}];
     const std::uint64_t version = owners_[i].protocol().tenure(object).version;
     if (version < newest)
       find(2, now, fmt::format("object {} falls from version {:x} to {:x} at peer {}", object,

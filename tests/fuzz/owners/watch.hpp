@@ -56,7 +56,7 @@ class Watch {
   const Plan& plan_;
   std::span<const SimulatedOwner> owners_;
   Outcome& outcome_;
-  std::map<std::pair<std::uint32_t, std::size_t>, std::uint64_t> versions_;  // by founder, object
+  std::map<std::pair<peer::WorldId, std::size_t>, std::uint64_t> versions_;
   std::vector<ObjectRecord> objects_ = std::vector<ObjectRecord>(plan_.objects);
   std::vector<Waiting> waiting_;
   std::vector<std::uint32_t> hands_ = std::vector<std::uint32_t>(plan_.objects);  // bits of peers
