@@ -17,12 +17,8 @@ constexpr nanoseconds kFreshRound = milliseconds(1000);
 // Time that an unconfirmed owner loses, for clocks of different rates.
 constexpr nanoseconds kMargin = milliseconds(100);
 
-// Repeats come after 3, 6, 12 .. 192 ms, and then every 200 ms.
-nanoseconds wait_after(std::size_t sent) noexcept {
-  if (sent <= 1) return milliseconds(3);
-  return std::min<nanoseconds>(milliseconds(3) * (1 << std::min<std::size_t>(sent - 2, 7)),
-                               milliseconds(200));
-}
+// A request is repeated, so that the owner remembers it.
+constexpr nanoseconds kAskAgain = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -70,7 +66,6 @@ void HandOvers::lose(std::size_t object, OwnerChange cause, std::uint32_t to) {
   if (row.hold == Hold::none) return;
   row.hold = Hold::none;
   row.askers = {};
-  row.asks = 0;
   row.asked = 0;
   ObjectSet one;
   one.set(object);
@@ -150,12 +145,11 @@ void HandOvers::release_unheld() {
 void HandOvers::withdraw(std::size_t object) {
   Row& row = rows_[object];
   row.wanted = false;
-  row.asks = 0;
   if (row.asked == 0) return;
   Request request;
   request.objects.set(object);
   request.withdraws = true;
-  core_.send(row.asked, request);
+  core_.send(row.asked, request, true);
   row.asked = 0;
 }
 
@@ -168,7 +162,7 @@ void HandOvers::ask_due(nanoseconds now) {
     const std::uint32_t owner = core_.table[i].owner;
     if (!row.wanted || row.hold != Hold::none || owner == 0 || owner == core_.config.epoch)
       continue;
-    if (row.asked != owner) row.asked = owner, row.asks = 0, row.ask_at = now;
+    if (row.asked != owner) row.asked = owner, row.ask_at = now;
     due[i] = now >= row.ask_at;
   }
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
@@ -178,9 +172,9 @@ void HandOvers::ask_due(nanoseconds now) {
       if (!due[j] || rows_[j].asked != rows_[i].asked) continue;
       request.objects.set(j);
       due.reset(j);
-      rows_[j].ask_at = now + wait_after(++rows_[j].asks);
+      rows_[j].ask_at = now + kAskAgain;
     }
-    core_.send(rows_[i].asked, request);
+    core_.send(rows_[i].asked, request, true);
   }
 }
 
@@ -275,40 +269,20 @@ void HandOvers::yielded(std::uint32_t transaction, nanoseconds now) {
       take_back(i);
     }
   }
-  if (!may_go) {
-    *grant = {};
-    return;
+  if (may_go) {
+    granted_at_ = now;
+    grant->lease_ms =
+        static_cast<std::uint32_t>(std::chrono::duration_cast<milliseconds>(lease).count());
+    send_grant(*grant, now);
   }
-  grant->round = core_.leases.round_of(grant->to, now);
-  grant->lease_ms =
-      static_cast<std::uint32_t>(std::chrono::duration_cast<milliseconds>(lease).count());
-  grant->next = now;
-  grant->ready = true;
-  granted_at_ = now;
-  send_grants(now);
+  *grant = {};
 }
 
-void HandOvers::send_grants(nanoseconds now) {
-  for (Outgoing& grant : outgoing_) {
-    if (grant.transaction == 0 || !grant.ready) continue;
-    const bool is_open = std::ranges::any_of(rows_, [&](const Row& row) {
-      return row.transaction == grant.transaction &&
-             (row.hold == Hold::granting || row.hold == Hold::yielding);
-    });
-    if (!is_open) {
-      grant = {};
-    } else if (now >= grant.next) {
-      send_grant(grant);
-      grant.next = now + wait_after(++grant.sent);
-    }
-  }
-}
-
-void HandOvers::send_grant(const Outgoing& grant) {
+void HandOvers::send_grant(const Outgoing& grant, nanoseconds now) {
   Grant part;
   part.transaction = grant.transaction;
   part.to = grant.to;
-  part.round = grant.round;
+  part.round = core_.leases.round_of(grant.to, now);
   part.lease_ms = grant.lease_ms;
   part.objects = grant.objects;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
@@ -317,10 +291,10 @@ void HandOvers::send_grant(const Outgoing& grant) {
                              {core_.table[i].version + 1, grant.to}};
     part.states[part.count++] = rows_[i].state;
     if (part.count < part.part.size()) continue;
-    core_.send(0, part);
+    core_.send(0, part, true);
     part.count = 0;
   }
-  if (part.count > 0) core_.send(0, part);
+  if (part.count > 0) core_.send(0, part, true);
 }
 
 void HandOvers::receive(const Refusal& refusal, std::uint32_t from) {

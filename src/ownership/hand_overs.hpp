@@ -91,7 +91,6 @@ class HandOvers {
     std::uint32_t first_serial = 0;         // .. to extracts from this one on
     std::uint32_t asked = 0;                // epoch
     Nanoseconds ask_at{0};                  // next request
-    std::size_t asks = 0;
     std::array<Asker, kAskers> askers{};  // oldest first
     ObjectState state;
   };
@@ -99,11 +98,7 @@ class HandOvers {
     std::uint32_t transaction = 0;  // 0: none
     std::uint32_t to = 0;
     ObjectSet objects;
-    std::uint8_t round = 0;
     std::uint32_t lease_ms = 0;
-    Nanoseconds next{0};
-    std::size_t sent = 0;
-    bool ready = false;  // the objects are at rest here
   };
   struct Incoming {
     std::uint32_t transaction = 0, from = 0;
@@ -117,8 +112,7 @@ class HandOvers {
   void grant_due(Nanoseconds now);
   void begin_grant(std::size_t object, std::uint32_t to);
   [[nodiscard]] bool can_grant(std::size_t object, Nanoseconds now) const;
-  void send_grants(Nanoseconds now);
-  void send_grant(const Outgoing& grant);
+  void send_grant(const Outgoing& grant, Nanoseconds now);
   void give_up(Nanoseconds now);
   void take_back(std::size_t object);
   void announce(Nanoseconds now);

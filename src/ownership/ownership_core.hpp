@@ -43,6 +43,8 @@ struct OwnershipConfig {
 /// A message to send.
 struct OutgoingMessage {
   std::uint32_t to = 0;  ///< epoch; 0: all peers
+  /// Repeated until each addressee has it, for some seconds; `to` 0: all voters.
+  bool is_assured = false;
   OwnershipMessage message;
 };
 
@@ -87,9 +89,9 @@ struct OwnershipCore {
     events.reserve(64);
   }
 
-  void send(std::uint32_t to, OwnershipMessage message) {
+  void send(std::uint32_t to, OwnershipMessage message, bool is_assured = false) {
     std::visit([this](auto& sent) { sent.world = world; }, message);
-    out.push_back({to, std::move(message)});
+    out.push_back({to, is_assured, std::move(message)});
   }
   void report(const OwnershipEvent& event) { events.push_back(event); }
 

@@ -81,7 +81,7 @@ void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now)
     ++core_.counts.refused;
     Refusal refusal;
     refusal.transaction = grant.transaction;
-    return core_.send(from, refusal);
+    return core_.send(from, refusal, true);
   }
   for (std::size_t i = 0; i < grant.count; ++i) {
     const Holding& holding = grant.part[i];
@@ -192,7 +192,6 @@ void HandOvers::step(nanoseconds now) {
   give_up(now);
   release_unheld();
   grant_due(now);
-  send_grants(now);
   ask_due(now);
   announce(now);
 }

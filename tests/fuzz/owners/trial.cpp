@@ -25,6 +25,16 @@ struct Arrive {
   std::size_t peer;
   std::uint32_t to, from;  // epochs
   std::size_t message;     // in the store
+  std::size_t record;      // of an assured one, or kNoRecord
+};
+constexpr std::size_t kNoRecord = ~std::size_t{0};
+// A transmission of an assured message is due.
+struct Repeat {
+  std::size_t record;
+};
+// Its acknowledgement has arrived.
+struct Acknowledged {
+  std::size_t record;
 };
 struct Yielded {
   std::size_t peer;
@@ -40,7 +50,7 @@ struct FaultChange {
 };
 struct Heal {};
 struct UsersWord {};
-using Event = std::variant<Step, Arrive, Yielded, TouchChange, FaultChange, Heal, UsersWord>;
+using Event = std::variant<Step, Arrive, Repeat, Acknowledged, Yielded, TouchChange, FaultChange, Heal, UsersWord>;
 
 class Trial {
  public:
@@ -105,11 +115,31 @@ class Trial {
     SimulatedOwner& owner = owners_[arrival.peer];
     const auto message = store_[arrival.message];
     if (!owner.runs() || owner.epoch() != arrival.to) return;
+    if (arrival.record != kNoRecord) {
+      Record& record = records_[arrival.record];
+      if (const auto delay = transit(record.to, record.from, false))
+        agenda_.add(now_ + *delay, Acknowledged{arrival.record});
+      if (std::exchange(record.is_taken, true)) return;
+    }
     ++outcome_.received;
     outcome_.hash = mixed(outcome_.hash, arrival.from, message.index() + now_.count());
     owner.protocol().receive(arrival.from, message, now_);
     has_changed_ = true;
     flush(arrival.peer);
+  }
+  // The times of AcknowledgedSet.
+  void happen(const Repeat& repeat) {
+    Record& record = records_[repeat.record];
+    const SimulatedOwner& from = owners_[record.from];
+    const Nanoseconds age = now_ - record.begun;
+    const bool is_current =
+        from.epoch() == record.from_epoch && owners_[record.to].epoch() == record.to_epoch;
+    if (record.is_acknowledged || !is_current || age > seconds(5)) return;
+    agenda_.add(now_ + std::clamp<Nanoseconds>(age, milliseconds(3), milliseconds(200)), repeat);
+    if (from.runs()) carry(record.from, record.to, record.message, repeat.record);
+  }
+  void happen(const Acknowledged& acknowledged) {
+    records_[acknowledged.record].is_acknowledged = true;
   }
   void happen(const Yielded& yielded) {
     SimulatedOwner& owner = owners_[yielded.peer];
@@ -212,21 +242,32 @@ class Trial {
     for (const peer::OutgoingMessage& out : owner.protocol().outgoing()) {
       store_.push_back(out.message);
       for (std::size_t to = 0; to < owners_.size(); ++to) {
-        if (to != peer && (out.to == 0 || out.to == owners_[to].epoch())) carry(peer, to);
+        if (to == peer || (out.to != 0 && out.to != owners_[to].epoch())) continue;
+        if (out.is_assured) {
+          records_.push_back({peer, to, owner.epoch(), owners_[to].epoch(), store_.size() - 1, now_});
+          happen(Repeat{records_.size() - 1});
+        } else {
+          carry(peer, to, store_.size() - 1, kNoRecord);
+        }
       }
     }
     owner.protocol().clear_outgoing();
   }
-  void carry(std::size_t from, std::size_t to) {
-    const bool is_round = std::holds_alternative<peer::Round>(store_.back());
-    if (is_cut(from, to, is_round)) return;
+  // The delay of a datagram; nothing if it is lost.
+  [[nodiscard]] std::optional<Nanoseconds> transit(std::size_t from, std::size_t to,
+                                                   bool is_round) {
+    if (is_cut(from, to, is_round) || dice_.chance(loss_)) return {};
+    Nanoseconds delay = dice_.between(plan_.line.least, plan_.line.most);
+    if (dice_.chance(plan_.line.late)) delay += dice_.between({}, seconds(4));
+    return delay;
+  }
+  void carry(std::size_t from, std::size_t to, std::size_t message, std::size_t record) {
+    const bool is_round = std::holds_alternative<peer::Round>(store_[message]);
     const int copies = dice_.chance(plan_.line.doubled) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
-      if (dice_.chance(loss_)) continue;
-      Nanoseconds delay = dice_.between(plan_.line.least, plan_.line.most);
-      if (dice_.chance(plan_.line.late)) delay += dice_.between({}, seconds(4));
-      agenda_.add(now_ + delay,
-                  Arrive{to, owners_[to].epoch(), owners_[from].epoch(), store_.size() - 1});
+      if (const auto delay = transit(from, to, is_round))
+        agenda_.add(now_ + *delay, Arrive{to, owners_[to].epoch(), owners_[from].epoch(), message,
+                                          record});
     }
   }
   static std::string text_of_event(std::size_t peer, const peer::OwnershipEvent& event) {
@@ -268,6 +309,14 @@ class Trial {
   Watch* watch_ = nullptr;
   Agenda<Event> agenda_;
   std::deque<peer::OwnershipMessage> store_;
+  struct Record {
+    std::size_t from, to;
+    std::uint32_t from_epoch, to_epoch;
+    std::size_t message;
+    Nanoseconds begun;
+    bool is_taken = false, is_acknowledged = false;
+  };
+  std::deque<Record> records_;
   std::vector<Fault> cuts_;
   double loss_ = 0.0;
   bool has_changed_ = false;
