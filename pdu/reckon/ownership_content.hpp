@@ -113,7 +113,7 @@ struct TransferState {
   std::uint64_t utc = 0;  ///< [ns] since 1970
   WorldCoordinates position;
   double w = 1.0, x = 0.0, y = 0.0, z = 0.0;  ///< orientation, from the object's axes to the scene
-  WorldCoordinates velocity, turn_rate;          ///< [m/s], [rad/s]
+  WorldCoordinates velocity, turn_rate;       ///< [m/s], [rad/s]
 };
 static_assert(kFixedSize<TransferState> == 128);
 

@@ -11,10 +11,11 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRepeat = milliseconds(30), kSlowRepeat = milliseconds(200);
-constexpr nanoseconds kAttempt = milliseconds(600);  // then a new ballot
-constexpr nanoseconds kStagger = milliseconds(150);  // between voters that repeat a proposal
-constexpr nanoseconds kSettled = milliseconds(300);  // of a newcomer, so that more come in one act
-constexpr nanoseconds kGone = milliseconds(1500);    // without a round
+constexpr nanoseconds kAttempt = milliseconds(600);   // then a new ballot
+constexpr nanoseconds kStagger = milliseconds(150);   // between voters that repeat a proposal
+constexpr nanoseconds kSettled = milliseconds(300);   // of a newcomer, so that more come in one act
+constexpr nanoseconds kGone = milliseconds(1500);     // without a round
+constexpr nanoseconds kBlocked = milliseconds(2000);  // by a proposal of another voter
 constexpr nanoseconds kSuspect = milliseconds(700);
 
 }  // namespace
@@ -23,8 +24,9 @@ constexpr nanoseconds kSuspect = milliseconds(700);
 
 void Chair::note_newcomer(std::uint32_t epoch, const WorldId& world, nanoseconds now) noexcept {
   const auto known = std::ranges::find(newcomers_, epoch, &Newcomer::epoch);
-  Newcomer& row =
-      known != newcomers_.end() ? *known : *std::ranges::min_element(newcomers_, {}, &Newcomer::heard);
+  Newcomer& row = known != newcomers_.end()
+                      ? *known
+                      : *std::ranges::min_element(newcomers_, {}, &Newcomer::heard);
   if (row.epoch != epoch || now - row.heard > kGone) row = {epoch, world, now, now};
   row.heard = now;
 }
@@ -51,8 +53,7 @@ bool Chair::is_preceded(const WorldId& own, nanoseconds now) const noexcept {
 
 bool Chair::is_dead(std::uint32_t epoch, nanoseconds now) const noexcept {
   if (leaves(epoch, kAnyAct, now)) return true;
-  return epoch != core_.config.epoch &&
-         now - core_.leases.silent_since(epoch) >= LeaseBook::kDead;
+  return epoch != core_.config.epoch && now - core_.leases.silent_since(epoch) >= LeaseBook::kDead;
 }
 
 bool Chair::is_suspect(std::uint32_t epoch, nanoseconds now) const noexcept {
@@ -115,9 +116,8 @@ bool Chair::compose(Act& act, nanoseconds now) const {
   }
   act.chair = core_.config.epoch;
   if (core_.is_leaving) {
-    const auto heir = std::ranges::find_if(act.roll.voters(), [&](const Voter& voter) {
-      return !is_suspect(voter.epoch, now);
-    });
+    const auto heir = std::ranges::find_if(
+        act.roll.voters(), [&](const Voter& voter) { return !is_suspect(voter.epoch, now); });
     if (heir == act.roll.voters().end()) return false;
     act.chair = heir->epoch;
   }
@@ -135,7 +135,8 @@ void Chair::begin(const Act& act, nanoseconds now) {
   proposal_.act = act;
   proposal_.ballot = {core_.acts.promised().attempt + 1, core_.config.epoch};
   proposal_.seen = core_.acts.pending() != nullptr ? core_.acts.accepted() : Ballot{};
-  if (other_.act.number == act.number) proposal_.seen = std::max(proposal_.seen, other_.ballot);
+  if (core_.acts.pending() != nullptr && other_.act.number == act.number)
+    proposal_.seen = std::max(proposal_.seen, other_.ballot);
   vote_count_ = 0;
   is_open_ = true;
   tried_ = now;
@@ -159,18 +160,29 @@ bool Chair::is_my_turn(nanoseconds now) const noexcept {
   return now - tried_ >= kAttempt + (rank(now) + 1) * kStagger;
 }
 
+// A voter holds to a proposal that the majority refuses. An act without a change frees it.
+bool Chair::pass_over(Act& act, nanoseconds now) const {
+  const Act& last = core_.acts.decided();
+  const bool is_blocked =
+      other_.act.number == last.number + 1 && now - other_since_ >= kBlocked + rank(now) * kAttempt;
+  if (!is_blocked || !last.roll.contains(core_.config.epoch) || !core_.has_lease(now)) return false;
+  act = {};
+  act.number = last.number + 1;
+  act.chair = last.chair;
+  act.roll = last.roll;
+  return true;
+}
+
 const Proposal* Chair::step(nanoseconds now) {
   if (!core_.acts.exists()) return nullptr;
   if (!is_open_ || now >= restart_) {
     Act act;
     if (const Act* pending = core_.acts.pending()) {
       if (!is_my_turn(now)) return is_open_ = false, nullptr;
-      const bool is_behind = other_.act.number == pending->number &&
-                             other_.ballot > core_.acts.accepted();
+      const bool is_behind =
+          other_.act.number == pending->number && other_.ballot > core_.acts.accepted();
       act = is_behind ? other_.act : *pending;
-    } else if (other_.act.number == core_.acts.decided().number + 1) {
-      act = other_.act;
-    } else if (!may_propose(now) || !compose(act, now)) {
+    } else if ((!may_propose(now) || !compose(act, now)) && !pass_over(act, now)) {
       return is_open_ = false, nullptr;
     }
     begin(act, now);
@@ -185,6 +197,7 @@ void Chair::learn(const Proposal& other, nanoseconds now) noexcept {
   if (other.ballot > proposal_.ballot) tried_ = now;
   core_.acts.note_ballot(other.ballot);
   if (other.act.number != core_.acts.decided().number + 1) return;
+  if (other_.act.number != other.act.number) other_since_ = now;
   if (other_.act.number == other.act.number && other.ballot <= other_.ballot) return;
   other_ = other;
 }

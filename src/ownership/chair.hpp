@@ -33,8 +33,7 @@ class Chair {
   /// A voter agrees to be removed by the act with this number; kAnyAct: it leaves.
   void note_leaving(std::uint32_t epoch, std::uint32_t act, Nanoseconds now) noexcept;
   /// Whether this voter agrees to be removed by that act.
-  [[nodiscard]] bool leaves(std::uint32_t epoch, std::uint32_t act,
-                            Nanoseconds now) const noexcept;
+  [[nodiscard]] bool leaves(std::uint32_t epoch, std::uint32_t act, Nanoseconds now) const noexcept;
   /// Whether another peer would found an older world than this.
   [[nodiscard]] bool is_preceded(const WorldId& own, Nanoseconds now) const noexcept;
   [[nodiscard]] std::span<const Newcomer> newcomers() const noexcept { return newcomers_; }
@@ -58,6 +57,7 @@ class Chair {
   [[nodiscard]] bool is_dead(std::uint32_t epoch, Nanoseconds now) const noexcept;
   [[nodiscard]] bool is_suspect(std::uint32_t epoch, Nanoseconds now) const noexcept;
   [[nodiscard]] bool may_propose(Nanoseconds now) const noexcept;
+  [[nodiscard]] bool pass_over(Act& act, Nanoseconds now) const;
   [[nodiscard]] bool compose(Act& act, Nanoseconds now) const;
   void add_newcomers(Act& act, Nanoseconds now) const;
   void give_objects(Act& act) const;
@@ -72,10 +72,11 @@ class Chair {
   Proposal proposal_;
   bool is_open_ = false;
   Nanoseconds next_{0}, restart_{0};
-  Nanoseconds tried_{0};  // last ballot, of any voter
+  Nanoseconds tried_{0};                                // last ballot, of any voter
   std::array<std::uint32_t, 2 * Roll::kMost> votes_{};  // epochs
   std::size_t vote_count_ = 0;
   Proposal other_;  // accepted by another voter, with the highest ballot
+  Nanoseconds other_since_{0};
 };
 
 }  // namespace reckon::peer

@@ -35,9 +35,7 @@ ObjectSet HandOvers::held() const noexcept {
   return held;
 }
 
-bool HandOvers::has_granted(nanoseconds now) const noexcept {
-  return now - granted_at_ <= kGiveUp;
-}
+bool HandOvers::has_granted(nanoseconds now) const noexcept { return now - granted_at_ <= kGiveUp; }
 
 bool HandOvers::is_granting() const noexcept {
   return std::ranges::any_of(rows_, [](const Row& row) { return row.hold == Hold::granting; });
@@ -117,8 +115,7 @@ void HandOvers::take_back(std::size_t object) {
   row.hold = Hold::owned;
   ObjectSet one;
   one.set(object);
-  core_.report(
-      {OwnershipEvent::Kind::gained, OwnerChange::returned, one, row.transaction, row.to});
+  core_.report({OwnershipEvent::Kind::gained, OwnerChange::returned, one, row.transaction, row.to});
 }
 
 void HandOvers::release(const ObjectSet& objects) {
@@ -287,8 +284,7 @@ void HandOvers::send_grant(const Outgoing& grant, nanoseconds now) {
   part.objects = grant.objects;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!grant.objects[i]) continue;
-    part.part[part.count] = {static_cast<std::uint16_t>(i),
-                             {core_.table[i].version + 1, grant.to}};
+    part.part[part.count] = {static_cast<std::uint16_t>(i), {core_.table[i].version + 1, grant.to}};
     part.states[part.count++] = rows_[i].state;
     if (part.count < part.part.size()) continue;
     core_.send(0, part, true);

@@ -91,7 +91,7 @@ class HandOvers {
     std::uint32_t first_serial = 0;         // .. to extracts from this one on
     std::uint32_t asked = 0;                // epoch
     Nanoseconds ask_at{0};                  // next request
-    std::array<Asker, kAskers> askers{};  // oldest first
+    std::array<Asker, kAskers> askers{};    // oldest first
     ObjectState state;
   };
   struct Outgoing {

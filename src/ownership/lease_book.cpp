@@ -39,8 +39,7 @@ void LeaseBook::receive(std::uint32_t epoch, std::uint8_t round, nanoseconds now
   row.heard = now;
 }
 
-std::optional<nanoseconds> LeaseBook::sent_at(std::uint8_t round,
-                                              nanoseconds now) const noexcept {
+std::optional<nanoseconds> LeaseBook::sent_at(std::uint8_t round, nanoseconds now) const noexcept {
   if (round == 0 || rounds_ == 0) return {};
   const std::uint32_t newest = (rounds_ - 1) % kRounds, wanted = round - 1U;
   const std::uint32_t back = (kRounds + newest - wanted) % kRounds;
@@ -82,9 +81,8 @@ nanoseconds LeaseBook::lease_end(const Roll& roll, std::uint32_t own,
   const auto last = times.begin() + static_cast<std::ptrdiff_t>(voters.size());
   std::sort(times.begin(), last, std::greater<>());
   for (auto time = times.begin(); time != last && *time != kNever; ++time) {
-    if (roll.is_majority([&](const Voter& voter) {
-          return confirmed[roll.index_of(voter.epoch)] >= *time;
-        }))
+    if (roll.is_majority(
+            [&](const Voter& voter) { return confirmed[roll.index_of(voter.epoch)] >= *time; }))
       return *time + kLease;
   }
   return kNever;

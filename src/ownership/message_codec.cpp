@@ -46,8 +46,15 @@ pdu::OwnershipHolding wire(const Holding& holding) noexcept {
   return {holding.object, 0, holding.tenure.owner, holding.tenure.version};
 }
 EncodedMessage encode(const Round& round, std::uint32_t half, RecordWriter& out) noexcept {
-  pdu::OwnershipRound head{round.world.founded, round.world.founder, round.act, round.hash,
-                           round.table,         round.round,         0,         0, 0};
+  pdu::OwnershipRound head{round.world.founded,
+                           round.world.founder,
+                           round.act,
+                           round.hash,
+                           round.table,
+                           round.round,
+                           0,
+                           0,
+                           0};
   const bool leaves = round.yields_to == kAnyAct;
   head.flags = static_cast<std::uint8_t>(
       (round.is_decided ? pdu::kRoundDecided : 0) | (round.is_active ? pdu::kRoundActive : 0) |
@@ -92,8 +99,8 @@ EncodedMessage encode(const Proposal& proposal, RecordWriter& out) noexcept {
 }
 
 EncodedMessage encode(const Vote& vote, RecordWriter& out) noexcept {
-  out.add(pdu::OwnershipVote{vote.world.founded, vote.world.founder, vote.act,
-                             vote.ballot.attempt, vote.ballot.proposer});
+  out.add(pdu::OwnershipVote{vote.world.founded, vote.world.founder, vote.act, vote.ballot.attempt,
+                             vote.ballot.proposer});
   return {AssuredKind::ownership_vote, false, out.size()};
 }
 
@@ -112,9 +119,8 @@ EncodedMessage encode(const Agreement& agreement, RecordWriter& out) noexcept {
 }
 
 // One record set of 8-octet values.
-EncodedMessage encode_transfer(const TransferNames& names, std::uint8_t type,
-                               std::uint32_t request, const ObjectSet& objects,
-                               std::span<const std::byte> content,
+EncodedMessage encode_transfer(const TransferNames& names, std::uint8_t type, std::uint32_t request,
+                               const ObjectSet& objects, std::span<const std::byte> content,
                                std::span<std::byte> out) noexcept {
   std::array<std::byte, pdu::kMostAssured> sets{};
   pdu::RecordSet set;
@@ -143,8 +149,7 @@ EncodedMessage encode(const Request& request, const TransferNames& names,
                       std::span<std::byte> out) noexcept {
   std::array<std::byte, pdu::kFixedSize<pdu::TransferRequest>> content{};
   static_cast<void>(pdu::store_record(
-      pdu::TransferRequest{request.world.founded, request.world.founder,
-                           bits_of(request.objects)},
+      pdu::TransferRequest{request.world.founded, request.world.founder, bits_of(request.objects)},
       content));
   return encode_transfer(names, request.withdraws ? pdu::kTransferCancel : pdu::kTransferPull, 0,
                          request.objects, content, out);

@@ -119,8 +119,7 @@ bool is_sane(const pdu::TransferState& state) noexcept {
   const auto finite = [](const pdu::WorldCoordinates& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
-  const double norm =
-      state.w * state.w + state.x * state.x + state.y * state.y + state.z * state.z;
+  const double norm = state.w * state.w + state.x * state.x + state.y * state.y + state.z * state.z;
   return finite(state.position) && finite(state.velocity) && finite(state.turn_rate) &&
          std::abs(norm - 1.0) < 1e-6 && state.holding.object < kMostOwnable;
 }

@@ -100,9 +100,9 @@ struct Request {
 /// Pose and motion of an object at an instant.
 struct ObjectState {
   std::chrono::nanoseconds utc{0};
-  std::array<double, 3> position{};                ///< [m], S
-  std::array<double, 4> orientation{1, 0, 0, 0};   ///< w, x, y, z: from the object's axes to S
-  std::array<double, 3> velocity{}, turn_rate{};   ///< [m/s], [rad/s], S
+  std::array<double, 3> position{};               ///< [m], S
+  std::array<double, 4> orientation{1, 0, 0, 0};  ///< w, x, y, z: from the object's axes to S
+  std::array<double, 3> velocity{}, turn_rate{};  ///< [m/s], [rad/s], S
 };
 
 /// Most objects of one part of a grant.

@@ -11,14 +11,14 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kSlowRound = milliseconds(500);
-constexpr nanoseconds kFound = milliseconds(1200);      // without an older peer
-constexpr nanoseconds kActive = milliseconds(1000);     // after the last active round
-constexpr nanoseconds kQuietVoter = milliseconds(1200); // then rounds are fast
+constexpr nanoseconds kFound = milliseconds(1200);       // without an older peer
+constexpr nanoseconds kActive = milliseconds(1000);      // after the last active round
+constexpr nanoseconds kQuietVoter = milliseconds(1200);  // then rounds are fast
 constexpr nanoseconds kShortLease = milliseconds(1300);  // then rounds are fast
 constexpr nanoseconds kDecidedGap = milliseconds(30);
 constexpr nanoseconds kTableGap = milliseconds(150), kDiffers = milliseconds(100);
 constexpr nanoseconds kThreat = milliseconds(1000);
-constexpr std::uint32_t kMostAttempts = 1000;  // ahead of those known here
+constexpr std::uint32_t kMostAttempts = 1000;    // ahead of those known here
 constexpr std::uint32_t kMostMissed = 1U << 16;  // acts
 
 }  // namespace
@@ -123,7 +123,8 @@ void Ownership::receive(const Round& round, std::uint32_t from, nanoseconds now)
 
 void Ownership::note_round(const Round& round, std::uint32_t from, nanoseconds now) {
   const ActBook& acts = core_.acts;
-  if (round.act < acts.decided().number || (round.act == acts.decided().number && !round.is_decided))
+  if (round.act < acts.decided().number ||
+      (round.act == acts.decided().number && !round.is_decided))
     return send_decided(from, now);
   const bool is_same = round.act == acts.newest().number && round.hash == acts.hash();
   const std::size_t place = acts.newest().roll.index_of(core_.config.epoch);
@@ -139,8 +140,8 @@ void Ownership::compare_tables(const Round& round, std::uint32_t from, nanosecon
   differed_ = now;
   const Roll& roll = core_.acts.decided().roll;
   const bool is_senior = roll.index_of(core_.config.epoch) < roll.index_of(from);
-  const bool is_due = now - differs_since_ >= (is_senior ? kDiffers : 3 * kDiffers) ||
-                      round.table == 0;
+  const bool is_due =
+      now - differs_since_ >= (is_senior ? kDiffers : 3 * kDiffers) || round.table == 0;
   if (is_due && now - table_sent_ >= kTableGap) send_table(now);
 }
 
@@ -235,8 +236,8 @@ bool Ownership::accepts_removals(const Act& act, nanoseconds now) const {
   return act.chair == last.chair || act.removes(last.chair);
 }
 
-// An object is given only if its owner is removed or silent, or has released it, and if this peer knows of no
-// newer owner than the proposer.
+// An object is given only if its owner is removed or silent, or has released it, and if this peer
+// knows of no newer owner than the proposer.
 bool Ownership::accepts_gifts(const Proposal& proposal, nanoseconds now) {
   const Act& act = proposal.act;
   if (act.given.none()) return true;
@@ -244,8 +245,8 @@ bool Ownership::accepts_gifts(const Proposal& proposal, nanoseconds now) {
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!act.given[i]) continue;
     const std::uint32_t owner = core_.table[i].owner;
-    const bool is_silent = owner != core_.config.epoch &&
-                           now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
+    const bool is_silent =
+        owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
     if (act.roll.contains(owner) && !is_silent) return false;
   }
   if (core_.table.digest(act.given) == proposal.digest) return true;
@@ -256,8 +257,8 @@ bool Ownership::accepts_gifts(const Proposal& proposal, nanoseconds now) {
 bool Ownership::accepts(const Proposal& proposal, nanoseconds now) {
   const Act& act = proposal.act;
   if (!core_.acts.may_accept(act, proposal.ballot, proposal.seen)) return false;
-  const bool is_known = core_.acts.pending() != nullptr &&
-                        core_.acts.hash() == act.hash() && core_.acts.pending()->number == act.number;
+  const bool is_known = core_.acts.pending() != nullptr && core_.acts.hash() == act.hash() &&
+                        core_.acts.pending()->number == act.number;
   if (!act.roll.contains(act.chair)) return false;
   return is_known || (accepts_removals(act, now) && accepts_gifts(proposal, now));
 }
@@ -273,8 +274,8 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
   if (proposal.act.number > last.number + 1 || !core_.acts.exists()) return;
   const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts &&
                        proposal.ballot.proposer == from;
-  const bool may_vote = last.roll.contains(core_.config.epoch) ||
-                        proposal.act.roll.contains(core_.config.epoch);
+  const bool may_vote =
+      last.roll.contains(core_.config.epoch) || proposal.act.roll.contains(core_.config.epoch);
   if (!is_sane || !may_vote || !(last.roll.contains(from) || proposal.act.roll.contains(from)))
     return;
   if (accepts(proposal, now)) {
@@ -301,8 +302,7 @@ void Ownership::receive(const Vote& vote, std::uint32_t from, nanoseconds now) {
 }
 
 void Ownership::decide(const Act& act, nanoseconds now) {
-  const nanoseconds lease_end =
-      core_.acts.pending() != nullptr ? old_lease_ : core_.lease_end(now);
+  const nanoseconds lease_end = core_.acts.pending() != nullptr ? old_lease_ : core_.lease_end(now);
   const bool is_first = !core_.acts.exists();
   if (!core_.acts.decide(act)) return;
   if (!is_first) core_.leases.restart(now);
@@ -346,7 +346,8 @@ void Ownership::comply(nanoseconds now) {
   if (const Act* pending = core_.acts.pending()) note_threat(*pending, now);
   const bool is_open = threat_.act == core_.acts.decided().number + 1;
   complies_ = complies_ && is_open;
-  if (!is_open || now - threat_.since < kThreat) return;
+  // With a lease, a majority is on our side.
+  if (!is_open || now - threat_.since < kThreat || now - leased_ < kThreat) return;
   complies_ = complies_ || threat_.removes;
   const ObjectSet taken = threat_.takes & hand_overs_.held();
   if (taken.any()) hand_overs_.release(taken);
@@ -384,7 +385,8 @@ void Ownership::step(nanoseconds now) {
 }
 
 bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
-  if (!hand_overs_.owns(object, now) || complies_ || core_.is_leaving || now - stepped_ > kSlept) return false;
+  if (!hand_overs_.owns(object, now) || complies_ || core_.is_leaving || now - stepped_ > kSlept)
+    return false;
   const Act* pending = core_.acts.pending();
   if (pending != nullptr && pending->removes(core_.config.epoch)) return false;
   return core_.has_lease(now);

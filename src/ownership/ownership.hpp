@@ -120,14 +120,14 @@ class Ownership {
   HandOvers hand_overs_;
   Chair chair_;
   Nanoseconds started_ = kNever, stepped_ = kNever;
-  Nanoseconds joined_ = kNever;          // when we began to follow a world
-  Nanoseconds leased_ = kNever;          // last time with a lease
-  Nanoseconds round_at_ = kNever;        // our last round
-  Nanoseconds active_at_ = kNever;       // last round of an active peer
-  Nanoseconds old_lease_ = kNever;       // end of the lease when the pending act was accepted
+  Nanoseconds joined_ = kNever;     // when we began to follow a world
+  Nanoseconds leased_ = kNever;     // last time with a lease
+  Nanoseconds round_at_ = kNever;   // our last round
+  Nanoseconds active_at_ = kNever;  // last round of an active peer
+  Nanoseconds old_lease_ = kNever;  // end of the lease when the pending act was accepted
   Nanoseconds decided_sent_ = kNever;
   Nanoseconds table_sent_ = kNever, differs_since_ = kNever, differed_ = kNever;
-  std::uint32_t founded_ = 0;            // worlds that this peer has founded
+  std::uint32_t founded_ = 0;  // worlds that this peer has founded
   Threat threat_;
   std::array<std::uint32_t, Roll::kMost> tables_{};  // hashes of the voters' tables
   bool complies_ = false, agrees_ = false;

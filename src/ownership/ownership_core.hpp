@@ -74,12 +74,12 @@ struct OwnershipEvent {
 };
 
 struct OwnershipCounts {
-  std::uint64_t granted = 0;    ///< objects given to others
-  std::uint64_t taken = 0;      ///< objects granted to us
-  std::uint64_t adopted = 0;    ///< objects of failed owners
-  std::uint64_t refused = 0;    ///< grants and tenures refused, see TenureTable
-  std::uint64_t released = 0;   ///< objects whose grant had no answer
-  std::uint64_t merged = 0;     ///< worlds left for an older one
+  std::uint64_t granted = 0;   ///< objects given to others
+  std::uint64_t taken = 0;     ///< objects granted to us
+  std::uint64_t adopted = 0;   ///< objects of failed owners
+  std::uint64_t refused = 0;   ///< grants and tenures refused, see TenureTable
+  std::uint64_t released = 0;  ///< objects whose grant had no answer
+  std::uint64_t merged = 0;    ///< worlds left for an older one
 };
 
 struct OwnershipCore {

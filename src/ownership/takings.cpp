@@ -29,6 +29,7 @@ bool HandOvers::may_take(const Grant& grant, std::uint32_t from, nanoseconds now
   return std::ranges::all_of(grant.holdings(), [&](const Holding& holding) {
     if (holding.object >= core_.table.size() || !grant.objects[holding.object]) return false;
     return holding.tenure.owner == core_.config.epoch &&
+           core_.table.may_grant(holding.object, from) &&
            is_newer(holding.tenure, core_.table[holding.object]) &&
            act_of(holding.tenure.version) <= acts.decided().number &&
            count_of(holding.tenure.version) < kMostHandOvers;
@@ -74,8 +75,8 @@ void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now)
   bool is_wanted = false;
   for (std::size_t i = 0; i < core_.table.size(); ++i)
     is_wanted = is_wanted || (grant.objects[i] && rows_[i].wanted);
-  incoming->is_refused = incoming->is_refused || !is_wanted ||
-                         grant.objects != incoming->objects || !may_take(grant, from, now);
+  incoming->is_refused = incoming->is_refused || !is_wanted || grant.objects != incoming->objects ||
+                         !may_take(grant, from, now);
   incoming->heard = now;
   if (incoming->is_refused) {
     ++core_.counts.refused;
@@ -105,8 +106,8 @@ void HandOvers::take(const Incoming& grant, const Grant& last, nanoseconds now) 
     row.hold = Hold::owned;
     row.wanted = wanted;
     row.first_serial = serial_ + 1;
-    row.until = sent + milliseconds(last.lease_ms) + LeaseBook::kDead - LeaseBook::kLease -
-                kTakingMargin;
+    row.until =
+        sent + milliseconds(last.lease_ms) + LeaseBook::kDead - LeaseBook::kLease - kTakingMargin;
     ++core_.counts.taken;
   }
   core_.report({OwnershipEvent::Kind::gained, OwnerChange::granted, grant.objects,
@@ -157,8 +158,8 @@ void HandOvers::receive(const TableExtract& extract, std::uint32_t from, nanosec
   for (const Holding& holding : extract.holdings.list()) {
     if (holding.object >= core_.table.size()) continue;
     const std::uint32_t owner = core_.table[holding.object].owner;
-    const bool is_silent = owner != core_.config.epoch &&
-                           now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
+    const bool is_silent =
+        owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
     const Offer offer =
         core_.table.offer(holding.object, holding.tenure, from, core_.acts, is_silent);
     if (offer == Offer::taken) note_table(holding.object, from);

@@ -44,6 +44,10 @@ Offer TenureTable::offer(std::size_t object, const Tenure& tenure, std::uint32_t
   return offer;
 }
 
+bool TenureTable::may_grant(std::size_t object, std::uint32_t epoch) const noexcept {
+  return tenures_[object].owner == epoch || is_witnessed(object, {~std::uint64_t{0}, epoch});
+}
+
 // An owner may have raised its version since.
 bool TenureTable::is_witnessed(std::size_t object, const Tenure& tenure) const noexcept {
   return std::ranges::any_of(named_[object], [&](const Tenure& named) {

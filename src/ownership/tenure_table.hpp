@@ -36,8 +36,10 @@ class TenureTable {
   /// Offers a tenure that a peer has sent. An owner that names itself needs another peer as
   /// witness: the one that granted the object, or any that knows of the grant.
   /// @param is_silent whether the known owner seems to have failed, so that it cannot witness
-  Offer offer(std::size_t object, const Tenure& tenure, std::uint32_t sender,
-              const ActBook& acts, bool is_silent) noexcept;
+  Offer offer(std::size_t object, const Tenure& tenure, std::uint32_t sender, const ActBook& acts,
+              bool is_silent) noexcept;
+  /// Whether this peer may grant the object, as far as is known here.
+  [[nodiscard]] bool may_grant(std::size_t object, std::uint32_t epoch) const noexcept;
   /// Notes a witness for a tenure that has not begun yet.
   void name(std::size_t object, const Tenure& tenure) noexcept;
   void clear() noexcept;
@@ -54,7 +56,8 @@ class TenureTable {
 
   std::size_t count_;
   std::array<Tenure, kMostOwnable> tenures_{};
-  std::array<std::array<Tenure, 3>, kMostOwnable> named_{};  // by others than the owner, newest first
+  std::array<std::array<Tenure, 3>, kMostOwnable>
+      named_{};  // by others than the owner, newest first
 };
 
 }  // namespace reckon::peer

@@ -17,7 +17,9 @@ constexpr std::uint64_t kFirst = 1;
 
 double share(std::vector<double>& values, double part) {
   std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+  return values.empty()
+             ? 0.0
+             : values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
 }
 
 // Prints what the table of docs/robustness.md has.
@@ -35,11 +37,12 @@ TEST(Owners, AreOneWhateverTheNetworkDoes) {
                });
   EXPECT_GT(hand_overs, 1000U);
   EXPECT_GT(adoptions, 50U);
-  fmt::print("{} hand-overs, {} adoptions; gap with faults p50 {:.0f}, p99 {:.0f}, most {:.0f} ms; "
-             "without p50 {:.0f}, p99 {:.0f}, most {:.0f} ms; wait p50 {:.0f}, p99 {:.0f} ms\n",
-             hand_overs, adoptions, 1e3 * share(gaps, 0.5), 1e3 * share(gaps, 0.99),
-             1e3 * share(gaps, 1.0), 1e3 * share(calm_gaps, 0.5), 1e3 * share(calm_gaps, 0.99),
-             1e3 * share(calm_gaps, 1.0), 1e3 * share(waits, 0.5), 1e3 * share(waits, 0.99));
+  fmt::print(
+      "{} hand-overs, {} adoptions; gap with faults p50 {:.0f}, p99 {:.0f}, most {:.0f} ms; "
+      "without p50 {:.0f}, p99 {:.0f}, most {:.0f} ms; wait p50 {:.0f}, p99 {:.0f} ms\n",
+      hand_overs, adoptions, 1e3 * share(gaps, 0.5), 1e3 * share(gaps, 0.99),
+      1e3 * share(gaps, 1.0), 1e3 * share(calm_gaps, 0.5), 1e3 * share(calm_gaps, 0.99),
+      1e3 * share(calm_gaps, 1.0), 1e3 * share(waits, 0.5), 1e3 * share(waits, 0.99));
 }
 
 TEST(Owners, RunTheSameFromTheSameSeed) {

@@ -99,8 +99,8 @@ std::string text_of(const Plan& plan) {
 }
 
 std::string text_of(const Fault& fault) {
-  static constexpr const char* kNames[] = {"crash",     "restart", "pause",
-                                           "partition", "one-way cut", "leave",   "deaf",      "choke"};
+  static constexpr const char* kNames[] = {"crash",       "restart", "pause", "partition",
+                                           "one-way cut", "leave",   "deaf",  "choke"};
   return fmt::format("{} at {:.2f} s until {:.2f} s: peer {}, other {}, side {:b}",
                      kNames[static_cast<std::size_t>(fault.kind)], pdu::to_seconds(fault.at),
                      pdu::to_seconds(fault.until), fault.peer, fault.other, fault.side);

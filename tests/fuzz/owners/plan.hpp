@@ -14,8 +14,8 @@ namespace reckon::fuzz::owners {
 
 using Nanoseconds = std::chrono::nanoseconds;
 
-inline constexpr Nanoseconds kWarmUp = std::chrono::seconds(4);    // all vote
-inline constexpr Nanoseconds kHealed = std::chrono::seconds(24);   // no fault any more
+inline constexpr Nanoseconds kWarmUp = std::chrono::seconds(4);   // all vote
+inline constexpr Nanoseconds kHealed = std::chrono::seconds(24);  // no fault any more
 inline constexpr Nanoseconds kEnd = std::chrono::seconds(36);
 
 struct Line {
@@ -54,11 +54,11 @@ struct Touch {
 struct Plan {
   std::uint64_t seed = 0;
   std::size_t peers = 2, objects = 1;
-  std::size_t island = 1;         ///< the first objects change owner together
-  std::vector<std::size_t> hosts; ///< of each peer
-  bool moves = false;             ///< objects are always in motion
-  bool is_contested = false;      ///< two peers ask within 100 ms
-  Nanoseconds step{};             ///< between two steps of a peer
+  std::size_t island = 1;          ///< the first objects change owner together
+  std::vector<std::size_t> hosts;  ///< of each peer
+  bool moves = false;              ///< objects are always in motion
+  bool is_contested = false;       ///< two peers ask within 100 ms
+  Nanoseconds step{};              ///< between two steps of a peer
   Line line;
   std::vector<Touch> touches;
   std::vector<Fault> faults;

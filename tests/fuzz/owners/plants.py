@@ -50,6 +50,6 @@ PLANTS = [
     ("undecided act never repeated", "chair.cpp",
      "  return now - tried_ >= kAttempt", "  return false && now - tried_ >= kAttempt"),
     ("no compliance", "ownership.cpp",
-     "  if (!is_open || now - threat_.since < kThreat) return;\n", "  return;\n"),
+     "  if (!is_open || now - threat_.since < kThreat || now - leased_ < kThreat) return;\n", "  return;\n"),
     ("world without a majority joined", "ownership.cpp", "!round->has_lease || !is_older", "!is_older"),
 ]

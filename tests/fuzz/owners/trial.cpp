@@ -50,7 +50,8 @@ struct FaultChange {
 };
 struct Heal {};
 struct UsersWord {};
-using Event = std::variant<Step, Arrive, Repeat, Acknowledged, Yielded, TouchChange, FaultChange, Heal, UsersWord>;
+using Event = std::variant<Step, Arrive, Repeat, Acknowledged, Yielded, TouchChange, FaultChange,
+                           Heal, UsersWord>;
 
 class Trial {
  public:
@@ -109,7 +110,8 @@ class Trial {
     if (!owner.runs()) return;
     owner.protocol().step(now_);
     flush(step.peer);
-    if (owner.protocol().has_left()) note(fmt::format("peer {} has left", step.peer)), owner.set_up(false);
+    if (owner.protocol().has_left())
+      note(fmt::format("peer {} has left", step.peer)), owner.set_up(false);
   }
   void happen(const Arrive& arrival) {
     SimulatedOwner& owner = owners_[arrival.peer];
@@ -157,7 +159,8 @@ class Trial {
     } else {
       owner.touch(touch.object, change.begins);
     }
-    if (owner.runs() || !change.begins) watch_->note_touch(touch, change.begins && owner.runs(), now_);
+    if (owner.runs() || !change.begins)
+      watch_->note_touch(touch, change.begins && owner.runs(), now_);
     flush(touch.peer);
   }
   void happen(const FaultChange& change) {
@@ -208,8 +211,8 @@ class Trial {
       const auto first = std::ranges::find_if(roll.voters(), lives);
       if (first != roll.voters().end() && first->epoch != owners_[i].epoch()) continue;
       note(fmt::format("peer {} goes alone", i));
-      return owners_[i].protocol().go_alone(
-          static_cast<std::uint32_t>(10 + pdu::to_seconds(now_)), now_);
+      return owners_[i].protocol().go_alone(static_cast<std::uint32_t>(10 + pdu::to_seconds(now_)),
+                                            now_);
     }
   }
   void restart(std::size_t peer) {
@@ -223,8 +226,7 @@ class Trial {
     return std::ranges::any_of(cuts_, [&](const Fault& cut) {
       if (cut.kind == FaultKind::one_way) return cut.peer == from && cut.other == to;
       if (cut.kind == FaultKind::deaf) return cut.peer == to;
-      if (cut.kind == FaultKind::choke)
-        return !is_round && (cut.peer == from || cut.peer == to);
+      if (cut.kind == FaultKind::choke) return !is_round && (cut.peer == from || cut.peer == to);
       return ((cut.side >> from ^ cut.side >> to) & 1U) != 0;
     });
   }
@@ -244,7 +246,8 @@ class Trial {
       for (std::size_t to = 0; to < owners_.size(); ++to) {
         if (to == peer || (out.to != 0 && out.to != owners_[to].epoch())) continue;
         if (out.is_assured) {
-          records_.push_back({peer, to, owner.epoch(), owners_[to].epoch(), store_.size() - 1, now_});
+          records_.push_back(
+              {peer, to, owner.epoch(), owners_[to].epoch(), store_.size() - 1, now_});
           happen(Repeat{records_.size() - 1});
         } else {
           carry(peer, to, store_.size() - 1, kNoRecord);
@@ -266,8 +269,8 @@ class Trial {
     const int copies = dice_.chance(plan_.line.doubled) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (const auto delay = transit(from, to, is_round))
-        agenda_.add(now_ + *delay, Arrive{to, owners_[to].epoch(), owners_[from].epoch(), message,
-                                          record});
+        agenda_.add(now_ + *delay,
+                    Arrive{to, owners_[to].epoch(), owners_[from].epoch(), message, record});
     }
   }
   static std::string text_of_event(std::size_t peer, const peer::OwnershipEvent& event) {

@@ -12,13 +12,9 @@ namespace reckon::fuzz::owners {
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log);
 
 inline constexpr SeededSimulation<Plan, Outcome> kSimulation{
-    "owners",
-    "Simulates peers that hand objects over, fail, and lose their network.",
-    "I",
-    9,
-    plan_of,
-    try_out,
-    calmed,
-    "messages received"};
+    "owners", "Simulates peers that hand objects over, fail, and lose their network.",
+    "I",      9,
+    plan_of,  try_out,
+    calmed,   "messages received"};
 
 }  // namespace reckon::fuzz::owners

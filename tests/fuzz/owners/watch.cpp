@@ -40,8 +40,9 @@ void Watch::look_at(std::size_t object, Nanoseconds now) {
     std::uint64_t& newest = versions_[{world, object}];
     const std::uint64_t version = owners_[i].protocol().tenure(object).version;
     if (version < newest)
-      find(2, now, fmt::format("object {} falls from version {:x} to {:x} at peer {}", object,
-                               newest, version, i));
+      find(2, now,
+           fmt::format("object {} falls from version {:x} to {:x} at peer {}", object, newest,
+                       version, i));
     newest = std::max(newest, version);
   }
   ObjectRecord& record = objects_[object];
@@ -74,9 +75,11 @@ void Watch::look_closely(Nanoseconds now) {
       waiting = waiting_.erase(waiting);
       continue;
     }
-    if (is_calm() && plan_.island == 1 && plan_.line.loss <= 0.3 && now - waiting->alone > kMostWait)
-      find(6, now, fmt::format("peer {} waits for object {} that no other hand touches",
-                               waiting->peer, waiting->object));
+    if (is_calm() && plan_.island == 1 && plan_.line.loss <= 0.3 &&
+        now - waiting->alone > kMostWait)
+      find(6, now,
+           fmt::format("peer {} waits for object {} that no other hand touches", waiting->peer,
+                       waiting->object));
     ++waiting;
   }
 }
@@ -98,7 +101,8 @@ void Watch::look_at_end(Nanoseconds now) {
     std::size_t owners = 0;
     for (const SimulatedOwner& owner : owners_)
       owners += owner.runs() && owner.protocol().owns(object, now);
-    if (owners != 1) find(4, now, fmt::format("object {} has {} owners at the end", object, owners));
+    if (owners != 1)
+      find(4, now, fmt::format("object {} has {} owners at the end", object, owners));
   }
   const SimulatedOwner* first = nullptr;
   for (const SimulatedOwner& owner : owners_) {
