@@ -110,14 +110,14 @@ class Exchange final : private AssuredReports {
 
   // Sends, leaves and restarts at random.
   void act() {
-    if (any() < 0.15) say();
+    if (any() < 0.15) send_record();
     if (any() < 0.0005) restart_sender();
     for (const auto& receiver : receivers_) {
       if (receiver->is_here && any() < 0.0002) leave(*receiver);
     }
   }
 
-  void say() {
+  void send_record() {
     const std::uint64_t tag = ++tags_;
     std::vector<std::uint32_t> addressees;
     for (const auto& receiver : receivers_) {
