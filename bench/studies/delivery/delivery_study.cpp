@@ -34,7 +34,7 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kStep = microseconds(250);
 constexpr nanoseconds kDelay = microseconds(100);  // of a local network
-constexpr nanoseconds kMeet = seconds(2), kLast = seconds(6);
+constexpr nanoseconds kJoining = seconds(2), kLast = seconds(6);
 constexpr nanoseconds kEach = milliseconds(20);  // an assured interaction, and one by best effort
 constexpr std::size_t kOctets = 64;              // of an interaction
 constexpr std::size_t kDatums = (kOctets - pdu::kFixedSize<pdu::Comment>) / sizeof(std::uint64_t);
@@ -47,17 +47,17 @@ peer::SceneFile field() {
 }
 
 // A hand on a circle of 10 cm, once in a second.
-peer::EntityTruth hand(nanoseconds now, std::size_t number) {
-  constexpr double kRadius = 0.1, kTurns = 2.0 * std::numbers::pi;  // [m], [rad/s]
+peer::EntityTruth hand_on_circle(nanoseconds now, std::size_t number) {
+  constexpr double kCircle = 0.1, kTurns = 2.0 * std::numbers::pi;  // [m], [rad/s]
   const double angle = kTurns * pdu::to_seconds(now) + static_cast<double>(number);
   const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
   peer::EntityTruth truth;
-  truth.position = kRadius * out;
-  truth.velocity = kRadius * kTurns * Eigen::Vector3d(-out.y(), out.x(), 0.0);
+  truth.position = kCircle * out;
+  truth.velocity = kCircle * kTurns * Eigen::Vector3d(-out.y(), out.x(), 0.0);
   return truth;
 }
 
-struct Pose {
+struct SeenPose {
   std::uint64_t updates = 0;
   nanoseconds since{};
 };
@@ -77,7 +77,7 @@ class DeliveryRun {
   }
 
   Deliveries run() {
-    for (const nanoseconds end = clock_.now() + kMeet; clock_.now() < end;) step();
+    for (const nanoseconds end = clock_.now() + kJoining; clock_.now() < end;) step();
     const nanoseconds begin = clock_.now(), end = begin + options_.length;
     for (nanoseconds next = begin; clock_.now() < end + kLast; step()) {
       if (clock_.now() < end) look_at_ages();
@@ -103,13 +103,13 @@ class DeliveryRun {
     peer::EntityDescription description;
     description.type = {pdu::EntityKind::life_form, pdu::EntityDomain::land};
     description.dead_reckoning = peer::DeadReckoningConfig{};
-    handles_[i] = federate.register_object(description, hand(clock_.now(), i));
+    handles_[i] = federate.register_object(description, hand_on_circle(clock_.now(), i));
   }
 
   void step() {
     clock_.advance(kStep);
     for (std::size_t i = 0; i <= kReceivers; ++i) {
-      federates_[i]->update_attributes(handles_[i], hand(clock_.now(), i));
+      federates_[i]->update_attributes(handles_[i], hand_on_circle(clock_.now(), i));
       federates_[i]->step();
     }
   }
@@ -140,7 +140,7 @@ class DeliveryRun {
     for (std::size_t i = 1; i <= kReceivers; ++i) {
       const auto seen = federates_[i]->find(federates_[0]->id_of(handles_[0]));
       if (!seen) continue;
-      Pose& pose = poses_[i - 1];
+      SeenPose& pose = poses_[i - 1];
       if (seen->updates() != pose.updates) pose = {seen->updates(), clock_.now()};
       ages_ms_.push_back(1e3 * pdu::to_seconds(clock_.now() - pose.since));
     }
@@ -182,7 +182,7 @@ class DeliveryRun {
   std::array<peer::ObjectHandle, kReceivers + 1> handles_;
   std::vector<Sent> numbers_;  // by the number in the interaction; even ones are assured
   std::vector<double> delays_ms_, ages_ms_;
-  std::array<Pose, kReceivers> poses_;
+  std::array<SeenPose, kReceivers> poses_;
   std::size_t best_effort_ = 0;
 };
 
@@ -206,7 +206,7 @@ Fields fields_of(const Deliveries& row) {
       .cell("P50 ms", ms(row.p50_ms))
       .cell("P99 ms", ms(row.p99_ms))
       .cell("MAX ms", ms(row.max_ms))
-      .cell("SENT TIMES", ms(row.transmissions))
+      .cell("TRANSMISSIONS", ms(row.transmissions))
       .cell("BEST EFFORT LOST", percent(row.best_effort_lost))
       .cell("POSE AGE P99 ms", fmt::format("{:.1f}", row.age_p99_ms))
       .cell("WITHOUT", fmt::format("{:.1f}", row.age_without_p99_ms));
