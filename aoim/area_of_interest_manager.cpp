@@ -79,7 +79,8 @@ AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& upd
   if (const auto* made = std::get_if<CompressedPayload>(&update))
     return aggregator_.add_compressed(group, made->entity, made->form, made->state, made->records,
                                       terms);
-  return aggregator_.add(group, std::get<PduPayload>(update).octets, terms);
+  const auto& pdu = std::get<PduPayload>(update);
+  return aggregator_.add(group, pdu.octets, terms, pdu.mark);
 }
 
 bool AreaOfInterestManager::must_send(std::size_t tier, const pdu::EntityId& entity,
@@ -181,8 +182,7 @@ bool AreaOfInterestManager::is_of_exercise(
     const std::optional<pdu::DatagramTrailer>& trailer) const noexcept {
   const std::uint8_t ours = presence_.own().header.exercise_id;
   if (trailer && trailer->header.exercise_id != ours) return false;
-  const bool may_announce = group == kBaseGroup && !config_.interop;
-  return !may_announce || !announces_another_exercise(datagram, ours);
+  return group != kBaseGroup || config_.interop || !announces_another_exercise(datagram, ours);
 }
 
 IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group, const SourceAddress& from,

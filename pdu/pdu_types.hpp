@@ -64,6 +64,7 @@
 #include "reckon/pdu/radio/receiver.hpp"
 #include "reckon/pdu/radio/signal.hpp"
 #include "reckon/pdu/radio/transmitter.hpp"
+#include "reckon/pdu/reckon/assured_record.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
@@ -170,7 +171,8 @@ using PduTypes = TypeList<
     GroupMap,
     CellSnapshot,
     UnicastFrame,
-    CompressedStates>;
+    CompressedStates,
+    AssuredRecord>;
 // clang-format on
 
 /// Whether the list has the type.

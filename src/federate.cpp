@@ -120,12 +120,13 @@ struct Federate::Participation {
   JoinedPeer joined;
   EntityNumbers numbers{given_already(joined.options())};
   std::vector<bool> alive;  // registered and not deleted, by number
-  std::uint64_t dropped = 0;
+  std::uint64_t dropped = 0, messages = 0;
   std::vector<EntityClass> published, subscribed;
   std::vector<pdu::PduType> published_interactions;
   std::map<pdu::PduType, HearOctets> interactions;
   std::function<void(const RemoteObject&)> discovered, reflected;
   std::function<void(const RemoteObject&, Removal)> removed;
+  std::function<void(const UndeliveredMessage&)> undelivered;
   RemoteObjects objects;
   ExerciseClock exercise_clock;
   nanoseconds utc_ahead{0};  // of now
@@ -187,6 +188,10 @@ void Federate::on_reflect(std::function<void(const RemoteObject&)> callback) {
 
 void Federate::on_remove(std::function<void(const RemoteObject&, Removal)> callback) {
   participation_->removed = std::move(callback);
+}
+
+void Federate::on_undelivered(std::function<void(const UndeliveredMessage&)> callback) {
+  participation_->undelivered = std::move(callback);
 }
 
 // Our entities ------------------------------------------------------------------------------------
@@ -265,17 +270,24 @@ std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
 
 // Interactions ------------------------------------------------------------------------------------
 
-void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
-                           const std::optional<Eigen::Vector3d>& place) {
+MessageHandle Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
+                                    const std::optional<Eigen::Vector3d>& place,
+                                    Delivery delivery) {
   const auto& published = participation_->published_interactions;
   if (std::find(published.begin(), published.end(), type) == published.end())
     throw std::logic_error("PDU type " + std::to_string(static_cast<int>(type)) +
                            " is not published: call publish<pdu::Type>() first");
+  const bool is_assured = delivery == Delivery::assured;
+  if (is_assured)
+    check_assured(type, octets.size(), participation_->options().scene->network.interop);
   Wishes& wishes = participation_->wishes();
   std::optional<aoim::Position> at;
   if (place) at = to_position(*place);
-  wishes.said.push_back({wishes.octets.size(), octets.size(), at});
+  const MessageHandle message{is_assured ? ++participation_->messages : 0};
+  wishes.said.push_back(
+      {wishes.octets.size(), octets.size(), at, is_assured ? message_tag(message, type) : 0});
   wishes.octets.insert(wishes.octets.end(), octets.begin(), octets.end());
+  return message;
 }
 
 std::uint64_t Federate::dropped_interactions() const noexcept { return participation_->dropped; }
@@ -357,6 +369,7 @@ void Federate::call_back(News& news) {
     s.set_time(octets, utc());
     if (interaction != s.interactions.end()) interaction->second(octets, heard.sender);
   }
+  report_undelivered(news.undelivered, s.undelivered);
 }
 
 JoinedPeer& Federate::joined() noexcept { return participation_->joined; }

@@ -19,6 +19,7 @@
 #include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/federate_options.hpp"
+#include "reckon/peer/federation/delivery.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/remote_object.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"
@@ -124,6 +125,13 @@ class Federate {
   ///     log(object.marking(), cause == peer::Removal::silent ? "fell silent" : "is gone");
   ///   });
   void on_remove(std::function<void(const RemoteObject&, Removal)> callback);
+  /// Calls back with each assured interaction that some peers did not get, and the reason for each.
+  /// More than once for an interaction whose peers fail at different times.
+  ///
+  ///   federate.on_undelivered([&](const peer::UndeliveredMessage& lost) {
+  ///     if (lost.message == shot) log(lost.peers.size(), "peers did not get the shot");
+  ///   });
+  void on_undelivered(std::function<void(const UndeliveredMessage&)> callback);
 
   // Own entities ----------------------------------------------------------------------------------
   // For an object that is not registered or is deleted they throw std::logic_error.
@@ -168,9 +176,16 @@ class Federate {
 
   /// Sends any PDU, with exercise and timestamp filled in. A PDU with a world location (Fire,
   /// Detonation) goes to peers that can sense the place, any other PDU to all peers.
-  /// @throws std::logic_error if its type is not published
+  /// An assured one goes to all joined peers whatever its place, and on_undelivered() reports each
+  /// peer that does not get it. Peers take it once, but not in the order of sending. resign() ends
+  /// the repeats.
+  ///
+  ///   const peer::MessageHandle shot = federate.send(fire, peer::Delivery::assured);
+  ///
+  /// @throws std::logic_error if its type is not published; for an assured one also as
+  /// check_assured() does: interop scene, Entity State, Attribute, more than 1,200 octets
   template <pdu::Pdu T>
-  void send(T message) {
+  MessageHandle send(T message, Delivery delivery = Delivery::best_effort) {
     message.header.exercise_id = exercise();
     std::optional<Eigen::Vector3d> place;
     if constexpr (requires { message.location_in_world_coordinates; }) {
@@ -179,7 +194,7 @@ class Federate {
     }
     std::vector<std::byte> octets(pdu::wire_size(message));
     octets.resize(pdu::encode(message, octets));
-    send_octets(T::kPduType, octets, place);
+    return send_octets(T::kPduType, octets, place, delivery);
   }
 
   /// Interactions that were lost because step() was not called: at most 8 MiB of them are pending.
@@ -218,8 +233,8 @@ class Federate {
   void subscribe_interaction(
       pdu::PduType type,
       std::function<void(std::span<const std::byte>, const InteractionSender&)> callback);
-  void send_octets(pdu::PduType type, std::span<const std::byte> octets,
-                   const std::optional<Eigen::Vector3d>& place);
+  MessageHandle send_octets(pdu::PduType type, std::span<const std::byte> octets,
+                            const std::optional<Eigen::Vector3d>& place, Delivery delivery);
   [[nodiscard]] std::uint8_t exercise() const noexcept;
   [[nodiscard]] RemoteObject object_at(std::size_t index) const noexcept;
   [[nodiscard]] Eigen::Vector3d scene_position(const Eigen::Vector3d& world) const noexcept;

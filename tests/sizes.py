@@ -28,11 +28,11 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 38500,
-    "src": 45500,
+    "src": 46500,
     "tools": 40000,
     "python": 2500,
     "bench": 36500,
-    "tests": 134000,
+    "tests": 135000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -49,7 +49,7 @@ LARGE = {
     "haptics/RemoteContact": (348, 30),
     "haptics/SerialSession": (178, 27),
     "haptics/ServoSnapshot": (1, 35),
-    "src/ModelLoop": (305, 24),
+    "src/ModelLoop": (302, 24),
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (190, 27),
     "src/RemoteEntities": (445, 21),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "reckon/aoim/bundling/attribute_records.hpp"
 #include "reckon/pdu/entity/attribute.hpp"
@@ -78,7 +79,7 @@ AddResult Aggregator::refuse(AddResult why) noexcept {
 // ------------------------------------------------------------------------------------------- add
 
 AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
-                          const BundleTerms& terms) {
+                          const BundleTerms& terms, std::span<const std::byte> mark) {
   if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
   if (!is_one_pdu(bytes)) return refuse(AddResult::refused_kind);
   const pdu::PduType type = type_of(bytes);
@@ -90,12 +91,12 @@ AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
     }
     return add_entity(group, entity, Place::entity, bytes, {}, terms);
   }
-  const bool ours = pdu::is_experimental(type);
+  const bool ours = pdu::is_experimental(type) || !mark.empty();
   const bool made_here = type == pdu::PduType::attribute || type == pdu::PduType::datagram_trailer;
   if (made_here || (ours && lane.interop)) return refuse(AddResult::refused_kind);
 
-  const Place place = ours ? Place::experimental : Place::standard;
-  return append_item(group, {kNoEntity, {}, place}, bytes, {}, terms);
+  const Place place = pdu::is_experimental(type) ? Place::experimental : Place::standard;
+  return append_item(group, {kNoEntity, {}, place}, bytes, mark, terms);
 }
 
 AddResult Aggregator::add(GroupIndex group, const pdu::EntityState& state,
@@ -200,10 +201,10 @@ void Aggregator::make_datagram_room(std::size_t octets) {
 
 AddResult Aggregator::append_item(GroupIndex group, const Named& named,
                                   std::span<const std::byte> bytes,
-                                  std::span<const std::byte> records, const BundleTerms& terms,
+                                  std::span<const std::byte> behind, const BundleTerms& terms,
                                   WaitingIndex::Entry* entry) {
   Lane& lane = lanes_[group.value];
-  const std::size_t size = bytes.size() + records.size();
+  const std::size_t size = bytes.size() + behind.size();
   if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
   if (!make_room(lane, size)) return refuse(AddResult::refused_full);
   if (lane.items.capacity() == 0) take_room(lane);
@@ -211,13 +212,14 @@ AddResult Aggregator::append_item(GroupIndex group, const Named& named,
 
   const auto offset = static_cast<std::uint32_t>(lane.octets.size());
   append(lane.octets, bytes);
-  append(lane.octets, records);
+  append(lane.octets, behind);
   // Constructed in place: a copy of what was just written member by member would stall.
   Item& item = lane.items.emplace_back();
   static_cast<Named&>(item) = named;
   item.offset = offset;
   item.pdu_size = static_cast<std::uint32_t>(bytes.size());
-  item.records_size = static_cast<std::uint32_t>(records.size());
+  (named.key == kNoEntity ? item.mark_size : item.records_size) =
+      static_cast<std::uint32_t>(behind.size());
   hasten(item, terms);
   count_in(lane, item);
   list(group);
@@ -271,7 +273,7 @@ void Aggregator::hasten(Item& item, const BundleTerms& terms) noexcept {
 
 // Octets an item adds to its bundle, without the Attribute PDU that all share.
 std::size_t Aggregator::cost(const Item& item) noexcept {
-  if (item.records_size == 0) return item.pdu_size;
+  if (item.records_size == 0) return item.pdu_size + item.mark_size;
   return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize;
 }
 
@@ -299,10 +301,7 @@ void Aggregator::count_in(Lane& lane, const Item& item) noexcept {
 }
 
 void Aggregator::list(GroupIndex group) {
-  Lane& lane = lanes_[group.value];
-  if (lane.listed) return;
-  lane.listed = true;
-  active_.push_back(group.value);
+  if (!std::exchange(lanes_[group.value].listed, true)) active_.push_back(group.value);
 }
 
 // ----------------------------------------------------------------------------------------- flush

@@ -98,7 +98,10 @@ class Aggregator {
 
   /// Queues one encoded PDU. An Entity State replaces a pending one of the same entity and keeps
   /// the earlier deadline and the lower quorum; other PDUs keep their order.
-  AddResult add(GroupIndex group, std::span<const std::byte> pdu, const BundleTerms& terms);
+  /// @param mark an encoded experimental PDU that is sent in the same datagram, or empty; ignored
+  /// for an Entity State
+  AddResult add(GroupIndex group, std::span<const std::byte> pdu, const BundleTerms& terms,
+                std::span<const std::byte> mark = {});
 
   /// Queues an Entity State and the records that go into the Attribute PDU of the same datagram
   /// (HapticRecord, EnergyAccountRecord; already encoded, one after the other, may be empty). Sets
@@ -158,9 +161,10 @@ class Aggregator {
     Place place = Place::standard;
   };
   struct Item : Named {
-    std::uint32_t offset = 0;    ///< into the lane's octets: PDU, then records
+    std::uint32_t offset = 0;    ///< into the lane's octets: PDU, then records or mark
     std::uint32_t pdu_size = 0;  ///< 0 = records alone
     std::uint32_t records_size = 0;
+    std::uint32_t mark_size = 0;  ///< only without records
     std::uint32_t quorum = kNoQuorum;
     std::chrono::nanoseconds deadline = std::chrono::nanoseconds::max();
   };
@@ -199,7 +203,7 @@ class Aggregator {
                        std::span<const std::byte> state, std::span<const std::byte> records,
                        const BundleTerms& terms);
   AddResult append_item(GroupIndex group, const Named& named, std::span<const std::byte> bytes,
-                        std::span<const std::byte> records, const BundleTerms& terms,
+                        std::span<const std::byte> behind, const BundleTerms& terms,
                         WaitingIndex::Entry* entry = nullptr);
   AddResult replace(GroupIndex group, Item& item, Place place, std::span<const std::byte> state,
                     std::span<const std::byte> records, const BundleTerms& terms);

@@ -38,12 +38,13 @@ void Aggregator::emit(GroupIndex group, std::span<const Item> items, nanoseconds
 std::size_t Aggregator::write_pdus(const Lane& lane, std::span<const Item> items, Place place,
                                    std::size_t at) noexcept {
   for (const Item& item : items) {
-    if (item.place != place || item.pdu_size == 0) continue;
-    std::memcpy(datagram_.data() + at, lane.octets.data() + item.offset, item.pdu_size);
-    if (item.records_size > 0) {
-      datagram_[at + kStatusAt] |= std::byte{pdu::kStatusCoupledExtension};
-    }
-    at += item.pdu_size;
+    const bool marks = item.place != place && place == Place::experimental;
+    const std::uint32_t size = marks ? item.mark_size : item.place == place ? item.pdu_size : 0;
+    if (size == 0) continue;
+    const std::byte* from = lane.octets.data() + item.offset + (marks ? item.pdu_size : 0);
+    std::memcpy(datagram_.data() + at, from, size);
+    if (item.records_size > 0) datagram_[at + kStatusAt] |= std::byte{pdu::kStatusCoupledExtension};
+    at += size;
   }
   return at;
 }

@@ -57,7 +57,8 @@ void Aggregator::compact(Lane& lane) {
   compacted_.clear();
   for (Item& item : lane.items) {
     const auto bytes =
-        std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
+        std::span(lane.octets)
+            .subspan(item.offset, item.pdu_size + item.records_size + item.mark_size);
     item.offset = static_cast<std::uint32_t>(compacted_.size());
     compacted_.insert(compacted_.end(), bytes.begin(), bytes.end());
   }

@@ -51,17 +51,15 @@ bool SnapshotReader::receive(const pdu::CellSnapshot& part, std::uint32_t leader
                     part.part < part.parts && part.serial != 0;
   if (reading == nullptr || !fits) return false;
   const bool continues = reading->leader == leader && reading->serial == part.serial &&
-                         reading->got.size() == part.parts;
+                         reading->parts.parts() == part.parts;
   if (!continues) {
     reading->leader = leader;
     reading->serial = part.serial;
-    reading->got.assign(part.parts, false);
-    reading->missing = part.parts;
+    reading->parts.begin(part.parts);
   }
   reading->next_ask = now + kPause;
-  if (reading->got[part.part]) return false;
-  reading->got[part.part] = true;
-  if (--reading->missing == 0) drop(reading->cell);
+  if (!reading->parts.take(part.part)) return false;
+  if (reading->parts.missing() == 0) drop(reading->cell);
   return true;
 }
 
@@ -71,19 +69,11 @@ std::size_t SnapshotReader::fill(pdu::CellRole& role, std::size_t from, nanoseco
   reading->next_ask = now + config_.ask_again;
   role.flags |= pdu::kRoleAsks;
   if (reading->serial == 0) return 0;
-  const auto first = std::find(reading->got.begin() + static_cast<std::ptrdiff_t>(from),
-                               reading->got.end(), false);
-  const auto begin = static_cast<std::size_t>(first - reading->got.begin());
+  const PartRequest missing = reading->parts.request(from);
   role.serial = reading->serial;
-  role.first_part = static_cast<std::uint16_t>(begin);
-  role.parts = 0;
-  const std::size_t end = std::min(begin + 64, reading->got.size());
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!reading->got[i]) role.parts |= std::uint64_t{1} << (i - begin);
-  }
-  const bool more = std::find(reading->got.begin() + static_cast<std::ptrdiff_t>(end),
-                              reading->got.end(), false) != reading->got.end();
-  return more ? end : 0;
+  role.first_part = static_cast<std::uint16_t>(missing.first);
+  role.parts = missing.parts;
+  return reading->parts.behind(missing);
 }
 
 bool SnapshotReader::take_given_up(nanoseconds now, CellId& cell) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/aoim/leader/leader_config.hpp"
+#include "reckon/aoim/numbered/missing_parts.hpp"
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
 
@@ -53,8 +54,7 @@ class SnapshotReader {
     Nanoseconds since{}, next_ask{};
     std::uint32_t leader = 0;
     std::uint16_t serial = 0;
-    std::vector<bool> got;
-    std::size_t missing = 0;
+    MissingParts parts;
   };
   [[nodiscard]] Reading* find(CellId cell) noexcept;
 

@@ -40,17 +40,12 @@ void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex number, GroupInde
   snapshot.group = group;
   if (role.serial == 0 || role.serial != snapshot.serial) {
     // A running snapshot is enough: the newcomer requests the parts that it missed.
-    if (snapshot.asked || snapshot.left > 0) return;
+    if (snapshot.asked || snapshot.due.left() > 0) return;
     snapshot.asked = true;
     snapshot.begin_at = now + config_.collect;
     return;
   }
-  for (std::size_t i = 0; i < 64; ++i) {
-    const std::size_t part = role.first_part + i;
-    if ((role.parts >> i & 1) == 0 || part >= snapshot.due.size() || snapshot.due[part]) continue;
-    snapshot.due[part] = true;
-    ++snapshot.left;
-  }
+  snapshot.due.request({role.first_part, role.parts});
   snapshot.next = std::max(snapshot.next, now);
 }
 
@@ -58,8 +53,7 @@ void SnapshotServer::drop(CellId cell) {
   std::erase_if(snapshots_, [cell](const Snapshot& snapshot) { return snapshot.cell == cell; });
 }
 
-void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
-                                  const StateStore& states) {
+void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now, const StateStore& states) {
   if (!snapshot.asked || now < snapshot.begin_at) return;
   budget_.set_whole(static_cast<double>(states.size()) * kEntityOctets);
   snapshot.begin_at = std::max(snapshot.begin_at, budget_.ready_at());
@@ -78,21 +72,17 @@ void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
     filled += size;
     snapshot.parts.back().push_back(entity);
   }
-  snapshot.left = snapshot.parts.size();
-  snapshot.due.assign(snapshot.left, true);
+  snapshot.due.begin(snapshot.parts.size());
   snapshot.next = now;
 }
 
 // Leaves out an entity that has gone meanwhile or has grown too long for its part.
 bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateStore& states,
                                pdu::CellSnapshot& part) {
-  if (snapshot.left == 0 || now < snapshot.next) return false;
+  if (snapshot.due.left() == 0 || now < snapshot.next) return false;
   snapshot.next = std::max(snapshot.next, budget_.ready_at());
   if (now < snapshot.next) return false;
-  const auto due = std::find(snapshot.due.begin(), snapshot.due.end(), true);
-  const auto index = static_cast<std::size_t>(due - snapshot.due.begin());
-  *due = false;
-  --snapshot.left;
+  const std::size_t index = snapshot.due.take();
   snapshot.next += config_.part_gap;
   octets_.clear();
   for (const pdu::EntityId& entity : snapshot.parts[index]) {
@@ -122,7 +112,7 @@ nanoseconds SnapshotServer::next_step() const noexcept {
   nanoseconds next = nanoseconds::max();
   for (const Snapshot& snapshot : snapshots_) {
     if (snapshot.asked) next = std::min(next, snapshot.begin_at);
-    if (snapshot.left > 0) next = std::min(next, snapshot.next);
+    if (snapshot.due.left() > 0) next = std::min(next, snapshot.next);
   }
   return next;
 }

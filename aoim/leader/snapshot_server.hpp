@@ -13,6 +13,7 @@
 
 #include "reckon/aoim/leader/leader_config.hpp"
 #include "reckon/aoim/leader/state_store.hpp"
+#include "reckon/aoim/numbered/due_parts.hpp"
 #include "reckon/aoim/presence/introduction_budget.hpp"
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
@@ -59,8 +60,7 @@ class SnapshotServer {
     bool asked = false;  ///< a new one begins at begin_at
     Nanoseconds begin_at{}, next{};
     std::vector<std::vector<pdu::EntityId>> parts;
-    std::vector<bool> due;
-    std::size_t left = 0;  ///< parts that are due
+    DueParts due;
   };
   void begin_if_due(Snapshot& snapshot, Nanoseconds now, const StateStore& states);
   bool take_part(Snapshot& snapshot, Nanoseconds now, const StateStore& states,

@@ -30,6 +30,7 @@ struct CompressedPayload {
 /// Any other encoded PDU.
 struct PduPayload {
   std::span<const std::byte> octets;
+  std::span<const std::byte> mark = {};  ///< an experimental PDU for the same datagram, or empty
 };
 
 /// Views: the data must stay valid until the payload was handed over.

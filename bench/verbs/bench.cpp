@@ -17,6 +17,7 @@ namespace reckon::bench {
 
 // One function for each study, defined in its folder.
 std::unique_ptr<Study> accuracy_study();
+std::unique_ptr<Study> delivery_study();
 std::unique_ptr<Study> latency_study();
 std::unique_ptr<Study> scale_study();
 std::unique_ptr<Study> stability_study();
@@ -56,6 +57,8 @@ constexpr std::array kStudies{
               "latency of a touch between two peers with threads and sockets, and of a bare "
               "datagram",
               "", "reckon bench latency --for 60s", latency_study},
+    StudyKind{"delivery", "assured interactions over a simulated network that loses datagrams",
+              "--csv", "reckon bench delivery --losses 0,20%,30%", delivery_study},
 };
 
 /// Flags of some studies only. A study with one of them also has the flags declared after it, up to
@@ -93,7 +96,8 @@ void declare_shared(tools::CommandLine& line, std::string& study, SharedWords& s
       {"--json", &shared.json, "one JSON object per line"},
       {"--seed", &shared.seed, "first seed of motions and network (1)"},
       {"--for", &shared.length,
-       "length of a motion, of latency (60s), of a run of stability (12s), of scale (5s)"},
+       "length of a motion, of delivery, of latency (60s), of a run of stability (12s), of scale "
+       "(5s)"},
       {"--csv", &shared.csv,
        "write all figures to this file; stability: each at once, and an existing file is "
        "continued"},

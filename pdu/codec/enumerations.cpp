@@ -33,6 +33,7 @@ constexpr auto kForceModels =
 constexpr auto kCellSchemes = list("None", "Square", "Hexagonal", "Quad-Tree", "Locales");
 constexpr auto kCompressedForms = list("None", "Compact", "Reserved", "Residual");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign", "Join Near");
+constexpr auto kAssuredKinds = list("None", "Record", "Mark", "Acknowledgement");
 
 }  // namespace
 
@@ -72,5 +73,6 @@ std::string_view name(ForceModelKind value) noexcept { return from(kForceModels,
 std::string_view name(CellScheme value) noexcept { return from(kCellSchemes, value); }
 std::string_view name(CompressedForm value) noexcept { return from(kCompressedForms, value); }
 std::string_view name(MembershipAction value) noexcept { return from(kMembershipActions, value); }
+std::string_view name(AssuredKind value) noexcept { return from(kAssuredKinds, value); }
 
 }  // namespace reckon::pdu

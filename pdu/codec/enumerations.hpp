@@ -96,6 +96,7 @@ enum class PduType : std::uint8_t {
   cell_snapshot = 147,
   unicast_frame = 148,
   compressed_states = 149,
+  assured_record = 150,
 };
 
 /// UID 5. Experimental PDUs of this project have family 129.
@@ -243,6 +244,15 @@ enum class MembershipAction : std::uint8_t {
   join_near = 5,  ///< a near group of the cells, of the stated row
 };
 
+/// What an AssuredRecord PDU is (ours). Other values from 16 on are records of further users.
+enum class AssuredKind : std::uint8_t {
+  none = 0,
+  record = 1,           ///< its content is the record
+  mark = 2,             ///< a PDU of the same datagram is the record
+  acknowledgement = 3,  ///< the last records that the sender of this PDU has received
+  first_of_users = 16,
+};
+
 /// 129 to 255: experimental by common use; these come last in a bundle.
 [[nodiscard]] constexpr bool is_experimental(PduType type) noexcept {
   return static_cast<std::uint8_t>(type) >= 129;
@@ -264,6 +274,7 @@ enum class MembershipAction : std::uint8_t {
 [[nodiscard]] std::string_view name(CellScheme value) noexcept;
 [[nodiscard]] std::string_view name(CompressedForm value) noexcept;
 [[nodiscard]] std::string_view name(MembershipAction value) noexcept;
+[[nodiscard]] std::string_view name(AssuredKind value) noexcept;
 /// The octet of EntityType is a platform domain only if the kind is a platform.
 [[nodiscard]] std::string_view name(EntityDomain value) noexcept;
 

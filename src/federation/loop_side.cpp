@@ -52,7 +52,10 @@ void LoopSide::send(Wishes& wishes, ModelLoop& loop) {
   for (const Wishes::Say& wish : wishes.said) {
     const std::span<std::byte> octets = std::span(wishes.octets).subspan(wish.offset, wish.size);
     pdu::store_big_endian(octets.data() + kTimestampOffset, loop.time().stamp(loop.pass().utc));
-    static_cast<void>(loop.send(octets, wish.place));
+    if (wish.assured != 0)
+      loop.assured().send(octets, wish.assured, loop.pass());
+    else
+      static_cast<void>(loop.send(octets, wish.place));
   }
 }
 
@@ -66,6 +69,11 @@ void LoopSide::receive(const pdu::PduHeader& header, std::span<const std::byte> 
   }
   news.heard.push_back({header.pdu_type, news.octets.size(), octets.size(), sender});
   news.octets.insert(news.octets.end(), octets.begin(), octets.end());
+}
+
+void LoopSide::note_undelivered(const Undelivered& undelivered) noexcept {
+  News& news = news_.letter();
+  if (news.undelivered.size() < kMostUndelivered) news.undelivered.push_back(undelivered);
 }
 
 // While the program reads the last letter, the table collects the newest change of each entity.

@@ -21,10 +21,14 @@ class LoopSide final : public ModelGuest {
  public:
   /// Most pending PDUs for a program that does not read [octets]; further ones are counted.
   static constexpr std::size_t kMostWaiting = std::size_t{8} << 20;
+  /// Most pending reports of peers that did not get an assured message; further ones are only
+  /// counted (`assured_undelivered`).
+  static constexpr std::size_t kMostUndelivered = 65'536;
 
   void begin_pass(ModelLoop& loop) noexcept override;
   void receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
                const InteractionSender& sender) noexcept override;
+  void note_undelivered(const Undelivered& undelivered) noexcept override;
   void end_pass(ModelLoop& loop) noexcept override;
 
   [[nodiscard]] LetterBox<Wishes>& wishes() noexcept { return wishes_; }

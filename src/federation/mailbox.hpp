@@ -9,12 +9,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/peer/reliable/undelivered.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -44,6 +46,7 @@ struct Wishes {
   struct Say {
     std::size_t offset, size;  ///< of the PDU in `octets`
     std::optional<aoim::Position> place;
+    std::uint64_t assured = 0;  ///< tag of an assured message; 0: best effort
   };
   std::vector<Register> registered;
   std::vector<Move> moved;
@@ -84,6 +87,7 @@ struct News {
   std::vector<RemoteCopy> states;           ///< as of now
   std::vector<Removed> removed;             ///< one that is in `states` too has returned since
   std::vector<Heard> heard;
+  std::vector<Undelivered> undelivered;
   std::vector<std::byte> octets;
   std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read
 
@@ -91,6 +95,7 @@ struct News {
     states.clear();
     removed.clear();
     heard.clear();
+    undelivered.clear();
     octets.clear();
   }
 };

@@ -135,12 +135,7 @@ KeySpeaker DatagramIntake::key_speaker(const Arrival& arrival) const noexcept {
 bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
                            ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);
-  if (!index && datagram.group != pool_.base()) {
-    counted_.unicast_refused.add();
-    if (tap_ != nullptr)
-      tap_->note(DatagramTap::Loop::model, DatagramFate::unicast, datagram.group, datagram.octets);
-    return false;
-  }
+  if (!index && datagram.group != pool_.base()) return admit_unicast(datagram, pass, admitted);
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
@@ -159,6 +154,38 @@ bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
                of_cell ? aoim::kBaseGroup : group}};
   remote_.heard(from, pass.now);
   return true;
+}
+
+bool DatagramIntake::admit_unicast(const QueuedDatagram& datagram, const Pass& pass,
+                                   ArrivedDatagram& admitted) noexcept {
+  const aoim::SourceAddress from = source_of(datagram.sender, datagram.boot);
+  const std::uint32_t epoch = assured_sender(datagram.octets, from);
+  const DatagramFate fate = epoch == 0 ? DatagramFate::unicast : DatagramFate::delivered;
+  if (tap_ != nullptr) tap_->note(DatagramTap::Loop::model, fate, datagram.group, datagram.octets);
+  if (epoch == 0) return counted_.unicast_refused.add(), false;
+  admitted = {datagram.octets,
+              {pass.now, pass.utc, std::min(datagram.arrival, pass.now), epoch,
+               time_.evidence(epoch), from, aoim::kBaseGroup, true}};
+  remote_.heard(from, pass.now);
+  return true;
+}
+
+// The epoch of the datagram's Assured Records; 0 if it holds anything else, or if that peer is not
+// a member bound to this very source. With a key the link has opened it as sealed for this host.
+std::uint32_t DatagramIntake::assured_sender(std::span<const std::byte> octets,
+                                             const aoim::SourceAddress& from) const noexcept {
+  std::uint32_t epoch = 0;
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets)) {
+    pdu::AssuredRecord record;
+    const bool is_record = bundled.error == pdu::DecodeError::none &&
+                           bundled.header.exercise_id == scene_.network.exercise &&
+                           pdu::decode(bundled.bytes, record) == pdu::DecodeError::none;
+    if (!is_record || record.epoch == 0 || (epoch != 0 && record.epoch != epoch)) return 0;
+    epoch = record.epoch;
+  }
+  const auto bound = aoim_.presence().source_of(epoch);
+  const bool is_bound = bound && bound->port != 0;
+  return is_bound && aoim_.presence().standing(epoch, &from) == aoim::Standing::member ? epoch : 0;
 }
 
 void DatagramIntake::report_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,

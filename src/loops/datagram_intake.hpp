@@ -58,6 +58,10 @@ class DatagramIntake {
   [[nodiscard]] KeySpeaker key_speaker(const Arrival& arrival) const noexcept;
   [[nodiscard]] bool admit(const QueuedDatagram& datagram, const Pass& pass,
                            ArrivedDatagram& admitted) noexcept;
+  [[nodiscard]] bool admit_unicast(const QueuedDatagram& datagram, const Pass& pass,
+                                   ArrivedDatagram& admitted) noexcept;
+  [[nodiscard]] std::uint32_t assured_sender(std::span<const std::byte> octets,
+                                             const aoim::SourceAddress& from) const noexcept;
   void report_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,
                      std::uint64_t lost_before) noexcept;
 

@@ -23,7 +23,11 @@ class DatagramOutlet {
  public:
   /// References outlive this.
   DatagramOutlet(const ModelWiring& wiring, ModelCounters& counted) noexcept
-      : pool_(wiring.pool), ring_(wiring.outbound), tap_(wiring.tap), counted_(counted) {}
+      : pool_(wiring.pool),
+        link_(wiring.link),
+        ring_(wiring.outbound),
+        tap_(wiring.tap),
+        counted_(counted) {}
 
   static constexpr double kRate = 9000.0, kBurst = 100.0;
   static constexpr std::size_t kAhead = 4;
@@ -34,6 +38,10 @@ class DatagramOutlet {
     filled_ = now;
     tokens_ = std::min(kBurst, tokens_ + kRate * std::max(0.0, passed));
   }
+  /// The endpoint from which this peer sends.
+  [[nodiscard]] IpEndpoint source() const noexcept { return link_.local_endpoint(); }
+  /// Whether push() can reach single hosts.
+  [[nodiscard]] bool reaches_hosts() const noexcept { return link_.reaches_hosts(); }
   /// Datagrams that the ring has room for.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
   /// Updates that may be sent in this pass.
@@ -43,34 +51,38 @@ class DatagramOutlet {
   }
   /// Sends to a group of the pool; counted and dropped if the writer lags.
   void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+    push(address_of(group), octets);
+  }
+  /// Sends to one host.
+  void push(const IpEndpoint& host, std::span<const std::byte> octets) noexcept {
     tokens_ -= 1.0;
-    const bool fits = ring_.push(address_of(group), std::chrono::nanoseconds(0), octets);
+    const bool fits = ring_.push(host, std::chrono::nanoseconds(0), octets);
     if (!fits) counted_.write_overflow.add();
-    note(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
+    note(host, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
   }
   /// Does not send a datagram that a mechanism refused.
   void withhold(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
-    note(group, octets, DatagramFate::withheld);
+    note(address_of(group), octets, DatagramFate::withheld);
   }
   /// Drops a stale datagram instead of sending it.
   void drop_stale(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
     counted_.stale_unsent.add();
-    note(group, octets, DatagramFate::stale_unsent);
+    note(address_of(group), octets, DatagramFate::stale_unsent);
   }
 
  private:
-  void note(aoim::GroupIndex group, std::span<const std::byte> octets, DatagramFate more) noexcept {
+  void note(const IpEndpoint& to, std::span<const std::byte> octets, DatagramFate more) noexcept {
     // Reports to the tap that the datagram has a number, and an immediate fate if any.
     if (tap_ == nullptr) return;
-    tap_->note(DatagramTap::Loop::model, DatagramFate::numbered, address_of(group), octets);
-    if (more != DatagramFate::numbered)
-      tap_->note(DatagramTap::Loop::model, more, address_of(group), octets);
+    tap_->note(DatagramTap::Loop::model, DatagramFate::numbered, to, octets);
+    if (more != DatagramFate::numbered) tap_->note(DatagramTap::Loop::model, more, to, octets);
   }
   [[nodiscard]] GroupAddress address_of(aoim::GroupIndex group) const noexcept {
     return group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
   }
 
   const GroupPool& pool_;
+  const Link& link_;
   DatagramRing& ring_;
   DatagramTap* tap_;
   ModelCounters& counted_;

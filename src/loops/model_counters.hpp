@@ -16,7 +16,8 @@ struct ModelCounters {
                                            "duplicates, and datagrams of an earlier run, another "
                                            "scene or exercise, a stranger, or a group left since")),
         unicast_refused(counters.make_in(kRefusedDatagrams, "unicast", "unicast_refused",
-                                         "unicast datagrams; peers send none")),
+                                         "unicast datagrams other than assured records of a "
+                                         "member from its address")),
         orders_refused(counters.make(
             "orders_refused",
             "Stop/Freeze and Start/Resume from senders that the scene does not allow")),

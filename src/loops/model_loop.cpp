@@ -36,7 +36,6 @@ aoim::AreaOfInterestConfig with_secret(aoim::AreaOfInterestConfig config,
 
 ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
-      link_(wiring.link),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
       aoim_(with_secret(aoim_config(wiring.scene, wiring.frame, wiring.link), identity.secret),
@@ -52,6 +51,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       watches_(wiring),
       hooks_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
+      assured_(wiring, identity.epoch, aoim_, time_, hooks_, outlet_, watches_.notices()),
       view_(wiring) {}
 
 // A pass
@@ -111,7 +111,7 @@ void ModelLoop::read_sensors() noexcept {
 void ModelLoop::do_tasks() noexcept {
   tracked_.advance(pass_.now,
                    [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
-  resend_touchable();
+  returned_.resend_touchable(owned_, pass_.now);
   touch_.answer_bodies(pass_);
   touch_.find_near(pass_);
   touch_.consider(pass_);
@@ -260,10 +260,11 @@ void ModelLoop::emit(bool everything) noexcept {
   };
   pdu::TimeExchange exchange;
   if (aoim_.presence().is_due(pass_.now)) {
-    aoim_.note_own_source(source_of(link_.local_endpoint(), 0), pass_.now);
+    aoim_.note_own_source(source_of(outlet_.source(), 0), pass_.now);
     if (time_.echo(owned_.simulation().simulation(), exchange))
       send_pdu(aoim_, exchange, std::nullopt, pass_.now);
   }
+  assured_.step(pass_);
   aoim_.step(pass_.now, sink);
   if (everything) aoim_.flush(pass_.now, sink);
 }
@@ -304,26 +305,29 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     static_cast<void>(remote_.sender_right(std::span(&update.entity, 1), arrival));
     return;
   }
-  if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
+  if (!assured_.admits(update, arrival)) return;
+  if (update.kind != Inbound::Kind::entity)
+    return assured_.conclude(update, take_interaction(update, arrival));
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
   bodies_.note(update, arrival, aoim_.presence(), remote_);
 }
 
-// A forged PDU is neither obeyed nor delivered.
-void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
+// A forged PDU is neither obeyed nor delivered; then false.
+bool ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
   const bool order = update.kind != Inbound::Kind::other;
-  if (order && !orders_.obeys(update, arrival, pass_)) return;
+  if (order && !orders_.obeys(update, arrival, pass_)) return false;
   const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);
   const SenderRight right = remote_.sender_right(issuers.ids(), arrival);
-  if (right == SenderRight::refused) return counted_.interactions_refused.add();
+  if (right == SenderRight::refused) return counted_.interactions_refused.add(), false;
   const bool is_owner = right == SenderRight::owner;
   if (guest_ != nullptr) {
     const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
     guest_->receive(update.pdu.header, update.pdu.bytes, {arrival.from, peer, is_owner});
   }
-  if (order) return orders_.carry_out(update, arrival, own_id(), pass_);
+  if (order) return orders_.carry_out(update, arrival, own_id(), pass_), true;
   emissions_.take(update.pdu.bytes, {arrival.from, arrival.arrival, arrival.epoch == 0, is_owner});
+  return true;
 }
 
 void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
@@ -334,12 +338,13 @@ void ModelLoop::drop(const aoim::PresenceEvent::Dropped& life, bool silent) noex
   remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left);
   emissions_.drop(life.name);
   intake_.forget_keys(life.epoch);
+  assured_.drop(life);
 }
 
 void ModelLoop::rename(const aoim::PeerId& own) noexcept { owned_.rename(own); }
 
 void ModelLoop::report(const aoim::PresenceEvent& event) noexcept {
-  if (event.kind == aoim::PresenceEventKind::heard_again) heard_again_ = pass_.now;
+  if (event.kind == aoim::PresenceEventKind::heard_again) returned_.note(pass_.now);
   watches_.report(event, pass_.now);
 }
 
@@ -370,20 +375,7 @@ void ModelLoop::doubt_silent_peers() noexcept {
   }
   const bool again =
       watches_.doubt_silent(aoim_.presence(), std::span(touched).first(count), remote_, pass_.now);
-  if (again) heard_again_ = pass_.now;
-}
-
-// A peer that was disconnected does not feel our entities until it receives a new state. Even if
-// many peers return, the rate is limited to the rate of hands in contact.
-void ModelLoop::resend_touchable() noexcept {
-  if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
-  for (const EntityNumber number : owned_.touchable()) {
-    OwnedEntity& entity = *owned_.find(number);
-    const bool is_sent = entity.last_sent >= heard_again_;
-    if (is_sent || pass_.now - entity.last_sent < HandPort::kContactPeriod) continue;
-    entity.event();
-    owned_.look_at(number);
-  }
+  if (again) returned_.note(pass_.now);
 }
 
 template <typename... Arguments>

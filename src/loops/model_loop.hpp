@@ -18,6 +18,7 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/emissions/emission_table.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/assured_stage.hpp"
 #include "reckon/peer/loops/body_stage.hpp"
 #include "reckon/peer/loops/datagram_intake.hpp"
 #include "reckon/peer/loops/datagram_outlet.hpp"
@@ -28,6 +29,7 @@
 #include "reckon/peer/loops/order_stage.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/peer_watches.hpp"
+#include "reckon/peer/loops/returned_peers.hpp"
 #include "reckon/peer/loops/subscriber.hpp"
 #include "reckon/peer/loops/touch_stage.hpp"
 #include "reckon/peer/loops/view_publisher.hpp"
@@ -41,9 +43,8 @@ namespace reckon::peer {
 class ModelLoop;
 
 /// A program's part of each pass. Called by the model loop's thread within step(); must not throw.
-class ModelGuest {
+class ModelGuest : public DeliveryWatch {
  public:
-  virtual ~ModelGuest() = default;
   /// Action stage of a pass: the program may add, move and remove entities, and send PDUs.
   /// Datagrams and hands of this pass have been read.
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
@@ -87,8 +88,10 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
   /// Queues an encoded PDU, for the peers that can sense `place` [m, S] or for all.
   aoim::AddResult send(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
+  /// Assured messages of this peer, for send() and for users of further kinds of records.
+  [[nodiscard]] AssuredStage& assured() noexcept { return assured_; }
   /// @param guest outlives the loop, or the next call; nullptr: none.
-  void set_guest(ModelGuest* guest) noexcept { guest_ = guest; }
+  void set_guest(ModelGuest* guest) noexcept { assured_.set_watch(guest_ = guest); }
 
   /// See Peer::trace_contacts().
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
@@ -104,7 +107,8 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// Latest time for the next step() if nothing arrives and no servo steps. By the thread of
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
-    return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due()});
+    return std::min({aoim_.next_step(), assured_.next_step(), view_.next(), owned_.next_due(),
+                     tracked_.next_due()});
   }
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.
@@ -138,7 +142,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   void publish() noexcept;
   void drop_stale(Nanoseconds now) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
-  void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
+  bool take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
   void claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept override;
   void drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept override;
   void rename(const aoim::PeerId& own) noexcept override;
@@ -146,7 +150,6 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
                const aoim::SourceAddress& from) noexcept override;
   void report(const aoim::PresenceEvent& event) noexcept override;
   void doubt_silent_peers() noexcept;
-  void resend_touchable() noexcept;
   void consider_others() noexcept;
   [[nodiscard]] bool consider_other(OwnedEntity& entity, EntityNumber number) noexcept;
   [[nodiscard]] Eigen::Vector3d middle_of_interest() const noexcept;
@@ -157,7 +160,6 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   void report(NoticeKind kind, std::string_view format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
-  const Link& link_;  // for its address
   LoopTrace trace_;
   Pass pass_;
   ModelCounters counted_;
@@ -176,10 +178,10 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   PeerWatches watches_;
   HookList hooks_;  // behind the stages that ask it, whose counters its rows read
   OrderStage orders_;
+  AssuredStage assured_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
-  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // last time that a silent peer was received
-                                                      // again
+  ReturnedPeers returned_;
   std::size_t goodbyes_ = 0;  // entities up to this number have sent their final state
 };
 

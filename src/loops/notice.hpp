@@ -78,6 +78,7 @@ enum class NoticeKind : std::uint8_t {
   servo_slow,
   key,
   device,
+  undelivered,
 };
 
 enum class Severity : std::uint8_t { info, warning, error };

@@ -73,6 +73,7 @@ constexpr NoticeFacts kFacts[]{
     {"servo-slow", Severity::warning, "a step of the servo takes longer than its period"},
     {"key", Severity::info, "changes of the key"},
     {"device", Severity::warning, "a device changed its state"},
+    {"undelivered", Severity::warning, "an assured message did not reach a peer"},
 };
 constexpr std::string_view kSeverities[]{"info", "warning", "error"};
 

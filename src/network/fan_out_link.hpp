@@ -55,6 +55,8 @@ class FanOutLink final : public LinkAround {
   void leave(const GroupAddress& group) noexcept override;
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
+  /// Each datagram is for all addresses.
+  [[nodiscard]] bool reaches_hosts() const noexcept override { return false; }
 
   /// Datagrams received for groups that are not joined. Any thread.
   [[nodiscard]] std::uint64_t not_listened() const noexcept;

@@ -167,6 +167,8 @@ class Link {
   /// Largest payload [octets] that is sent unfragmented.
   [[nodiscard]] virtual std::size_t max_payload() const noexcept = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const noexcept = 0;
+  /// Whether send() reaches a peer's unicast endpoint, as well as groups.
+  [[nodiscard]] virtual bool reaches_hosts() const noexcept { return true; }
 
   /// Takes the events of the link since the last call, oldest first; false if there are none. One
   /// thread, any; no allocation. A link around another one forwards the events of the inner link.
@@ -195,6 +197,7 @@ class LinkAround : public Link {
     return around_.local_endpoint();
   }
   [[nodiscard]] LinkStatistics statistics() const noexcept override { return around_.statistics(); }
+  [[nodiscard]] bool reaches_hosts() const noexcept override { return around_.reaches_hosts(); }
   bool take_event(LinkEvent& event) noexcept override { return around_.take_event(event); }
   void settle() noexcept override { around_.settle(); }
 

@@ -22,6 +22,7 @@ struct Arrival {
   aoim::SourceAddress from = {};        ///< stated source address
   /// The near or contact group in which it arrived; the base group for all others.
   aoim::GroupIndex group = aoim::kBaseGroup;
+  bool is_unicast = false;  ///< sent to this host alone
 };
 
 }  // namespace reckon::peer

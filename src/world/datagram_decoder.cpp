@@ -37,6 +37,7 @@ std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> data
                                                  const PduFilter* filter) noexcept {
   count_ = 0;
   speaker_ = speaker;
+  filter_ = filter;
   std::uint64_t good = 0, left_out = 0;
   for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
     if (pdu.error != DecodeError::none) {
@@ -72,6 +73,8 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::stop_freeze:
     case pdu::PduType::start_resume:
       return take_control(pdu);
+    case pdu::PduType::assured_record:
+      return take_assured(pdu, own);
     case pdu::PduType::presence:
     case pdu::PduType::cell_membership:
     case pdu::PduType::time_exchange:
@@ -93,6 +96,48 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
 
 void DatagramDecoder::take_other(const pdu::BundledPdu& pdu) noexcept {
   if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
+}
+
+// A record that holds a PDU becomes the update of this PDU, any other one an update of its own.
+void DatagramDecoder::take_assured(const pdu::BundledPdu& pdu,
+                                   const pdu::SimulationAddress& own) noexcept {
+  pdu::AssuredRecord record;
+  if (pdu::decode(pdu.bytes, record) != DecodeError::none) return malformed_.add();
+  if (record.kind == pdu::AssuredKind::mark) return take_mark(record, pdu.bytes);
+  const std::size_t before = count_;
+  const bool holds_pdu =
+      record.kind == pdu::AssuredKind::record && (record.flags & pdu::kAssuredPdu) != 0;
+  if (holds_pdu) take_nested(record.content.bytes, own);
+  if (count_ == before) static_cast<void>(stage(Inbound::Kind::assured, {}));
+  if (count_ > before) staged_[count_ - 1].record = pdu.bytes;
+}
+
+// Takes one whole standard PDU. States, their records and our own PDUs are not read from a record.
+void DatagramDecoder::take_nested(std::span<const std::byte> octets,
+                                  const pdu::SimulationAddress& own) noexcept {
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(octets)) {
+    const bool is_whole = pdu.error == DecodeError::none && pdu.bytes.size() == octets.size();
+    const bool is_usual =
+        pdu::bundle_rank(pdu.header.pdu_type) == pdu::bundle_rank(pdu::PduType::stop_freeze);
+    const bool is_wanted = is_whole && is_usual && pdu.header.exercise_id == exercise_ &&
+                           (filter_ == nullptr || filter_->passes(pdu));
+    if (is_wanted) take_pdu(pdu, own);
+    return;
+  }
+}
+
+// The marked PDU precedes its mark.
+void DatagramDecoder::take_mark(const pdu::AssuredRecord& mark,
+                                std::span<const std::byte> octets) noexcept {
+  pdu::AssuredMark marked;
+  if (!pdu::load_record(mark.content.bytes, marked)) return malformed_.add();
+  for (Inbound& update : std::span(staged_).first(count_)) {
+    const bool is_pdu = update.kind != Inbound::Kind::entity && update.kind != Inbound::Kind::claim;
+    if (!is_pdu || !update.record.empty() || update.pdu.bytes.size() != marked.length) continue;
+    if (pdu::assured_digest(update.pdu.bytes) != marked.digest) continue;
+    update.record = octets;
+    return;
+  }
 }
 
 // Decodes in place, unless an update of this entity is already staged.
@@ -224,6 +269,7 @@ void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity
   update.has_state = update.has_model = false;
   update.account_count = 0;
   update.accounts_told = 0;
+  update.record = {};
 }
 
 }  // namespace reckon::peer

@@ -12,6 +12,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/assured_record.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
@@ -27,7 +28,8 @@ struct Inbound {
     stop_freeze,
     start_resume,
     other,
-    claim,  ///< a state from a sender that cannot own its entity; only `entity` is set
+    claim,    ///< a state from a sender that cannot own its entity; only `entity` is set
+    assured,  ///< an Assured Record without a PDU that can be used; only `record` is set
   };
   /// Most entities of ours that a remote one can touch at a time; further ones are counted.
   static constexpr std::size_t kAccounts = 8;
@@ -41,8 +43,9 @@ struct Inbound {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< the accounts that name us
   std::size_t account_count = 0;
-  std::uint8_t accounts_told = 0;  ///< number of accounts that exchange energy, also with others
-  pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
+  std::uint8_t accounts_told = 0;     ///< number of accounts that exchange energy, also with others
+  pdu::BundledPdu pdu;                ///< the whole PDU, for all kinds but entity and claim
+  std::span<const std::byte> record;  ///< the Assured Record that holds or marks the PDU, if any
 };
 
 /// Selects PDUs to decode.
@@ -91,6 +94,9 @@ class DatagramDecoder {
   void take_control(const pdu::BundledPdu& pdu) noexcept;
   [[nodiscard]] Inbound* find_staged(const pdu::EntityId& entity) noexcept;
   void take_other(const pdu::BundledPdu& pdu) noexcept;
+  void take_assured(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
+  void take_nested(std::span<const std::byte> octets, const pdu::SimulationAddress& own) noexcept;
+  void take_mark(const pdu::AssuredRecord& mark, std::span<const std::byte> octets) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
   void add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
 
@@ -102,7 +108,8 @@ class DatagramDecoder {
   std::size_t count_ = 0;
 
   StateRestorer restorer_;
-  KeySpeaker speaker_;  // of the present datagram
+  KeySpeaker speaker_;                 // of the present datagram
+  const PduFilter* filter_ = nullptr;  // likewise
   Counter& pdus_;
   Counter& malformed_;
   Counter& foreign_;

@@ -289,6 +289,9 @@ def main(folder):
           [b"\x04\xe7\x12" + bytes(46), b"\x04" + touch[:200]])
     states = own["compressed_states"][20:]
     write(seeds / "compression", [states] + [bytes([length, 0, 1]) + bytes(length) for length in (1, 24, 60, 128 + 40)])
+    record = own["assured_record"]
+    write(seeds / "assured", [record, touch + record, own["fire"] + record, bytes([0, 0, 1, 0]) * 300,
+                              b"".join(bytes([i % 4, i % 3, i % 256, i % 7]) for i in range(500))])
     write(seeds / "unicast", [own["unicast_frame"][:12] + bytes([0, group, 0, 0]) + touch for group in (0, 1, 2, 7)] +
           [touch, own["unicast_frame"], b"10.0.0.7, host-b:3001", b"2001:db8::7,[2001:db8::8]:3002"])
     digits = b"5a" * 32

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
+#include "reckon/pdu/warfare/fire.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -83,6 +85,32 @@ TEST(Loops, AllocateNothingPerStepWhileTwoHandsTouch) {
   expect_none(loops.run(20'000));
   EXPECT_GT(loops.touching(), 1000u);
   EXPECT_GT(loops.peer(0).counters().find("updates_in")->value(), 10u);
+}
+
+TEST(Loops, AllocateNothingForAssuredMessages) {
+  peer::ImpairmentLaw law;
+  law.delay = milliseconds(1);
+  law.loss = 0.3;
+  Loops loops(scene_of(kTwoHandsOnAWall), law);
+  static_cast<void>(loops.run(2000));
+  const std::vector<std::byte> fire = [] {
+    std::vector<std::byte> octets(96);
+    pdu::Fire message;
+    message.header.exercise_id = 1;
+    EXPECT_EQ(pdu::encode(message, octets), octets.size());
+    return octets;
+  }();
+  std::size_t model = 0;
+  for (std::uint64_t tag = 1; tag <= 300; ++tag) {
+    peer::ModelLoop& loop = loops.peer(tag % 2).model();
+    const AllocationGuard guard;
+    loop.assured().send(fire, tag, loop.pass());
+    model += guard.count();
+    const LoopAllocations sum = loops.run(10);
+    model += sum.read + sum.model + sum.write;
+  }
+  EXPECT_EQ(model, 0U);
+  EXPECT_GT(loops.peer(0).counters().find("assured_in")->value(), 140U);
 }
 
 TEST(Loops, AllocateNothingOnAMeshWithFriction) {

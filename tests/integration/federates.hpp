@@ -53,6 +53,19 @@ class Federates {
     return *federates_.back();
   }
 
+  /// Sets the law of one direction.
+  void impair(std::size_t sender, std::size_t receiver, const peer::ImpairmentLaw& law) {
+    network_.impair(sender, receiver, law);
+  }
+  /// Ends a federate without a farewell; another one with this epoch takes its place.
+  void restart(std::size_t i, const peer::SceneFile& scene, std::uint32_t epoch) {
+    peer::FederateOptions options;
+    options.scene = scene;
+    options.application = static_cast<std::uint16_t>(i + 1);
+    federates_[i].reset();
+    federates_[i] = std::make_unique<peer::Federate>(options, network_.link(i), clock_, epoch);
+  }
+
   /// Passes of `each` until `span` is over: time advances, drive() sets the truth, all step, look()
   /// reads the shown entities.
   template <class Drive, class Look>

@@ -11,7 +11,7 @@ import testbed
 from namespaces import BASE_GROUP
 
 ALICE, BOB = 1, 2  # hosts under attack
-STOP_FREEZE, PRESENCE = 14, 140
+STOP_FREEZE, PRESENCE, ASSURED = 14, 140, 150
 DEACTIVATED = 1 << 23  # bit of an appearance
 
 
@@ -96,10 +96,29 @@ def only_presence(heard, host):
     return octets + payload[-24:]
 
 
-def freeze(heard, _, say):
+def freezing():
     everybody = 0xFFFF
-    say(BASE_GROUP, dis.HEADER.pack(7, 1, STOP_FREEZE, 5, now_stamp(), 40, 0, 0)
-        + struct.pack(">HHHHHHIIBBHI", 9, 9, 1, everybody, everybody, everybody, 0, 0, 2, 0, 0, 77))
+    return (dis.HEADER.pack(7, 1, STOP_FREEZE, 5, now_stamp(), 40, 0, 0)
+            + struct.pack(">HHHHHHIIBBHI", 9, 9, 1, everybody, everybody, everybody, 0, 0, 2, 0, 0, 77))
+
+
+def freeze(heard, _, say):
+    say(BASE_GROUP, freezing())
+
+
+def assured(heard, _, say):
+    """Records with a Freeze, marks of one, and acknowledgements in a victim's epoch, with its trailer and without."""
+    trailer = heard.announcement(BOB)[-24:]
+    sequence, epoch = dis.trailer(trailer)
+
+    def record(kind, number, content):
+        return dis.HEADER.pack(7, 1, ASSURED, 129, now_stamp(), 32 + len(content), 0, 0) + struct.pack(
+            ">HHBBHIIHH", 9, 9, kind, kind == 1, 0, epoch, number, 0, len(content)) + content
+
+    for number in (1, random.randrange(2**32)):
+        for octets in (record(1, number, freezing()), record(3, number, b"\xff" * 64)):
+            say(BASE_GROUP, octets)
+            say(BASE_GROUP, octets + patched(trailer, (12, ">I", (sequence + 1) % 2**32)))
 
 
 def leap(heard, _, say):
@@ -190,6 +209,7 @@ def escapes(heard, _, say):
 
 ATTACKS = {
     "freeze": Attack("Freeze from a stranger", 10, freeze),
+    "assured": Attack("assured Freeze and acknowledgements in the victim's epoch", 10, assured),
     "leap": Attack("bare trailer with sequence + 2^30", 10, leap),
     "new_epoch": Attack("Presence with another's id and new epoch", 10, new_epoch),
     "oldest": Attack("Presence with the victim's id and started = 0", 10, oldest),

@@ -98,11 +98,14 @@ def own_values(fields, kind):
     roles, groups = fields.pop("roles", []), fields.pop("groups", [])
     fields.pop("header")
     fields.pop("states", None)
+    for epoch in fields.pop("addressees", []):
+        note("peer", epoch)
+    fields.pop("content", None)
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
               "cell_membership": "membership", "time_exchange": "exchange",
               "peers_heard": "heard", "cell_roles": "roles", "group_map": "group_map",
               "cell_snapshot": "snapshot", "compressed_states": "compressed",
-              "unicast_frame": "unicast"}.get(kind)
+              "unicast_frame": "unicast", "assured_record": "assured"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
@@ -139,7 +142,7 @@ def values(tools):
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
               "peers_heard", "cell_roles", "group_map", "cell_snapshot",
-              "compressed_states", "unicast_frame"]
+              "compressed_states", "unicast_frame", "assured_record"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

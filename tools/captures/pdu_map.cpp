@@ -182,7 +182,8 @@ MappedPdu map_pdu(std::span<std::byte> octets, const pdu::PduHeader& header, con
       body_axes = deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes;
     Writer writer(octets, ids, shift, body_axes);
     if constexpr (std::same_as<Pdu, pdu::GriddedData>) writer.set_grid();
-    if constexpr (std::same_as<Pdu, pdu::CompressedStates> || std::same_as<Pdu, pdu::CellSnapshot>)
+    if constexpr (std::same_as<Pdu, pdu::CompressedStates> ||
+                  std::same_as<Pdu, pdu::CellSnapshot> || std::same_as<Pdu, pdu::AssuredRecord>)
       writer.set_kept_place();
     PlacedFields placed(octets, writer);
     fields(placed, pdu);

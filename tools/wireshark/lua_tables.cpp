@@ -140,7 +140,7 @@ std::string tables() {
          own_text<pdu::CellRoles>("roles") + own_text<pdu::CellRole>("role") +
          own_text<pdu::GroupMap>("group_map") + own_text<pdu::CellGroup>("cell_group") +
          own_text<pdu::CellSnapshot>("snapshot") + own_text<pdu::CompressedStates>("compressed") +
-         own_text<pdu::UnicastFrame>("unicast") + "}\n";
+         own_text<pdu::UnicastFrame>("unicast") + own_text<pdu::AssuredRecord>("assured") + "}\n";
 }
 
 /// The plug-in with new tables; empty if it has no place for them.

@@ -563,6 +563,14 @@ local PDUS = {
     blocks = {
       { kind = "rest", name = "states" },
     } },
+  [150] = { name = "assured_record", family = 129, size = 32,
+    floats = {},
+    blocks = {
+      { kind = "records", name = "addressees",
+        at = 28, width = 2, count = "number_of_addressees", size = 4 },
+      { kind = "octets", name = "content",
+        at = 30, width = 2, count = "content_length" },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -759,6 +767,18 @@ local OWN = {
   unicast = { size = 16, fields = {
     { "group", 12, 2, "u16" },
     { "padding", 14, 2, "u16" },
+  } },
+  assured = { size = 32, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "kind", 16, 1, "u8", {
+      [0] = "None", [1] = "Record", [2] = "Mark", [3] = "Acknowledgement", } },
+    { "flags", 17, 1, "u8" },
+    { "padding", 18, 2, "u16" },
+    { "epoch", 20, 4, "u32" },
+    { "sequence", 24, 4, "u32" },
+    { "number_of_addressees", 28, 2, "u16" },
+    { "content_length", 30, 2, "u16" },
   } },
 }
 -- END of the tables
@@ -1157,9 +1177,11 @@ end
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
   cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard,
   cell_roles = OWN.roles, group_map = OWN.group_map, cell_snapshot = OWN.snapshot,
-  compressed_states = OWN.compressed, unicast_frame = OWN.unicast }
+  compressed_states = OWN.compressed, unicast_frame = OWN.unicast,
+  assured_record = OWN.assured }
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
-  peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group }
+  peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group,
+  assured_record = OWN.peer }
 
 -- Types unknown to Wireshark's dissector: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
@@ -1173,15 +1195,17 @@ local function add_experimental(tree, tvb, s, at, stop, type)
     return
   end
   add_own(tree, tvb, at, own)
+  local first = at + pdu.size
   for _, block in ipairs(pdu.blocks) do
-    local first = at + pdu.size
     if block.kind ~= "records" then
       if stop > first then tree:add(FIELD.body, tvb(first, stop - first)) end
       return
     end
-    for record = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
+    local behind = BLOCKS.records(s, at, block, first, stop) or first
+    for record = first, behind - 1, block.size do
       add_own(tree, tvb, record, RECORD_OF[pdu.name])
     end
+    first = behind
   end
 end
 

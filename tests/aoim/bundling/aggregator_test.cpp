@@ -222,6 +222,34 @@ TEST(Aggregator, NumbersTrailersPerGroupWithoutGaps) {
   EXPECT_EQ(last.send_time, pdu::trailer_time(seconds(1000) + milliseconds(299)));
 }
 
+TEST(Aggregator, SendsAMarkBesideItsPdu) {
+  const Octets mark = raw_pdu(pdu::PduType::assured_record, 288);
+  for (std::size_t filler = 200; filler < 1200; filler += 50) {
+    Aggregator aggregator(config());
+    Collector sent;
+    aggregator.add(kGroup, raw_pdu(pdu::PduType::cell_roles, filler), milliseconds(5));
+    EXPECT_EQ(aggregator.add(kGroup, raw_pdu(pdu::PduType::fire, 238), milliseconds(0), mark),
+              AddResult::queued);
+    aggregator.add(kGroup, entity_state(1), {}, milliseconds(5));
+    aggregator.flush_all(milliseconds(0), sent);
+    std::size_t found = 0;
+    for (const Datagram& datagram : sent.datagrams) {
+      std::vector<std::size_t> sizes;
+      for (const pdu::BundledPdu& bundled : pdus_of(datagram))
+        sizes.push_back(bundled.bytes.size());
+      const bool has_pdu = std::ranges::count(sizes, 250U) > 0;
+      EXPECT_EQ(has_pdu, std::ranges::count(sizes, 300U) > 0) << filler;
+      found += has_pdu ? 1 : 0;
+      EXPECT_LE(datagram.octets.size(), kLimit) << filler;
+    }
+    EXPECT_EQ(found, 1U);
+  }
+  Aggregator interop(config());
+  interop.set_interop(kInteropGroup, true);
+  EXPECT_EQ(interop.add(kInteropGroup, raw_pdu(pdu::PduType::fire, 238), milliseconds(0), mark),
+            AddResult::refused_kind);
+}
+
 TEST(Aggregator, AddsNoExtensionsToAnInteropGroup) {
   Aggregator aggregator(config());
   aggregator.set_interop(kInteropGroup, true);

@@ -26,6 +26,8 @@ TEST(EnumerationNames, OfThisProjectEndWithTheLastValue) {
   EXPECT_EQ(name(CompressedForm{4}), "");
   EXPECT_EQ(name(MembershipAction::join_near), "Join Near");
   EXPECT_EQ(name(MembershipAction{6}), "");
+  EXPECT_EQ(name(AssuredKind::acknowledgement), "Acknowledgement");
+  EXPECT_EQ(name(AssuredKind{4}), "");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/pdu/warfare/fire.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
@@ -28,6 +29,7 @@ class RecordingLink final : public Link {
   explicit RecordingLink(Link& inner) : inner_(inner) {}
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
     said.emplace_back(to, Octets(bytes.begin(), bytes.end()));
+    if (loses_groups && to.is_multicast()) return true;
     return inner_.send(to, bytes);
   }
   std::size_t receive(std::span<Datagram> out) noexcept override {
@@ -45,6 +47,7 @@ class RecordingLink final : public Link {
   LinkStatistics statistics() const noexcept override { return inner_.statistics(); }
 
   Said said;
+  bool loses_groups = false;
   std::optional<IpEndpoint> others_at;
 
  private:
@@ -121,6 +124,40 @@ class SealedPeer : public testing::Test {
   }
   test::ScratchFolder folder_;
 };
+
+TEST_F(SealedPeer, AssuredMessageIsSealedForItsHost) {
+  Peers peers(2, keyed(2));
+  peers.run(3s);
+  Peer& sender = peers.joined[0]->peer();
+  const auto count = [&](const char* name) {
+    return peers.joined[1]->peer().counters().find(name)->value();
+  };
+  for (const auto& link : peers.links) link->said.clear(), link->loses_groups = true;
+  pdu::Fire fire;
+  fire.header.exercise_id = 1;
+  Octets octets(pdu::wire_size(fire));
+  ASSERT_EQ(pdu::encode(fire, octets), octets.size());
+  sender.model().assured().send(octets, 7, sender.model().pass());
+  peers.run(500ms);
+  EXPECT_EQ(count("assured_in"), 1U) << "by unicast after 392 ms";
+  peers.run(1s);
+  EXPECT_EQ(sender.counters().find("assured_undelivered")->value(), 0U);
+  EXPECT_EQ(sender.model().assured().next_step(), nanoseconds::max()) << "acknowledged";
+
+  const Said said = peers.links[0]->said;
+  const IpEndpoint host = peers.hub.link(1).local_endpoint();
+  const std::uint64_t replayed = count("sealed_replayed_in"), forged = count("sealed_forged_in");
+  std::size_t to_host = 0, to_group = 0;
+  for (const auto& [to, datagram] : said) {
+    ++(to == host ? to_host : to_group);
+    peers.hub.link(0).send(host, datagram);
+  }
+  peers.run(50ms);
+  EXPECT_GT(to_host, 0U);
+  EXPECT_EQ(count("sealed_replayed_in"), replayed + to_host);
+  EXPECT_EQ(count("sealed_forged_in"), forged + to_group) << "sealed for a group";
+  EXPECT_EQ(count("unicast_refused"), 0U);
+}
 
 // Without a key a joined peer sends the same octets as a peer constructed directly on the bare
 // link.
