@@ -40,6 +40,7 @@ enum class PresenceEventKind : std::uint8_t {
                 ///< per epoch
   crowd,        ///< `source` has more peers than one may have: the rest are refused.
                 ///< Once per source
+  reserved,     ///< `source` announces a peer with the site of the scene: refused. Once per source
   quiet,        ///< not received for 2.5 s
   unheard,      ///< its list shows that it does not receive us
   heard_again,  ///< after quiet or unheard: both receive each other

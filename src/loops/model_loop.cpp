@@ -143,7 +143,8 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   if (goodbyes_ == 0 && touch_.read_hands()) subscriber_.note_moved();
   for (std::size_t room = outlet_.room(); room > 0 && goodbyes_ < owned_.last_number(); --room) {
     OwnedEntity* entity = owned_.find(static_cast<EntityNumber>(++goodbyes_));
-    if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
+    // A body of the scene stays, for its next owner.
+    if (entity == nullptr || entity->is_body() || entity->truth().time <= nanoseconds(0)) continue;
     const HandPort* port = touch_.port_of(static_cast<EntityNumber>(goodbyes_));
     entity->set_deactivated();
     sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now, {},
@@ -189,9 +190,9 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
 }
 
 void ModelLoop::add_bodies(EntityNumber first) {
-  bodies_.add_own(first, [this](EntityNumber number, const EntityDescription& description) {
-    add(number, description);
-  });
+  bodies_.add_own(first, aoim_.presence().own().epoch, owned_);
+  aoim_.introductions().set_owned(owned_.size());
+  subscriber_.note_moved();
 }
 
 void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
@@ -278,7 +279,8 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
-  bodies_.look(aoim_.presence());
+  bodies_.look(pass_.now, aoim_);
+  bodies_.restate(owned_);
   watches_.look(remote_, aoim_.presence().id(), pass_.now);
   hooks_.look({remote_, aoim_, unfelt, touch_.crowder(), pass_.now, watches_.notices()});
   watches_.look(bodies_.owner(), pass_.now);
@@ -305,9 +307,10 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     return;
   }
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
+  bodies_.prepare(update, arrival, aoim_);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
-  bodies_.note(update, arrival, aoim_.presence(), remote_);
+  bodies_.note(update, arrival, remote_);
 }
 
 // A forged PDU is neither obeyed nor delivered.
@@ -332,6 +335,8 @@ void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
 
 void ModelLoop::drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept {
   remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left);
+  if (aoim_.presence().standing(life.epoch) != aoim::Standing::member)
+    remote_.doubt_peer(life.epoch, pass_.now);  // bodies of the scene stay
   emissions_.drop(life.name);
   intake_.forget_keys(life.epoch);
 }
@@ -349,8 +354,8 @@ void ModelLoop::receive(const aoim::RelayedState& relayed,
   update.has_state = true;
   if (pdu::decode(relayed.octets, update.state) != pdu::DecodeError::none) return;
   update.entity = update.state.entity_id;
-  update.has_model = relayed.model.has_value();
-  if (relayed.model) update.model = *relayed.model;
+  if ((update.has_model = relayed.model.has_value())) update.model = *relayed.model;
+  update.ownership = relayed.ownership;
   const Arrival arrival{pass_.now,
                         pass_.utc,
                         std::min(relayed.heard, pass_.now),

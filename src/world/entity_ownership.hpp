@@ -13,6 +13,7 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/outside_entities.hpp"
 #include "reckon/peer/world/row_owners.hpp"
@@ -25,6 +26,13 @@ enum class SenderRight : std::uint8_t {
   owner,    ///< its own: it owns the entity, or its site and application
   unknown,  ///< an entity that no known sender owns
   refused,  ///< another owner's
+};
+
+/// Result for an update of a body of the scene.
+enum class BodyVerdict : std::uint8_t {
+  taken,
+  disputed,  ///< without the record of its owner, or not from its owner
+  stale,     ///< of an older version: another peer has owned the body since
 };
 
 /// Applies the rule of ownership (see RemoteEntities) to rows and owners. It changes neither of
@@ -48,6 +56,9 @@ class EntityOwnership {
   /// @param row of the entity; null if it has none
   [[nodiscard]] bool may_update(const pdu::EntityId& id, const Arrival& arrival,
                                 const RemoteEntity* row) noexcept;
+  /// Whether an update of a body of the scene may be taken.  @param row null if it has none
+  [[nodiscard]] BodyVerdict judge_body(const Inbound& update, const Arrival& arrival,
+                                       const RemoteEntity* row) const noexcept;
   /// See RemoteEntities::sender_right.
   [[nodiscard]] SenderRight sender_right(std::span<const pdu::EntityId> ids,
                                          const Arrival& arrival) noexcept;

@@ -77,7 +77,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   if (!is_nameable(update.entity)) return counts_.reserved.add(), false;
   RemoteEntity* row = table_.find(update.entity);
-  if (!ownership_.may_update(update.entity, arrival, row)) return false;
+  if (!may_take(update, arrival, row)) return false;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
@@ -91,13 +91,30 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
-    if (row == nullptr && update.has_model) {
+    if (row == nullptr && update.has_model && !is_body(update.entity)) {
       outside_.set_model(update.entity, arrival.epoch, update.model);
     }
     if (row == nullptr || !ownership_.is_owner(*row, arrival)) return false;
   }
   note_taken(*row, update);
   return true;
+}
+
+bool RemoteEntities::may_take(const Inbound& update, const Arrival& arrival,
+                              const RemoteEntity* row) noexcept {
+  if (!is_body(update.entity)) return ownership_.may_update(update.entity, arrival, row);
+  switch (ownership_.judge_body(update, arrival, row)) {
+    case BodyVerdict::taken:
+      return true;
+    case BodyVerdict::stale:
+      counts_.bodies_stale.add();
+      return false;
+    case BodyVerdict::disputed:
+      break;
+  }
+  counts_.bodies_disputed.add();
+  last_disputed_body_ = {update.entity, arrival.from};
+  return false;
 }
 
 // The remaining effects of an update, after its state was taken.
@@ -107,7 +124,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
   if (update.has_model) row.neighbours = update.accounts_told;
   counts_.accepted.add();
   const std::size_t place = table_.place_of(row);
-  time_outs_.set(place, row.last_heard + pdu::from_seconds(row.timeout));
+  set_time_out(row);
   near_.note_update(place);
   changes_.updated(place);
 }
@@ -120,8 +137,13 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
   note_held(row, heard, row.state_time, true);
   take_parts(row, update.state, heard.at.now, false);
   if (update.has_model) take_model(row, update.model);
-  time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
+  set_time_out(row);
   return true;
+}
+
+void RemoteEntities::set_time_out(const RemoteEntity& row) noexcept {
+  const nanoseconds silent = row.last_heard + pdu::from_seconds(row.timeout);
+  time_outs_.set(table_.place_of(row), is_body(row.id) ? nanoseconds::max() : silent);
 }
 
 bool RemoteEntities::refresh(RemoteEntity& row, const ReceivedState& heard) noexcept {
@@ -145,6 +167,7 @@ void RemoteEntities::take_parts(RemoteEntity& row, const pdu::EntityState& state
 }
 
 void RemoteEntities::take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept {
+  if (is_body(row.id)) return;  // a servo renders it as an object of the scene
   const std::size_t place = table_.place_of(row);
   if (models_.take(row, place, model)) near_.note_model(place);
 }

@@ -45,6 +45,10 @@ enum class Gone : std::uint8_t { left, silent };
 /// identified by its epoch. A row with a number that no peer has belongs to the sender (address,
 /// port, epoch) that made it, until it has been silent for RowOwners::kSilence. For a guest of
 /// plain DIS this time is half the time-out of its entity, at most RowOwners::kGuestSilence.
+///
+/// A body of the scene belongs to the epoch in AreaOfInterestManager::body_owners(), and each
+/// update needs the record of that ownership. Its row passes from owner to owner, and stays at its
+/// place when its owner leaves or is silent.
 class RemoteEntities {
  public:
   /// References outlive this.
@@ -71,7 +75,7 @@ class RemoteEntities {
     owners_.heard(from, now);
     outside_.heard(from, now);
   }
-  /// Drops all entities of a peer.
+  /// Drops all entities of a peer, except bodies of the scene.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;
   /// Brings the entities of the process with this epoch to rest, from `now` until they are believed
   /// or updated. They are not felt until they are updated. Visits all rows.
@@ -91,7 +95,8 @@ class RemoteEntities {
   void fade(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
   /// A peer has claimed these numbers with this epoch: drops rows of other senders under them.
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
-  /// Drops entities that were silent for longer than their time-out. Some ns if there are none.
+  /// Drops entities that were silent for longer than their time-out, except bodies of the scene.
+  /// Some ns if there are none.
   void expire(std::chrono::nanoseconds now) noexcept;
   /// Removes shown entities that have left the radius without an update, by our movement or their
   /// own. This takes at most a second if at most SightWatch::kMostLooks are due at once. They are
@@ -177,12 +182,13 @@ class RemoteEntities {
   }
   /// Counts a body that is not felt by the scene's `touch`.
   void refuse_touch(const RemoteEntity& row) noexcept { models_.refuse(row, table_.place_of(row)); }
-  /// Counts a state of a body of the scene whose sender does not own it.
-  void dispute_body(const RemoteEntity& row) noexcept {
-    counts_.bodies_disputed.add();
-    last_disputed_body_ = {row.id, owner(row)};
+  /// Whether this is the ID of a body of the scene.
+  [[nodiscard]] bool is_body(const pdu::EntityId& id) const noexcept {
+    return aoim_.body_owners().reserves(id);
   }
-  /// Their number, and the last such entity.
+  /// Simulation address of the owner of a row of rows(); of a body without owner the scene's.
+  [[nodiscard]] aoim::PeerId owner_id(const RemoteEntity& row) const noexcept;
+  /// Refused states of bodies of the scene, whose sender does not own them, and the last such body.
   [[nodiscard]] std::uint64_t disputed_bodies() const noexcept {
     return counts_.bodies_disputed.value();
   }
@@ -210,6 +216,11 @@ class RemoteEntities {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 
  private:
+  [[nodiscard]] bool may_take(const Inbound& update, const Arrival& arrival,
+                              const RemoteEntity* row) noexcept;
+  [[nodiscard]] bool change_owner(RemoteEntity& row, const Inbound& update,
+                                  const Arrival& arrival) noexcept;
+  void set_time_out(const RemoteEntity& row) noexcept;
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,

@@ -22,6 +22,11 @@ void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
   outside_.forget_if([id](const OutsideEntity& entity) { return entity.id().simulation() == id; });
 }
 
+aoim::PeerId RemoteEntities::owner_id(const RemoteEntity& row) const noexcept {
+  const aoim::PeerId named = row.id.simulation();
+  return is_body(row.id) ? aoim_.presence().id_of(row.epoch).value_or(named) : named;
+}
+
 void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
   const std::span<const RemoteEntity> rows = table_.rows();
   for (std::size_t i = 0; i < rows.size(); ++i) {
