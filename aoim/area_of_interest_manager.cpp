@@ -22,7 +22,6 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
              config.cells ? config.cells->finest() : config.grid.cell_size, config.interop),
       aggregator_(aggregator_of(config, own)),
       presence_(config.presence, announcement(own, config)),
-      body_owners_(config.interop),
       introductions_(introduction_of(config, cells_),
                      std::max<std::size_t>(cells_.groups(), all_groups(config))),
       sequences_(config.tracked),
@@ -33,7 +32,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
   if (config.leader.on && !config.interop)
     leading_.emplace(config.leader, config.grid.pool, cells_, subscriptions_.cells(), presence_,
-                     body_owners_, config.locate);
+                     config.body_owners, config.locate);
   if (!config.follow.empty() && !hands_out())
     throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
 }
@@ -285,7 +284,6 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
       case PresenceEventKind::disputed:
       case PresenceEventKind::impostor:
       case PresenceEventKind::crowd:
-      case PresenceEventKind::reserved:
       case PresenceEventKind::quiet:
       case PresenceEventKind::unheard:
       case PresenceEventKind::heard_again:

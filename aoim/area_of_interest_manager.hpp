@@ -21,7 +21,6 @@
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/cells/routed_position.hpp"
-#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/incoming_datagram.hpp"
 #include "reckon/aoim/interest/receiver_channels.hpp"
@@ -150,9 +149,6 @@ class AreaOfInterestManager {
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
-  /// Owners of the scene's bodies, to be kept current by the peer.
-  [[nodiscard]] BodyOwners& body_owners() noexcept { return body_owners_; }
-  [[nodiscard]] const BodyOwners& body_owners() const noexcept { return body_owners_; }
   [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
   /// The joined cells and groups. A cell has the number of its group. If leaders hand out groups,
   /// each cell has its own number.
@@ -192,7 +188,6 @@ class AreaOfInterestManager {
   Sight sight_;
   Aggregator aggregator_;
   Presence presence_;
-  BodyOwners body_owners_;
   Introductions introductions_;
   SequenceTracker sequences_;
   JoinAnnouncer joins_;

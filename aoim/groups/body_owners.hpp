@@ -23,23 +23,18 @@ struct BodyOwnership {
 
 /// The table. One thread; fixed memory; some ns.
 ///
-///   BodyOwners owners(false);
 ///   owners.set(0, {epoch, 1});
-///   if (owners.reserves(id) && owners.of(id).epoch == sender) take(state);
+///   if (BodyOwners::are_for(id) && owners.of(id).epoch == sender) take(state);
 class BodyOwners {
  public:
   /// Bodies of a scene, at most: body `k` has entity number k + 1 of kSceneId.
   static constexpr std::size_t kMost = 256;
 
-  /// @param plain in a plain DIS exercise bodies have IDs of their owner, and kSceneId has no
-  /// special meaning
-  explicit BodyOwners(bool plain) noexcept : plain_(plain) {}
-
-  /// Whether only the owner of a body may send this entity.
-  [[nodiscard]] bool reserves(const pdu::EntityId& id) const noexcept {
-    return id.simulation() == kSceneId && !plain_;
+  /// Whether this is an ID of the scene, which has no entities but bodies.
+  [[nodiscard]] static constexpr bool are_for(const pdu::EntityId& id) noexcept {
+    return id.simulation() == kSceneId;
   }
-  /// Owner of a reserved ID; epoch 0 if it is not known, or the scene has no such body.
+  /// Owner of an ID of the scene; epoch 0 if it is not known, or the scene has no such body.
   [[nodiscard]] BodyOwnership of(const pdu::EntityId& id) const noexcept {
     const bool is_body = id.entity > 0 && id.entity <= kMost;
     return is_body ? owners_[id.entity - 1u] : BodyOwnership{};
@@ -48,7 +43,6 @@ class BodyOwners {
   void set(std::size_t body, const BodyOwnership& owner) noexcept { owners_[body] = owner; }
 
  private:
-  bool plain_;
   std::array<BodyOwnership, kMost> owners_{};
 };
 

@@ -23,6 +23,17 @@ constexpr std::size_t kMostTold = 65'536;
 // accepted us.
 constexpr int kLastMaps = 3;
 
+void read_records(std::span<const std::byte> records, RelayedState& relayed) {
+  pdu::AttributeRecordCursor cursor(kKeptRecords, records);
+  pdu::AttributeRecord record;
+  while (cursor.next(record)) {
+    pdu::HapticRecord model;
+    pdu::OwnershipRecord ownership;
+    if (pdu::decode(record, model) == pdu::DecodeError::none) relayed.model = model;
+    if (pdu::decode(record, ownership) == pdu::DecodeError::none) relayed.ownership = ownership;
+  }
+}
+
 }  // namespace
 
 LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch)
@@ -188,14 +199,7 @@ void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std:
   states_.note_if_new(group, head.epoch, state, octets, heard);
   states_.note_records(head.epoch, state.entity_id, records);
   RelayedState relayed{head.epoch, {octets.begin(), octets.end()}, {}, heard};
-  pdu::AttributeRecordCursor cursor(kKeptRecords, records);
-  pdu::AttributeRecord record;
-  while (cursor.next(record)) {
-    pdu::HapticRecord model;
-    pdu::OwnershipRecord ownership;
-    if (pdu::decode(record, model) == pdu::DecodeError::none) relayed.model = model;
-    if (pdu::decode(record, ownership) == pdu::DecodeError::none) relayed.ownership = ownership;
-  }
+  read_records(records, relayed);
   relayed_.push_back(std::move(relayed));
 }
 

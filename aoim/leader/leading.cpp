@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kIntroduced{150};
 
 Leading::Leading(const LeaderConfig& config, std::size_t pool, const CellPartition& cells,
                  const Subscription& subscription, const Presence& presence,
-                 const BodyOwners& owners, Locate locate)
+                 const BodyOwners* owners, Locate locate)
     : config_(config),
       cells_(cells),
       subscription_(subscription),
@@ -110,7 +110,7 @@ void Leading::note_own(GroupIndex cell, const pdu::EntityState& state,
 }
 
 bool Leading::owns(std::uint32_t sender, const pdu::EntityId& entity) const noexcept {
-  if (owners_.reserves(entity)) return owners_.of(entity).epoch == sender;
+  if (owners_ != nullptr && BodyOwners::are_for(entity)) return owners_->of(entity).epoch == sender;
   return presence_.epoch_of(entity.simulation()) == sender;
 }
 

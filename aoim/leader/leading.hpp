@@ -36,10 +36,11 @@ class Leading {
   using Locate = std::function<Position(const pdu::WorldCoordinates&)>;
 
   /// @param cells, subscription, presence, owners outlive this  @param pool groups of the scene
+  /// @param owners see AreaOfInterestConfig
   /// @param locate see AreaOfInterestConfig
   /// @throws std::invalid_argument as LeaderRole does
   Leading(const LeaderConfig& config, std::size_t pool, const CellPartition& cells,
-          const Subscription& subscription, const Presence& presence, const BodyOwners& owners,
+          const Subscription& subscription, const Presence& presence, const BodyOwners* owners,
           Locate locate);
 
   void start(Nanoseconds utc, Nanoseconds now);
@@ -100,7 +101,7 @@ class Leading {
   const CellPartition& cells_;
   const Subscription& subscription_;
   const Presence& presence_;
-  const BodyOwners& owners_;
+  const BodyOwners* owners_;
   Locate locate_;
   LeaderRole role_;
   /// A group of the pool that is assigned to a cell of ours.

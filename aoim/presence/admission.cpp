@@ -35,7 +35,7 @@ bool Admission::is_new(std::vector<SourceAddress>& reported, const SourceAddress
 bool Admission::is_reserved(const pdu::Presence& heard, const SourceAddress& from) {
   if (heard.simulation.site != kSceneSite) return false;
   ++reserved_;
-  if (is_new(reserving_, from)) events_.report(PresenceEventKind::reserved, heard).source = from;
+  if (is_new(reserving_, from)) events_.report(PresenceEventKind::impostor, heard).other = from;
   return true;
 }
 

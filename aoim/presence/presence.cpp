@@ -62,9 +62,9 @@ void Presence::wake(nanoseconds now) {
   pace_.insist(now);
 }
 
+// Ignores our echo, perhaps with an ID that we gave up, and an ID that no peer may have.
 void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   if (heard.header.exercise_id != own().header.exercise_id || heard.epoch == 0) return;
-  // Our echo, perhaps with an ID that we gave up, or an ID that no peer may have.
   if (heard.epoch == own_.epoch() || admission_.is_reserved(heard, from)) return;
   wake(now);
   ++counts_.heard;

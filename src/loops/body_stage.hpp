@@ -8,10 +8,10 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/groups/body_owners.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
@@ -71,11 +71,11 @@ class BodyStage {
 
   /// Finds the owner before an update of a body that the known owner has not sent. Call it for each
   /// update; some ns for most.
-  void prepare(const Inbound& update, const Arrival& arrival,
-               aoim::AreaOfInterestManager& aoim) noexcept {
-    const bool is_new = aoim.body_owners().reserves(update.entity) && arrival.epoch != 0 &&
+  void prepare(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
+               OwnedEntities& owned) noexcept {
+    const bool is_new = aoim::BodyOwners::are_for(update.entity) && arrival.epoch != 0 &&
                         arrival.epoch != owner_.epoch() && looked_ < arrival.now;
-    if (is_new) look(arrival.now, aoim);
+    if (is_new) look(presence, owned, arrival.now);
   }
   /// Takes an update that the table of remote entities has accepted.
   void note(const Inbound& update, const Arrival& arrival, RemoteEntities& remote) noexcept {
@@ -88,23 +88,20 @@ class BodyStage {
     remote_->publish(remote);
   }
   /// Finds the owner of the bodies among the peers, if the scene has any, and writes the table of
-  /// owners: one owner of all, with any version.
-  void look(std::chrono::nanoseconds now, aoim::AreaOfInterestManager& aoim) noexcept {
+  /// owners: one owner of all, with any version. After a rival of the owner has gone, the bodies of
+  /// this peer are sent anew, because others may have refused their last states.
+  void look(const aoim::Presence& presence, OwnedEntities& owned,
+            std::chrono::nanoseconds now) noexcept {
     if (bodies_.empty()) return;
     looked_ = now;
-    owner_.look(aoim.presence());
-    for (const Body& body : bodies_) aoim.body_owners().set(body.number, {owner_.epoch(), 0});
+    const bool had_rival = owner_.rival().has_value();
+    owner_.look(presence);
+    for (const Body& body : bodies_) owners_.set(body.number, {owner_.epoch(), 0});
+    if (had_rival && !owner_.rival() && own_ != nullptr) restate(owned);
   }
-  /// Has the bodies of this peer sent anew after a rival of their owner has gone: others may have
-  /// refused their last states.
-  void restate(OwnedEntities& owned) noexcept {
-    const bool had_rival = std::exchange(has_rival_, owner_.rival().has_value());
-    if (!had_rival || has_rival_ || own_ == nullptr) return;
-    for (const Body& body : bodies_) {
-      const auto number = static_cast<EntityNumber>(first_ + body.number);
-      if (OwnedEntity* entity = owned.find(number)) entity->event();
-      owned.look_at(number);
-    }
+  /// The owner of each body; null in an `interop` exercise.
+  [[nodiscard]] const aoim::BodyOwners* owners() const noexcept {
+    return scene_.network.interop ? nullptr : &owners_;
   }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
   /// Writes their number, and the number of awake ones.
@@ -132,14 +129,22 @@ class BodyStage {
     return description;
   }
 
+  void restate(OwnedEntities& owned) noexcept {
+    for (const Body& body : bodies_) {
+      const auto number = static_cast<EntityNumber>(first_ + body.number);
+      if (OwnedEntity* entity = owned.find(number)) entity->event();
+      owned.look_at(number);
+    }
+  }
+
   const SceneFile& scene_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours
   EntityNumber first_ = 0;
   BodyMover* mover_;          // null: nothing is carried
   std::vector<Body> bodies_;  // of the scene, of any owner
   BodyOwner owner_;
+  aoim::BodyOwners owners_;
   std::chrono::nanoseconds looked_{-1};
-  bool has_rival_ = false;
   std::optional<RemoteBodies> remote_;
 };
 

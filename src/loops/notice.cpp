@@ -24,15 +24,15 @@ Notice sentence_of_addresses(const aoim::PresenceEvent& event) noexcept {
   if (event.kind == aoim::PresenceEventKind::moved)
     return make_notice(NoticeKind::moved, "peer {}:{} moved to {} from {}", peer.site,
                        peer.application, source.view(), other.view());
+  if (event.kind == aoim::PresenceEventKind::impostor && peer.site == aoim::kSceneSite)
+    return make_notice(
+        NoticeKind::impostor,
+        "{} is ignored: it announces {}:{}, and site {} belongs to the scene's bodies",
+        other.view(), peer.site, peer.application, peer.site);
   if (event.kind == aoim::PresenceEventKind::impostor)
     return make_notice(NoticeKind::impostor,
                        "{} is ignored: it uses the identity of peer {}:{}, which is at {}",
                        other.view(), peer.site, peer.application, source.view());
-  if (event.kind == aoim::PresenceEventKind::reserved)
-    return make_notice(
-        NoticeKind::impostor,
-        "{} is ignored: it announces {}:{}, and site {} belongs to the scene's bodies",
-        source.view(), peer.site, peer.application, aoim::kSceneSite);
   return make_notice(NoticeKind::crowd,
                      "{} announces more peers than one host may: the excess is ignored",
                      source.view());
@@ -64,7 +64,6 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
     case aoim::PresenceEventKind::moved:
     case aoim::PresenceEventKind::impostor:
     case aoim::PresenceEventKind::crowd:
-    case aoim::PresenceEventKind::reserved:
       return sentence_of_addresses(event);
     case aoim::PresenceEventKind::quiet:
       return make_notice(NoticeKind::quiet, "peer {}:{} was silent for 2.5 s", peer.site,

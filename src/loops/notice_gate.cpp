@@ -31,7 +31,6 @@ bool is_of_member(const aoim::PresenceEvent& event) noexcept {
     case PresenceEventKind::disputed:
     case PresenceEventKind::impostor:
     case PresenceEventKind::crowd:
-    case PresenceEventKind::reserved:
       return false;
     default:
       return event.heard_for >= NoticeGate::kMember;

@@ -48,8 +48,8 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
                        last.id.application, last.id.entity, AddressText(last.from).view()),
            last.from, now);
   }
-  if (bodies_.begins(remote.disputed_bodies(), now)) {
-    const Untouchable& last = remote.last_disputed_body();
+  if (bodies_.begins(remote.bodies().disputed(), now)) {
+    const Untouchable& last = remote.bodies().last_disputed();
     report(make_notice(NoticeKind::body_disputed,
                        "refused {}:{}:{} from {}: a body of the scene comes only from its owner",
                        last.id.site, last.id.application, last.id.entity,

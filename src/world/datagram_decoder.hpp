@@ -47,11 +47,6 @@ struct Inbound {
   std::size_t account_count = 0;
   std::uint8_t accounts_told = 0;  ///< number of accounts that exchange energy, also with others
   pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
-
-  /// 0 without the record.
-  [[nodiscard]] std::uint64_t ownership_version() const noexcept {
-    return ownership ? ownership->version : 0;
-  }
 };
 
 /// Selects PDUs to decode.

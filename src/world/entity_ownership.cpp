@@ -21,8 +21,8 @@ SenderRight EntityOwnership::right_of(const pdu::EntityId& id, const Arrival& ar
   // RemoteEntities::claim() ensures this
   if (row != nullptr && is_owner(*row, arrival)) return SenderRight::owner;
   const aoim::Presence& presence = aoim_.presence();
-  if (aoim_.body_owners().reserves(id)) {
-    const std::uint32_t epoch = aoim_.body_owners().of(id).epoch;
+  if (bodies_.contains(id)) {
+    const std::uint32_t epoch = bodies_.owner_of(id);
     if (epoch != 0 && epoch == arrival.epoch) return SenderRight::owner;
     owner = presence.source_of(epoch).value_or(aoim::SourceAddress());
     return SenderRight::refused;
@@ -51,23 +51,6 @@ bool EntityOwnership::may_update(const pdu::EntityId& id, const Arrival& arrival
   if (right_of(id, arrival, row, owner) != SenderRight::refused) return true;
   refuse(id, arrival, owner);
   return false;
-}
-
-// A version counts only while its owner is in the exercise: without the former owner, the next one
-// may begin anew.
-BodyVerdict EntityOwnership::judge_body(const Inbound& update, const Arrival& arrival,
-                                        const RemoteEntity* row) const noexcept {
-  const aoim::BodyOwnership owner = aoim_.body_owners().of(update.entity);
-  const bool is_named = update.ownership && update.ownership->owner == arrival.epoch;
-  if (!is_named || arrival.epoch == 0 || owner.epoch != arrival.epoch) return BodyVerdict::disputed;
-  const std::uint64_t version = update.ownership->version;
-  if (version < owner.version) return BodyVerdict::stale;
-  if (row == nullptr) return BodyVerdict::taken;
-  const bool is_new = row->epoch != arrival.epoch;
-  if (is_new && aoim_.presence().standing(row->epoch) != aoim::Standing::member)
-    return BodyVerdict::taken;
-  const bool is_older = version < row->ownership || (is_new && version == row->ownership);
-  return is_older ? BodyVerdict::stale : BodyVerdict::taken;
 }
 
 SenderRight EntityOwnership::sender_right(std::span<const pdu::EntityId> ids,

@@ -34,8 +34,6 @@ class OutsideEntity {
 
   /// The update as it was. Its views are valid until this is moved or copied.
   [[nodiscard]] Inbound update() const noexcept;
-  /// Version of the ownership, of a body of the scene.
-  [[nodiscard]] std::uint64_t ownership() const noexcept { return ownership_; }
   [[nodiscard]] const Arrival& arrival() const noexcept { return arrival_; }
   [[nodiscard]] const deadreckon::KinematicState& state() const noexcept { return state_; }
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return pdu_.entity_id; }
@@ -58,7 +56,6 @@ class OutsideEntity {
   std::size_t parts_size_ = 0;
   pdu::HapticRecord model_;
   bool has_model_ = false;
-  std::uint64_t ownership_ = 0;  // see RemoteEntity
   Arrival arrival_;
   std::chrono::nanoseconds last_heard_{0};
   deadreckon::KinematicState state_;

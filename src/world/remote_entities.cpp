@@ -46,10 +46,11 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
       outside_(settings.capacity),
-      ownership_(aoim, table_, owners_, outside_, counts_.disputed),
+      ownership_(aoim, table_, owners_, outside_, bodies_, counts_.disputed),
       admission_(settings_, table_, owners_, outside_, counts_),
       touch_(settings.touch),
-      models_(settings_, owners_, touch_, counts_) {
+      models_(settings_, owners_, touch_, counts_),
+      bodies_(settings.body_owners, aoim.presence(), counts_) {
   near_.mark_beginnings(beginnings_, owners_);
 }
 
@@ -77,7 +78,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   if (!is_nameable(update.entity)) return counts_.reserved.add(), false;
   RemoteEntity* row = table_.find(update.entity);
-  if (!may_take(update, arrival, row)) return false;
+  if (!ownership_.may_update(update, arrival, row)) return false;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
@@ -91,30 +92,13 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
-    if (row == nullptr && update.has_model && !is_body(update.entity)) {
+    if (row == nullptr && update.has_model && !bodies_.contains(update.entity)) {
       outside_.set_model(update.entity, arrival.epoch, update.model);
     }
     if (row == nullptr || !ownership_.is_owner(*row, arrival)) return false;
   }
   note_taken(*row, update);
   return true;
-}
-
-bool RemoteEntities::may_take(const Inbound& update, const Arrival& arrival,
-                              const RemoteEntity* row) noexcept {
-  if (!is_body(update.entity)) return ownership_.may_update(update.entity, arrival, row);
-  switch (ownership_.judge_body(update, arrival, row)) {
-    case BodyVerdict::taken:
-      return true;
-    case BodyVerdict::stale:
-      counts_.bodies_stale.add();
-      return false;
-    case BodyVerdict::disputed:
-      break;
-  }
-  counts_.bodies_disputed.add();
-  last_disputed_body_ = {update.entity, arrival.from};
-  return false;
 }
 
 // The remaining effects of an update, after its state was taken.
@@ -124,7 +108,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
   if (update.has_model) row.neighbours = update.accounts_told;
   counts_.accepted.add();
   const std::size_t place = table_.place_of(row);
-  set_time_out(row);
+  time_outs_.set(place, row.last_heard + pdu::from_seconds(row.timeout));
   near_.note_update(place);
   changes_.updated(place);
 }
@@ -137,13 +121,8 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
   note_held(row, heard, row.state_time, true);
   take_parts(row, update.state, heard.at.now, false);
   if (update.has_model) take_model(row, update.model);
-  set_time_out(row);
+  time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
   return true;
-}
-
-void RemoteEntities::set_time_out(const RemoteEntity& row) noexcept {
-  const nanoseconds silent = row.last_heard + pdu::from_seconds(row.timeout);
-  time_outs_.set(table_.place_of(row), is_body(row.id) ? nanoseconds::max() : silent);
 }
 
 bool RemoteEntities::refresh(RemoteEntity& row, const ReceivedState& heard) noexcept {
@@ -167,7 +146,7 @@ void RemoteEntities::take_parts(RemoteEntity& row, const pdu::EntityState& state
 }
 
 void RemoteEntities::take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept {
-  if (is_body(row.id)) return;  // a servo renders it as an object of the scene
+  if (bodies_.contains(row.id)) return;  // a servo renders it as an object of the scene
   const std::size_t place = table_.place_of(row);
   if (models_.take(row, place, model)) near_.note_model(place);
 }

@@ -29,6 +29,7 @@
 #include "reckon/peer/world/remote_settings.hpp"
 #include "reckon/peer/world/row_admission.hpp"
 #include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/scene_bodies.hpp"
 #include "reckon/peer/world/sight_watch.hpp"
 #include "reckon/peer/world/state_table.hpp"
 #include "reckon/peer/world/touch_gate.hpp"
@@ -46,9 +47,8 @@ enum class Gone : std::uint8_t { left, silent };
 /// port, epoch) that made it, until it has been silent for RowOwners::kSilence. For a guest of
 /// plain DIS this time is half the time-out of its entity, at most RowOwners::kGuestSilence.
 ///
-/// A body of the scene belongs to the epoch in AreaOfInterestManager::body_owners(), and each
-/// update needs the record of that ownership. Its row passes from owner to owner, and stays at its
-/// place when its owner leaves or is silent.
+/// A body of the scene belongs to the peer that RemoteSettings::body_owners names, see SceneBodies.
+/// Its row passes from owner to owner, and stays at its place when its owner leaves or is silent.
 class RemoteEntities {
  public:
   /// References outlive this.
@@ -75,8 +75,8 @@ class RemoteEntities {
     owners_.heard(from, now);
     outside_.heard(from, now);
   }
-  /// Drops all entities of a peer, except bodies of the scene.
-  void drop_peer(aoim::PeerId id, Gone how) noexcept;
+  /// Drops all entities of a peer. The bodies of the scene that it owned are doubted.
+  void drop_peer(aoim::PeerId id, Gone how, std::chrono::nanoseconds now) noexcept;
   /// Brings the entities of the process with this epoch to rest, from `now` until they are believed
   /// or updated. They are not felt until they are updated. Visits all rows.
   void doubt_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
@@ -182,19 +182,8 @@ class RemoteEntities {
   }
   /// Counts a body that is not felt by the scene's `touch`.
   void refuse_touch(const RemoteEntity& row) noexcept { models_.refuse(row, table_.place_of(row)); }
-  /// Whether this is the ID of a body of the scene.
-  [[nodiscard]] bool is_body(const pdu::EntityId& id) const noexcept {
-    return aoim_.body_owners().reserves(id);
-  }
-  /// Simulation address of the owner of a row of rows(); of a body without owner the scene's.
-  [[nodiscard]] aoim::PeerId owner_id(const RemoteEntity& row) const noexcept;
-  /// Refused states of bodies of the scene, whose sender does not own them, and the last such body.
-  [[nodiscard]] std::uint64_t disputed_bodies() const noexcept {
-    return counts_.bodies_disputed.value();
-  }
-  [[nodiscard]] const Untouchable& last_disputed_body() const noexcept {
-    return last_disputed_body_;
-  }
+  /// The scene's bodies as received.
+  [[nodiscard]] const SceneBodies& bodies() const noexcept { return bodies_; }
   /// The scene's touch rule.
   [[nodiscard]] TouchGate& touch() noexcept { return touch_; }
   /// Bodies that appeared inside a hand and are not felt there yet.
@@ -216,11 +205,6 @@ class RemoteEntities {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 
  private:
-  [[nodiscard]] bool may_take(const Inbound& update, const Arrival& arrival,
-                              const RemoteEntity* row) noexcept;
-  [[nodiscard]] bool change_owner(RemoteEntity& row, const Inbound& update,
-                                  const Arrival& arrival) noexcept;
-  void set_time_out(const RemoteEntity& row) noexcept;
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
@@ -266,7 +250,7 @@ class RemoteEntities {
   RowAdmission admission_;
   TouchGate touch_;
   ForceModelIntake models_;
-  Untouchable last_disputed_body_;
+  SceneBodies bodies_;
   std::chrono::nanoseconds first_heard_{-1};
 };
 

@@ -31,7 +31,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   double timeout = deadreckon::timeout(
       deadreckon::nominal_heartbeat(update.state.entity_type, deadreckon::stands_still(state)));
   if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
-  if (is_body(update.entity)) timeout = kForEver;
+  if (bodies_.contains(update.entity)) timeout = kForEver;
   if (!held_.is_on() || arrival.group == aoim::kBaseGroup)
     return keep_outside(OutsideEntity(update, arrival, state, timeout));
   if (row == nullptr) return;
@@ -55,7 +55,6 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
 
   Inbound update;
   update.entity = row.id;
-  update.ownership.emplace().version = row.ownership;
   update.has_state = true;
   pdu::EntityState& pdu = update.state;
   pdu.entity_id = row.id;
@@ -81,7 +80,8 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   arrival.epoch = row.epoch;
   arrival.clock.aligned = false;
   arrival.from = owners_.owner(place);
-  OutsideEntity entity(update, arrival, known.state, is_body(row.id) ? kForEver : row.timeout);
+  OutsideEntity entity(update, arrival, known.state,
+                       bodies_.contains(row.id) ? kForEver : row.timeout);
   entity.set_last_heard(row.last_heard);
   keep_outside(entity);
 }

@@ -24,13 +24,16 @@ constexpr double kLeastStep = 0.01;
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
-  const bool body = is_body(update.entity);
+  const bool body = bodies_.contains(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0 && !body) {
     if (row != nullptr) drop(table_.place_of(*row), Removal::deactivated);
     outside_.forget(update.entity);
     return nullptr;
   }
-  if (row != nullptr && body && !change_owner(*row, update, arrival)) return nullptr;
+  if (row != nullptr && body && row->epoch != arrival.epoch) {
+    motion_.change_sender(*row, table_.place_of(*row), arrival.epoch);
+    held_.forget(table_.place_of(*row));
+  }
   const bool moved = row != nullptr && !ownership_.is_sender(*row, arrival);
   if (row != nullptr &&
       (row->epoch != arrival.epoch ||
@@ -52,24 +55,9 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   if (row == nullptr) {
     outside_.forget(update.entity);
     row = add_row(update.entity, arrival);
-    if (row != nullptr) row->ownership = update.ownership_version();
   }
   if (row != nullptr) note_sight(*row, verdict, state, arrival.now);
   return row;
-}
-
-// Gives the row of a body to the sender of this update. False if there are too many senders.
-bool RemoteEntities::change_owner(RemoteEntity& row, const Inbound& update,
-                                  const Arrival& arrival) noexcept {
-  const std::size_t place = table_.place_of(row);
-  row.ownership = update.ownership_version();
-  if (ownership_.is_owner(row, arrival)) return true;
-  if (!owners_.hand_over(place, arrival.from, arrival.now)) return counts_.table_full.add(), false;
-  if (row.epoch == arrival.epoch) return true;
-  row.epoch = arrival.epoch;
-  motion_.change_sender(place);
-  held_.forget(place);
-  return true;
 }
 
 void RemoteEntities::note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
@@ -113,8 +101,7 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
 // As if the entity had been within the radius when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
-  const bool body = is_body(entity.id());  // checked when it was kept; its owner may have left
-  if (!body && !ownership_.may_update(entity.id(), entity.arrival(), nullptr)) return;
+  if (!ownership_.may_enter(entity.id(), entity.arrival())) return;
   // After a gap it may have moved elsewhere; its owner or a leader introduces it.
   const aoim::Position stated = to_position(entity.state().position);
   if (!aoim_.sight().has_received_since(stated, entity.arrival().now)) return;
@@ -122,8 +109,6 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
   arrival.now = owner_heard;
   RemoteEntity* row = add_row(entity.id(), arrival);
   if (row == nullptr) return;
-  row->ownership = entity.ownership();
-  const bool has_owner = aoim_.presence().standing(row->epoch) == aoim::Standing::member;
   const Inbound update = entity.update();
   if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
     return drop(table_.place_of(*row), Removal::out_of_sight);  // it has no first timestamp
@@ -131,7 +116,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
   row->last_heard = std::max(row->last_heard, entity.last_heard());
   note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
   note_taken(*row, update);
-  if (body && !has_owner) doubt_row(table_.place_of(*row), row->last_heard);
+  if (bodies_.is_orphan(*row)) doubt_row(table_.place_of(*row), row->last_heard);
   counts_.entered.add();
 }
 
@@ -173,14 +158,17 @@ Counter& RemoteEntities::counter_of(Removal cause) noexcept {
   return cause == Removal::no_room ? counts_.evicted : counts_.left;
 }
 
+// A row that is due may have a nanosecond left, by rounding. A body is not due before its next
+// state.
 void RemoteEntities::expire(nanoseconds now) noexcept {
   for (std::size_t i = time_outs_.next_due(now, 0); i < time_outs_.size();
        i = time_outs_.next_due(now, i)) {
     const RemoteEntity& row = table_.rows()[i];
-    if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
+    const bool body = bodies_.contains(row.id);
+    if (!body && pdu::to_seconds(now - row.last_heard) > row.timeout) {
       drop(i, Removal::silent);
     } else {
-      time_outs_.set(i, now + nanoseconds(1));  // not yet due, by a nanosecond of rounding
+      time_outs_.set(i, body ? nanoseconds::max() : now + nanoseconds(1));
     }
   }
 }

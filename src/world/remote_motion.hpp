@@ -58,8 +58,11 @@ class RemoteMotion {
   /// Returns to a state that was received before, without a jump.
   void go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
                Nanoseconds now) noexcept;
-  /// The next state of the row at `place` comes from another sender, with another clock.
-  void change_sender(std::size_t place) noexcept { clocks_[place] = SenderClock(); }
+  /// The row at `place` passes to the peer with this epoch, which has another clock.
+  void change_sender(RemoteEntity& row, std::size_t place, std::uint32_t epoch) noexcept {
+    row.epoch = epoch;
+    clocks_[place] = SenderClock();
+  }
   /// For an owner that is believed again: the entity moves on from its shown place, or jumps if
   /// this place is too far from the continued prediction.
   void resume(RemoteEntity& row, Nanoseconds now) noexcept;

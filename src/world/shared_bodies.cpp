@@ -98,7 +98,7 @@ haptics::ObjectMotion BodyMover::by_time(NodeIndex node, nanoseconds now) noexce
 std::optional<std::size_t> RemoteBodies::number_of(const RemoteEntity& row,
                                                    const RemoteEntities& rows) const noexcept {
   if (interop_) return body_of(row.type);
-  if (!rows.is_body(row.id)) return std::nullopt;
+  if (!rows.bodies().contains(row.id)) return std::nullopt;
   return row.id.entity - 1u;
 }
 
@@ -117,7 +117,7 @@ void RemoteBodies::note(const Inbound& update, const Arrival& arrival,
 
 bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
                          RemoteEntities& rows) const noexcept {
-  const aoim::PeerId owner = rows.owner_id(row);
+  const aoim::PeerId owner = rows.bodies().owner_of(row);
   const bool named = !interop_ || rows.touch().names(owner);
   if (named && rows.touch().admits(owner, arrival.epoch != 0, arrival.from)) return true;
   return rows.refuse_touch(row), false;

@@ -56,7 +56,6 @@ struct RemoteEntity {
   std::chrono::nanoseconds pressed_at = kTrusted;
   std::uint32_t timestamp = 0;  ///< as sent
   std::uint32_t version = 0;    ///< counts accepted updates
-  std::uint64_t ownership = 0;  ///< version of the ownership, of a body of the scene
 
   static constexpr std::uint16_t kNoParts = 0xFFFF;
   std::uint16_t parts_place = kNoParts;  ///< in RemoteParts

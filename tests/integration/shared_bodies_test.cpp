@@ -196,7 +196,6 @@ TEST(SharedBody, HasAnIdOfTheScene) {
   EXPECT_EQ(cube->id, (pdu::EntityId{65534, 1, 1}));
   EXPECT_EQ(cube->type, peer::body_type(0));
   EXPECT_EQ(cube->epoch, 1u);
-  EXPECT_EQ(cube->ownership, 1u);
 }
 
 TEST(SharedBody, NextOwnerMovesItWithoutAJump) {

@@ -27,19 +27,20 @@ constexpr std::uint32_t kOwner = 101, kThief = 102;
 class RelayedBodies : public testing::Test {
  protected:
   RelayedBodies() {
+    owners_.set(0, {kOwner, 0});
     for (int i = 0; i < 3; ++i) add();
     run(seconds(3));
   }
   void add() {
     AreaOfInterestConfig config;
     config.leader.on = true;
+    config.body_owners = &owners_;
     pdu::Presence own;
     own.simulation = {1, static_cast<std::uint16_t>(peers_.size() + 1)};
     own.epoch = static_cast<std::uint32_t>(100 + peers_.size());
     own.started = static_cast<std::uint32_t>(1000 + peers_.size());
     peers_.push_back(std::make_unique<AreaOfInterestManager>(config, own));
     peers_.back()->set_utc_offset(seconds(1'000'000), true);
-    peers_.back()->body_owners().set(0, {kOwner, 0});
     const Focus focus{kHome, 0.0, 10.0};
     peers_.back()->listen(kCellTier, {&focus, 1}, now_);
     peers_.back()->start(now_);
@@ -73,6 +74,7 @@ class RelayedBodies : public testing::Test {
     }
   }
 
+  BodyOwners owners_;
   std::vector<std::unique_ptr<AreaOfInterestManager>> peers_;
   std::vector<RelayedState> relayed_;  // to the fourth peer
   nanoseconds now_ = seconds(1);

@@ -4,11 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
@@ -98,41 +94,6 @@ TEST(PresenceRoom, OneSenderCannotFillTheTable) {
   EXPECT_EQ(told, 1u);
   presence.receive(presence_of(2, 22), seconds(3), source(2));
   EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
-}
-
-TEST(SceneSite, IsRefusedToOtherPeers) {
-  Presence presence({}, presence_of(1, 11));
-  pdu::Presence taken = presence_of(2, 22);
-  taken.simulation = kSceneId;
-  for (int i = 0; i < 3; ++i) presence.receive(taken, seconds(1 + i), source(2));
-  taken.simulation.application = 9;
-  presence.receive(taken, seconds(5), source(3));
-  EXPECT_TRUE(presence.peers().empty());
-  EXPECT_EQ(presence.counts().reserved, 4u);
-  EXPECT_EQ(kinds(presence), (std::vector{Kind::reserved, Kind::reserved}))
-      << "one for each source";
-}
-
-TEST(SceneSite, KnownPeersCannotMoveThere) {
-  Presence presence({}, presence_of(1, 11));
-  presence.receive(presence_of(2, 22), seconds(1), source(2));
-  pdu::Presence taken = presence_of(2, 22);
-  taken.simulation = kSceneId;
-  presence.receive(taken, seconds(2), source(2));
-  EXPECT_EQ(presence.id_of(22), (PeerId{7, 2}));
-  EXPECT_EQ(presence.epoch_of(kSceneId), std::nullopt);
-}
-
-TEST(SceneSite, IsRefusedToThisPeer) {
-  pdu::Presence own = presence_of(1, 11);
-  own.simulation = kSceneId;
-  try {
-    const Presence presence({}, own);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "site 65534 belongs to the scene's bodies: choose 1 to 65533");
-  }
 }
 
 TEST(PresenceRoom, OneSourceHoldsALimitedNumberOfRows) {

@@ -246,7 +246,7 @@ TEST_P(AttributeTraps, AreRefused) {
 }
 INSTANTIATE_TEST_SUITE_P(Lies, AttributeTraps,
                          testing::Values(Trap{"65535 sets", 30, 65535, DecodeError::count},
-                                         Trap{"3 sets", 30, 3, DecodeError::count},
+                                         Trap{"4 sets", 30, 4, DecodeError::count},
                                          Trap{"65535 records", 38, 65535, DecodeError::record},
                                          Trap{"record of length 0", 44, 0, DecodeError::record},
                                          Trap{"record of length 5", 44, 5, DecodeError::record},

@@ -24,9 +24,10 @@ class BodyRows : public testing::Test {
  protected:
   explicit BodyRows(const std::string& sections = "")
       : half_("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n" + sections,
-              [](const SceneFile& scene) -> RemoteSettings {
+              [this](const SceneFile& scene) -> RemoteSettings {
                 RemoteSettings settings = remote_settings(scene);
                 settings.record_changes = true;
+                if (!scene.network.interop) settings.body_owners = &owners_;
                 return settings;
               }) {
     for (const std::uint32_t epoch : {kOwner, kNext, kThief}) join(epoch);
@@ -51,11 +52,11 @@ class BodyRows : public testing::Test {
   }
   void leave(std::uint32_t epoch, double time) {
     join(epoch, true);
-    half_.remote.drop_peer({1, static_cast<std::uint16_t>(epoch)}, Gone::left);
-    half_.remote.doubt_peer(epoch, pdu::from_seconds(time));
+    half_.remote.drop_peer({1, static_cast<std::uint16_t>(epoch)}, Gone::left,
+                           pdu::from_seconds(time));
   }
   void own(std::uint32_t epoch, std::uint64_t version = 0) {
-    for (const std::size_t body : {0, 1}) half_.aoim.body_owners().set(body, {epoch, version});
+    for (const std::size_t body : {0, 1}) owners_.set(body, {epoch, version});
   }
   // The first body at x [m], moving with `speed` along x, from `sender`, which names `owner`.
   Inbound state(double x, double speed, double time) {
@@ -85,6 +86,7 @@ class BodyRows : public testing::Test {
   }
   [[nodiscard]] std::uint64_t count(std::string_view name) const { return half_.count(name); }
 
+  aoim::BodyOwners owners_;
   test::IncomingHalf half_;
 };
 
@@ -92,7 +94,7 @@ TEST_F(BodyRows, StateWithoutRecordIsNotShown) {
   half_.take(state(1, 0, 1), pdu::from_seconds(1), kOwner, address_of(kOwner));
   EXPECT_EQ(row(), nullptr);
   EXPECT_EQ(count("bodies_disputed"), 1U);
-  EXPECT_EQ(half_.remote.last_disputed_body().from, address_of(kOwner));
+  EXPECT_EQ(half_.remote.bodies().last_disputed().from, address_of(kOwner));
   hear(1, 1, kOwner);
   ASSERT_NE(row(), nullptr);
   EXPECT_EQ(row()->epoch, kOwner);
@@ -106,7 +108,7 @@ TEST_F(BodyRows, OnlyTheOwnerChangesABody) {
   hear(state(2, 0, 1.3), 1.3, kThief, kOwner, 6);  // names the owner
   hear(state(2, 0, 1.4), 1.4, kOwner, kThief, 6);  // the owner names another
   hear(2, 1.5, 0, 6);                              // plain DIS
-  EXPECT_EQ(row()->state.position.x(), 1.0);
+  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
   EXPECT_EQ(row()->epoch, kOwner);
   EXPECT_EQ(count("bodies_disputed"), 5U);
 }
@@ -130,14 +132,14 @@ TEST_F(BodyRows, NumbersWithoutABodyAreRefused) {
 TEST_F(BodyRows, OlderVersionIsRefused) {
   hear(1, 1, kOwner, 5);
   hear(2, 1.1, kOwner, 4);
-  EXPECT_EQ(row()->state.position.x(), 1.0);
+  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
   EXPECT_EQ(count("bodies_stale"), 1U);
   own(kOwner, 7);
   hear(2, 1.2, kOwner, 6);
-  EXPECT_EQ(row()->state.position.x(), 1.0);
+  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
   EXPECT_EQ(count("bodies_stale"), 2U);
   hear(2, 1.3, kOwner, 7);
-  EXPECT_EQ(row()->state.position.x(), 2.0);
+  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
 }
 
 TEST_F(BodyRows, NextOwnerTakesTheRowWithoutAJump) {
@@ -150,10 +152,10 @@ TEST_F(BodyRows, NextOwnerTakesTheRowWithoutAJump) {
   ASSERT_NE(row(), nullptr);
   EXPECT_NEAR(shown_x(1.2), before, 1e-3);
   EXPECT_EQ(row()->epoch, kNext);
-  EXPECT_EQ(row()->ownership, 2U);
+  EXPECT_EQ(half_.remote.bodies().recorded(body_id(0)).version, 2U);
   EXPECT_EQ(row()->updates, 3U);
   EXPECT_EQ(half_.remote.owner(*row()), address_of(kNext));
-  EXPECT_EQ(half_.remote.owner_id(*row()), (aoim::PeerId{1, kNext}));
+  EXPECT_EQ(half_.remote.bodies().owner_of(*row()), (aoim::PeerId{1, kNext}));
   for (const EntityChange& change : half_.remote.take_changes())
     EXPECT_EQ(change.change, Change::updated);
   EXPECT_NEAR(shown_x(3.2), 1.13 + 0.5 * 2, 1e-3) << "it has converged";
@@ -163,7 +165,7 @@ TEST_F(BodyRows, NextOwnerMayHaveAnotherClock) {
   hear(1, 1, kOwner);
   own(kNext);
   hear(state(2, 0, 1 - 900), 1.1, kNext, kNext, 2);  // a quarter of an hour behind
-  EXPECT_EQ(row()->state.position.x(), 2.0);
+  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
   EXPECT_EQ(count("stale_in"), 0U);
 }
 
@@ -172,11 +174,11 @@ TEST_F(BodyRows, FormerOwnerIsRefusedAfterTheTakeOver) {
   own(kNext);
   hear(2, 1.1, kNext, 2);
   hear(1, 1.2, kOwner, 1);
-  EXPECT_EQ(row()->state.position.x(), 2.0);
+  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
   own(kOwner);  // a table that lags behind the row
   hear(1, 1.3, kOwner, 1);
   hear(1, 1.3, kOwner, 2);
-  EXPECT_EQ(row()->state.position.x(), 2.0);
+  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
   EXPECT_EQ(row()->epoch, kNext);
   EXPECT_EQ(count("bodies_stale"), 2U);
 }
@@ -185,7 +187,7 @@ TEST_F(BodyRows, BodyStaysWhenItsOwnerLeaves) {
   hear(1, 1, kOwner, 3, 0.5);
   leave(kOwner, 1.2);
   ASSERT_NE(row(), nullptr);
-  EXPECT_NEAR(shown_x(1.2), 1.1, 1e-9);
+  EXPECT_NEAR(shown_x(1.2), 1.1, 1e-6);
   const double rest = shown_x(1.8);
   EXPECT_LT(rest, 1.1 + 0.5 * 0.5);
   half_.remote.expire(std::chrono::hours(5));
@@ -207,16 +209,16 @@ TEST_F(BodyRows, BodyIsNeverDeactivated) {
 }
 
 TEST_F(BodyRows, BodyOutsideReturnsAfterItsOwnerHasLeft) {
-  hear(5000, 1, kOwner, 4);
+  hear(1200, 1, kOwner, 4);
   EXPECT_EQ(row(), nullptr);
   leave(kOwner, 2);
   own(0);
   const nanoseconds late = pdu::from_seconds(400);
   half_.remote.look_outside(late);
-  half_.stand_at({5000, 0, 0}, late);
+  half_.stand_at({400, 0, 0}, late);
   half_.remote.look_outside(late + std::chrono::seconds(2));
   ASSERT_NE(row(), nullptr);
-  EXPECT_EQ(row()->ownership, 4U);
+  EXPECT_EQ(half_.remote.bodies().recorded(body_id(0)).version, 4U);
   EXPECT_NE(row()->doubted_at, RemoteEntity::kTrusted);
 }
 
