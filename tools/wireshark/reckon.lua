@@ -633,6 +633,15 @@ local OWN = {
     { "need", 20, 2, "u16" },
     { "spring_need", 22, 2, "u16" },
   } },
+  ownership = { size = 24, type = 0x48415004, fields = {
+    { "record_type", 0, 4, "u32" },
+    { "record_length", 4, 2, "u16" },
+    { "flags", 6, 1, "u8" },
+    { "padding", 7, 1, "u8" },
+    { "owner", 8, 4, "u32" },
+    { "world", 12, 4, "u32" },
+    { "version", 16, 8, "u64" },
+  } },
   presence = { size = 160, fields = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
