@@ -12,6 +12,7 @@
 
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/cells/cell_partition.hpp"
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/aoim/interest/interest.hpp"
@@ -44,6 +45,9 @@ struct AreaOfInterestConfig {
   /// Converts the location of an Entity State to S [m], for leaders that hand out groups. Empty:
   /// the location is already in S.
   std::function<Position(const pdu::WorldCoordinates&)> locate;
+  /// Owners of the scene's bodies, for leaders; they outlive the manager. Null: bodies are entities
+  /// like others.
+  const BodyOwners* body_owners = nullptr;
   /// Recipient tiers by distance; empty: all receivers get everything. See ReceiverChannels.
   std::vector<Channel> channels;
   /// Sensing radius of entities [m], >= 0. The part of a focus radius beyond it is added to the end

@@ -32,7 +32,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
   if (config.leader.on && !config.interop)
     leading_.emplace(config.leader, config.grid.pool, cells_, subscriptions_.cells(), presence_,
-                     config.locate);
+                     config.body_owners, config.locate);
   if (!config.follow.empty() && !hands_out())
     throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
 }

@@ -199,6 +199,7 @@ class FieldWalk {
     if constexpr (Handler::kExamples) {
       inner.record(kRecords, kNoIndex, HapticRecord{});
       inner.record(kRecords, kNoIndex, EnergyAccountRecord{});
+      inner.record(kRecords, kNoIndex, OwnershipRecord{});
       inner.attribute_record(kRecords, kNoIndex, {});
     }
     std::size_t i = 0;

@@ -32,13 +32,13 @@ TOTAL = {
     "tools": 40000,
     "python": 2500,
     "bench": 36500,
-    "tests": 135000,
+    "tests": 138000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
     "aoim/Aggregator": (406, 12),
     "aoim/AreaOfInterestManager": (317, 24),
-    "aoim/LeaderRole": (367, 26),
+    "aoim/LeaderRole": (363, 26),
     "aoim/Presence": (360, 18),
     "bench/ScaleWords": (0, 27),
     "haptics/BodyEngine": (354, 25),

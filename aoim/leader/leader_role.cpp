@@ -15,12 +15,24 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kRolesPerPdu = 25, kRoleSize = pdu::kFixedSize<pdu::CellRole>;
+constexpr std::size_t kKeptRecords = 2;  // of an entity, at most: see StateStore
 constexpr std::size_t kMostPopulated = 4096;
 constexpr std::size_t kMostTold = 65'536;
 // A former leader of the scene sends its map this many times more. The new leader merges it. One
 // copy is not enough after a partition: it may be lost, or arrive before the new leader has
 // accepted us.
 constexpr int kLastMaps = 3;
+
+void read_records(std::span<const std::byte> records, RelayedState& relayed) {
+  pdu::AttributeRecordCursor cursor(kKeptRecords, records);
+  pdu::AttributeRecord record;
+  while (cursor.next(record)) {
+    pdu::HapticRecord model;
+    pdu::OwnershipRecord ownership;
+    if (pdu::decode(record, model) == pdu::DecodeError::none) relayed.model = model;
+    if (pdu::decode(record, ownership) == pdu::DecodeError::none) relayed.ownership = ownership;
+  }
+}
 
 }  // namespace
 
@@ -187,11 +199,7 @@ void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std:
   states_.note_if_new(group, head.epoch, state, octets, heard);
   states_.note_records(head.epoch, state.entity_id, records);
   RelayedState relayed{head.epoch, {octets.begin(), octets.end()}, {}, heard};
-  pdu::AttributeRecordCursor cursor(1, records);
-  pdu::AttributeRecord record;
-  pdu::HapticRecord model;
-  if (cursor.next(record) && pdu::decode(record, model) == pdu::DecodeError::none)
-    relayed.model = model;
+  read_records(records, relayed);
   relayed_.push_back(std::move(relayed));
 }
 

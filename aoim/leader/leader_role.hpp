@@ -35,6 +35,7 @@ struct RelayedState {
   std::vector<std::byte> octets;           ///< an Entity State PDU
   std::optional<pdu::HapticRecord> model;  ///< its force model
   std::chrono::nanoseconds heard{};        ///< when the leader received it, on our clock
+  std::optional<pdu::OwnershipRecord> ownership = {};  ///< of a body of the scene
 };
 
 /// A beacon of an own entity: its tag, which peers look up in the group map, and its cell.

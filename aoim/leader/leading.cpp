@@ -23,11 +23,13 @@ constexpr std::chrono::milliseconds kIntroduced{150};
 }  // namespace
 
 Leading::Leading(const LeaderConfig& config, std::size_t pool, const CellPartition& cells,
-                 const Subscription& subscription, const Presence& presence, Locate locate)
+                 const Subscription& subscription, const Presence& presence,
+                 const BodyOwners* owners, Locate locate)
     : config_(config),
       cells_(cells),
       subscription_(subscription),
       presence_(presence),
+      owners_(owners),
       locate_(std::move(locate)),
       role_(config, pool, presence.own().epoch) {
   if (!config.hand_out) return;
@@ -107,7 +109,12 @@ void Leading::note_own(GroupIndex cell, const pdu::EntityState& state,
   role_.note_records(epoch, state.entity_id, records);
 }
 
-// The force models in an Attribute PDU of a known peer.
+bool Leading::owns(std::uint32_t sender, const pdu::EntityId& entity) const noexcept {
+  if (owners_ != nullptr && BodyOwners::are_for(entity)) return owners_->of(entity).epoch == sender;
+  return presence_.epoch_of(entity.simulation()) == sender;
+}
+
+// The records in an Attribute PDU of a known peer.
 void Leading::note_attribute(std::span<const std::byte> octets, std::uint32_t sender) {
   pdu::Attribute attribute;
   if (pdu::decode(octets, attribute) != pdu::DecodeError::none) return;
@@ -135,8 +142,7 @@ void Leading::receive(GroupIndex group, std::span<const std::byte> datagram, std
     if (bundled.error != pdu::DecodeError::none) continue;
     if (bundled.header.pdu_type == pdu::PduType::entity_state) {
       pdu::EntityState state;
-      const bool counts = is_kept && decodes(bundled, state) &&
-                          presence_.epoch_of(state.entity_id.simulation()) == sender;
+      const bool counts = is_kept && decodes(bundled, state) && owns(sender, state.entity_id);
       const GroupIndex number = counts ? kept_as(state) : kBaseGroup;
       if (number != kBaseGroup) {
         role_.note(number, sender, state, bundled.bytes, now);

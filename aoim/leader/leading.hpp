@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/leader/leader_role.hpp"
@@ -34,11 +35,13 @@ class Leading {
   using Nanoseconds = std::chrono::nanoseconds;
   using Locate = std::function<Position(const pdu::WorldCoordinates&)>;
 
-  /// @param cells, subscription, presence outlive this  @param pool groups of the scene
+  /// @param cells, subscription, presence, owners outlive this  @param pool groups of the scene
+  /// @param owners see AreaOfInterestConfig
   /// @param locate see AreaOfInterestConfig
   /// @throws std::invalid_argument as LeaderRole does
   Leading(const LeaderConfig& config, std::size_t pool, const CellPartition& cells,
-          const Subscription& subscription, const Presence& presence, Locate locate);
+          const Subscription& subscription, const Presence& presence, const BodyOwners* owners,
+          Locate locate);
 
   void start(Nanoseconds utc, Nanoseconds now);
   /// Makes the next step leave all cells.
@@ -90,6 +93,7 @@ class Leading {
 
  private:
   void read_cells(Nanoseconds now);
+  [[nodiscard]] bool owns(std::uint32_t sender, const pdu::EntityId& entity) const noexcept;
   [[nodiscard]] GroupIndex kept_as(const pdu::EntityState& state) const;
   void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
 
@@ -97,6 +101,7 @@ class Leading {
   const CellPartition& cells_;
   const Subscription& subscription_;
   const Presence& presence_;
+  const BodyOwners* owners_;
   Locate locate_;
   LeaderRole role_;
   /// A group of the pool that is assigned to a cell of ours.

@@ -12,7 +12,7 @@ constexpr double kEntityOctets = 208.0;  // size of an entity with a force model
 constexpr std::size_t kHead = pdu::kFixedSize<pdu::SnapshotState>;
 
 std::size_t size_of(const StateStore::Entry& entry) noexcept {
-  return entry.octets.size() + entry.model.size();
+  return entry.octets.size() + entry.records.size();
 }
 
 // Rounded down: a state received later than this age shows seems to have been under way for less.
@@ -94,7 +94,7 @@ bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateS
     static_cast<void>(pdu::store_record(state, head));
     octets_.insert(octets_.end(), head.begin(), head.end());
     octets_.insert(octets_.end(), entry->octets.begin(), entry->octets.end());
-    octets_.insert(octets_.end(), entry->model.begin(), entry->model.end());
+    octets_.insert(octets_.end(), entry->records.begin(), entry->records.end());
   }
   part = {};
   part.column = snapshot.cell.q;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The last Entity State of each entity received in the joined groups, and its force model, kept for
-// newcomers.
+// The last Entity State of each entity received in the joined groups, with its force model and
+// owner, kept for newcomers.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "reckon/pdu/codec/byte_order.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/pdu/reckon/ownership_record.hpp"
 
 namespace reckon::aoim {
 
@@ -31,7 +32,7 @@ class StateStore {
     GroupIndex group;                  ///< group in which it was received last
     std::chrono::nanoseconds heard{};  ///< time of the last reception
     std::vector<std::byte> octets;     ///< an Entity State PDU
-    std::vector<std::byte> model;      ///< a HapticRecord; empty: it has no force model
+    std::vector<std::byte> records;    ///< its HapticRecord and OwnershipRecord, if it has them
   };
 
   /// @param capacity most entities; the states of further ones are not kept, see refused()
@@ -51,13 +52,13 @@ class StateStore {
       return;
     }
     Entry& entry = entries_[key];
-    if (entry.epoch != epoch) entry.model.clear();
+    if (entry.epoch != epoch) entry.records.clear();
     entry.epoch = epoch;
     entry.group = group;
     entry.heard = now;
     entry.octets.assign(octets.begin(), octets.end());
   }
-  /// Takes the records that extend a state of the owner, and keeps its force model.
+  /// Takes the records that extend a state of the owner, and keeps the newest of each kept type.
   void note_records(std::uint32_t epoch, const pdu::EntityId& entity,
                     std::span<const std::byte> records) {
     const auto found = entries_.find(key_of(entity));
@@ -65,10 +66,7 @@ class StateStore {
     while (!records.empty()) {
       const auto record = take_record(records);
       if (record.empty()) return;
-      const bool is_model =
-          record.size() == pdu::kHapticRecordLength &&
-          pdu::load_big_endian<std::uint32_t>(record.data()) == pdu::kHapticRecordType;
-      if (is_model) found->second.model.assign(record.begin(), record.end());
+      if (is_kept(record)) keep_record(record, found->second.records);
     }
   }
   /// Records a relayed state, unless the owner itself was received.
@@ -113,6 +111,28 @@ class StateStore {
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:
+  static std::uint32_t type_of(std::span<const std::byte> record) noexcept {
+    return pdu::load_big_endian<std::uint32_t>(record.data());
+  }
+  static bool is_kept(std::span<const std::byte> record) noexcept {
+    const std::uint32_t type = type_of(record);
+    return (type == pdu::kHapticRecordType && record.size() == pdu::kHapticRecordLength) ||
+           (type == pdu::kOwnershipRecordType && record.size() == pdu::kOwnershipRecordLength);
+  }
+  // Replaces the record of the same type; all kept records of a type have one size.
+  static void keep_record(std::span<const std::byte> record, std::vector<std::byte>& kept) {
+    std::span<const std::byte> rest = kept;
+    std::size_t at = 0;
+    while (!rest.empty()) {
+      const auto known = take_record(rest);
+      if (type_of(known) == type_of(record)) {
+        std::ranges::copy(record, kept.begin() + static_cast<std::ptrdiff_t>(at));
+        return;
+      }
+      at += known.size();
+    }
+    kept.insert(kept.end(), record.begin(), record.end());
+  }
   static std::uint64_t key_of(const pdu::EntityId& id) noexcept {
     return std::uint64_t{id.site} << 32 | std::uint64_t{id.application} << 16 | id.entity;
   }

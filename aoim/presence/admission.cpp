@@ -19,6 +19,24 @@ Admission::Admission(const PresenceConfig& config, const PeerTable& peers, const
                      PresenceEvents& events)
     : config_(config), peers_(peers), claims_(claims), events_(events) {
   crowds_.reserve(kCrowds);
+  reserving_.reserve(kCrowds);
+}
+
+// Whether this address was not reported yet; then it is remembered.
+bool Admission::is_new(std::vector<SourceAddress>& reported, const SourceAddress& from) {
+  const bool known = std::ranges::any_of(
+      reported, [&](const SourceAddress& one) { return one.octets == from.octets; });
+  if (known) return false;
+  if (reported.size() == kCrowds) reported.erase(reported.begin());
+  reported.push_back(from);
+  return true;
+}
+
+bool Admission::is_reserved(const pdu::Presence& heard, const SourceAddress& from) {
+  if (heard.simulation.site != kSceneSite) return false;
+  ++reserved_;
+  if (is_new(reserving_, from)) events_.report(PresenceEventKind::impostor, heard).other = from;
+  return true;
 }
 
 // Bounds the peers of one process, which has one ID, and the peers of one address.
@@ -34,13 +52,7 @@ bool Admission::is_crowd(const SourceAddress& from, const pdu::Presence& own) {
   for (const Claimant& claimant : claims_) count(claimant.source);
   if (of_process < config_.per_source && of_address < (config_.capacity + 1) / 2) return false;
   ++refused_;
-  const bool reported = std::any_of(crowds_.begin(), crowds_.end(), [&](const SourceAddress& one) {
-    return one.octets == from.octets;
-  });
-  if (reported) return true;
-  if (crowds_.size() == kCrowds) crowds_.erase(crowds_.begin());
-  crowds_.push_back(from);
-  events_.report(PresenceEventKind::crowd, own).source = from;
+  if (is_new(crowds_, from)) events_.report(PresenceEventKind::crowd, own).source = from;
   return true;
 }
 

@@ -3,7 +3,6 @@
 #include "reckon/aoim/presence/presence.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace reckon::aoim {
 namespace {
@@ -36,8 +35,7 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
       own_(config_, own, peers_, claims_, pace_, events_),
       hearing_(config_, peers_, claims_, former_, own_, pace_, events_),
       lists_(config_, peers_) {
-  config.check();
-  if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
+  config.check(own);
   outgoing_.reserve(8);
   leaving_.reserve(8);
 }
@@ -64,9 +62,10 @@ void Presence::wake(nanoseconds now) {
   pace_.insist(now);
 }
 
+// Ignores our echo, perhaps with an ID that we gave up, and an ID that no peer may have.
 void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   if (heard.header.exercise_id != own().header.exercise_id || heard.epoch == 0) return;
-  if (heard.epoch == own_.epoch()) return;  // our echo, perhaps with an ID that we gave up
+  if (heard.epoch == own_.epoch() || admission_.is_reserved(heard, from)) return;
   wake(now);
   ++counts_.heard;
   const std::size_t known = peers_.find_epoch(heard.epoch);
@@ -383,6 +382,7 @@ Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) cons
 PresenceCounts Presence::counts() const noexcept {
   PresenceCounts sum = counts_;
   sum.crowd = admission_.refused();
+  sum.reserved = admission_.reserved();
   sum.impostors = pins_.refused();
   return sum;
 }

@@ -59,6 +59,7 @@ struct PresenceCounts {
   std::uint64_t announced = 0, heard = 0, former_life = 0, conflicts = 0;
   std::uint64_t table_full = 0;  ///< announcements of peers without room in the table
   std::uint64_t crowd = 0;       ///< announcements refused because their source had too many peers
+  std::uint64_t reserved = 0;    ///< announcements refused because they have the site of the scene
   std::uint64_t impostors = 0;   ///< announcements and lists from another source than their peer's
 };
 
@@ -67,7 +68,7 @@ class Presence {
  public:
   /// `own` is our announcement: wanted simulation address, epoch (random at each start of the
   /// process), start time, scene hash, cells. @throws std::invalid_argument for a heartbeat or
-  /// number of misses that is not positive, or an epoch of 0.
+  /// number of misses that is not positive, an epoch of 0, or the site of the scene.
   Presence(const PresenceConfig& config, const pdu::Presence& own);
   Presence(const Presence&) = delete;
   Presence& operator=(const Presence&) = delete;

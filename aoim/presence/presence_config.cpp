@@ -5,11 +5,16 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "reckon/aoim/groups/peer_id.hpp"
+
 namespace reckon::aoim {
 
 using std::chrono::nanoseconds;
 
-void PresenceConfig::check() const {
+void PresenceConfig::check(const pdu::Presence& own) const {
+  if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
+  if (own.simulation.site == kSceneSite)
+    throw std::invalid_argument("site 65534 belongs to the scene's bodies: choose 1 to 65533");
   if (heartbeat.count() <= 0 || missed < 1) {
     throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
   }

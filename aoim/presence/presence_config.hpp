@@ -66,8 +66,9 @@ struct PresenceConfig {
   std::size_t most_listed = 240, part = 192;
 
   /// @throws std::invalid_argument for a heartbeat or number of misses that is not positive, or
-  /// lists without room for one epoch, or parts without room for two.
-  void check() const;
+  /// lists without room for one epoch, or parts without room for two; and for a first announcement
+  /// with epoch 0 or the site of the scene.
+  void check(const pdu::Presence& own) const;
   /// Silence after which a peer has timed out.
   [[nodiscard]] std::chrono::nanoseconds patience() const noexcept;
   /// Extra time, beyond a heartbeat, in which a peer that receives this many peers lists all of

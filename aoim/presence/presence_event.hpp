@@ -37,7 +37,8 @@ enum class PresenceEventKind : std::uint8_t {
                 ///< source `other`; the holder has `source`, empty for this peer. Once per
                 ///< claimant
   impostor,     ///< a datagram with its epoch came from `other`, not from `source`; refused. Once
-                ///< per epoch
+                ///< per epoch. If it has the site of the scene: `other` announces that; once per
+                ///< address
   crowd,        ///< `source` has more peers than one may have: the rest are refused.
                 ///< Once per source
   quiet,        ///< not received for 2.5 s

@@ -78,6 +78,10 @@ DecodeError decode(const AttributeRecord& record, EnergyAccountRecord& out) noex
   return decode_fixed(record, out);
 }
 
+DecodeError decode(const AttributeRecord& record, OwnershipRecord& out) noexcept {
+  return decode_fixed(record, out);
+}
+
 AttributeWriter::AttributeWriter(std::span<std::byte> buffer, const Attribute& pdu) noexcept
     : buffer_(buffer.first(std::min(buffer.size(), kMaxPduSize))), pdu_(pdu) {}
 
@@ -121,6 +125,8 @@ bool AttributeWriter::add_fixed(const Record& record) noexcept {
 bool AttributeWriter::add(const HapticRecord& record) noexcept { return add_fixed(record); }
 
 bool AttributeWriter::add(const EnergyAccountRecord& record) noexcept { return add_fixed(record); }
+
+bool AttributeWriter::add(const OwnershipRecord& record) noexcept { return add_fixed(record); }
 
 bool AttributeWriter::add(std::uint32_t type, std::span<const std::byte> body) noexcept {
   const std::size_t used = kAttributeRecordHeaderSize + body.size();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Attribute PDU (type 72, IEEE 1278.1-2012 7.2.6): tagged records for entities, here the force
-// models and energy accounts. It follows the Entity States that it extends, in the same datagram.
+// models, energy accounts and owners of bodies. It follows the Entity States that it extends, in
+// the same datagram.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/pdu/reckon/ownership_record.hpp"
 
 namespace reckon::pdu {
 
@@ -131,6 +133,8 @@ class AttributeReader : public CursorRange<AttributeSetCursor, AttributeSet> {
 [[nodiscard]] DecodeError decode(const AttributeRecord& record, HapticRecord& out) noexcept;
 /// Reads an EnergyAccountRecord. Errors: pdu_type (another record), length.
 [[nodiscard]] DecodeError decode(const AttributeRecord& record, EnergyAccountRecord& out) noexcept;
+/// Reads an OwnershipRecord. Errors: pdu_type (another record), length.
+[[nodiscard]] DecodeError decode(const AttributeRecord& record, OwnershipRecord& out) noexcept;
 
 /// Calls `f` with the record in its own type if its type, length and version are known here. Then
 /// returns none, else unknown_type, or the reason why a record of a known type could not be read.
@@ -143,6 +147,7 @@ class AttributeReader : public CursorRange<AttributeSetCursor, AttributeSet> {
   };
   attempt(HapticRecord{});
   attempt(EnergyAccountRecord{});
+  attempt(OwnershipRecord{});
   return error;
 }
 
@@ -157,6 +162,7 @@ class AttributeWriter {
   [[nodiscard]] bool begin_set(EntityId entity) noexcept;
   [[nodiscard]] bool add(const HapticRecord& record) noexcept;
   [[nodiscard]] bool add(const EnergyAccountRecord& record) noexcept;
+  [[nodiscard]] bool add(const OwnershipRecord& record) noexcept;
   /// Adds any record: type, length and padding to a multiple of 8 octets are set around `body`.
   [[nodiscard]] bool add(std::uint32_t type, std::span<const std::byte> body) noexcept;
 

@@ -16,8 +16,8 @@ namespace reckon::pdu {
 /// Precedes each state of a snapshot.
 struct SnapshotState {
   std::uint32_t epoch = 0;   ///< epoch of the entity's owner
-  std::uint16_t length = 0;  ///< of the following [octets]: an Entity State PDU, and the
-                             ///< HapticRecord of its force model if it has one
+  std::uint16_t length = 0;  ///< of the following [octets]: an Entity State PDU, and its
+                             ///< HapticRecord and OwnershipRecord if it has them
   std::uint16_t age = 0;     ///< since the leader received it [10 ms]; 65,535 also stands for more
 
   friend constexpr auto operator<=>(const SnapshotState&, const SnapshotState&) = default;

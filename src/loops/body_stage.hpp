@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "reckon/aoim/groups/body_owners.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
@@ -23,25 +27,31 @@ namespace reckon::peer {
 class BodyStage {
  public:
   explicit BodyStage(const ModelWiring& wiring)
-      : scene_(wiring.scene),
-        own_(wiring.own_bodies),
-        mover_(wiring.mover),
-        has_any_(std::ranges::any_of(scene_.scene.objects, [](const haptics::SceneObject& object) {
-          return object.matter.mass > 0;
-        })) {
-    if (mover_ != nullptr) remote_.emplace(mover_->shown(), owner_, scene_.network.interop);
-  }
-
-  /// Makes entities of the bodies that this peer owns, by add(number, description), with numbers
-  /// from `first` on.
-  void add_own(EntityNumber first, auto&& add) {
-    first_ = first;
-    std::size_t body = 0;
+      : scene_(wiring.scene), own_(wiring.own_bodies), mover_(wiring.mover) {
+    std::size_t moving = 0;
     for (const haptics::SceneObject& object : scene_.scene.objects) {
       const bool is_body = object.matter.mass > 0 && !object.carried;
       if (!is_body && !object.carried) continue;
-      const std::size_t number = body++;
-      if (is_body) add(static_cast<EntityNumber>(first + number), description_of(object, number));
+      if (is_body && moving < kMostSharedBodies) bodies_.push_back({moving, &object});
+      ++moving;
+    }
+    if (mover_ != nullptr) remote_.emplace(mover_->shown(), scene_.network.interop);
+  }
+
+  /// Makes entities of the bodies that this peer owns, at their numbers in the table from `first`
+  /// on.  @param epoch of this peer
+  void add_own(EntityNumber first, std::uint32_t epoch, OwnedEntities& owned) {
+    first_ = first;
+    pdu::OwnershipRecord ownership;
+    ownership.owner = epoch;
+    ownership.version = kFirstVersion;
+    for (const Body& body : bodies_) {
+      const auto number = static_cast<EntityNumber>(first + body.number);
+      const EntityDescription description = description_of(*body.object, body.number);
+      if (scene_.network.interop)
+        static_cast<void>(owned.add(number, description));
+      else
+        static_cast<void>(owned.add_body(number, description, body_id(body.number), ownership));
     }
   }
   /// Moves these entities, by move(number, truth). A sleeping one keeps its last state, which its
@@ -59,22 +69,39 @@ class BodyStage {
     }
   }
 
+  /// Finds the owner before an update of a body that the known owner has not sent. Call it for each
+  /// update; some ns for most.
+  void prepare(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
+               OwnedEntities& owned) noexcept {
+    const bool is_new = aoim::BodyOwners::are_for(update.entity) && arrival.epoch != 0 &&
+                        arrival.epoch != owner_.epoch() && looked_ < arrival.now;
+    if (is_new) look(presence, owned, arrival.now);
+  }
   /// Takes an update that the table of remote entities has accepted.
-  void note(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
-            RemoteEntities& remote) noexcept {
-    if (!remote_ || !update.has_state || !body_of(update.state.entity_type)) return;
-    if (owner_.epoch() == 0) owner_.look(presence);
-    remote_->note(update, arrival, remote);
+  void note(const Inbound& update, const Arrival& arrival, RemoteEntities& remote) noexcept {
+    if (remote_ && update.has_state) remote_->note(update, arrival, remote);
   }
   /// Publishes the bodies of other owners. @param offset universal time minus the servos' time
-  void publish(std::chrono::nanoseconds offset, RemoteEntities& remote) noexcept {
+  void publish(std::chrono::nanoseconds offset, const RemoteEntities& remote) noexcept {
     if (mover_ == nullptr) return;
     mover_->set_offset(offset);
     remote_->publish(remote);
   }
-  /// Finds the owner of the bodies among the peers, if the scene has any.
-  void look(const aoim::Presence& presence) noexcept {
-    if (has_any_) owner_.look(presence);
+  /// Finds the owner of the bodies among the peers, if the scene has any, and writes the table of
+  /// owners: one owner of all, with any version. After a rival of the owner has gone, the bodies of
+  /// this peer are sent anew, because others may have refused their last states.
+  void look(const aoim::Presence& presence, OwnedEntities& owned,
+            std::chrono::nanoseconds now) noexcept {
+    if (bodies_.empty()) return;
+    looked_ = now;
+    const bool had_rival = owner_.rival().has_value();
+    owner_.look(presence);
+    for (const Body& body : bodies_) owners_.set(body.number, {owner_.epoch(), 0});
+    if (had_rival && !owner_.rival() && own_ != nullptr) restate(owned);
+  }
+  /// The owner of each body; null in an `interop` exercise.
+  [[nodiscard]] const aoim::BodyOwners* owners() const noexcept {
+    return scene_.network.interop ? nullptr : &owners_;
   }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
   /// Writes their number, and the number of awake ones.
@@ -88,6 +115,11 @@ class BodyStage {
   }
 
  private:
+  static constexpr std::uint64_t kFirstVersion = 1;
+  struct Body {
+    std::size_t number;  // among the moving objects
+    const haptics::SceneObject* object;
+  };
   [[nodiscard]] EntityDescription description_of(const haptics::SceneObject& object,
                                                  std::size_t number) const {
     EntityDescription description;
@@ -97,12 +129,22 @@ class BodyStage {
     return description;
   }
 
+  void restate(OwnedEntities& owned) noexcept {
+    for (const Body& body : bodies_) {
+      const auto number = static_cast<EntityNumber>(first_ + body.number);
+      if (OwnedEntity* entity = owned.find(number)) entity->event();
+      owned.look_at(number);
+    }
+  }
+
   const SceneFile& scene_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours
   EntityNumber first_ = 0;
-  BodyMover* mover_;  // null: nothing is carried
-  bool has_any_;      // whether the scene has bodies, of any owner
+  BodyMover* mover_;          // null: nothing is carried
+  std::vector<Body> bodies_;  // of the scene, of any owner
   BodyOwner owner_;
+  aoim::BodyOwners owners_;
+  std::chrono::nanoseconds looked_{-1};
   std::optional<RemoteBodies> remote_;
 };
 

@@ -19,15 +19,18 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
-RemoteSettings settings_of(const ModelWiring& wiring) {
+RemoteSettings settings_of(const ModelWiring& wiring, const aoim::BodyOwners* owners) {
   RemoteSettings settings = remote_settings(wiring.scene);
+  settings.body_owners = owners;
   settings.capacity = wiring.capacity;
   settings.record_changes = wiring.record_changes;
   return settings;
 }
 
-aoim::AreaOfInterestConfig with_secret(aoim::AreaOfInterestConfig config,
-                                       const aoim::ChainLink& secret) {
+aoim::AreaOfInterestConfig config_of(const ModelWiring& wiring, const aoim::ChainLink& secret,
+                                     const aoim::BodyOwners* owners) {
+  aoim::AreaOfInterestConfig config = aoim_config(wiring.scene, wiring.frame, wiring.link);
+  config.body_owners = owners;
   config.presence.secret = secret;
   return config;
 }
@@ -38,15 +41,15 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
-      aoim_(with_secret(aoim_config(wiring.scene, wiring.frame, wiring.link), identity.secret),
+      bodies_(wiring),
+      aoim_(config_of(wiring, identity.secret, bodies_.owners()),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
-      remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
+      remote_(wiring.frame, aoim_, settings_of(wiring, bodies_.owners()), wiring.counters),
       sender_(wiring.scene.network, aoim_, time_, hooks_, wiring.counters),
       intake_(wiring, aoim_, time_, remote_, hooks_, counted_),
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
-      bodies_(wiring),
       subscriber_(wiring, aoim_, owned_, remote_),
       watches_(wiring),
       hooks_(wiring),
@@ -138,12 +141,13 @@ void ModelLoop::look_around() noexcept {
   remote_.look_outside(pass_.now);
 }
 
+// Bodies of the scene stay, for their next owner.
 bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   if (goodbyes_ == 0 && touch_.read_hands()) subscriber_.note_moved();
   for (std::size_t room = outlet_.room(); room > 0 && goodbyes_ < owned_.last_number(); --room) {
     OwnedEntity* entity = owned_.find(static_cast<EntityNumber>(++goodbyes_));
-    if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
+    if (entity == nullptr || entity->is_body() || entity->truth().time <= nanoseconds(0)) continue;
     const HandPort* port = touch_.port_of(static_cast<EntityNumber>(goodbyes_));
     entity->set_deactivated();
     sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now, {},
@@ -189,9 +193,9 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
 }
 
 void ModelLoop::add_bodies(EntityNumber first) {
-  bodies_.add_own(first, [this](EntityNumber number, const EntityDescription& description) {
-    add(number, description);
-  });
+  bodies_.add_own(first, aoim_.presence().own().epoch, owned_);
+  aoim_.introductions().set_owned(owned_.size());
+  subscriber_.note_moved();
 }
 
 void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
@@ -279,7 +283,7 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
-  bodies_.look(aoim_.presence());
+  bodies_.look(aoim_.presence(), owned_, pass_.now);
   watches_.look(remote_, aoim_.presence().id(), pass_.now);
   hooks_.look({remote_, aoim_, unfelt, touch_.crowder(), pass_.now, watches_.notices()});
   watches_.look(bodies_.owner(), pass_.now);
@@ -308,9 +312,10 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (!assured_.admits(update, arrival)) return;
   if (update.kind != Inbound::Kind::entity)
     return assured_.conclude(update, take_interaction(update, arrival));
+  bodies_.prepare(update, arrival, aoim_.presence(), owned_);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
-  bodies_.note(update, arrival, aoim_.presence(), remote_);
+  bodies_.note(update, arrival, remote_);
 }
 
 // A forged PDU is neither obeyed nor delivered; then false.
@@ -335,7 +340,7 @@ void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
 }
 
 void ModelLoop::drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept {
-  remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left);
+  remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left, pass_.now);
   emissions_.drop(life.name);
   intake_.forget_keys(life.epoch);
   assured_.drop(life);
@@ -354,8 +359,8 @@ void ModelLoop::receive(const aoim::RelayedState& relayed,
   update.has_state = true;
   if (pdu::decode(relayed.octets, update.state) != pdu::DecodeError::none) return;
   update.entity = update.state.entity_id;
-  update.has_model = relayed.model.has_value();
-  if (relayed.model) update.model = *relayed.model;
+  if ((update.has_model = relayed.model.has_value())) update.model = *relayed.model;
+  update.ownership = relayed.ownership;
   const Arrival arrival{pass_.now,
                         pass_.utc,
                         std::min(relayed.heard, pass_.now),
@@ -373,9 +378,8 @@ void ModelLoop::doubt_silent_peers() noexcept {
   for (const Touched& hand : std::span(touched).first(count)) {
     if (const RemoteEntity* row = remote_.find(hand.id)) aoim_.note_touched(row->epoch, pass_.now);
   }
-  const bool again =
-      watches_.doubt_silent(aoim_.presence(), std::span(touched).first(count), remote_, pass_.now);
-  if (again) returned_.note(pass_.now);
+  if (watches_.doubt_silent(aoim_.presence(), std::span(touched).first(count), remote_, pass_.now))
+    returned_.note(pass_.now);
 }
 
 template <typename... Arguments>

@@ -165,6 +165,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   ModelCounters counted_;
   OwnedEntities owned_;
   TrackedEntities tracked_;
+  BodyStage bodies_;
   aoim::AreaOfInterestManager aoim_;
   TimeKeeper time_;
   RemoteEntities remote_;
@@ -173,7 +174,6 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   DatagramIntake intake_;
   DatagramOutlet outlet_;
   TouchStage touch_;
-  BodyStage bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;
   HookList hooks_;  // behind the stages that ask it, whose counters its rows read

@@ -24,6 +24,11 @@ Notice sentence_of_addresses(const aoim::PresenceEvent& event) noexcept {
   if (event.kind == aoim::PresenceEventKind::moved)
     return make_notice(NoticeKind::moved, "peer {}:{} moved to {} from {}", peer.site,
                        peer.application, source.view(), other.view());
+  if (event.kind == aoim::PresenceEventKind::impostor && peer.site == aoim::kSceneSite)
+    return make_notice(
+        NoticeKind::impostor,
+        "{} is ignored: it announces {}:{}, and site {} belongs to the scene's bodies",
+        other.view(), peer.site, peer.application, peer.site);
   if (event.kind == aoim::PresenceEventKind::impostor)
     return make_notice(NoticeKind::impostor,
                        "{} is ignored: it uses the identity of peer {}:{}, which is at {}",

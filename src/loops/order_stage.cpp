@@ -39,7 +39,8 @@ void OrderStage::carry_out(const Inbound& order, const Arrival& arrival, const p
       owned_.look_at(number);
     });
     acknowledge(order, arrival, own, pass);
-  } else if (OwnedEntity* entity = owned_.find(order.entity.entity)) {
+  } else if (OwnedEntity* entity = owned_.find(order.entity.entity);
+             entity != nullptr && !entity->is_body()) {
     entity->set_frozen(frozen);
     owned_.look_at(order.entity.entity);
     acknowledge(order, arrival, entity->id(), pass);

@@ -48,14 +48,13 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
                        last.id.application, last.id.entity, AddressText(last.from).view()),
            last.from, now);
   }
-  if (bodies_.begins(remote.disputed_bodies(), now)) {
-    const Untouchable& last = remote.last_disputed_body();
-    report(
-        make_notice(
-            NoticeKind::body_disputed,
-            "refused {}:{}:{} at {}: it is a body of the scene, and only its first peer owns those",
-            last.id.site, last.id.application, last.id.entity, AddressText(last.from).view()),
-        last.from, now);
+  if (bodies_.begins(remote.bodies().disputed(), now)) {
+    const Untouchable& last = remote.bodies().last_disputed();
+    report(make_notice(NoticeKind::body_disputed,
+                       "refused {}:{}:{} from {}: a body of the scene comes only from its owner",
+                       last.id.site, last.id.application, last.id.entity,
+                       AddressText(last.from).view()),
+           last.from, now);
   }
   if (inside_.begins(remote.beginnings().held_back(), now)) {
     const pdu::EntityId id = remote.beginnings().last_held_back();
@@ -103,10 +102,10 @@ void RefusalWatch::look(std::span<const Touched> touched, RemoteEntities& remote
   }
   const auto pusher = pushers_.take_news(now);
   if (!pusher) return;
-  report(
-      make_notice(NoticeKind::presses, "{}:{} at {} presses a hand; touch in the scene decides who may",
-                  pusher->name.site, pusher->name.application, AddressText(pusher->speaker).view()),
-      pusher->speaker, now);
+  report(make_notice(
+             NoticeKind::presses, "{}:{} at {} presses a hand; touch in the scene decides who may",
+             pusher->name.site, pusher->name.application, AddressText(pusher->speaker).view()),
+         pusher->speaker, now);
 }
 
 void RefusalWatch::look(const SilenceWatch& silence, Nanoseconds now) noexcept {

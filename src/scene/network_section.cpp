@@ -3,6 +3,7 @@
 // [network] and [impairment]: sending, and impairment of received datagrams.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/notation/simulation_names.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -47,9 +50,22 @@ Section<NetworkConfig> bundle_section() {
   }};
 }
 
+// Whether a list of simulations names the site of the scene, which no peer has.
+bool names_scene(TomlReader& table, std::string_view key, const std::string& text) {
+  const auto names = parse_simulations(text);
+  const bool is_named =
+      names && std::ranges::find(*names, aoim::kSceneSite, &aoim::PeerId::site) != names->end();
+  if (is_named)
+    table.problem(key, fmt::format("'{}' names site {}, which belongs to the scene's bodies: list "
+                                   "the peers that own them",
+                                   key, aoim::kSceneSite));
+  return is_named;
+}
+
 void check_management(TomlReader& table, NetworkConfig& config) {
   std::string text = config.management.text();
   table.read("allow_management", text);
+  if (names_scene(table, "allow_management", text)) return;
   if (const auto rule = ManagementRule::parse(text)) {
     config.management = *rule;
   } else {
@@ -64,6 +80,7 @@ void check_touch(TomlReader& table, NetworkConfig& config) {
   std::string text;
   table.texts("touch", [&](const std::string& one) { text += (text.empty() ? "" : ", ") + one; });
   if (!table.has("touch")) return;
+  if (names_scene(table, "touch", text)) return;
   config.touch = TouchRule::parse(text);
   if (!config.touch)
     return table.problem("touch", fmt::format("'touch' is \"{}\"; write scene, all, members, or "

@@ -33,12 +33,12 @@ class BodyOwner {
       if (is_owner(peer) || (first && !(owner != nullptr && is_owner(*owner)))) owner = &peer;
       if (last == nullptr || peer.known_since > last->known_since) last = &peer;
     }
-    epoch_ = own_first || owner == nullptr ? 0 : owner->announced.epoch;
+    epoch_ = own_first ? presence.own().epoch : owner == nullptr ? 0 : owner->announced.epoch;
     rival_.reset();
     if (last != nullptr && (own_first || last != owner))
       rival_ = {last->id(), own_first ? presence.id() : owner->id(), last->source};
   }
-  /// Epoch of the owner; 0 if it is this peer or not known.
+  /// Epoch of the owner, perhaps of this peer; 0 if it is not known.
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
   /// The last peer other than the owner to announce number 1, if there is one.
   [[nodiscard]] const std::optional<BodyRival>& rival() const noexcept { return rival_; }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/management/start_resume.hpp"
 #include "reckon/pdu/management/stop_freeze.hpp"
 
@@ -189,18 +188,25 @@ void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,
   pdu::Attribute attribute;
   if (pdu::decode(bytes, attribute) != DecodeError::none) return malformed_.add();
   for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
-    for (const pdu::AttributeRecord& record : set.records()) {
-      pdu::HapticRecord model;
-      pdu::EnergyAccountRecord account;
-      if (pdu::decode(record, model) == DecodeError::none) {
-        if (Inbound* update = stage(Inbound::Kind::entity, set.entity_id)) {
-          update->has_model = true;
-          update->model = model;
-        }
-      } else if (pdu::decode(record, account) == DecodeError::none) {
-        take_account(set.entity_id, account, own);
-      }
+    for (const pdu::AttributeRecord& record : set.records())
+      take_record(set.entity_id, record, own);
+  }
+}
+
+void DatagramDecoder::take_record(const pdu::EntityId& entity, const pdu::AttributeRecord& record,
+                                  const pdu::SimulationAddress& own) noexcept {
+  pdu::HapticRecord model;
+  pdu::EnergyAccountRecord account;
+  pdu::OwnershipRecord ownership;
+  if (pdu::decode(record, model) == DecodeError::none) {
+    if (Inbound* update = stage(Inbound::Kind::entity, entity)) {
+      update->has_model = true;
+      update->model = model;
     }
+  } else if (pdu::decode(record, account) == DecodeError::none) {
+    take_account(entity, account, own);
+  } else if (pdu::decode(record, ownership) == DecodeError::none) {
+    if (Inbound* update = stage(Inbound::Kind::entity, entity)) update->ownership = ownership;
   }
 }
 
@@ -267,6 +273,7 @@ void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity
   update.kind = kind;
   update.entity = entity;
   update.has_state = update.has_model = false;
+  update.ownership.reset();
   update.account_count = 0;
   update.accounts_told = 0;
   update.record = {};

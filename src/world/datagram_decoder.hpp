@@ -7,15 +7,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/reckon/assured_record.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/pdu/reckon/ownership_record.hpp"
 #include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/counters/counters.hpp"
 
@@ -41,6 +44,7 @@ struct Inbound {
   bool has_state = false, has_model = false;
   pdu::EntityState state;  ///< its variable parameters are a view of the datagram's octets
   pdu::HapticRecord model;
+  std::optional<pdu::OwnershipRecord> ownership;               ///< of a body of the scene
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< the accounts that name us
   std::size_t account_count = 0;
   std::uint8_t accounts_told = 0;     ///< number of accounts that exchange energy, also with others
@@ -89,6 +93,8 @@ class DatagramDecoder {
   void take_state(const pdu::EntityState& state) noexcept;
   void take_compressed(std::span<const std::byte> bytes) noexcept;
   void take_attribute(std::span<const std::byte> bytes, const pdu::SimulationAddress& own) noexcept;
+  void take_record(const pdu::EntityId& entity, const pdu::AttributeRecord& record,
+                   const pdu::SimulationAddress& own) noexcept;
   void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account,
                     const pdu::SimulationAddress& own) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;

@@ -21,6 +21,12 @@ SenderRight EntityOwnership::right_of(const pdu::EntityId& id, const Arrival& ar
   // RemoteEntities::claim() ensures this
   if (row != nullptr && is_owner(*row, arrival)) return SenderRight::owner;
   const aoim::Presence& presence = aoim_.presence();
+  if (bodies_.contains(id)) {
+    const std::uint32_t epoch = bodies_.owner_of(id);
+    if (epoch != 0 && epoch == arrival.epoch) return SenderRight::owner;
+    owner = presence.source_of(epoch).value_or(aoim::SourceAddress());
+    return SenderRight::refused;
+  }
   if (const auto epoch = presence.epoch_of(id.simulation())) {
     if (*epoch == arrival.epoch) return SenderRight::owner;
     owner = presence.source_of(*epoch).value_or(aoim::SourceAddress());

@@ -16,6 +16,7 @@
 #include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/outside_entities.hpp"
 #include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/scene_bodies.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
@@ -33,8 +34,14 @@ class EntityOwnership {
  public:
   /// References outlive this.  @param refused counts PDUs sent in another owner's name
   EntityOwnership(aoim::AreaOfInterestManager& aoim, const StateTable& table,
-                  const RowOwners& owners, const OutsideEntities& outside, Counter& refused)
-      : aoim_(aoim), table_(table), owners_(owners), outside_(outside), refused_(refused) {}
+                  const RowOwners& owners, const OutsideEntities& outside, SceneBodies& bodies,
+                  Counter& refused)
+      : aoim_(aoim),
+        table_(table),
+        owners_(owners),
+        outside_(outside),
+        bodies_(bodies),
+        refused_(refused) {}
 
   /// Whether this came from the epoch and the sender that made the row. Called for each update.
   [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
@@ -44,10 +51,19 @@ class EntityOwnership {
   [[nodiscard]] bool is_sender(const RemoteEntity& row, const Arrival& arrival) const noexcept {
     return same(owners_.owner(table_.place_of(row)), arrival.from);
   }
-  /// Whether a state of this entity may be taken; else it is counted as a dispute.
+  /// Whether an update may be taken; else it is counted as a dispute. Bodies of the scene have a
+  /// rule of their own, see SceneBodies.
   /// @param row of the entity; null if it has none
-  [[nodiscard]] bool may_update(const pdu::EntityId& id, const Arrival& arrival,
-                                const RemoteEntity* row) noexcept;
+  [[nodiscard]] bool may_update(const Inbound& update, const Arrival& arrival,
+                                const RemoteEntity* row) noexcept {
+    if (bodies_.contains(update.entity)) return bodies_.admits(update, arrival);
+    return may_update(update.entity, arrival, row);
+  }
+  /// The same for an entity outside. A body was checked when it was kept, and its owner may have
+  /// left since.
+  [[nodiscard]] bool may_enter(const pdu::EntityId& id, const Arrival& arrival) noexcept {
+    return bodies_.contains(id) || may_update(id, arrival, nullptr);
+  }
   /// See RemoteEntities::sender_right.
   [[nodiscard]] SenderRight sender_right(std::span<const pdu::EntityId> ids,
                                          const Arrival& arrival) noexcept;
@@ -57,6 +73,8 @@ class EntityOwnership {
   }
 
  private:
+  [[nodiscard]] bool may_update(const pdu::EntityId& id, const Arrival& arrival,
+                                const RemoteEntity* row) noexcept;
   // As ==, inlined.
   [[nodiscard]] static bool same(const aoim::SourceAddress& a,
                                  const aoim::SourceAddress& b) noexcept {
@@ -76,6 +94,7 @@ class EntityOwnership {
   const StateTable& table_;
   const RowOwners& owners_;
   const OutsideEntities& outside_;
+  SceneBodies& bodies_;
   Counter& refused_;
   Disputes disputes_;
 };

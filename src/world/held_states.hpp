@@ -49,6 +49,13 @@ class HeldStates {
     shown_by_.erase(place);
   }
 
+  /// Forgets the states of the entity at `place`, whose next states have another sender.
+  void forget(std::size_t place) noexcept {
+    if (!is_on()) return;
+    for (RowColumn<HeldState>& column : behind_) column[place] = {};
+    shown_by_[place] = aoim::kBaseGroup;
+  }
+
   /// Records a state from a group of this row, or of the cell for near_rows, even if it is not the
   /// newest.  @param newest whether it is the newest, so that it is shown
   void note(std::size_t place, std::size_t row, const HeldState& heard, bool newest) noexcept {

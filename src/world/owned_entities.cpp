@@ -16,20 +16,36 @@ std::optional<EntityNumber> EntityNumbers::take() {
   return number;
 }
 
-bool OwnedEntities::add(EntityNumber number, const EntityDescription& description,
-                        const EntityTruth& truth) {
-  if (number == 0 || number > kMostOwned || find(number) != nullptr) return false;
+// Null if the number is in use.
+OwnedEntity* OwnedEntities::place(EntityNumber number, const EntityDescription& description,
+                                  const pdu::EntityId& id) {
+  if (number == 0 || number > kMostOwned || find(number) != nullptr) return nullptr;
   if (number > slots_.size()) slots_.resize(number);
   Slot& slot = slots_[number - 1u];
-  const pdu::EntityId id{settings_.simulation.site, settings_.simulation.application, number};
   slot.entity = std::make_unique<OwnedEntity>(frame_, description, id, settings_.exercise,
                                               settings_.teleport_distance);
-  slot.entity->compress(settings_.compression);
   slot.entity->set_tiers(settings_.urgent_tiers, settings_.rows);
   slot.scheduled = nanoseconds::max();
   ++size_;
+  return slot.entity.get();
+}
+
+bool OwnedEntities::add(EntityNumber number, const EntityDescription& description,
+                        const EntityTruth& truth) {
+  const pdu::EntityId id{settings_.simulation.site, settings_.simulation.application, number};
+  OwnedEntity* entity = place(number, description, id);
+  if (entity == nullptr) return false;
+  entity->compress(settings_.compression);
   if (description.model) touchable_.push_back(number);
-  if (truth.time > nanoseconds(0) && slot.entity->move(truth)) look_at(number);
+  if (truth.time > nanoseconds(0) && entity->move(truth)) look_at(number);
+  return true;
+}
+
+bool OwnedEntities::add_body(EntityNumber number, const EntityDescription& description,
+                             const pdu::EntityId& id, const pdu::OwnershipRecord& ownership) {
+  OwnedEntity* entity = place(number, description, id);
+  if (entity == nullptr) return false;
+  entity->own_by(ownership);
   return true;
 }
 
@@ -52,7 +68,8 @@ const OwnedEntity* OwnedEntities::find(EntityNumber number) const noexcept {
 
 pdu::EntityId OwnedEntities::first_id() const noexcept {
   for (EntityNumber number = 1; number <= last_number(); ++number) {
-    if (const OwnedEntity* entity = find(number)) return entity->id();
+    const OwnedEntity* entity = find(number);
+    if (entity != nullptr && !entity->is_body()) return entity->id();
   }
   return simulation();
 }
@@ -60,6 +77,7 @@ pdu::EntityId OwnedEntities::first_id() const noexcept {
 void OwnedEntities::rename(const pdu::SimulationAddress& simulation) noexcept {
   settings_.simulation = simulation;
   for_each([&](OwnedEntity& entity, EntityNumber number) {
+    if (entity.is_body()) return;
     entity.rename({simulation.site, simulation.application, number});
     look_at(number);
   });

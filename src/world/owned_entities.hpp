@@ -60,6 +60,9 @@ class OwnedEntities {
   /// False if the number is in use.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
+  /// The same for a body of the scene: rename() does not change its ID.
+  bool add_body(EntityNumber number, const EntityDescription& description, const pdu::EntityId& id,
+                const pdu::OwnershipRecord& ownership);
   /// Removes an entity; does nothing if there is none.
   void remove(EntityNumber number) noexcept;
 
@@ -70,13 +73,13 @@ class OwnedEntities {
   [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
   /// The entities that hands can feel, in the order of add().
   [[nodiscard]] std::span<const EntityNumber> touchable() const noexcept { return touchable_; }
-  /// Of the entity with the least number; simulation() if there is none.
+  /// Of the entity with the least number that is no body; simulation() if there is none.
   [[nodiscard]] pdu::EntityId first_id() const noexcept;
   /// First half of their IDs; entity 0 is the whole simulation.
   [[nodiscard]] pdu::EntityId simulation() const noexcept {
     return {settings_.simulation.site, settings_.simulation.application, 0};
   }
-  /// Changes the first half after an identity conflict: an event for each entity.
+  /// Changes the first half after an identity conflict: an event for each entity but bodies.
   void rename(const pdu::SimulationAddress& simulation) noexcept;
 
   /// Has the entity checked in the next pass.
@@ -133,6 +136,8 @@ class OwnedEntities {
       if (slots_[i].entity) visit(*slots_[i].entity, static_cast<EntityNumber>(i + 1));
     }
   }
+  OwnedEntity* place(EntityNumber number, const EntityDescription& description,
+                     const pdu::EntityId& id);
   void wake_due(std::chrono::nanoseconds now) noexcept;
   void schedule(Slot& slot, EntityNumber number) noexcept;
 

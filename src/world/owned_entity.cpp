@@ -91,6 +91,7 @@ std::size_t store_records(const EntityUpdate& update,
   for (std::size_t i = 0; i < update.account_count; ++i) {
     size += pdu::store_record(update.accounts[i], records.subspan(size));
   }
+  if (update.ownership) size += pdu::store_record(*update.ownership, records.subspan(size));
   return size;
 }
 
@@ -302,6 +303,7 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   }
   update.has_model = is_felt;
   update.account_count = 0;
+  update.ownership = ownership_;
   if (is_felt && deadreckon::to_wire(touch_->model_, update.model) != ConversionError::none)
     return false;
   update.state.header.timestamp = pdu::to_dis_timestamp(utc, true);

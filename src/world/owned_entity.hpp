@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "reckon/aoim/groups/group_index.hpp"
@@ -23,6 +24,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/pdu/reckon/ownership_record.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/world/audiences.hpp"
 #include "reckon/peer/world/entity_description.hpp"
@@ -48,14 +50,17 @@ struct EntityUpdate {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kMostAccounts> accounts{};
   std::size_t account_count = 0;
+  std::optional<pdu::OwnershipRecord> ownership = {};  ///< of a body of the scene
   std::array<std::byte, 32 * deadreckon::PartState::kCapacity> parts{};
 };
 
 /// Largest size of the records of an update [octets].
-inline constexpr std::size_t kMaxEntityRecords =
-    pdu::kHapticRecordLength + kMostAccounts * pdu::kEnergyAccountRecordLength;
+inline constexpr std::size_t kMaxEntityRecords = pdu::kHapticRecordLength +
+                                                 kMostAccounts * pdu::kEnergyAccountRecordLength +
+                                                 pdu::kOwnershipRecordLength;
 
-/// Encodes the force model and the accounts of `update` one after the other; returns their octets.
+/// Encodes the force model, the accounts and the ownership of `update` one after the other; returns
+/// their octets.
 std::size_t store_records(const EntityUpdate& update,
                           std::span<std::byte, kMaxEntityRecords> records) noexcept;
 
@@ -111,6 +116,9 @@ class OwnedEntity {
   [[nodiscard]] const pdu::EntityType& type() const noexcept { return template_.entity_type; }
   /// Changes the number after an identity conflict; the next decide() returns `event`.
   void rename(const pdu::EntityId& id) noexcept;
+  /// Makes it a body of the scene, whose ID names no owner: each update carries this record.
+  void own_by(const pdu::OwnershipRecord& ownership) noexcept { ownership_ = ownership; }
+  [[nodiscard]] bool is_body() const noexcept { return ownership_.has_value(); }
 
   /// Makes the next decide() return `event`, for a new peer or an abrupt change.
   void event() noexcept { event(kAllAudiences); }
@@ -211,7 +219,8 @@ class OwnedEntity {
 
   /// From now on updates are rounded to quanta, so that a compressed form carries them exactly, and
   /// are sent in it; `none`: neither. Updates stay plain for felt entities and for entities with
-  /// thresholds below four quanta. Allocates.
+  /// thresholds below four quanta. Not for a body of the scene: a compressed form has the address
+  /// of its sender. Allocates.
   void compress(pdu::CompressedForm form);
   /// Null if they are sent plain.
   [[nodiscard]] StateCompressor* compressor() noexcept { return compressor_.get(); }
@@ -251,6 +260,7 @@ class OwnedEntity {
   std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;
+  std::optional<pdu::OwnershipRecord> ownership_;
   pdu::EntityState template_;
 };
 

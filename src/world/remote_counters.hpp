@@ -15,8 +15,10 @@ struct RemoteCounters {
         refused_models(counters.make("models_refused", "force models with impossible values")),
         untouchables(
             counters.make("touch_refused", "force models of senders that `touch` does not permit")),
-        bodies_disputed(counters.make(
-            "bodies_disputed", "states of the scene's bodies from peers other than its first")),
+        bodies_disputed(counters.make("bodies_disputed",
+                                      "states of the scene's bodies from others than their owner")),
+        bodies_stale(counters.make(
+            "bodies_stale", "states of the scene's bodies of an older version of ownership")),
         reserved(counters.make("reserved_ids_in",
                                "updates of IDs that no entity can have, such as 0:0:0 and 65535")),
         stale(counters.make("stale_in", "stale updates, dropped")),
@@ -41,6 +43,7 @@ struct RemoteCounters {
   Counter& refused_models;
   Counter& untouchables;
   Counter& bodies_disputed;
+  Counter& bodies_stale;
   Counter& reserved;
   Counter& stale;
   Counter& repeats;

@@ -46,10 +46,11 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
       outside_(settings.capacity),
-      ownership_(aoim, table_, owners_, outside_, counts_.disputed),
+      ownership_(aoim, table_, owners_, outside_, bodies_, counts_.disputed),
       admission_(settings_, table_, owners_, outside_, counts_),
       touch_(settings.touch),
-      models_(settings_, owners_, touch_, counts_) {
+      models_(settings_, owners_, touch_, counts_),
+      bodies_(settings.body_owners, aoim.presence(), counts_) {
   near_.mark_beginnings(beginnings_, owners_);
 }
 
@@ -77,7 +78,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   if (!is_nameable(update.entity)) return counts_.reserved.add(), false;
   RemoteEntity* row = table_.find(update.entity);
-  if (!ownership_.may_update(update.entity, arrival, row)) return false;
+  if (!ownership_.may_update(update, arrival, row)) return false;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
@@ -91,7 +92,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
-    if (row == nullptr && update.has_model) {
+    if (row == nullptr && update.has_model && !bodies_.contains(update.entity)) {
       outside_.set_model(update.entity, arrival.epoch, update.model);
     }
     if (row == nullptr || !ownership_.is_owner(*row, arrival)) return false;
@@ -145,6 +146,7 @@ void RemoteEntities::take_parts(RemoteEntity& row, const pdu::EntityState& state
 }
 
 void RemoteEntities::take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept {
+  if (bodies_.contains(row.id)) return;  // a servo renders it as an object of the scene
   const std::size_t place = table_.place_of(row);
   if (models_.take(row, place, model)) near_.note_model(place);
 }

@@ -29,6 +29,7 @@
 #include "reckon/peer/world/remote_settings.hpp"
 #include "reckon/peer/world/row_admission.hpp"
 #include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/scene_bodies.hpp"
 #include "reckon/peer/world/sight_watch.hpp"
 #include "reckon/peer/world/state_table.hpp"
 #include "reckon/peer/world/touch_gate.hpp"
@@ -45,6 +46,9 @@ enum class Gone : std::uint8_t { left, silent };
 /// identified by its epoch. A row with a number that no peer has belongs to the sender (address,
 /// port, epoch) that made it, until it has been silent for RowOwners::kSilence. For a guest of
 /// plain DIS this time is half the time-out of its entity, at most RowOwners::kGuestSilence.
+///
+/// A body of the scene belongs to the peer that RemoteSettings::body_owners names, see SceneBodies.
+/// Its row passes from owner to owner, and stays at its place when its owner leaves or is silent.
 class RemoteEntities {
  public:
   /// References outlive this.
@@ -71,8 +75,8 @@ class RemoteEntities {
     owners_.heard(from, now);
     outside_.heard(from, now);
   }
-  /// Drops all entities of a peer.
-  void drop_peer(aoim::PeerId id, Gone how) noexcept;
+  /// Drops all entities of a peer. The bodies of the scene that it owned are doubted.
+  void drop_peer(aoim::PeerId id, Gone how, std::chrono::nanoseconds now) noexcept;
   /// Brings the entities of the process with this epoch to rest, from `now` until they are believed
   /// or updated. They are not felt until they are updated. Visits all rows.
   void doubt_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
@@ -91,7 +95,8 @@ class RemoteEntities {
   void fade(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
   /// A peer has claimed these numbers with this epoch: drops rows of other senders under them.
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
-  /// Drops entities that were silent for longer than their time-out. Some ns if there are none.
+  /// Drops entities that were silent for longer than their time-out, except bodies of the scene.
+  /// Some ns if there are none.
   void expire(std::chrono::nanoseconds now) noexcept;
   /// Removes shown entities that have left the radius without an update, by our movement or their
   /// own. This takes at most a second if at most SightWatch::kMostLooks are due at once. They are
@@ -177,18 +182,8 @@ class RemoteEntities {
   }
   /// Counts a body that is not felt by the scene's `touch`.
   void refuse_touch(const RemoteEntity& row) noexcept { models_.refuse(row, table_.place_of(row)); }
-  /// Counts a state of a body of the scene whose sender does not own it.
-  void dispute_body(const RemoteEntity& row) noexcept {
-    counts_.bodies_disputed.add();
-    last_disputed_body_ = {row.id, owner(row)};
-  }
-  /// Their number, and the last such entity.
-  [[nodiscard]] std::uint64_t disputed_bodies() const noexcept {
-    return counts_.bodies_disputed.value();
-  }
-  [[nodiscard]] const Untouchable& last_disputed_body() const noexcept {
-    return last_disputed_body_;
-  }
+  /// The scene's bodies as received.
+  [[nodiscard]] const SceneBodies& bodies() const noexcept { return bodies_; }
   /// The scene's touch rule.
   [[nodiscard]] TouchGate& touch() noexcept { return touch_; }
   /// Bodies that appeared inside a hand and are not felt there yet.
@@ -255,7 +250,7 @@ class RemoteEntities {
   RowAdmission admission_;
   TouchGate touch_;
   ForceModelIntake models_;
-  Untouchable last_disputed_body_;
+  SceneBodies bodies_;
   std::chrono::nanoseconds first_heard_{-1};
 };
 

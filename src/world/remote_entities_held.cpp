@@ -4,6 +4,7 @@
 // interest, and states meant for listeners that are farther away than we are.
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -16,6 +17,12 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
+namespace {
+
+constexpr double kForEver = std::numeric_limits<double>::infinity();  // [s]
+
+}  // namespace
+
 // Of an entity outside, only those states are kept that its owner maintains for listeners at this
 // distance.
 void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
@@ -24,6 +31,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   double timeout = deadreckon::timeout(
       deadreckon::nominal_heartbeat(update.state.entity_type, deadreckon::stands_still(state)));
   if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  if (bodies_.contains(update.entity)) timeout = kForEver;
   if (!held_.is_on() || arrival.group == aoim::kBaseGroup)
     return keep_outside(OutsideEntity(update, arrival, state, timeout));
   if (row == nullptr) return;
@@ -72,7 +80,8 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   arrival.epoch = row.epoch;
   arrival.clock.aligned = false;
   arrival.from = owners_.owner(place);
-  OutsideEntity entity(update, arrival, known.state, row.timeout);
+  OutsideEntity entity(update, arrival, known.state,
+                       bodies_.contains(row.id) ? kForEver : row.timeout);
   entity.set_last_heard(row.last_heard);
   keep_outside(entity);
 }

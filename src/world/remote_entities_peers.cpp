@@ -9,13 +9,14 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
+void RemoteEntities::drop_peer(aoim::PeerId id, Gone how, nanoseconds now) noexcept {
   const Removal cause = how == Gone::silent ? Removal::silent : Removal::owner_left;
   // Erasing moves the last row into the hole, so look at the same place again.
   for (std::size_t i = 0; i < table_.rows().size();) {
     if (table_.rows()[i].id.simulation() == id) {
       drop(i, cause);
     } else {
+      if (bodies_.is_orphan(table_.rows()[i])) doubt_row(i, now);
       ++i;
     }
   }
@@ -30,8 +31,7 @@ void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
 }
 
 void RemoteEntities::doubt(const pdu::EntityId& id, nanoseconds now) noexcept {
-  const RemoteEntity* row = table_.find(id);
-  if (row != nullptr) doubt_row(table_.place_of(*row), now);
+  if (const RemoteEntity* row = table_.find(id)) doubt_row(table_.place_of(*row), now);
 }
 
 void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds silent,
@@ -48,8 +48,7 @@ void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds silent,
 }
 
 void RemoteEntities::end_force(const pdu::EntityId& id) noexcept {
-  RemoteEntity* row = table_.find(id);
-  if (row != nullptr) end_force(*row);
+  if (RemoteEntity* row = table_.find(id)) end_force(*row);
 }
 
 nanoseconds RemoteEntities::note_pressed(const pdu::EntityId& id, nanoseconds now) noexcept {

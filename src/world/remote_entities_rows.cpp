@@ -24,10 +24,15 @@ constexpr double kLeastStep = 0.01;
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
-  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
+  const bool body = bodies_.contains(update.entity);
+  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0 && !body) {
     if (row != nullptr) drop(table_.place_of(*row), Removal::deactivated);
     outside_.forget(update.entity);
     return nullptr;
+  }
+  if (row != nullptr && body && row->epoch != arrival.epoch) {
+    motion_.change_sender(*row, table_.place_of(*row), arrival.epoch);
+    held_.forget(table_.place_of(*row));
   }
   const bool moved = row != nullptr && !ownership_.is_sender(*row, arrival);
   if (row != nullptr &&
@@ -96,7 +101,7 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
 // As if the entity had been within the radius when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
-  if (!ownership_.may_update(entity.id(), entity.arrival(), nullptr)) return;
+  if (!ownership_.may_enter(entity.id(), entity.arrival())) return;
   // After a gap it may have moved elsewhere; its owner or a leader introduces it.
   const aoim::Position stated = to_position(entity.state().position);
   if (!aoim_.sight().has_received_since(stated, entity.arrival().now)) return;
@@ -111,6 +116,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
   row->last_heard = std::max(row->last_heard, entity.last_heard());
   note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
   note_taken(*row, update);
+  if (bodies_.is_orphan(*row)) doubt_row(table_.place_of(*row), row->last_heard);
   counts_.entered.add();
 }
 
@@ -152,14 +158,17 @@ Counter& RemoteEntities::counter_of(Removal cause) noexcept {
   return cause == Removal::no_room ? counts_.evicted : counts_.left;
 }
 
+// A row that is due may have a nanosecond left, by rounding. A body is not due before its next
+// state.
 void RemoteEntities::expire(nanoseconds now) noexcept {
   for (std::size_t i = time_outs_.next_due(now, 0); i < time_outs_.size();
        i = time_outs_.next_due(now, i)) {
     const RemoteEntity& row = table_.rows()[i];
-    if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
+    const bool body = bodies_.contains(row.id);
+    if (!body && pdu::to_seconds(now - row.last_heard) > row.timeout) {
       drop(i, Removal::silent);
     } else {
-      time_outs_.set(i, now + nanoseconds(1));  // not yet due, by a nanosecond of rounding
+      time_outs_.set(i, body ? nanoseconds::max() : now + nanoseconds(1));
     }
   }
 }

@@ -58,6 +58,11 @@ class RemoteMotion {
   /// Returns to a state that was received before, without a jump.
   void go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
                Nanoseconds now) noexcept;
+  /// The row at `place` passes to the peer with this epoch, which has another clock.
+  void change_sender(RemoteEntity& row, std::size_t place, std::uint32_t epoch) noexcept {
+    row.epoch = epoch;
+    clocks_[place] = SenderClock();
+  }
   /// For an owner that is believed again: the entity moves on from its shown place, or jumps if
   /// this place is too far from the continued prediction.
   void resume(RemoteEntity& row, Nanoseconds now) noexcept;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/peer/settings/aoim_config.hpp"
 #include "reckon/peer/settings/convergence_config.hpp"
@@ -31,6 +32,8 @@ struct RemoteSettings {
   std::vector<NimbusClass> nimbus = {};  ///< by type; the first match applies
   std::size_t near_rows = 0;             ///< rows of channels with groups
   TouchRule touch = {};                  ///< which force models are taken
+  /// Owners of the scene's bodies, which outlive the table; null in a plain DIS exercise.
+  const aoim::BodyOwners* body_owners = nullptr;
   /// Longest time [s] for which a force model is believed without an update, regardless of its
   /// validity.
   double longest_validity = 65.0;

@@ -33,6 +33,10 @@ std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept {
   return body;
 }
 
+pdu::EntityId body_id(std::size_t body) noexcept {
+  return {aoim::kSceneId.site, aoim::kSceneId.application, static_cast<std::uint16_t>(body + 1)};
+}
+
 EntityTruth truth_of(const haptics::BodyState& body, nanoseconds time) noexcept {
   EntityTruth truth;
   truth.time = time;
@@ -91,60 +95,57 @@ haptics::ObjectMotion BodyMover::by_time(NodeIndex node, nanoseconds now) noexce
   return out;
 }
 
+std::optional<std::size_t> RemoteBodies::number_of(const RemoteEntity& row,
+                                                   const RemoteEntities& rows) const noexcept {
+  if (interop_) return body_of(row.type);
+  if (!rows.bodies().contains(row.id)) return std::nullopt;
+  return row.id.entity - 1u;
+}
+
 void RemoteBodies::note(const Inbound& update, const Arrival& arrival,
                         RemoteEntities& rows) noexcept {
-  const auto body = body_of(update.state.entity_type);
-  if (!body) return;
   const RemoteEntity* row = rows.find(update.entity);
-  if (row == nullptr || !takes(*row, arrival, rows)) return;
+  const auto body = row == nullptr ? std::nullopt : number_of(*row, rows);
+  if (!body) return;
   Place& place = places_[*body];
+  if (!takes(*row, arrival, rows)) {
+    if (place.id == update.entity) lose(*body);
+    return;
+  }
   if (place.id != update.entity) place = {update.entity, row->version - 1, row->doubted_at};
 }
 
 bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
                          RemoteEntities& rows) const noexcept {
-  const aoim::PeerId sender = row.id.simulation();
-  const bool alive = arrival.epoch != 0;
-  // a plain DIS program does not own the scene's bodies
-  if (!interop_ && !alive) return false;
-  if (!interop_ && arrival.epoch != owner_.epoch()) return rows.dispute_body(row), false;
-  const bool named = !interop_ || rows.touch().names(sender);
-  if (named && rows.touch().admits(sender, alive, arrival.from)) return true;
+  const aoim::PeerId owner = rows.bodies().owner_of(row);
+  const bool named = !interop_ || rows.touch().names(owner);
+  if (named && rows.touch().admits(owner, arrival.epoch != 0, arrival.from)) return true;
   return rows.refuse_touch(row), false;
 }
 
-// Bodies of a new owner may rest, so that their next states may come much later.
-void RemoteBodies::adopt(RemoteEntities& rows) noexcept {
-  if (std::exchange(adopted_, owner_.epoch()) == owner_.epoch() || adopted_ == 0) return;
-  for (const RemoteEntity& row : rows.rows()) {
-    const auto body = body_of(row.type);
-    if (!body || row.epoch != adopted_) continue;
-    if (rows.touch().admits(row.id.simulation(), true, rows.owner(row)))
-      places_[*body] = {row.id, row.version - 1, row.doubted_at};
-  }
+void RemoteBodies::lose(std::size_t body) noexcept {
+  newest_.known[body] = ShownBodies::Known::gone;
+  places_[body] = {};
+  changed_ = true;
 }
 
-void RemoteBodies::publish(RemoteEntities& rows) noexcept {
-  adopt(rows);
-  bool changed = false;
+void RemoteBodies::publish(const RemoteEntities& rows) noexcept {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
     if (!place.id) continue;
     const RemoteEntity* row = rows.find(*place.id);
-    if (row == nullptr || (!interop_ && row->epoch != owner_.epoch())) {
-      newest_.known[i] = ShownBodies::Known::gone;
-      place = {};
-      changed = true;
+    if (row == nullptr) {
+      lose(i);
     } else if (newest_.known[i] != ShownBodies::Known::here || place.version != row->version ||
                place.doubted_at != row->doubted_at) {
       newest_.rows[i] = RemoteCopy(*row);
       newest_.known[i] = ShownBodies::Known::here;
       place.version = row->version;
       place.doubted_at = row->doubted_at;
-      changed = true;
+      changed_ = true;
     }
   }
-  if (!changed) return;
+  if (!std::exchange(changed_, false)) return;
   shown_.write_slot() = newest_;
   shown_.publish();
 }

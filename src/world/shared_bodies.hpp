@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies of a scene as entities: its first peer sends them, and the other peers see and feel
-// them at the received places.
+// The bodies of a scene as entities: their owner sends them, and the other peers see and feel them
+// at the received places.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 #include <optional>
 #include <vector>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/scene_graph/scene_nodes.hpp"
 #include "reckon/peer/world/arrival.hpp"
-#include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -27,13 +27,16 @@
 namespace reckon::peer {
 
 /// Bodies that peers share, at most: their numbers have one octet.
-inline constexpr std::size_t kMostSharedBodies = 256;
+inline constexpr std::size_t kMostSharedBodies = aoim::BodyOwners::kMost;
 
 /// Kind other, category 66 (0x42); `extra` is the number of the body among the movable objects of
 /// the scene.
 [[nodiscard]] pdu::EntityType body_type(std::size_t body) noexcept;
 /// None for any other entity.
 [[nodiscard]] std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept;
+/// Its entity ID, which names no owner: site and application of the scene, entity `body` + 1. In an
+/// `interop` exercise, where states carry no epoch, a body has an ID of its owner.
+[[nodiscard]] pdu::EntityId body_id(std::size_t body) noexcept;
 /// The object's x, y, z axes are forward, left and up.
 [[nodiscard]] EntityTruth truth_of(const haptics::BodyState& body,
                                    std::chrono::nanoseconds time) noexcept;
@@ -81,19 +84,20 @@ class BodyMover final : public haptics::ObjectMover {
   std::vector<Body> bodies_;
 };
 
-/// Used by the model loop. Takes the bodies from only their owner, if the scene's `touch` admits
-/// it. In an `interop` exercise no peer announces itself, and a sender that `touch` names owns
-/// them. Allocates nothing.
+/// Used by the model loop. Shows the bodies whose owner the scene's `touch` admits. The table of
+/// remote entities has states of a body from only its owner. In an `interop` exercise no peer
+/// announces itself: bodies are known by their type, and a sender that `touch` names owns them.
+/// Allocates nothing.
 class RemoteBodies {
  public:
   /// References outlive this.  @param interop whether the exercise is
-  RemoteBodies(haptics::TripleBuffer<ShownBodies>& shown, const BodyOwner& owner, bool interop)
-      : shown_(shown), owner_(owner), interop_(interop) {}
+  RemoteBodies(haptics::TripleBuffer<ShownBodies>& shown, bool interop)
+      : shown_(shown), interop_(interop) {}
 
   /// An update with a state that the table has taken.
   void note(const Inbound& update, const Arrival& arrival, RemoteEntities& rows) noexcept;
   /// Publishes the rows that have changed.
-  void publish(RemoteEntities& rows) noexcept;
+  void publish(const RemoteEntities& rows) noexcept;
 
  private:
   struct Place {
@@ -101,14 +105,15 @@ class RemoteBodies {
     std::uint32_t version = 0;
     std::chrono::nanoseconds doubted_at{0};
   };
-  void adopt(RemoteEntities& rows) noexcept;
+  [[nodiscard]] std::optional<std::size_t> number_of(const RemoteEntity& row,
+                                                     const RemoteEntities& rows) const noexcept;
   [[nodiscard]] bool takes(const RemoteEntity& row, const Arrival& arrival,
                            RemoteEntities& rows) const noexcept;
+  void lose(std::size_t body) noexcept;
 
   haptics::TripleBuffer<ShownBodies>& shown_;
-  const BodyOwner& owner_;
   bool interop_;
-  std::uint32_t adopted_ = 0;  // epoch of the owner
+  bool changed_ = false;  // newest_, since it was published
   ShownBodies newest_;
   std::array<Place, kMostSharedBodies> places_{};
 };

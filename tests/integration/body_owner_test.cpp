@@ -7,9 +7,11 @@
 
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -72,12 +74,13 @@ class Exercise {
     own.epoch = ++lives_;
     own.scene_peer = scene_peer;
     if (link == kThief) {
-      peer::EntityConfig cube;
-      cube.type = peer::body_type(0);
-      cube.position = {0.1, 0, 0.02};
-      own.entities = {cube};
       peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link),
                                                   std::span<const peer::PeerDevice>());
+      peers_[link]->model().add_bodies(1);
+      peer::EntityTruth cube;
+      cube.time = clock_.now();
+      cube.position = {0.1, 0, 0.02};
+      ASSERT_TRUE(peers_[link]->model().move(1, cube));
     } else {
       const auto still = [link](double) { return wait_at(link == kFirst ? -0.5 : 0.1); };
       haptics::SimulatedDeviceConfig config;
@@ -110,6 +113,35 @@ class Exercise {
       felt = std::max(felt, peers_[kSecond]->views().read().servo().force.norm());
     }
     return felt;
+  }
+  /// From now on the thief's link, without a peer, receives what the others send.
+  void eavesdrop() {
+    const peer::GroupPool pool = peer::pool_of(scene_);
+    static_cast<void>(network_.link(kThief).join(pool.base()));
+    for (std::size_t i = 0; i < pool.size(); ++i)
+      static_cast<void>(network_.link(kThief).join(pool.address(i)));
+  }
+  /// The thief's link sends the received states of the cube again, 3 m from their place and with
+  /// later sequence numbers.  @return their number
+  std::size_t forge() {
+    std::size_t forged = 0;
+    std::array<peer::Datagram, 64> datagrams;
+    const std::size_t count = network_.link(kThief).receive(datagrams);
+    for (const peer::Datagram& datagram : std::span(datagrams).first(count)) {
+      std::vector<std::byte> octets(datagram.bytes.begin(), datagram.bytes.end());
+      pdu::EntityState state;
+      if (pdu::decode(octets, state) != pdu::DecodeError::none ||
+          state.entity_id != peer::body_id(0))
+        continue;
+      state.location.x += 3.0;
+      EXPECT_GT(pdu::encode(state, octets), 0u);
+      octets[octets.size() - 10] ^= std::byte{1};  // of the sequence number
+      forged += network_.link(kThief).send(datagram.group, octets) ? 1 : 0;
+    }
+    return forged;
+  }
+  [[nodiscard]] const peer::RemoteEntity* cube_row() {
+    return peers_[kSecond]->model().remote().find(peer::body_id(0));
   }
   [[nodiscard]] double cube_at() { return peers_[kSecond]->bodies()->states()[0].position.x(); }
   std::vector<std::string> notices(std::size_t link) {
@@ -144,10 +176,69 @@ TEST(BodyOwner, IsTheFirstPeerOfTheScene) {
   EXPECT_EQ(exercise.cube_at(), 0.0);
   EXPECT_GT(exercise.count("bodies_disputed"), 0u);
   EXPECT_THAT(exercise.notices(kSecond),
-              Contains(HasSubstr("it is a body of the scene, and only its first peer owns those")));
+              Contains(HasSubstr("a body of the scene comes only from its owner")));
   exercise.start(kFirst, 1);
   EXPECT_EQ(exercise.run(3000), 0.0);
   EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
+}
+
+TEST(BodyOwner, ForgedAddressMovesNothing) {
+  Exercise exercise;
+  exercise.eavesdrop();
+  exercise.start(kSecond, 2);
+  exercise.start(kFirst, 1);
+  std::size_t forged = 0;
+  for (int i = 0; i < 100; ++i) {
+    exercise.run(20);
+    forged += exercise.forge();
+  }
+  EXPECT_GT(forged, 0u);
+  ASSERT_NE(exercise.cube_row(), nullptr);
+  EXPECT_LT(exercise.cube_row()->state.position.norm(), 0.1);
+  EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
+  EXPECT_GE(exercise.count("datagrams_refused"), forged);
+}
+
+TEST(BodyOwner, RestartedOwnerTakesTheRow) {
+  Exercise exercise;
+  exercise.start(kSecond, 2);
+  exercise.start(kFirst, 1);
+  exercise.run(1000);
+  ASSERT_NE(exercise.cube_row(), nullptr);
+  const auto first_heard = exercise.cube_row()->first_heard;
+  const std::uint32_t epoch = exercise.cube_row()->epoch;
+  exercise.stop(kFirst);
+  exercise.run(70'000);  // longer than any time-out
+  ASSERT_NE(exercise.cube_row(), nullptr);
+  EXPECT_NE(exercise.cube_row()->doubted_at, peer::RemoteEntity::kTrusted);
+  exercise.start(kFirst, 1);
+  exercise.run(1000);
+  ASSERT_NE(exercise.cube_row(), nullptr);
+  EXPECT_NE(exercise.cube_row()->epoch, epoch);
+  EXPECT_EQ(exercise.cube_row()->first_heard, first_heard) << "the same row";
+  EXPECT_EQ(exercise.cube_row()->doubted_at, peer::RemoteEntity::kTrusted);
+}
+
+TEST(BodyOwner, NobodyTakesTheSceneSite) {
+  const peer::SceneFile scene = scene_of(with(kCube, "TOUCH", ""));
+  peer::ManualClock clock(seconds(1), std::chrono::hours(1));
+  peer::SimulatedNetwork network({.links = 1}, clock);
+  peer::PeerOptions own;
+  own.site = 65534;
+  try {
+    const peer::Peer peer(scene, own, network.link(0), std::span<const peer::PeerDevice>());
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("site 65534 belongs to the scene's bodies"));
+  }
+  for (const std::string_view key : {"touch", "allow_management"}) {
+    try {
+      static_cast<void>(scene_of(with(kCube, "TOUCH", std::string(key) + " = \"65534:1\"")));
+      FAIL() << "accepted";
+    } catch (const peer::SceneFileError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("site 65534, which belongs to the scene's bodies"));
+    }
+  }
 }
 
 TEST(BodyOwner, MayComeBackWhereAThiefIs) {

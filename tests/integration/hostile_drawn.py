@@ -125,6 +125,7 @@ def one_shot(draw):
                   network=network)
 
 
+CUBE_ID = (65534, 1, 1)  # of the scene, which no peer has
 CUBE = """
 [[object]]
 name = "floor"
@@ -152,7 +153,7 @@ operator = 2
 def bodies(draw):
     """A joined stranger sends the body of the scene that its first peer owns."""
     number, rate = draw.choice((1, 3, 200)), drawn_log(draw, 5, 100)
-    life, speed = draw.randrange(1, 2**32), draw.uniform(0.0, 0.5)
+    life, speed, version = draw.randrange(1, 2**32), draw.uniform(0.0, 0.5), draw.choice((1, 2, 2**63))
     sequence = [0]
 
     def numbered(payload):
@@ -164,10 +165,11 @@ def bodies(draw):
         say(BASE_GROUP, numbered(patched(said, (57, ">B", number))))
         group, octets = heard.last(draw.choice((ALICE, BOB)), dis.ENTITY_STATE)
         location = dis.EntityState(octets).location
-        body = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (12, ">HHH", 900, 1, 1), (19, ">B", 0),
+        body = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (12, ">HHH", *CUBE_ID), (19, ">B", 0),
                        (20, ">BBHBBBB", 0, 0, 0, 66, 0, 0, 0), (36, ">fff", *(draw.uniform(-speed, speed) for _ in range(3))),
                        (48, ">ddd", *(x + draw.uniform(-0.02, 0.02) for x in location)))
-        say(group, numbered(body + said[-24:]))
+        owner = struct.pack(">HHHHIHBBIIQ", *CUBE_ID, 1, 0x48415004, 24, 0, 0, life, 0, version)
+        say(group, numbered(body + attribute((900, 1), [owner]) + said[-24:]))
 
     return Attack(f"the scene's cube {rate:.0f} times a second in a hand, from a joined stranger as scene peer {number}", rate,
                   send, objects=CUBE)

@@ -111,7 +111,7 @@ TEST(RemoteParts, AllocateNothing) {
       receiver.hear(bare ? std::span<const std::byte>() : std::span<const std::byte>(one), round,
                     round, id);
     }
-    if (round % 5 == 0) receiver.remote().drop_peer({7, 8}, Gone::left);
+    if (round % 5 == 0) receiver.remote().drop_peer({7, 8}, Gone::left, {});
   }
   EXPECT_EQ(guard.count(), 0U);
   EXPECT_GT(receiver.count("updates_in"), 5000U);

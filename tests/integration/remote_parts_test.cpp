@@ -157,7 +157,7 @@ TEST(RemoteParts, GiveTheirPlaceBackHoweverTheEntityGoes) {
   EXPECT_EQ(receiver.remote().with_parts(), 0U);
 
   receiver.hear(turret(1, 0), 61, 61);
-  receiver.remote().drop_peer({7, 8}, Gone::left);
+  receiver.remote().drop_peer({7, 8}, Gone::left, {});
   EXPECT_EQ(receiver.remote().with_parts(), 0U);
   EXPECT_TRUE(receiver.parts(61).empty());
 }

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A cube that the first peer's hand pushes, shown and felt at another peer.
+#include "reckon/peer/world/shared_bodies.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "reckon/haptics/bodies/body_world.hpp"
@@ -93,12 +96,23 @@ class Table {
       peer->write_step();
     }
   }
+  /// Has another epoch after a restart.
+  void first_returns() {
+    peer::PeerOptions own;
+    own.epoch = 3;
+    own.scene_peer = 1;
+    peers_[0] = std::make_unique<peer::Peer>(scene_, own, network_.link(0), *hands_[0]);
+    peers_[0]->start(clock_.now());
+  }
   void first_leaves() {
     peers_[0]->stop(clock_.now(), clock_.utc_now());
     peers_[0].reset();
   }
   [[nodiscard]] const haptics::BodyState& cube(std::size_t peer) const {
     return peers_[peer]->bodies()->states()[0];
+  }
+  [[nodiscard]] std::span<const peer::RemoteEntity> rows(std::size_t peer) const {
+    return peers_[peer]->model().remote().rows();
   }
   [[nodiscard]] double apart() const { return (cube(0).position - cube(1).position).norm(); }
   [[nodiscard]] const haptics::SimulatedDevice& hand(std::size_t peer) const {
@@ -164,12 +178,43 @@ TEST(SharedBody, StaysWhereItWasWhenItsOwnerLeaves) {
   for (int i = 0; i < 1500; ++i) table.step();
   ASSERT_GT(table.cube(1).position.x(), 0.01);
   table.first_leaves();
-  for (int i = 0; i < 500; ++i) table.step();
+  for (int i = 0; i < 1000; ++i) table.step();  // it comes to rest
   const Vector3d left = table.cube(1).position;
   for (int i = 0; i < 2000; ++i) table.step();
   EXPECT_LT((table.cube(1).position - left).norm(), 1e-12);
   EXPECT_GT(left.x(), 0.01) << "it went back to where the scene has it";
   EXPECT_TRUE(table.cube(1).velocity.isZero());
+}
+
+TEST(SharedBody, HasAnIdOfTheScene) {
+  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  for (int i = 0; i < 1500; ++i) table.step();
+  const std::span<const peer::RemoteEntity> rows = table.rows(1);
+  ASSERT_EQ(rows.size(), 2u) << "hand and cube";
+  const auto cube = std::ranges::find(rows, peer::body_id(0), &peer::RemoteEntity::id);
+  ASSERT_NE(cube, rows.end());
+  EXPECT_EQ(cube->id, (pdu::EntityId{65534, 1, 1}));
+  EXPECT_EQ(cube->type, peer::body_type(0));
+  EXPECT_EQ(cube->epoch, 1u);
+}
+
+TEST(SharedBody, NextOwnerMovesItWithoutAJump) {
+  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  for (int i = 0; i < 1500; ++i) table.step();
+  table.first_leaves();
+  for (int i = 0; i < 1000; ++i) table.step();
+  const double left = table.cube(1).position.x();
+  ASSERT_GT(left, 0.01);
+  table.first_returns();  // there the cube is where the scene has it
+  double jump = 0.0;
+  for (int i = 0; i < 1500; ++i) {
+    const Vector3d before = table.cube(1).position;
+    table.step();
+    jump = std::max(jump, (table.cube(1).position - before).norm());
+  }
+  EXPECT_LE(jump, 1e-3);
+  EXPECT_GT(jump, 0.0);
+  EXPECT_LT(table.apart(), 0.003);
 }
 
 TEST(SharedBody, CostsNoAllocation) {

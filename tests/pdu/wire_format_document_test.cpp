@@ -110,9 +110,9 @@ struct WithOwn<testing::Types<More...>, TypeList<First, Rest...>>
                                  testing::Types<More...>>,
               TypeList<Rest...>> {};
 
-using Documented =
-    WithOwn<testing::Types<EntityState, Attribute, HapticRecord, EnergyAccountRecord>,
-            PduTypes>::Types;
+using Documented = WithOwn<
+    testing::Types<EntityState, Attribute, HapticRecord, EnergyAccountRecord, OwnershipRecord>,
+    PduTypes>::Types;
 TYPED_TEST_SUITE(WireFormatDocument, Documented);
 
 TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTable) {

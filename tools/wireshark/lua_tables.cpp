@@ -133,14 +133,15 @@ std::string tables() {
          rules_text() + pdus_text(pdu::PduTypes{}) + names_text() + "local OWN = {\n" +
          own_text<pdu::PduHeader>("header") + own_text<pdu::Attribute>("attribute") +
          own_text<pdu::HapticRecord>("haptic") + own_text<pdu::EnergyAccountRecord>("energy") +
-         own_text<pdu::Presence>("presence") + own_text<pdu::DatagramTrailer>("trailer") +
-         own_text<pdu::CellMembership>("membership") + own_text<pdu::CellIndex>("cell") +
-         own_text<pdu::TimeExchange>("exchange") + own_text<pdu::TimeEcho>("echo") +
-         own_text<pdu::PeersHeard>("heard") + own_text<pdu::PeerEpoch>("peer") +
-         own_text<pdu::CellRoles>("roles") + own_text<pdu::CellRole>("role") +
-         own_text<pdu::GroupMap>("group_map") + own_text<pdu::CellGroup>("cell_group") +
-         own_text<pdu::CellSnapshot>("snapshot") + own_text<pdu::CompressedStates>("compressed") +
-         own_text<pdu::UnicastFrame>("unicast") + own_text<pdu::AssuredRecord>("assured") + "}\n";
+         own_text<pdu::OwnershipRecord>("ownership") + own_text<pdu::Presence>("presence") +
+         own_text<pdu::DatagramTrailer>("trailer") + own_text<pdu::CellMembership>("membership") +
+         own_text<pdu::CellIndex>("cell") + own_text<pdu::TimeExchange>("exchange") +
+         own_text<pdu::TimeEcho>("echo") + own_text<pdu::PeersHeard>("heard") +
+         own_text<pdu::PeerEpoch>("peer") + own_text<pdu::CellRoles>("roles") +
+         own_text<pdu::CellRole>("role") + own_text<pdu::GroupMap>("group_map") +
+         own_text<pdu::CellGroup>("cell_group") + own_text<pdu::CellSnapshot>("snapshot") +
+         own_text<pdu::CompressedStates>("compressed") + own_text<pdu::UnicastFrame>("unicast") +
+         own_text<pdu::AssuredRecord>("assured") + "}\n";
 }
 
 /// The plug-in with new tables; empty if it has no place for them.

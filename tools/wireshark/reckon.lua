@@ -641,6 +641,15 @@ local OWN = {
     { "need", 20, 2, "u16" },
     { "spring_need", 22, 2, "u16" },
   } },
+  ownership = { size = 24, type = 0x48415004, fields = {
+    { "record_type", 0, 4, "u32" },
+    { "record_length", 4, 2, "u16" },
+    { "flags", 6, 1, "u8" },
+    { "padding", 7, 1, "u8" },
+    { "owner", 8, 4, "u32" },
+    { "world", 12, 4, "u32" },
+    { "version", 16, 8, "u64" },
+  } },
   presence = { size = 160, fields = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
@@ -1009,11 +1018,18 @@ end
 
 -- Faults of a PDU -------------------------------------------------------------------------------
 
+-- Records of ours, with their titles.
+local RECORDS = {
+  [OWN.haptic.type] = { OWN.haptic, "Haptic record: force model" },
+  [OWN.energy.type] = { OWN.energy, "Energy account record" },
+  [OWN.ownership.type] = { OWN.ownership, "Ownership record: owner of a body" },
+}
+
 -- The table of a record of ours, or nil and the reason why it cannot be read.
 local function own_record(s, at, behind)
   local type = u32(s, at)
-  local own = type == OWN.haptic.type and OWN.haptic or type == OWN.energy.type and OWN.energy
-  if not own then return nil end
+  if not RECORDS[type] then return nil end
+  local own = RECORDS[type][1]
   local rule
   if behind - at < own.size then
     rule = "E-LENGTH"
@@ -1036,7 +1052,7 @@ local function floats_of(own)
   end
   return floats
 end
-OWN.haptic.floats, OWN.energy.floats = floats_of(OWN.haptic), floats_of(OWN.energy)
+for _, record in pairs(RECORDS) do record[1].floats = floats_of(record[1]) end
 
 local function fault_in_records(s, at, sets, stop)
   local found
@@ -1152,7 +1168,7 @@ local function add_record(tree, tvb, s, at, behind)
   local own = own_record(s, at, behind)
   local item = tree:add(FIELD.record, tvb(at, behind - at))
   if own then
-    item:set_text(own == OWN.haptic and "Haptic record: force model" or "Energy account record")
+    item:set_text(RECORDS[own.type][2])
     return add_own(item, tvb, at, own)
   end
   item:set_text(string.format("Attribute record 0x%08x, %d octets", u32(s, at), behind - at))

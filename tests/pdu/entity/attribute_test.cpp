@@ -48,6 +48,13 @@ EnergyAccountRecord account() {
   return record;
 }
 
+OwnershipRecord ownership() {
+  OwnershipRecord record;
+  record.owner = 0xA1B2C3D4;
+  record.version = 0x100000002;
+  return record;
+}
+
 std::array<std::byte, 10> vendor_body() {
   std::array<std::byte, 10> body;
   for (std::size_t i = 0; i < body.size(); ++i) body[i] = static_cast<std::byte>(i);
@@ -70,10 +77,12 @@ TEST(AttributeWriter, BuildsTheGoldenSampleInPlace) {
   ASSERT_TRUE(writer.add(account()));
   ASSERT_TRUE(writer.begin_set({100, 7, 4}));
   ASSERT_TRUE(writer.add(252000, vendor_body()));
+  ASSERT_TRUE(writer.begin_set({65534, 1, 2}));
+  ASSERT_TRUE(writer.add(ownership()));
 
   const auto expected = test::sample_octets("attribute");
   ASSERT_EQ(writer.finish(), expected.size());
-  EXPECT_EQ(std::vector<std::byte>(buffer.begin(), buffer.begin() + 160), expected);
+  EXPECT_EQ(std::vector<std::byte>(buffer.begin(), buffer.begin() + 192), expected);
 }
 
 TEST(AttributeReader, GivesTheRecordsOfEachEntity) {
@@ -86,7 +95,8 @@ TEST(AttributeReader, GivesTheRecordsOfEachEntity) {
   const std::vector<std::pair<EntityId, std::uint32_t>> expected{
       {{100, 7, 3}, kHapticRecordType},
       {{100, 7, 3}, kEnergyAccountRecordType},
-      {{100, 7, 4}, 252000}};
+      {{100, 7, 4}, 252000},
+      {{65534, 1, 2}, kOwnershipRecordType}};
   EXPECT_EQ(seen, expected);
 }
 
@@ -158,6 +168,19 @@ TEST(HapticRecord, IsNotReadFromAnotherRecordType) {
   EXPECT_EQ(decode(first_record(decoded(octets)), energy), DecodeError::pdu_type);
 }
 
+TEST(OwnershipRecord, RestoresOwnerAndVersion) {
+  const auto octets = test::sample_octets("attribute");
+  OwnershipRecord read;
+  std::size_t found = 0;
+  const Attribute pdu = decoded(octets);
+  for (const AttributeSet& set : AttributeReader(pdu))
+    for (const AttributeRecord& record : set.records())
+      found += decode(record, read) == DecodeError::none ? 1 : 0;
+  EXPECT_EQ(found, 1U);
+  EXPECT_EQ(read.owner, 0xA1B2C3D4U);
+  EXPECT_EQ(read.version, 0x100000002U);
+}
+
 TEST(AttributeWriter, RefusesARecordBeforeTheFirstSet) {
   std::array<std::byte, 256> buffer;
   AttributeWriter writer(buffer, Attribute{});
@@ -223,7 +246,7 @@ TEST_P(AttributeTraps, AreRefused) {
 }
 INSTANTIATE_TEST_SUITE_P(Lies, AttributeTraps,
                          testing::Values(Trap{"65535 sets", 30, 65535, DecodeError::count},
-                                         Trap{"3 sets", 30, 3, DecodeError::count},
+                                         Trap{"4 sets", 30, 4, DecodeError::count},
                                          Trap{"65535 records", 38, 65535, DecodeError::record},
                                          Trap{"record of length 0", 44, 0, DecodeError::record},
                                          Trap{"record of length 5", 44, 5, DecodeError::record},

@@ -123,14 +123,17 @@ class RandomFields {
     return good;
   }
   bool add_record(pdu::AttributeWriter& writer) {
-    const std::uint64_t kind = random_() % 3;
+    const std::uint64_t kind = random_() % 4;
     pdu::HapticRecord haptic;
     pdu::EnergyAccountRecord energy;
     (*this)("", haptic);
+    pdu::OwnershipRecord ownership;
     (*this)("", energy);
+    (*this)("", ownership);
     haptic.version = pdu::HapticRecord::kVersion;
     if (kind == 0) return writer.add(haptic);
     if (kind == 1) return writer.add(energy);
+    if (kind == 2) return writer.add(ownership);
     return writer.add(252000 + static_cast<std::uint32_t>(random_() % 200), octets(random_() % 64));
   }
 

@@ -155,7 +155,7 @@ TEST(OutsideEntities, AreForgottenWithOwnerEpochOrDeactivation) {
   for (const int way : {0, 1, 2, 3}) {
     Receiver receiver;
     receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
-    if (way == 0) receiver.remote().drop_peer(kOwner, Gone::silent);
+    if (way == 0) receiver.remote().drop_peer(kOwner, Gone::silent, {});
     if (way == 1) receiver.remote().claim(kOwner, 77);
     if (way == 2) receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0.5, pdu::kAppearanceDeactivated);
     const double then = way == 3 ? 200 : 1;  // way 3: silent for longer than allowed

@@ -8,6 +8,9 @@
 #include <array>
 #include <memory>
 
+#include "reckon/peer/world/owned_entities.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -104,6 +107,40 @@ TEST(OwnedEntity, StaysThinnedAfterItsFirstPart) {
   EXPECT_TRUE(made->is_thinned(aoim::Body::rigid));
   made->set_parts({});
   EXPECT_TRUE(made->is_thinned(aoim::Body::rigid));
+}
+
+TEST(OwnedEntities, BodyKeepsItsIdInARename) {
+  OwnedEntities owned(frame(), {{1, 2}, 1, 1.0, pdu::CompressedForm::compact, 0, {}});
+  pdu::OwnershipRecord ownership;
+  ownership.owner = 77;
+  ownership.version = 3;
+  ASSERT_TRUE(owned.add_body(1, {}, body_id(4), ownership));
+  ASSERT_TRUE(owned.add(2, {}));
+  owned.rename({1, 9});
+  EXPECT_EQ(owned.find(1)->id(), (pdu::EntityId{65534, 1, 5}));
+  EXPECT_EQ(owned.find(2)->id(), (pdu::EntityId{1, 9, 2}));
+  EXPECT_EQ(owned.first_id(), owned.find(2)->id()) << "a body is not the first entity of a peer";
+  EXPECT_EQ(owned.find(1)->compressor(), nullptr);
+  EXPECT_NE(owned.find(2)->compressor(), nullptr);
+}
+
+TEST(OwnedEntity, EachUpdateOfABodyNamesItsOwner) {
+  for (const aoim::Body body : kBodies) {
+    const auto made = entity(true, false);
+    pdu::OwnershipRecord ownership;
+    ownership.owner = 77;
+    ownership.version = 3;
+    made->own_by(ownership);
+    std::array<std::byte, kMaxEntityRecords> records;
+    const std::size_t size = store_records(built(*made, body), records);
+    ASSERT_GE(size, pdu::kOwnershipRecordLength);
+    pdu::OwnershipRecord read;
+    ASSERT_TRUE(
+        pdu::load_record(std::span(records).subspan(size - pdu::kOwnershipRecordLength), read));
+    EXPECT_EQ(read.type, pdu::kOwnershipRecordType);
+    EXPECT_EQ(read.owner, 77U);
+    EXPECT_EQ(read.version, 3U);
+  }
 }
 
 }  // namespace

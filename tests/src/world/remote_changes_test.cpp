@@ -112,7 +112,7 @@ void do_something(World& world, std::mt19937& random) {
   } else if (what < 88) {
     world.hear(id, {250'000, 0, 0}, 1);  // beyond the radius
   } else if (what < 91) {
-    world.remote().drop_peer({7, below(3)}, Gone::silent);
+    world.remote().drop_peer({7, below(3)}, Gone::silent, {});
   } else if (what < 93) {
     world.wait(std::chrono::seconds(1 + below(12)));
   } else {
@@ -186,8 +186,8 @@ TEST(Changes, StateWhyAnEntityIsGone) {
               world.hear(id, {0, 0, 0}, 1, pdu::kAppearanceDeactivated);
             }),
             "deactivated");
-  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::left); }), "owner left");
-  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::silent); }), "silent");
+  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::left, {}); }), "owner left");
+  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::silent, {}); }), "silent");
   EXPECT_EQ(cause_of([&] {
               world.wait(std::chrono::seconds(60));
               world.remote().expire(world.now());
@@ -234,7 +234,7 @@ TEST(Copies, OutliveChangesAndRemovalOfTheirRow) {
     }
     world.wait(milliseconds(100));
     world.hear(id, {50, 50, 50});
-    world.remote().drop_peer({7, 8}, Gone::left);
+    world.remote().drop_peer({7, 8}, Gone::left, {});
     for (const auto& [at, pose] : shown) {
       EXPECT_EQ(copy.shown(at).position, pose.position);
       EXPECT_EQ(copy.shown(at).orientation.coeffs(), pose.orientation.coeffs());

@@ -94,7 +94,7 @@ def entity_state():
 
 
 def attribute():
-    s = Sample("attribute", 72, 1, 32 + 8 + 72 + 24 + 8 + 16)
+    s = Sample("attribute", 72, 1, 32 + 8 + 72 + 24 + 8 + 16 + 8 + 24)
     s.many("originating_simulation_address", "site application", "H", (100, 7))
     s.put("padding_1", "I", 0)
     s.put("padding_2", "H", 0)
@@ -103,7 +103,7 @@ def attribute():
     s.put("master_attribute_record_type", "I", 0)
     s.put("action_code", "B", 1)
     s.put("padding_3", "B", 0)
-    s.put("number_of_attribute_record_sets", "H", 2)
+    s.put("number_of_attribute_record_sets", "H", 3)
     s.octets("set 1: entity 100:7:3, 2 records", struct.pack(">4H", 100, 7, 3, 2))
     s.octets("haptic: type, length", struct.pack(">IH", 0x48415001, 72))
     s.octets("version, kind, order, flags", bytes((1, 2, 3, 0)))
@@ -117,6 +117,9 @@ def attribute():
     s.octets("given, need, spring need", struct.pack(">dHH", 0.001953125, 500, 7500))
     s.octets("set 2: entity 100:7:4, 1 record", struct.pack(">4H", 100, 7, 4, 1))
     s.octets("vendor record 252000", struct.pack(">IH", 252000, 16) + bytes(range(10)))
+    s.octets("set 3: entity 65534:1:2, 1 record", struct.pack(">4H", 65534, 1, 2, 1))
+    s.octets("ownership: type, length, flags, padding", struct.pack(">IHBB", 0x48415004, 24, 0, 0))
+    s.octets("owner, world, version", struct.pack(">IIQ", 0xA1B2C3D4, 0, 0x100000002))
     xyz = lambda *v: dict(zip("xyz", v))
     ids = lambda *v: dict(zip(("site", "application", "entity"), v))
     s.values["attribute_record_sets"] = [
@@ -128,7 +131,10 @@ def attribute():
             {"record_type": 0x48415003, "record_length": 24, "counterpart": ids(200, 1, 9),
              "given": 0.001953125, "need": 500, "spring_need": 7500}]},
         {"entity_id": ids(100, 7, 4), "number_of_attribute_records": 1, "attribute_records": [
-            {"record_type": 252000, "record_length": 16, "body": bytes(range(10)).hex()}]}]
+            {"record_type": 252000, "record_length": 16, "body": bytes(range(10)).hex()}]},
+        {"entity_id": ids(65534, 1, 2), "number_of_attribute_records": 1, "attribute_records": [
+            {"record_type": 0x48415004, "record_length": 24, "flags": 0, "padding": 0,
+             "owner": 0xA1B2C3D4, "world": 0, "version": 0x100000002}]}]
     return s
 
 

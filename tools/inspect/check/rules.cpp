@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/pdu_types.hpp"
@@ -96,17 +97,41 @@ bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
   return sender.octets != memory.sender.octets || sender == memory.earlier_sender;
 }
 
+std::uint64_t key_of(const CheckedPdu& checked) {
+  return entity_key(checked.row.header.exercise_id, checked.entity_state->entity_id);
+}
+
+/// Version of the ownership of a body of a scene; 0 of other entities.
+std::uint64_t ownership_of(const CheckedPdu& checked) {
+  const pdu::OwnershipRecord* owner = checked.survey.owner_of(key_of(checked));
+  return owner == nullptr ? 0 : owner->version;
+}
+
+/// Whether the entity may have another sender than before.
+bool begins_anew(const EntityMemory& memory, const CheckedPdu& checked) {
+  return memory.updates == 0 || memory.gone || ownership_of(checked) > memory.ownership;
+}
+
+Fault wrong_owner(const CheckedPdu& checked) {
+  if (checked.entity_state == nullptr ||
+      checked.entity_state->entity_id.simulation() != aoim::kSceneId || checked.survey.epoch == 0)
+    return std::nullopt;
+  const pdu::OwnershipRecord* owner = checked.survey.owner_of(key_of(checked));
+  if (owner == nullptr)
+    return RuleFault{kIdAt, fmt::format("this datagram has no Ownership Record for {}",
+                                        id_text(checked.entity_state->entity_id))};
+  if (owner->owner == checked.survey.epoch) return std::nullopt;
+  return RuleFault{kIdAt, fmt::format("its owner is {:08x}, its sender is {:08x}", owner->owner,
+                                      checked.survey.epoch)};
+}
+
 Fault duplicate_id(const CheckedPdu& checked) {
-  if (!checked.has_history() || checked.memory->gone ||
+  if (!checked.has_history() || begins_anew(*checked.memory, checked) ||
       !is_duplicate(*checked.memory, checked.datagram.source))
     return std::nullopt;
   return RuleFault{
       kIdAt, fmt::format("{} comes from {} and from {}", id_text(checked.entity_state->entity_id),
                          checked.memory->sender.text(), checked.datagram.source.text())};
-}
-
-std::uint64_t key_of(const CheckedPdu& checked) {
-  return entity_key(checked.row.header.exercise_id, checked.entity_state->entity_id);
 }
 
 Fault attribute_first(const CheckedPdu& checked) {
@@ -218,6 +243,8 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"W-COUPLED",
      "An Entity State is marked as extended, but its datagram has no Attribute PDU for it.",
      "send both in one datagram, or clear bit 3 of the PDU status", coupled_without},
+    {"W-OWNER", "A body of a scene comes without its Ownership Record, or not from its owner.",
+     "send the record in the same datagram; only the owner sends a body", wrong_owner},
     {"I-UNKNOWN-TYPE",
      "No field table for this PDU type: its octets are kept unchanged. Reported once for each "
      "type.",
@@ -261,8 +288,7 @@ std::optional<std::string> silence(const EntityMemory& memory, nanoseconds now) 
 void remember(EntityMemory& memory, const CheckedPdu& checked) {
   const pdu::EntityState& pdu = *checked.entity_state;
   remember_motion(memory, checked);
-  if (memory.updates == 0 || memory.gone)
-    memory.sender = memory.earlier_sender = checked.datagram.source;
+  if (begins_anew(memory, checked)) memory.sender = memory.earlier_sender = checked.datagram.source;
   memory.reported_duplicate =
       memory.reported_duplicate || is_duplicate(memory, checked.datagram.source);
   if (memory.sender != checked.datagram.source) {
@@ -270,6 +296,7 @@ void remember(EntityMemory& memory, const CheckedPdu& checked) {
     memory.sender = checked.datagram.source;
   }
   ++memory.updates;
+  memory.ownership = ownership_of(checked);
   memory.id = pdu.entity_id;
   memory.gone = (pdu.appearance & pdu::kAppearanceDeactivated) != 0;
   memory.time = checked.datagram.time;

@@ -30,6 +30,7 @@ struct EntityMemory {
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
   bool gone = false;    ///< deactivated: silence is no fault
   bool frozen = false;
+  std::uint64_t ownership = 0;           ///< version, of a body of a scene
   bool out_of_range = false;             ///< has sent an invalid angle
   bool turns = false;                    ///< its model states a turn rate
   std::uint8_t contradictions = 0;       ///< by positions, updates in a row

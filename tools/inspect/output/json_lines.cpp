@@ -118,6 +118,7 @@ void append_body(std::string& out, const PduRow& row, bool full) {
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {
       append_records<pdu::HapticRecord>(out, "haptic", pdu);
       append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
+      append_records<pdu::OwnershipRecord>(out, "ownership", pdu);
     }
     if (!full) return;
     out += ",\"fields\":";

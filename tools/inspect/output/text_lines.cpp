@@ -112,6 +112,10 @@ void append_record(std::string& out, const pdu::EnergyAccountRecord& record) {
                  record.given, pdu::from_microjoules(record.need));
 }
 
+void append_record(std::string& out, const pdu::OwnershipRecord& record) {
+  fmt::format_to(end_of(out), "owner {:08x}, version {}", record.owner, record.version);
+}
+
 void append_attribute(std::string& out, const pdu::Attribute& pdu) {
   std::size_t records = 0;
   std::string ours;

@@ -164,7 +164,9 @@ void Roster::append_entry(std::string& out, std::size_t slot) const {
       .text("side", side_text(entry.side[0]))
       .value("haptic", entry.haptic)
       .decimals("radius", entry.radius, 4)
-      .text("peer", fmt::format("{}:{}", id.site, id.application))
+      .text("peer", id.simulation() == aoim::kSceneId
+                        ? std::string()
+                        : fmt::format("{}:{}", id.site, id.application))
       .text("host", entry.sender.is_unspecified() ? std::string() : entry.sender.text())
       .end();
 }

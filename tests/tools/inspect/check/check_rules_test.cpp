@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/entity/variable_parameter.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 
@@ -67,6 +69,31 @@ void plant_other_host(CaptureBuilder& capture) {
   capture.add(datagram_of(truck(seconds(4))), kStart + seconds(4), Sender{2, 3000, 0});
   capture.add(datagram_of(truck(seconds(5))), kStart + seconds(5));
   capture.add(datagram_of(truck(seconds(6))), kStart + seconds(6), Sender{2, 3000, 0});
+}
+
+constexpr std::uint32_t kOwner = 77;
+
+/// A body of a scene at second `i` from a peer with epoch kOwner; 0: without a record of `owner`.
+Octets body_at(int i, std::uint32_t owner, std::uint64_t version = 1) {
+  pdu::EntityState pdu = truck(seconds(i));
+  pdu.entity_id = {65534, 1, 1};
+  Octets datagram;
+  if (owner != 0) pdu.header.pdu_status = pdu::kStatusCoupledExtension;
+  append_pdu(datagram, pdu);
+  if (owner != 0) {
+    std::array<std::byte, 128> buffer;
+    pdu::AttributeWriter writer(buffer, {});
+    pdu::OwnershipRecord record;
+    record.owner = owner;
+    record.version = version;
+    EXPECT_TRUE(writer.begin_set(pdu.entity_id) && writer.add(record));
+    const auto attribute = std::span(buffer).first(writer.finish());
+    datagram.insert(datagram.end(), attribute.begin(), attribute.end());
+  }
+  pdu::DatagramTrailer trailer;
+  trailer.epoch = kOwner;
+  append_pdu(datagram, trailer);
+  return datagram;
 }
 
 /// A truck whose timestamp stays constant from its fourth second on.
@@ -185,6 +212,7 @@ std::vector<Planted> planted_courses() {
        }},
       {"W-COUPLED",
        in_fields([](auto& pdu) { pdu.header.pdu_status = pdu::kStatusCoupledExtension; })},
+      {"W-OWNER", [](CaptureBuilder& capture) { capture.add(body_at(4, 0), kStart + seconds(4)); }},
       {"I-UNKNOWN-TYPE", in_octets([](Octets& o) { o[2] = std::byte{222}; })},
       {"I-FOREIGN",
        [](CaptureBuilder& capture) {
@@ -248,16 +276,42 @@ TEST(InspectCheck, EachRuleReportsItsFaultOnlyAndOnce) {
   }
 }
 
+TEST(InspectCheck, BodiesMayChangeTheirOwner) {
+  const auto codes_of = [](const std::function<Octets(int)>& body) {
+    CaptureBuilder capture;
+    for (int i = 4; i < 8; ++i)
+      capture.add(body(i), kStart + seconds(i), Sender{i % 2 == 0 ? 1 : 2, 3000, 0});
+    return check(capture.path()).codes();
+  };
+  EXPECT_TRUE(codes_of([](int i) { return body_at(i, kOwner, 10U + i); }).empty());
+  EXPECT_EQ(codes_of([](int i) { return body_at(i, kOwner); })["W-DUPLICATE-ID"], 1);
+  EXPECT_EQ(codes_of([](int i) { return body_at(i, kOwner + 1, 10U + i); })["W-OWNER"], 4);
+}
+
 TEST(InspectCheck, NamesTheOctetOfTheField) {
   // As IEEE 1278.1 lays out an Entity State PDU.
-  const std::map<std::string, int> octets{
-      {"W-FAMILY", 3},     {"W-TIMESTAMP-ORDER", 4}, {"W-TIMESTAMP-TOLERANCE", 4},
-      {"W-SIZE", 8},       {"W-COUPLED", 10},        {"W-ID", 12},
-      {"E-BYTE-ORDER", 8}, {"W-TRAILING", 144},      {"W-ORIENTATION", 72},
-      {"W-FLOAT64", 152},  {"W-TIMESTAMP-STILL", 4}, {"W-TIMESTAMP-PACE", 4},
-      {"W-SIDE", 18},      {"W-KIND", 20},           {"W-DOMAIN", 21},
-      {"W-DRM", 88},       {"I-UNNAMED", 22},        {"W-STATIC-MOVES", 36},
-      {"E-COUNT", 19},     {"W-LOCATION", 48},       {"W-NOT-FINITE", 56}};
+  const std::map<std::string, int> octets{{"W-FAMILY", 3},
+                                          {"W-TIMESTAMP-ORDER", 4},
+                                          {"W-TIMESTAMP-TOLERANCE", 4},
+                                          {"W-SIZE", 8},
+                                          {"W-COUPLED", 10},
+                                          {"W-ID", 12},
+                                          {"W-OWNER", 12},
+                                          {"E-BYTE-ORDER", 8},
+                                          {"W-TRAILING", 144},
+                                          {"W-ORIENTATION", 72},
+                                          {"W-FLOAT64", 152},
+                                          {"W-TIMESTAMP-STILL", 4},
+                                          {"W-TIMESTAMP-PACE", 4},
+                                          {"W-SIDE", 18},
+                                          {"W-KIND", 20},
+                                          {"W-DOMAIN", 21},
+                                          {"W-DRM", 88},
+                                          {"I-UNNAMED", 22},
+                                          {"W-STATIC-MOVES", 36},
+                                          {"E-COUNT", 19},
+                                          {"W-LOCATION", 48},
+                                          {"W-NOT-FINITE", 56}};
   std::size_t compared = 0;
   for (const Planted& fault : planted()) {
     const auto expected = octets.find(fault.code);
