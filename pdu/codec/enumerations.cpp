@@ -33,7 +33,10 @@ constexpr auto kForceModels =
 constexpr auto kCellSchemes = list("None", "Square", "Hexagonal", "Quad-Tree", "Locales");
 constexpr auto kCompressedForms = list("None", "Compact", "Reserved", "Residual");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign", "Join Near");
-constexpr auto kAssuredKinds = list("None", "Record", "Mark", "Acknowledgement");
+constexpr auto kAssuredKinds =
+    list("None", "Record", "Mark", "Acknowledgement", "", "", "", "", "", "", "", "", "", "", "", "",
+         "Ownership Round", "Ownership Proposal", "Ownership Vote", "Ownership Table",
+         "Ownership Agreement");
 
 }  // namespace
 

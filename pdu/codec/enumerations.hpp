@@ -250,7 +250,11 @@ enum class AssuredKind : std::uint8_t {
   record = 1,           ///< its content is the record
   mark = 2,             ///< a PDU of the same datagram is the record
   acknowledgement = 3,  ///< the last records that the sender of this PDU has received
-  first_of_users = 16,
+  ownership_round = 16,
+  ownership_proposal = 17,
+  ownership_vote = 18,
+  ownership_table = 19,
+  ownership_agreement = 20,
 };
 
 /// 129 to 255: experimental by common use; these come last in a bundle.
