@@ -12,7 +12,7 @@ import sys
 from tshark import check, run_case
 
 OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell", "exchange", "compressed",
-       "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot", "unicast")
+       "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot", "unicast", "assured")
 ENTITY_STATE, ATTRIBUTE = 1, 72
 PLACES = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.rule", "reckon.pdu.at",
           "udp.length")
