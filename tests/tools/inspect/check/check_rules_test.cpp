@@ -280,12 +280,18 @@ TEST(InspectCheck, BodiesMayChangeTheirOwner) {
   const auto codes_of = [](const std::function<Octets(int)>& body) {
     CaptureBuilder capture;
     for (int i = 4; i < 8; ++i)
-      capture.add(body(i), kStart + seconds(i), Sender{i % 2 == 0 ? 1 : 2, 3000, 0});
+      capture.add(body(i), kStart + seconds(i),
+                  Sender{static_cast<std::uint8_t>(1 + i % 2), 3000, 0});
     return check(capture.path()).codes();
   };
-  EXPECT_TRUE(codes_of([](int i) { return body_at(i, kOwner, 10U + i); }).empty());
+  EXPECT_TRUE(codes_of([](int i) {
+                return body_at(i, kOwner, static_cast<std::uint64_t>(10 + i));
+              }).empty());
   EXPECT_EQ(codes_of([](int i) { return body_at(i, kOwner); })["W-DUPLICATE-ID"], 1);
-  EXPECT_EQ(codes_of([](int i) { return body_at(i, kOwner + 1, 10U + i); })["W-OWNER"], 4);
+  EXPECT_EQ(codes_of([](int i) {
+              return body_at(i, kOwner + 1, static_cast<std::uint64_t>(10 + i));
+            })["W-OWNER"],
+            4);
 }
 
 TEST(InspectCheck, NamesTheOctetOfTheField) {
