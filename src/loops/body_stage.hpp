@@ -11,6 +11,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/stepped_bodies.hpp"
 #include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/peer_view.hpp"
@@ -25,6 +26,7 @@ class BodyStage {
   explicit BodyStage(const ModelWiring& wiring)
       : scene_(wiring.scene),
         own_(wiring.own_bodies),
+        stepped_(wiring.stepped),
         mover_(wiring.mover),
         has_any_(std::ranges::any_of(scene_.scene.objects, [](const haptics::SceneObject& object) {
           return object.matter.mass > 0;
@@ -44,16 +46,20 @@ class BodyStage {
       if (is_body) add(static_cast<EntityNumber>(first + number), description_of(object, number));
     }
   }
-  /// Moves these entities, by move(number, truth). A sleeping one keeps its last state, which its
-  /// heartbeat repeats.
-  void move_own(const OwnedEntities& owned, auto&& move) noexcept {
+  /// Steps the bodies, if no servo does, and moves these entities, by move(number, truth). A
+  /// sleeping one keeps its last state, which its heartbeat repeats.
+  void move_own(std::chrono::nanoseconds now, const OwnedEntities& owned, auto&& move) noexcept {
+    if (stepped_ != nullptr) {
+      const OwnedEntity* first = owned.find(owned.first_id().entity);
+      stepped_->step(now, first != nullptr && first->is_frozen());
+    }
     if (own_ == nullptr || !own_->update()) return;
     const haptics::BodyStates& states = own_->read();
     for (std::size_t i = 0; i < states.bodies.size(); ++i) {
       const auto number = static_cast<EntityNumber>(first_ + i);
       const OwnedEntity* entity = owned.find(number);
-      if (entity == nullptr) continue;
       const haptics::BodyState& body = states.bodies[i];
+      if (entity == nullptr || body.carried) continue;
       if (body.awake || !entity->is_resting() || entity->truth().position != body.position)
         move(number, truth_of(body, states.time));
     }
@@ -75,6 +81,10 @@ class BodyStage {
   /// Finds the owner of the bodies among the peers, if the scene has any.
   void look(const aoim::Presence& presence) noexcept {
     if (has_any_) owner_.look(presence);
+  }
+  /// When move_own() is due if no servo steps the bodies.
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
+    return stepped_ != nullptr ? stepped_->next_step() : std::chrono::nanoseconds::max();
   }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
   /// Writes their number, and the number of awake ones.
@@ -100,8 +110,9 @@ class BodyStage {
   const SceneFile& scene_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours
   EntityNumber first_ = 0;
-  BodyMover* mover_;  // null: nothing is carried
-  bool has_any_;      // whether the scene has bodies, of any owner
+  SteppedBodies* stepped_;  // null: servos step the bodies
+  BodyMover* mover_;        // null: nothing is or will be carried
+  bool has_any_;            // whether the scene has bodies, of any owner
   BodyOwner owner_;
   std::optional<RemoteBodies> remote_;
 };

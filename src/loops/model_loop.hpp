@@ -104,7 +104,8 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// Latest time for the next step() if nothing arrives and no servo steps. By the thread of
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
-    return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due()});
+    return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due(),
+                     bodies_.next_step()});
   }
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.
