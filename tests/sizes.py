@@ -32,7 +32,7 @@ TOTAL = {
     "tools": 40000,
     "python": 2500,
     "bench": 36500,
-    "tests": 134500,
+    "tests": 135000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {

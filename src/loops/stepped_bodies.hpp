@@ -21,6 +21,7 @@ class SteppedBodies {
 
   /// Moves the bodies to the last full period up to `now`. @param frozen the simulation is frozen
   void step(std::chrono::nanoseconds now, bool frozen) noexcept {
+    if (time_ == kNever) return pass_until(now);
     if (now - time_ < kPeriod) return;
     if (!moves_ && !world_.has_orders() && !world_.is_mixed()) return;
     if (!moves_) pass_until(now - kPeriod);
@@ -31,15 +32,18 @@ class SteppedBodies {
   /// When step() is due; never: max().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     const bool is_due = moves_ || world_.has_orders();
+    if (time_ == kNever) return std::chrono::nanoseconds(0);
     return is_due ? time_ + kPeriod : std::chrono::nanoseconds::max();
   }
 
  private:
+  static constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::min();
+
   // Orders take effect there, and the bodies begin to move in the next period.
   void pass_until(std::chrono::nanoseconds time) noexcept { world_.advance_to(time_ = time, true); }
 
   haptics::BodyWorld& world_;
-  std::chrono::nanoseconds time_ = std::chrono::nanoseconds::min() / 2;
+  std::chrono::nanoseconds time_ = kNever;
   bool moves_ = true;
 };
 

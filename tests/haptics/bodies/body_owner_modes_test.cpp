@@ -237,6 +237,7 @@ TEST(OwnedBody, NeedsAUsableState) {
   bad.turn_rate = {0, 1e5, 0};
   world.own(0, bad);
   table.run(kStepTime);
+  EXPECT_LE(table.state().position.x(), BodyWorld::kFastest * kStepTime + 1e-9);
   EXPECT_LE(table.state().velocity.norm(), BodyWorld::kFastest + 1e-6);
   EXPECT_LE(table.state().turn_rate.norm(), BodyWorld::kFastestTurn + 1e-6);
 }
@@ -256,20 +257,56 @@ TEST(OwnedBody, WaitsWhileTheWorldIsFrozen) {
   EXPECT_NEAR(table.state().velocity.x(), 1.0, 1e-12);
 }
 
-TEST(OwnedBodies, ChangeOwnerAmongMoreThanSlots) {
+// More bodies than slots, a hundred of them of other peers.
+struct Field {
+  Field() {
+    table.floor({0, 0.5, 0});
+    for (std::uint32_t i = 0; i < kBodies; ++i)
+      table.box(kEdge, {0.1 * (i % 15), 0.1 * (i / 15), 0.5 * kEdge}, kMatter);
+    table.begin(mover);
+    table.run(0.01);
+    for (std::uint32_t i = 0; i < kLeft; ++i) table.world().disown(i);
+    table.run(0.01);
+  }
+  static constexpr std::uint32_t kBodies = 150, kLeft = 100;
+  std::shared_ptr<MovedBodies> mover = std::make_shared<MovedBodies>();
   Table table;
-  table.floor({0, 0.5, 0});
-  constexpr std::uint32_t kBodies = 150;
-  for (std::uint32_t i = 0; i < kBodies; ++i)
-    table.box(kEdge, {0.1 * (i % 15), 0.1 * (i / 15), 0.5 * kEdge}, kMatter);
-  const auto mover = std::make_shared<MovedBodies>();
-  BodyWorld& world = table.begin(mover);
-  table.run(0.01);
-  for (std::uint32_t i = 0; i < 100; ++i) world.disown(i);
-  table.run(0.01);
+};
+
+TEST(DisownedBodies, FollowTheirMoverWithoutSlots) {
+  Field field;
+  for (int step = 0; step < 30; ++step) {
+    for (std::uint32_t i = 0; i < Field::kLeft; ++i) {
+      const bool moves = step % 10 != 9 || i % 3 == 0;
+      field.mover->of(i + 1).position.z() += moves ? 1e-3 : 0.0;
+      field.mover->of(i + 1).velocity.z() = moves ? 1.0 : 0.0;
+    }
+    field.table.run(kStepTime);
+    for (std::uint32_t i = 0; i < Field::kLeft; ++i) {
+      const double off = field.table.state(i).position.z() - field.mover->of(i + 1).position.z();
+      ASSERT_NEAR(off, 0.0, 1e-12) << i << " in step " << step;
+    }
+  }
+}
+
+TEST(DisownedBodies, CarryOthersWithoutSlots) {
+  Field field;
+  const std::uint32_t under = 99, on = 140;
+  field.mover->of(under + 1).position = {5, 5, 0.5};
+  field.table.run(kStepTime);
+  field.table.world().order(
+      {BodyAct::place, on, {{5, 5, 0.5 + 1.2 * kEdge}, Eigen::Quaterniond::Identity()}});
+  field.table.run(0.5);
+  EXPECT_NEAR(field.table.state(on).position.z(), 0.5 + kEdge, 1e-3);
+}
+
+TEST(OwnedBodies, ChangeOwnerAmongMoreThanSlots) {
+  Field field;
+  Table& table = field.table;
+  BodyWorld& world = table.world();
   for (std::uint32_t i = 0; i < 100; ++i) {
     ASSERT_TRUE(table.state(i).carried);
-    mover->of(i + 1).position.z() += 0.3;
+    field.mover->of(i + 1).position.z() += 0.3;
   }
   table.run(kStepTime);
   for (std::uint32_t i = 0; i < 100; ++i) ASSERT_NEAR(table.state(i).position.z(), 0.32, 1e-9) << i;
@@ -287,7 +324,7 @@ TEST(OwnedBodies, ChangeOwnerAmongMoreThanSlots) {
   EXPECT_GT(world.crowded(), 0u);
   ASSERT_TRUE(world.published().update());
   const BodyStates& published = world.published().read();
-  for (std::uint32_t i = 0; i < kBodies; ++i) {
+  for (std::uint32_t i = 0; i < Field::kBodies; ++i) {
     EXPECT_FALSE(published.bodies[i].carried);
     EXPECT_EQ(apart(published.bodies[i], table.state(i)), 0.0) << i;
     EXPECT_GT(table.state(i).position.z(), 0.4 * kEdge) << i;

@@ -101,8 +101,34 @@ TEST(HandedOverBody, IsPushedOnlyWhileOwned) {
   EXPECT_GT(felt, 0.5);
   EXPECT_EQ(rig.cube().position.x(), 0.0);
   rig.world->own(0, rig.cube());
+  const double at_others = rig.step().tally.bodies;
   for (int i = 0; i < 2'000; ++i) rig.step();
   EXPECT_GT(rig.cube().position.x(), 0.02);
+  EXPECT_EQ(rig.step().tally.bodies, at_others);
+}
+
+TEST(HandedOverBody, IsNotPushedWhereItIsPut) {
+  Rig rig(shoves);
+  while (rig.step().force.norm() < 0.3) ASSERT_LT(rig.now, std::chrono::seconds(5));
+  rig.world->order({BodyAct::place, 0, {{1, 0, kHalf}, Eigen::Quaterniond::Identity()}});
+  rig.step();
+  EXPECT_LT(rig.cube().velocity.head<2>().norm(), 1e-6);
+}
+
+// Slowly, so that the springs of hand and cube are in balance.
+TEST(HandedOverBody, LiftsAHandByTheCorrectForce) {
+  Rig rig([](double) { return HandTarget{{0, 0, 0.037}}; });
+  rig.world->disown(0);
+  for (int i = 0; i < 3'000; ++i) {
+    const double rise = 0.005 * std::clamp(1e-3 * (i - 1000), 0.0, 1.0);
+    if (i > 10) rig.mover->of(0).position.z() = kHalf + rise;
+    if (i > 10) rig.mover->of(0).velocity.z() = i > 1000 && i < 2000 ? 0.005 : 0.0;
+    rig.step();
+  }
+  constexpr double kGrip = 300.0, kSurface = 300.0;
+  const double right = kGrip * kSurface / (kGrip + kSurface) * (2 * kHalf + 0.005 - 0.037);
+  EXPECT_NEAR(rig.step().force.z(), right, 0.02 * right);
+  EXPECT_GT(rig.step().tally.bodies, 2.5) << "time at bodies of other peers";
 }
 
 TEST(HandedOverBody, NeverCostsThePortEnergy) {
