@@ -49,25 +49,38 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   return config;
 }
 
-// The first peer of a scene moves its bodies; for all other peers they are carried.
-haptics::Scene felt_by(const SceneFile& scene, const PeerOptions& options) {
+// The first peer of a scene owns its bodies from the start. A program that states a body by itself
+// moves it without simulation.
+bool owns_first(const PeerOptions& options, std::span<const PeerDevice> devices) {
+  if (!devices.empty()) return options.scene_peer <= 1;
+  return options.scene_peer == 1 &&
+         std::ranges::none_of(options.entities, [](const EntityConfig& entity) {
+           return body_of(entity.type).has_value();
+         });
+}
+
+// At all other peers the bodies begin as carried objects.
+haptics::Scene felt_by(const SceneFile& scene, bool owns) {
   haptics::Scene felt = scene.scene;
-  if (options.scene_peer <= 1) return felt;
+  if (owns) return felt;
   for (haptics::SceneObject& object : felt.objects) object.carried |= object.matter.mass > 0;
   return felt;
 }
 
-bool has_carried(const haptics::Scene& scene) {
-  return std::ranges::any_of(scene.objects, &haptics::SceneObject::carried);
+bool has_bodies(const haptics::Scene& scene) {
+  return std::ranges::any_of(scene.objects,
+                             [](const auto& object) { return object.matter.mass > 0; });
 }
 
+// Any body may be carried at some time.
 std::shared_ptr<BodyMover> mover_of(const haptics::Scene& scene, const SceneNodes& nodes,
                                     std::span<const PeerDevice> devices) {
-  if (devices.empty() || !has_carried(scene)) return nullptr;
+  const bool has_carried = std::ranges::any_of(scene.objects, &haptics::SceneObject::carried);
+  if (!has_bodies(scene) && (devices.empty() || !has_carried)) return nullptr;
   return std::make_shared<BodyMover>(haptics::EffectPlan(scene), nodes);
 }
 
-// Bodies need a hand of their peer to move.
+// Without a hand, nobody feels what the scene carries.
 std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
                                               std::span<const PeerDevice> devices,
                                               std::shared_ptr<BodyMover> mover) {
@@ -78,7 +91,7 @@ std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
                                 " objects, and the limit is " + std::to_string(kMostSharedBodies) +
                                 ": remove the mass of some");
   }
-  if (devices.empty()) return nullptr;
+  if (devices.empty() && !has_bodies(scene)) return nullptr;
   return haptics::make_bodies(haptics::EffectPlan(scene), scene, std::move(mover));
 }
 
@@ -139,9 +152,12 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       force_stop_(options.force_stop != nullptr ? options.force_stop : &own_stop_),
-      felt_(felt_by(scene, options)),
+      owns_(owns_first(options, devices)),
+      felt_(felt_by(scene, owns_)),
       mover_(mover_of(felt_, scene.nodes, devices)),
       bodies_(bodies_of(felt_, devices, mover_)),
+      stepped_(bodies_ != nullptr && devices.empty() ? std::make_unique<SteppedBodies>(*bodies_)
+                                                     : nullptr),
       servos_(make_servos(scene, felt_, options, devices, bodies_, *force_stop_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, scene.network.lenient,
@@ -164,7 +180,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               urgent_.get(),
               &read_.known(),
               &read_.felt(),
-              sends_bodies(options) ? &bodies_->outgoing() : nullptr,
+              sends_bodies() ? &bodies_->outgoing() : nullptr,
+              stepped_.get(),
               mover_.get(),
               custom_effects_of(servos_),
               options.mechanisms},
@@ -173,8 +190,14 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               options.epoch,
               options.started,
               !devices.empty(),
-              sends_bodies(options) ? std::uint8_t{1} : options.scene_peer,
+              sends_bodies() ? std::uint8_t{1} : options.scene_peer,
               options.chain_secret}) {
+  add_hands(options, devices);
+  const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
+  if (sends_bodies()) model_.add_bodies(next);
+}
+
+void Peer::add_hands(const PeerOptions& options, std::span<const PeerDevice> devices) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     haptics::ServoLoop& servo = *servos_[i];
     const std::string marking = marking_of(options, devices[i], i);
@@ -182,12 +205,6 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
     servo_due_.push_back({period_of(options, devices[i])});
     servo_period_ = i == 0 ? servo_due_[0].period : std::min(servo_period_, servo_due_[i].period);
   }
-  const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
-  if (sends_bodies(options)) model_.add_bodies(next);
-}
-
-bool Peer::sends_bodies(const PeerOptions& options) const noexcept {
-  return bodies_ != nullptr && options.scene_peer <= 1;
 }
 
 Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,

@@ -149,7 +149,7 @@ class Peer {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
-  /// The scene's bodies, or null without a device; their published() has one reader thread.
+  /// The scene's bodies, or null; their published() has one reader thread.
   [[nodiscard]] haptics::BodyWorld* bodies() noexcept { return bodies_.get(); }
   /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
   /// loop runs.
@@ -176,7 +176,8 @@ class Peer {
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 
  private:
-  [[nodiscard]] bool sends_bodies(const PeerOptions& options) const noexcept;
+  void add_hands(const PeerOptions& options, std::span<const PeerDevice> devices);
+  [[nodiscard]] bool sends_bodies() const noexcept { return bodies_ != nullptr && owns_; }
 
   const SceneFile& scene_;
   Link& link_;
@@ -190,9 +191,11 @@ class Peer {
   haptics::SpscRing<ShownSample> shown_;
   haptics::ForceStop own_stop_;
   haptics::ForceStop* force_stop_;
-  haptics::Scene felt_;                         // as this peer moves it
-  std::shared_ptr<BodyMover> mover_;            // of the bodies of another peer
+  bool owns_;                                   // the bodies, from the start
+  haptics::Scene felt_;                         // as this peer begins to move it
+  std::shared_ptr<BodyMover> mover_;            // of the bodies of other peers
   std::shared_ptr<haptics::BodyWorld> bodies_;  // of the servos, which share it
+  std::unique_ptr<SteppedBodies> stepped_;      // the same without a device
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   std::chrono::nanoseconds servo_period_;
   struct ServoDue {

@@ -27,12 +27,12 @@ TOTAL = {
     "pdu": 12500,
     "aoim": 12500,
     "deadreckon": 4500,
-    "haptics": 38500,
-    "src": 46500,
+    "haptics": 39500,
+    "src": 49500,
     "tools": 40000,
     "python": 2500,
     "bench": 36500,
-    "tests": 138000,
+    "tests": 138500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -41,8 +41,7 @@ LARGE = {
     "aoim/LeaderRole": (363, 26),
     "aoim/Presence": (360, 18),
     "bench/ScaleWords": (0, 27),
-    "haptics/BodyEngine": (354, 25),
-    "haptics/BodySolver": (327, 14),
+    "haptics/BodyEngine": (345, 17),
     "haptics/BoundingVolumeTree": (319, 6),
     "haptics/ContactSolver": (321, 24),
     "haptics/DeviceMeasurement": (193, 26),

@@ -21,7 +21,6 @@ constexpr double kJitter = 5e-5;          // [s], lateness of a punctual servo
 constexpr double kMostTime = 3e-4;        // [s] of a period to predict and step touched islands
 constexpr double kBodyTime = 3.5e-6;      // [s], cost of a step for each body
 constexpr double kMetAhead = 2.0;         // periods in which a moving body may reach a sleeping one
-constexpr std::size_t kMostLeft = 256;    // bodies between two updates of a copy of the states
 constexpr double kRight = 0.15;           // greatest dt sqrt(K / m)
 constexpr double kLeverage = 0.4;         // least effective mass of a rotating body, over its mass
 
@@ -30,27 +29,13 @@ constexpr double kLeverage = 0.4;         // least effective mass of a rotating 
 BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
                        std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
     : solver_(plan, gravity, work_space),
-      carried_(plan, solver_, std::move(mover)),
+      carried_(plan, solver_.slots(), std::move(mover)),
+      ordered_(solver_.slots(), carried_),
+      book_(solver_, carried_),
       near_(radii_of_moving(plan)) {
-  const std::vector<BodyKind>& kinds = solver_.slots().kinds();
   for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(BodyWorld::kMostPushes);
   works_.reserve(BodyWorld::kMostPushes);
   forces_.reserve(2 * BodyWorld::kMostPushes);
-  left_.reserve(kMostLeft);
-  met_.reserve(BodySlots::kMost);
-  states_.resize(kinds.size());
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].object = kinds[i].object;
-    if (solver_.slots().slot_of(i) != BodySlots::kNone) continue;
-    static_cast<ObjectMotion&>(states_[i]) = kinds[i].lying();
-    states_[i].awake = false;
-  }
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot)
-    if (solver_.is_carried(slot)) states_[solver_.body(slot)].carried = true;
-  next_ = states_;
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot)
-    in_slot_[slot] = static_cast<std::uint32_t>(solver_.body(slot));
-  read_states(BodySolver::all(), 0.0);
 }
 
 bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
@@ -59,13 +44,14 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   const double gap = pdu::to_seconds(now - time_);
   if (!is_first && !(gap > 0)) return false;
   time_ = now;
-  if (is_quiet() && !is_first && !frozen && !frozen_) {
+  book_.expire(now);
+  if (is_quiet() && !is_first && !frozen && !book_.is_frozen()) {
     begin_period();
     lead_ = 0.0;
     return true;
   }
-  carried_.see(now);
-  frozen_ = frozen;
+  if (!carried_.empty()) follow_carried(now, gap);
+  book_.freeze(frozen);
   if (is_first || frozen) {
     go_back();
     works_.assign(pushes_.size(), 0.0);
@@ -73,7 +59,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     pushes_.clear();
     begin_period();
     lead_ = 0.0;
-    carried_.put(solver_);
+    carried_.put(solver_.slots());
     read_states(BodySolver::all(), 0.0);
     return true;
   }
@@ -87,13 +73,13 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     // Pushed islands move in small steps, all other bodies in usual ones.
     const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps(pushes_)));
     if (rest != BodySolver::all()) {
-      carried_.drive(solver_, gap);
+      carried_.drive(solver_.slots(), gap);
       solver_.only(~rest);
       length = push_for(whole, dt);
     }
     lead_ = ahead_ - whole;
     if (lead_ < -kJitter) {
-      carried_.drive(solver_, gap);
+      carried_.drive(solver_.slots(), gap);
       solver_.only(rest);
       go_on(-lead_);
       lead_ = 0.0;
@@ -101,10 +87,10 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     }
     solver_.only(BodySolver::all());
   } else {
-    carried_.drive(solver_, gap);
+    carried_.drive(solver_.slots(), gap);
     length = push_for(whole, kLongestStep);
   }
-  carried_.put(solver_);
+  carried_.put(solver_.slots());
   read_states(~foreseen, length, rest != 0 ? ~rest : BodySolver::all());
   for (BodyPush& push : pushes_) push.renew();
   std::swap(pushes_, last_);
@@ -116,7 +102,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
 std::span<const std::uint32_t> BodyEngine::near(std::size_t hand, const HandReach& reach,
                                                 double period) noexcept {
   return near_.of(
-      hand, reach, [this] { return about(states_); }, period);
+      hand, reach, [this] { return about(book_.now()); }, period);
 }
 
 bool BodyEngine::written(std::size_t hand, const HandReach& reach) noexcept {
@@ -127,9 +113,9 @@ bool BodyEngine::written(std::size_t hand, const HandReach& reach) noexcept {
 }
 
 void BodyEngine::go_ahead() noexcept {
-  if (frozen_ || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
+  if (book_.is_frozen() || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
   if (is_quiet()) {
-    near_.foresee_moved([this] { return about(states_); }, period_);
+    near_.foresee_moved([this] { return about(book_.now()); }, period_);
     return;
   }
   take_in_met();
@@ -137,25 +123,18 @@ void BodyEngine::go_ahead() noexcept {
   if (rest_ == 0) return;
   ahead_ = period_;
   // Carried objects keep their present velocity.
-  carried_.put(solver_);
+  carried_.put(solver_.slots());
   solver_.only(rest_);
   solver_.keep();
   go_on(period_ - lead_);
   solver_.only(BodySolver::all());
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
-    const std::size_t body = solver_.body(slot);
-    if ((rest_ >> slot & 1) == 0 || solver_.is_carried(slot)) {
-      next_[body] = states_[body];
-    } else {
-      read_state(slot, kLongestStep, next_[body]);
-    }
-  }
-  near_.foresee(about(next_), period_);
+  book_.read_ahead(rest_, kLongestStep);
+  near_.foresee(about(book_.next()), period_);
 }
 
 std::size_t BodyEngine::push(std::size_t body, const Vector3d& point,
                              const Vector3d& force) noexcept {
-  if (body >= states_.size() || pushes_.size() >= BodyWorld::kMostPushes || !force.allFinite())
+  if (body >= book_.now().size() || pushes_.size() >= BodyWorld::kMostPushes || !force.allFinite())
     return BodyWorld::kNoPush;
   go_back();
   const std::size_t slot = slot_for(body);
@@ -166,7 +145,7 @@ std::size_t BodyEngine::push(std::size_t body, const Vector3d& point,
 }
 
 std::size_t BodyEngine::press(std::size_t hand, const BodySpring& spring) noexcept {
-  if (spring.body >= states_.size() || pushes_.size() >= BodyWorld::kMostPushes ||
+  if (spring.body >= book_.now().size() || pushes_.size() >= BodyWorld::kMostPushes ||
       !spring.force.allFinite() || !spring.velocity.allFinite())
     return BodyWorld::kNoPush;
   const std::size_t slot = slot_for(spring.body);
@@ -182,7 +161,7 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   stepped_ |= std::uint64_t{1} << hand % 64;
   const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
   // Frozen bodies do not give way.
-  if (frozen_ || std::ranges::none_of(pushes_, own)) return;
+  if (book_.is_frozen() || std::ranges::none_of(pushes_, own)) return;
   const BodySet pushed = slots_of(pushes_, solver_.slots()) | still_pushed();
   const std::size_t steps = steps_for(period);
   BodySet island = solver_.island(pushed);
@@ -203,6 +182,65 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   for (BodyPush& push : last_) push.rewind();
 }
 
+bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
+  BodySlots& slots = solver_.slots();
+  book_.note_order();
+  go_back();
+  if (order.body < book_.now().size()) was = slots.motion_of(order.body);
+  if (!ordered_.admits(order)) return false;
+  const bool is_put = order.act == BodyAct::own || order.act == BodyAct::place;
+  if (is_put) wake_near(order.body);
+  const bool is_left = order.act == BodyAct::disown;
+  ordered_.carry_out(order, is_left ? slots.slot_of(order.body) : slot_for(order.body));
+  // The springs of hands end where the body was.
+  for (BodyPush& push : pushes_)
+    if ((is_put || is_left) && push.body() == order.body)
+      push = BodyPush(order.body, push.place(), Vector3d::Zero());
+  book_.show(order.body);
+  near_.forget();
+  return true;
+}
+
+// Wakes what a body leaves behind.
+void BodyEngine::wake_near(std::uint32_t body) noexcept {
+  BodySlots& slots = solver_.slots();
+  Eigen::AlignedBox3d box = box_of(slots.kinds()[body].geom);
+  const Vector3d near = Vector3d::Constant(BodySolver::kNear);
+  box = {box.min() - near, box.max() + near};
+  book_.woken().wake(box);
+  for (const std::uint32_t other : book_.woken().touching(box)) {
+    if (other == body || slots.kinds()[other].is_carried) continue;
+    const std::size_t slot = slot_for(other);
+    if (slot != BodySlots::kNone) slots[slot].wake();
+  }
+}
+
+// Carried bodies without a slot take one when they move; without a free slot they jump.
+void BodyEngine::follow_carried(nanoseconds now, double gap) noexcept {
+  carried_.see(now, gap);
+  BodySlots& slots = solver_.slots();
+  for (const std::uint32_t body : carried_.bodies()) {
+    const std::size_t slot = slots.slot_of(body);
+    const bool keeps = slot != BodySlots::kNone && slots.kinds()[body].can_be_owned;
+    if (keeps && carried_.is_moved(body)) slots[slot].wake();  // it cannot lose its slot
+  }
+  for (const std::uint32_t body : carried_.bodies()) {
+    const bool jumps = carried_.has_jumped(body), is_moved = carried_.is_moved(body);
+    if (jumps) wake_near(body);
+    if (slots.slot_of(body) != BodySlots::kNone) continue;
+    const ObjectMotion& to = carried_.now(body);
+    if (!is_moved && to.velocity == book_.now()[body].velocity) continue;
+    const std::size_t slot = is_moved && !jumps ? slot_for(body) : BodySlots::kNone;
+    if (slot != BodySlots::kNone) {
+      slots[slot].wake();
+      continue;
+    }
+    slots.lie(body, to);
+    book_.show(body);
+    near_.forget();
+  }
+}
+
 void BodyEngine::hold(std::size_t push, double share, const Vector3d& rest) noexcept {
   if (push < pushes_.size()) pushes_[push].hold(share, rest);
 }
@@ -212,9 +250,7 @@ double BodyEngine::take_back(std::size_t body, double energy) noexcept {
   if (slot == BodySlots::kNone || solver_.is_carried(slot) || !(energy > 0)) return 0.0;
   go_back();
   const double taken = solver_.take_back(slot, energy);
-  const double step = states_[body].step;
-  static_cast<ObjectMotion&>(states_[body]) = solver_.motion(slot);
-  states_[body].step = step;
+  book_.read_again(body, slot);
   near_.forget();
   return taken;
 }
@@ -230,40 +266,16 @@ std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
   if (had != BodySlots::kNone) return had;
   go_back();
   const std::size_t slot =
-      solver_.take_in(body, slots_of(pushes_, solver_.slots()) | slots_of(last_, solver_.slots()));
-  if (slot == BodySlots::kNone) {
-    if (!std::exchange(is_crowded_, true)) ++crowded_;
-    return slot;
-  }
-  const std::uint32_t lost = in_slot_[slot];
-  in_slot_[slot] = static_cast<std::uint32_t>(body);
-  if (lost != kNobody) {
-    static_cast<ObjectMotion&>(states_[lost]) = solver_.slots().kinds()[lost].lying();
-    next_[lost] = states_[lost];
-    if (left_.size() == kMostLeft) left_.erase(left_.begin());
-    left_.push_back(lost);
-    ++left_count_;
-  }
+      book_.take_in(body, slots_of(pushes_, solver_.slots()) | slots_of(last_, solver_.slots()));
+  if (slot == BodySlots::kNone) return slot;
   near_.forget();
   return slot;
 }
 
-// Wakes sleeping bodies in the way of moving ones.
+// Gives slots to sleeping bodies in the way of moving ones.
 void BodyEngine::take_in_met() noexcept {
-  if (solver_.slots().asleep().size() == 0) return;
-  met_.clear();
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
-    if (!solver_.awake(slot)) continue;
-    const ObjectMotion motion = solver_.motion(slot);
-    const double way = BodySolver::kNear + kMetAhead * period_ * motion.velocity.norm();
-    Eigen::AlignedBox3d box = solver_.box(slot);
-    box.extend(Vector3d(box.min().array() - way)).extend(Vector3d(box.max().array() + way));
-    solver_.visit_asleep(slot, box, [&](std::uint32_t body) {
-      if (met_.size() < met_.capacity()) met_.push_back(body);
-    });
-  }
-  std::ranges::sort(met_);  // the result does not depend on the order of the grid
-  for (const std::uint32_t body : met_) static_cast<void>(slot_for(body));
+  for (const std::uint32_t body : book_.woken().met(kMetAhead * period_))
+    static_cast<void>(slot_for(body));
 }
 
 // Moves the bodies that are ahead back to the start of the period, where all others are.
@@ -276,7 +288,7 @@ void BodyEngine::go_back() noexcept {
 
 void BodyEngine::begin_period() noexcept {
   stepped_ = written_ = 0;
-  is_crowded_ = false;
+  book_.woken().begin_period();
   ahead_ = 0.0;
 }
 
@@ -371,29 +383,9 @@ void BodyEngine::go_on(double whole) noexcept {
   for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
 }
 
-// Reads the states of `some` and of carried objects into next_, which becomes the present states.
-// @param step [s], last step of the bodies `fine`
 void BodyEngine::read_states(BodySet some, double step, BodySet fine) noexcept {
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
-    if ((some >> slot & 1) == 0 && !solver_.is_carried(slot)) continue;
-    read_state(slot, (fine >> slot & 1) != 0 ? step : kLongestStep, next_[solver_.body(slot)]);
-  }
-  std::swap(states_, next_);
+  book_.read(some, step, fine, kLongestStep);
   if (some != 0) near_.forget();
-  ++version_;
-  const auto is_awake = [this](std::uint32_t body) { return states_[body].awake; };
-  quiet_ = std::ranges::any_of(with_slot(), is_awake) ? 0 : quiet_ + 1;
-}
-
-void BodyEngine::read_state(std::size_t slot, double step, BodyState& out) const noexcept {
-  const bool is_carried = solver_.is_carried(slot);
-  static_cast<ObjectMotion&>(out) = solver_.motion(slot);
-  out.awake = solver_.awake(slot);
-  if (frozen_ && !is_carried) {
-    out.velocity.setZero();
-    out.turn_rate.setZero();
-  }
-  out.step = is_carried ? 0.0 : step;
 }
 
 }  // namespace reckon::haptics

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +13,15 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_book.hpp"
+#include "reckon/haptics/bodies/body_exchange.hpp"
 #include "reckon/haptics/bodies/body_push.hpp"
 #include "reckon/haptics/bodies/body_solver.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/carried_objects.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
+#include "reckon/haptics/bodies/ordered_bodies.hpp"
 
 namespace reckon::haptics {
 
@@ -36,10 +38,25 @@ class BodyEngine {
   /// the same names. @return whether the time has advanced
   bool advance_to(std::chrono::nanoseconds now, bool frozen) noexcept;
 
+  /// Whether the next advance to `now` has an effect.
+  [[nodiscard]] bool is_before(std::chrono::nanoseconds now) const noexcept {
+    return !started_ || now > time_;
+  }
+  /// Carries out an order, before an advance. @param was state of the body before
+  /// @return whether it had an effect
+  bool obey(const BodyOrder& order, ObjectMotion& was) noexcept;
+  /// A hand touches a body.
+  void touch(std::uint32_t body) noexcept { book_.touch(body, time_); }
+  [[nodiscard]] bool is_mixed() const noexcept {
+    return !carried_.empty() && carried_.bodies().size() < book_.now().size();
+  }
+  void keep_carried(std::size_t body) noexcept { solver_.slots().keep_carried(body); }
+  [[nodiscard]] bool is_any_moving() const noexcept { return book_.woken().is_any_moving(kSoon); }
+
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
                                                     double period) noexcept;
   [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept {
-    return next_[body];
+    return book_.next()[body];
   }
   [[nodiscard]] bool has_hands() const noexcept { return near_.hands() > 0; }
 
@@ -64,28 +81,27 @@ class BodyEngine {
     return push < works_.size() ? works_[push] : 0.0;
   }
   double take_back(std::size_t body, double energy) noexcept;
-  [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
+  [[nodiscard]] std::span<const BodyState> states() const noexcept { return book_.now(); }
   [[nodiscard]] std::chrono::nanoseconds time() const noexcept { return time_; }
   [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
-  [[nodiscard]] std::uint64_t crowded() const noexcept { return crowded_; }
   /// Bodies with a slot.
   [[nodiscard]] std::span<const std::uint32_t> with_slot() const noexcept {
-    return {in_slot_.data(), solver_.size()};
+    return woken().with_slot();
   }
   /// Number of changes of the states, from 1 on.
-  [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
-  /// Number of bodies that have lost their slot, and the last of them.
-  [[nodiscard]] std::uint64_t left() const noexcept { return left_count_; }
-  [[nodiscard]] std::span<const std::uint32_t> last_left() const noexcept { return left_; }
+  [[nodiscard]] std::uint64_t version() const noexcept { return book_.version(); }
+  [[nodiscard]] const WokenBodies& woken() const noexcept { return book_.woken(); }
 
  private:
   [[nodiscard]] bool is_quiet() const noexcept {
-    return quiet_ >= 2 && pushes_.empty() && last_.empty() && carried_.empty();
+    return book_.is_quiet() && pushes_.empty() && last_.empty() && carried_.empty();
   }
   [[nodiscard]] BodiesAbout about(std::span<const BodyState> states) const noexcept;
   [[nodiscard]] std::size_t slot_for(std::size_t body) noexcept;
   void take_in_met() noexcept;
+  void wake_near(std::uint32_t body) noexcept;
+  void follow_carried(std::chrono::nanoseconds now, double gap) noexcept;
 
   void go_back() noexcept;
   void begin_period() noexcept;
@@ -106,29 +122,14 @@ class BodyEngine {
   void go_on(double whole) noexcept;
 
   void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept;
-  void read_state(std::size_t slot, double step, BodyState& out) const noexcept;
 
-  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
-  static constexpr std::array<std::uint32_t, BodySlots::kMost> all_nobody() noexcept {
-    std::array<std::uint32_t, BodySlots::kMost> out{};
-    out.fill(kNobody);
-    return out;
-  }
+  static constexpr double kSoon = 0.1;  // [s] in which a carried body may reach an owned one
 
   BodySolver solver_;
   CarriedObjects carried_;
-  std::vector<BodyState> states_;
-  // Of a body already integrated to the end of the period: its state there; of another body: its
-  // state before the last advance.
-  std::vector<BodyState> next_;
+  OrderedBodies ordered_;
+  BodyBook book_;
   NearBodies near_;
-  std::array<std::uint32_t, BodySlots::kMost> in_slot_ = all_nobody();  // bodies, by their slots
-  std::vector<std::uint32_t> met_;
-  std::vector<std::uint32_t> left_;  // the last bodies that lost their slots
-  std::uint64_t left_count_ = 0, crowded_ = 0;
-  bool is_crowded_ = false;        // a body found no slot in this period
-  std::uint64_t version_ = 1;      // of the states
-  std::uint64_t quiet_ = 0;        // updates of the states since a body was awake
   std::vector<BodyPush> pushes_;   // pushes of this period
   std::vector<BodyPush> last_;     // pushes of the last period
   std::vector<BodyForce> forces_;  // forces of a step
@@ -139,7 +140,6 @@ class BodyEngine {
   double lead_ = 0.0;     // [s], the same for pushed bodies, if a servo step came early
   double period_ = 1e-3;  // [s]
   bool started_ = false;
-  bool frozen_ = false;
   std::chrono::nanoseconds time_{0};
   std::uint64_t coarse_ = 0;
 };

@@ -32,11 +32,13 @@ void BodySlots::add(const PlannedObject& object, std::uint32_t number, dGeomID g
   kind.number = kinds_.size() - 1;
   kind.object = number;
   kind.is_carried = object.carried;
-  if (!kind.is_carried) {
+  kind.can_be_owned = object.is_body();
+  if (kind.can_be_owned) {
     const ProbedMesh* mesh = BodyGeoms::matter_of(geom).mesh;
     if (mesh != nullptr) kind.effort += kEffort * static_cast<double>(mesh->corners().size());
     const BodyMass given = mass_of(object, mesh != nullptr ? &mesh->mesh() : nullptr);
-    kind.mass = object.matter.mass;
+    kind.whole_mass = object.matter.mass;
+    kind.mass = kind.is_carried ? 0.0 : kind.whole_mass;
     kind.drag = object.matter.drag;
     kind.inner = given.inner;
     kind.least_inertia = given.least_inertia;
@@ -53,7 +55,7 @@ void BodySlots::fill() {
   bodies_.reserve(kMost);
   asleep_ = CellGrid(all_fit ? 0 : kinds_.size());
   for (const BodyKind& kind : kinds_) {
-    if (all_fit || kind.is_carried) {
+    if (all_fit || !(kind.whole_mass > 0)) {
       if (bodies_.size() == kMost) throw std::invalid_argument(kTooManyCarried);
       take_in(kind.number, 0);
     } else {
@@ -71,7 +73,7 @@ std::size_t BodySlots::take_in(std::size_t body, BodySet pinned) noexcept {
     dBodySetData(bodies_.back().id, reinterpret_cast<void*>(slot));
   } else {
     const auto stays = [&](std::size_t i) {
-      return ((pinned | carried_) >> i & 1) != 0 || bodies_[i].is_awake();
+      return (pinned >> i & 1) != 0 || !(bodies_[i].whole_mass > 0) || bodies_[i].is_awake();
     };
     std::size_t tried = 0;
     for (; tried < kMost && stays(next_out_); ++tried) next_out_ = (next_out_ + 1) % kMost;
@@ -95,12 +97,8 @@ void BodySlots::sit(std::size_t slot, const BodyKind& kind) noexcept {
     asleep_energy_ -= kind.height_energy(kind.at, gravity_);
     dSpaceAdd(space_, kind.geom);
   }
-  if (kind.is_carried) {
-    carried_ |= BodySet{1} << slot;
-    dBodySetKinematic(body.id);
-  } else {
-    dBodySetMass(body.id, &kind.inertia);
-  }
+  body.island = slot;
+  set_mode(slot);
   if (kind.geom != nullptr) dGeomSetBody(kind.geom, body.id);
   const Vector3d& m = kind.middle;
   if (!m.isZero(0.0)) dGeomSetOffsetPosition(kind.geom, -m.x(), -m.y(), -m.z());
@@ -114,12 +112,52 @@ void BodySlots::sit(std::size_t slot, const BodyKind& kind) noexcept {
   dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
 }
 
+void BodySlots::set_mode(std::size_t slot) noexcept {
+  const RigidBody& body = bodies_[slot];
+  const BodySet one = BodySet{1} << slot;
+  if (body.is_carried) {
+    carried_ |= one;
+    dBodySetKinematic(body.id);
+  } else {
+    carried_ &= ~one;
+    dBodySetMass(body.id, &body.inertia);
+  }
+}
+
+void BodySlots::set_carried(std::size_t number, bool is_carried) noexcept {
+  BodyKind& kind = kinds_[number];
+  const std::size_t slot = slot_of_[number];
+  const auto change = [is_carried](BodyKind& of) {
+    of.is_carried = is_carried;
+    of.mass = is_carried ? 0.0 : of.whole_mass;
+    of.account = 0.0;
+  };
+  if (slot == kNone) asleep_energy_ -= kind.height_energy(kind.at, gravity_);
+  change(kind);
+  if (slot == kNone) {
+    asleep_energy_ += kind.height_energy(kind.at, gravity_);
+    return;
+  }
+  change(bodies_[slot]);
+  bodies_[slot].still = bodies_[slot].lag = 0.0;
+  set_mode(slot);
+}
+
+void BodySlots::lie(std::size_t body, const ObjectMotion& at) noexcept {
+  BodyKind& kind = kinds_[body];
+  asleep_energy_ -= kind.height_energy(kind.at, gravity_);
+  kind.orientation = at.orientation;
+  kind.at = at.position + at.orientation * kind.middle;
+  lie_down(kind);
+}
+
 void BodySlots::leave(std::size_t slot) noexcept {
   BodyKind& kind = kinds_[bodies_[slot].number];
   kind.at = vector_of(dBodyGetPosition(bodies_[slot].id));
   kind.orientation = bodies_[slot].turned();
   kind.account = bodies_[slot].account;
   slot_of_[kind.number] = kNone;
+  carried_ &= ~(BodySet{1} << slot);
   dGeomSetBody(kind.geom, nullptr);  // the geom keeps its pose
   dSpaceRemove(space_, kind.geom);
   lie_down(kind);

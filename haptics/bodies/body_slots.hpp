@@ -25,8 +25,8 @@ using BodySet = std::uint64_t;
 }
 
 /// Each active body has a slot. If a plan has no more bodies than slots, all have one, in the
-/// plan's order. Otherwise all but carried objects start asleep, without a slot, in a separate grid
-/// outside ODE's space. It allocates nothing after some steps. One thread.
+/// plan's order. Otherwise all but carried objects without a mass start asleep, without a slot, in
+/// a separate grid outside ODE's space. It allocates nothing after some steps. One thread.
 class BodySlots {
  public:
   static constexpr std::size_t kMost = 8 * sizeof(BodySet);
@@ -69,6 +69,18 @@ class BodySlots {
   /// it. @return kNone: none free
   std::size_t take_in(std::size_t body, BodySet pinned) noexcept;
 
+  /// Changes the mode of a body that can be owned: carried, or moved by forces.
+  void set_carried(std::size_t body, bool is_carried) noexcept;
+  /// It stays carried.
+  void keep_carried(std::size_t body) noexcept { kinds_[body].can_be_owned = false; }
+  /// Moves a body without a slot.
+  void lie(std::size_t body, const ObjectMotion& at) noexcept;
+  /// Motion of a body, with or without a slot.
+  [[nodiscard]] ObjectMotion motion_of(std::size_t body) const noexcept {
+    const std::size_t slot = slot_of_[body];
+    return slot != kNone ? bodies_[slot].motion() : kinds_[body].lying();
+  }
+
   /// Slots in use.
   [[nodiscard]] std::size_t size() const noexcept { return bodies_.size(); }
   [[nodiscard]] RigidBody& operator[](std::size_t slot) noexcept { return bodies_[slot]; }
@@ -86,6 +98,7 @@ class BodySlots {
  private:
   static constexpr double kClear = 0.005;  // [m], margin around a box without a body near
 
+  void set_mode(std::size_t slot) noexcept;
   void sit(std::size_t slot, const BodyKind& kind) noexcept;
   void leave(std::size_t slot) noexcept;
   void lie_down(const BodyKind& kind) noexcept;

@@ -7,12 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdarg>
-#include <limits>
 #include <mutex>
 
 #include "reckon/haptics/bodies/body_mass.hpp"
-#include "reckon/haptics/bodies/body_world.hpp"
-#include "reckon/pdu/seconds.hpp"
+#include "reckon/haptics/bodies/body_sleep.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -23,9 +21,7 @@ using Eigen::Vector3d;
 constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
 // Rest depth of contacts [m], so that they persist from step to step.
 constexpr double kRestDepth = 1e-5;
-constexpr double kParting = 0.1;      // [m/s], greatest separation speed of penetrating bodies
-constexpr double kStillSpeed = 1e-3;  // [m/s]
-constexpr double kStillTurn = 0.02;   // [rad/s]
+constexpr double kParting = 0.1;  // [m/s], greatest separation speed of penetrating bodies
 
 // Set when the exact solver has found no solution, as in a pile of many contacts.
 thread_local bool lost = false;
@@ -188,7 +184,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   motion_->catch_fast(solved);
   impacts_->pass(dt, [&](BodySet bodies) { strike(bodies); });
   take_out(dt, forces);
-  rest(dt);
+  put_to_sleep(*slots_, only_, *joints_, dt);
   joints_->clear();
 }
 
@@ -354,31 +350,6 @@ double BodySolver::take_back(std::size_t slot, double energy) noexcept {
   if (!(taken > 0)) return 0.0;
   body.slow(std::sqrt(1.0 - taken / moving));
   return taken;
-}
-
-// An island falls asleep as a whole: a single sleeping body would be woken by the others and
-// disturb them.
-void BodySolver::rest(double dt) noexcept {
-  std::array<double, BodySlots::kMost> still;  // [s], of islands
-  still.fill(std::numeric_limits<double>::infinity());
-  each_acting([&](std::size_t i) {
-    RigidBody& body = body_at(i);
-    if (!(body.mass > 0) || !body.is_awake()) return;
-    const double speed = vector_of(dBodyGetLinearVel(body.id)).norm();
-    if (speed > BodyWorld::kFastest) body.slow(BodyWorld::kFastest / speed);
-    const bool is =
-        speed < kStillSpeed && vector_of(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
-    body.still = is ? body.still + dt : 0.0;
-    double& least = still[joints_->islands().island_of(i)];
-    least = std::min(least, body.still);
-  });
-  each_acting([&](std::size_t i) {
-    RigidBody& body = body_at(i);
-    if (!(body.mass > 0) || !body.is_awake()) return;
-    if (still[joints_->islands().island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) return;
-    body.slow(0.0);
-    dBodyDisable(body.id);
-  });
 }
 
 }  // namespace reckon::haptics

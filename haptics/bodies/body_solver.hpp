@@ -47,16 +47,8 @@ class BodySolver {
   BodySolver& operator=(const BodySolver&) = delete;
 
   [[nodiscard]] const BodySlots& slots() const noexcept { return *slots_; }
-  /// See BodySlots. Only while only() has all bodies.
-  std::size_t take_in(std::size_t body, BodySet pinned) noexcept {
-    return slots_->take_in(body, pinned);
-  }
-
-  /// See BodySlots.
-  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, auto&& visit) {
-    slots_->visit_asleep(slot, box, visit);
-  }
-
+  /// For changes of slots and modes: only while only() has all bodies.
+  [[nodiscard]] BodySlots& slots() noexcept { return *slots_; }
   /// Slots in use. The functions below take a slot.
   [[nodiscard]] std::size_t size() const noexcept { return slots_->size(); }
   [[nodiscard]] std::size_t body(std::size_t slot) const noexcept { return body_at(slot).number; }
@@ -136,7 +128,6 @@ class BodySolver {
   void book_lifted_ahead(double dt) noexcept;
   void meet_sleeping() noexcept;
   void take_out(double dt, std::span<BodyForce> forces) noexcept;
-  void rest(double dt) noexcept;
 
   StepHost host_;  // outlives the world
   dWorldID world_ = nullptr;

@@ -11,10 +11,19 @@ namespace reckon::haptics {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
+std::size_t BodyStates::copy_island(std::size_t body,
+                                    std::span<std::uint32_t> room) const noexcept {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < bodies.size() && count < room.size(); ++i)
+    if (bodies[i].island == bodies[body].island) room[count++] = i;
+  return count;
+}
+
 BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
                      std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
     : engine_(std::make_unique<BodyEngine>(plan, gravity, std::move(mover), work_space)),
       was_awake_(engine_->states().size(), 0) {
+  orders_.reserve(kMostOrders);
   // Reserves memory in each slot of the buffers.
   for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
     for (int i = 0; i < 3; ++i) {
@@ -30,9 +39,29 @@ BodyWorld::~BodyWorld() = default;
 // Publishes the last states here if not all hands have written: forces come before states.
 void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
   if (is_due_ && now != engine_->time()) publish();
+  if (has_orders() && engine_->is_before(now)) {
+    for (const BodyOrder& order : orders_) obey(0, order);
+    orders_.clear();
+    exchange_.take([this](std::uint64_t serial, const BodyOrder& order) { obey(serial, order); });
+  }
   if (!engine_->advance_to(now, frozen)) return;
   is_due_ = true;
   if (!engine_->has_hands()) publish();
+}
+
+bool BodyWorld::order(const BodyOrder& order) noexcept {
+  if (orders_.size() == kMostOrders) return false;
+  orders_.push_back(order);
+  return true;
+}
+
+void BodyWorld::obey(std::uint64_t serial, const BodyOrder& order) noexcept {
+  BodyEnd end{serial, order.body, false, engine_->time(), {}};
+  end.was_owned = engine_->obey(order, end.state);
+  if (!end.was_owned) ++ignored_;
+  if (serial == 0) return;
+  serial_ = serial;
+  if (order.act == BodyAct::disown) exchange_.answer(end);
 }
 
 void BodyWorld::publish() noexcept {
@@ -48,8 +77,8 @@ void BodyWorld::publish() noexcept {
 // Bodies without a slot have not moved since they lost it.
 void BodyWorld::bring_up_to_date(BodyStates& out) const noexcept {
   const std::span<const BodyState> states = engine_->states();
-  const std::uint64_t missed = engine_->left() - out.left;
-  const std::span<const std::uint32_t> left = engine_->last_left();
+  const std::uint64_t missed = engine_->woken().left() - out.left;
+  const std::span<const std::uint32_t> left = engine_->woken().last_left();
   if (out.bodies.size() != states.size() || missed > left.size()) {
     out.bodies.assign(states.begin(), states.end());
   } else {
@@ -58,8 +87,10 @@ void BodyWorld::bring_up_to_date(BodyStates& out) const noexcept {
       out.bodies[body] = states[body];
   }
   out.time = engine_->time();
-  out.left = engine_->left();
-  out.crowded = engine_->crowded();
+  out.left = engine_->woken().left();
+  out.crowded = engine_->woken().crowded();
+  out.serial = serial_;
+  out.ignored = ignored_;
 }
 
 void BodyWorld::trace_steps() noexcept {
@@ -80,6 +111,10 @@ std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,
                             const Vector3d& force) noexcept {
   return engine_->push(body, point, force);
 }
+bool BodyWorld::is_any_moving() const noexcept { return engine_->is_any_moving(); }
+bool BodyWorld::is_mixed() const noexcept { return engine_->is_mixed(); }
+void BodyWorld::keep_carried(std::size_t body) noexcept { engine_->keep_carried(body); }
+void BodyWorld::touch(std::uint32_t body) noexcept { engine_->touch(body); }
 std::size_t BodyWorld::add_hand() { return engine_->add_hand(); }
 std::span<const std::uint32_t> BodyWorld::near(std::size_t hand, const HandReach& reach,
                                                double period) noexcept {
@@ -112,6 +147,6 @@ double BodyWorld::energy() const noexcept { return engine_->solver().energy(); }
 double BodyWorld::taken_out() const noexcept { return engine_->solver().taken_out(); }
 std::uint64_t BodyWorld::approximated() const noexcept { return engine_->solver().approximated(); }
 std::uint64_t BodyWorld::coarse() const noexcept { return engine_->coarse(); }
-std::uint64_t BodyWorld::crowded() const noexcept { return engine_->crowded(); }
+std::uint64_t BodyWorld::crowded() const noexcept { return engine_->woken().crowded(); }
 
 }  // namespace reckon::haptics

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_exchange.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -25,7 +26,11 @@ namespace reckon::haptics {
 struct BodyState : ObjectMotion {
   std::uint32_t object = 0;  ///< index in the plan
   bool awake = true;
-  bool carried = false;  ///< pushes do not move it
+  bool carried = false;  ///< not owned by this peer: its mover moves it, and no push does
+  bool touched = false;  ///< by a hand of this peer, within the last 50 ms
+  /// A body of its contact island: the same for all its bodies, and for a carried body that touches
+  /// one of them. Itself while it sleeps or touches no body.
+  std::uint32_t island = 0;
 };
 
 struct BodySpring;
@@ -36,7 +41,13 @@ struct BodyStates {
   std::chrono::nanoseconds time{0};
   std::vector<BodyState> bodies;
   std::uint64_t crowded = 0;  ///< see BodyWorld
-  std::uint64_t left = 0;     ///< number of bodies that had lost their slots by then
+  std::uint64_t left = 0;     ///< see WokenBodies
+  std::uint64_t serial = 0;   ///< of the last transaction that took effect, see BodyExchange
+  std::uint64_t ignored = 0;  ///< orders without an effect, since the start
+
+  /// Copies the members of a body's island, ascending, as far as there is room. @return their
+  /// number
+  std::size_t copy_island(std::size_t body, std::span<std::uint32_t> room) const noexcept;
 };
 
 /// One body after a step.
@@ -56,6 +67,10 @@ using BodyRing = SpscRing<BodyStep>;
 /// exact step. Energy that it adds is taken out of the bodies' velocities in the same step, so a
 /// pile never gains energy. A body at rest for kSleep sleeps until it is pushed or hit.
 ///
+/// Each body is owned, and simulated here, or carried: its mover moves it, as the peer does that
+/// owns it. Orders change that at run time. An owned body begins in the given state and no other
+/// energy; bodies that it overlaps part at 0.1 m/s at most.
+///
 /// At most 64 bodies are active. A larger world starts asleep: a body that is pushed or near a
 /// moving one wakes; the others cost nothing. While 64 are awake, the others do not give way
 /// (crowded()).
@@ -72,10 +87,11 @@ class BodyWorld {
   /// Of a period: 8 hands of 8 probes, each in contact with 3 bodies and gripping one.
   static constexpr std::size_t kMostPushes = 256;
 
-  /// Bodies are the objects of the plan whose Matter has a mass. Carried objects follow their mover
-  /// and carry what lies on them. All others are static.
+  /// Bodies are the objects of the plan whose Matter has a mass; they are owned first, if they are
+  /// not carried in the plan. Carried objects follow their mover and carry what lies on them. All
+  /// others are static.
   /// @param plan only read here  @param gravity [m/s^2], S
-  /// @param mover of carried objects; null if there are none. Servo thread
+  /// @param mover of carried objects; null if there are none from the start. Servo thread
   /// @param work_space of bodies, or none
   /// @throws std::invalid_argument for an object that cannot be a body; names it and the remedy
   BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity,
@@ -88,6 +104,26 @@ class BodyWorld {
   /// without a call, it advances by 0.1 s.
   /// @param frozen the simulation is frozen: the time passes without motion
   void advance_to(std::chrono::nanoseconds now, bool frozen = false) noexcept;
+
+  /// Gives an order that takes effect at the begin of the next advance. @return false: too many
+  /// orders wait
+  bool order(const BodyOrder& order) noexcept;
+  bool own(std::uint32_t body, const ObjectMotion& state) noexcept {
+    return this->order({BodyAct::own, body, state});
+  }
+  bool disown(std::uint32_t body) noexcept { return this->order({BodyAct::disown, body}); }
+  /// Orders of another thread; they take effect at the same time.
+  [[nodiscard]] BodyExchange& exchange() noexcept { return exchange_; }
+  /// Whether orders wait for the next advance.
+  [[nodiscard]] bool has_orders() const noexcept { return !orders_.empty() || !exchange_.empty(); }
+  /// Whether an owned body is awake, or a carried one moves near an owned one.
+  [[nodiscard]] bool is_any_moving() const noexcept;
+  /// Whether there are owned and carried ones.
+  [[nodiscard]] bool is_mixed() const noexcept;
+  /// This peer never owns that body. Call before the first advance.
+  void keep_carried(std::size_t body) noexcept;
+  /// A hand touches a body; for BodyState::touched.
+  void touch(std::uint32_t body) noexcept;
 
   /// Applies `force` [N] at `point` [m] of a body until the next advance.
   /// @return the number of this push, for work(); kNoPush if there is no room for it
@@ -149,6 +185,9 @@ class BodyWorld {
   [[nodiscard]] std::uint64_t crowded() const noexcept;
 
  private:
+  static constexpr std::size_t kMostOrders = 256;  // between two advances, of this thread
+
+  void obey(std::uint64_t serial, const BodyOrder& order) noexcept;
   void publish() noexcept;
   void bring_up_to_date(BodyStates& out) const noexcept;
   void trace_steps() noexcept;
@@ -156,6 +195,9 @@ class BodyWorld {
   std::unique_ptr<BodyEngine> engine_;
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
+  BodyExchange exchange_;
+  std::vector<BodyOrder> orders_;
+  std::uint64_t serial_ = 0, ignored_ = 0;  // see BodyStates
   BodyRing* trace_ = nullptr;
   std::vector<char> was_awake_;  // by body, in the last step
   bool is_due_ = false;          // states are not published yet

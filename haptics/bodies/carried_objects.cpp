@@ -2,45 +2,84 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/carried_objects.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 namespace reckon::haptics {
+namespace {
 
-CarriedObjects::CarriedObjects(const EffectPlan& plan, const BodySolver& solver,
+constexpr double kJump = 0.002;     // [m], shorter ways are the corrections of a predicted pose
+constexpr double kExplained = 2.0;  // times the way at the mover's velocity
+
+}  // namespace
+
+CarriedObjects::CarriedObjects(const EffectPlan& plan, const BodySlots& slots,
                                std::shared_ptr<ObjectMover> mover)
     : mover_(std::move(mover)) {
-  const std::vector<BodyKind>& kinds = solver.slots().kinds();
-  for (std::size_t slot = 0; slot < solver.size(); ++slot) {
-    const std::uint32_t object = kinds[solver.body(slot)].object;
-    if (solver.is_carried(slot)) carried_.push_back({slot, object, plan.objects()[object].origin});
+  carried_.reserve(slots.kinds().size());
+  for (const BodyKind& kind : slots.kinds()) {
+    Carried& one = all_.emplace_back();
+    one.object = kind.object;
+    const PlannedObject& object = plan.objects()[kind.object];
+    one.origin = object.origin;
+    one.now = {object.position, Eigen::Quaterniond(object.orientation)};
+    one.may_jump = kind.can_be_owned;
+    if (kind.is_carried) carried_.push_back(static_cast<std::uint32_t>(kind.number));
   }
   if (!carried_.empty() && mover_ == nullptr)
     throw std::invalid_argument("objects below moving nodes need a mover");
 }
 
-void CarriedObjects::see(std::chrono::nanoseconds now) noexcept {
-  for (Carried& one : carried_) {
+void CarriedObjects::add(std::uint32_t body, const ObjectMotion& at) noexcept {
+  Carried& one = all_[body];
+  one.before = one.now = {at.position, at.orientation};
+  carried_.insert(std::ranges::lower_bound(carried_, body), body);
+  if (mover_ == nullptr) return;
+  ObjectMotion object = one.now;
+  object.position -= at.orientation * one.origin;
+  mover_->leave_at(one.object, object);
+}
+
+void CarriedObjects::see(std::chrono::nanoseconds now, double gap) noexcept {
+  for (const std::uint32_t body : carried_) {
+    Carried& one = all_[body];
     one.before = one.now;
+    if (mover_ == nullptr) continue;
     one.now = mover_->motion_of(one.object, now);
     const Eigen::Vector3d arm = one.now.orientation * one.origin;
     one.now.position += arm;
     one.now.velocity += one.now.turn_rate.cross(arm);
+    if (!one.may_jump) continue;
+    const double speed = std::max(one.before.velocity.norm(), one.now.velocity.norm());
+    one.jumps = (one.now.position - one.before.position).norm() > kJump + kExplained * speed * gap;
   }
 }
 
-void CarriedObjects::drive(BodySolver& solver, double gap) const noexcept {
-  for (const Carried& one : carried_) {
+bool CarriedObjects::is_moved(std::uint32_t body) const noexcept {
+  const Carried& one = all_[body];
+  return one.now.position != one.before.position ||
+         one.now.orientation.coeffs() != one.before.orientation.coeffs();
+}
+
+void CarriedObjects::drive(BodySlots& slots, double gap) const noexcept {
+  for (const std::uint32_t body : carried_) {
+    const std::size_t slot = slots.slot_of(body);
+    if (slot == BodySlots::kNone) continue;
+    const Carried& one = all_[body];
     ObjectMotion way = one.before;
     way.velocity = (one.now.position - one.before.position) / gap;
     const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
     way.turn_rate = turn.angle() / gap * turn.axis();
-    solver.carry(one.slot, way);
+    slots[slot].carry(one.jumps ? one.now : way);
   }
 }
 
-void CarriedObjects::put(BodySolver& solver) const noexcept {
-  for (const Carried& one : carried_) solver.carry(one.slot, one.now);
+void CarriedObjects::put(BodySlots& slots) const noexcept {
+  for (const std::uint32_t body : carried_) {
+    const std::size_t slot = slots.slot_of(body);
+    if (slot != BodySlots::kNone) slots[slot].carry(all_[body].now);
+  }
 }
 
 }  // namespace reckon::haptics

@@ -8,41 +8,58 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "reckon/haptics/bodies/body_solver.hpp"
+#include "reckon/haptics/bodies/body_slots.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 
 namespace reckon::haptics {
 
-/// Servo thread.
+/// Objects that the scene carries, and the bodies that this peer does not own. Servo thread;
+/// allocates at construction only.
 class CarriedObjects {
  public:
-  /// @param mover may be null if the plan has no carried objects
-  /// @throws std::invalid_argument if it has some and there is no mover
-  CarriedObjects(const EffectPlan& plan, const BodySolver& solver,
+  /// @param mover may be null if nothing is carried from the start; later ones then stand
+  /// @throws std::invalid_argument if something is carried and there is no mover
+  CarriedObjects(const EffectPlan& plan, const BodySlots& slots,
                  std::shared_ptr<ObjectMover> mover);
 
   [[nodiscard]] bool empty() const noexcept { return carried_.empty(); }
-  /// Reads their motion from the mover.
-  void see(std::chrono::nanoseconds now) noexcept;
+  /// The numbers of the carried bodies, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> bodies() const noexcept { return carried_; }
+  /// Carries a body, which stands at `at` until its mover moves it.
+  void add(std::uint32_t body, const ObjectMotion& at) noexcept;
+  void remove(std::uint32_t body) noexcept { std::erase(carried_, body); }
+  /// Reads their motion from the mover. @param gap [s] since the last call
+  void see(std::chrono::nanoseconds now, double gap) noexcept;
+  [[nodiscard]] const ObjectMotion& now(std::uint32_t body) const noexcept {
+    return all_[body].now;
+  }
+  /// Whether a body has another pose since the last see().
+  [[nodiscard]] bool is_moved(std::uint32_t body) const noexcept;
+  /// Whether the new pose of a body is farther than its velocity explains, as after an outage. It
+  /// strikes nothing on the way.
+  [[nodiscard]] bool has_jumped(std::uint32_t body) const noexcept { return all_[body].jumps; }
   /// In the next steps they move from their last to their present pose at constant velocity.
   /// @param gap [s] between the two
-  void drive(BodySolver& solver, double gap) const noexcept;
+  void drive(BodySlots& slots, double gap) const noexcept;
   /// Sets their present poses.
-  void put(BodySolver& solver) const noexcept;
+  void put(BodySlots& slots) const noexcept;
 
  private:
   struct Carried {
-    std::size_t slot = 0;
     std::uint32_t object = 0;
     Eigen::Vector3d origin =
         Eigen::Vector3d::Zero();  // of the shape's axes in the object's axes [m]
+    bool may_jump = false;        // a body of another peer
+    bool jumps = false;
     ObjectMotion before{}, now{};
   };
 
   std::shared_ptr<ObjectMover> mover_;
-  std::vector<Carried> carried_;
+  std::vector<Carried> all_;  // by body
+  std::vector<std::uint32_t> carried_;
 };
 
 }  // namespace reckon::haptics

@@ -29,6 +29,13 @@ bool is_carried_on(dBodyID body) noexcept {
   return body != nullptr && dBodyIsKinematic(body) && dBodyIsEnabled(body);
 }
 
+// A body of another peer that stands. A joint with it would join all islands that touch it.
+bool is_standing_body(dGeomID geom) noexcept {
+  const dBodyID body = dGeomGetBody(geom);
+  return body != nullptr && dBodyIsKinematic(body) && !dBodyIsEnabled(body) &&
+         BodyGeoms::matter_of(geom).matter.mass > 0;
+}
+
 Vector3d velocity_at(dBodyID body, const Vector3d& at) noexcept {
   if (body == nullptr) return Vector3d::Zero();
   return vector_of(dBodyGetLinearVel(body)) +
@@ -50,6 +57,7 @@ void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
 ContactJoints::ContactJoints(dWorldID world, IslandEnergy& energy)
     : world_(world), energy_(energy), joints_(dJointGroupCreate(0)) {
   driven_.reserve(kMostDriven);  // ODE keeps pointers to them
+  met_carried_.reserve(kMostDriven);
 }
 
 void ContactJoints::clear() noexcept {
@@ -57,6 +65,7 @@ void ContactJoints::clear() noexcept {
   islands_.clear();
   driven_.clear();
   met_.clear();
+  met_carried_.clear();
 }
 
 bool ContactJoints::have_met(dGeomID a, dGeomID b) const noexcept {
@@ -77,7 +86,7 @@ void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> plac
   if (places.empty()) return;
   met_.emplace_back(a, b);
   const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
-  note(first, second, places);
+  note(a, b, places);
   const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
   for (const dContactGeom& place : places) {
     dContact contact{};
@@ -100,13 +109,14 @@ void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> plac
       contact.surface.soft_cfm = kInstantSoftness;
     }
     const dJointID joint = dJointCreateContact(world_, joints_, &contact);
-    dJointAttach(joint, first, second);
+    dJointAttach(joint, is_standing_body(a) ? nullptr : first,
+                 is_standing_body(b) ? nullptr : second);
     note_driven(joint, first, second, contact);
   }
 }
 
-void ContactJoints::note(dBodyID first, dBodyID second,
-                         std::span<const dContactGeom> places) noexcept {
+void ContactJoints::note(dGeomID a, dGeomID b, std::span<const dContactGeom> places) noexcept {
+  const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
   const int count = static_cast<int>(places.size());
   double depth = 0.0;
   for (const dContactGeom& place : places) depth = std::max(depth, place.depth);
@@ -117,7 +127,11 @@ void ContactJoints::note(dBodyID first, dBodyID second,
   const bool is_first = !stands(first);
   const std::size_t slot = slot_of(is_first ? first : second);
   islands_.add(slot, count);
-  if (!is_carried_on(is_first ? second : first)) energy_.pin(slot);
+  const dBodyID other = is_first ? second : first;
+  const bool is_body = BodyGeoms::matter_of(is_first ? b : a).matter.mass > 0;
+  if (other != nullptr && is_body && met_carried_.size() < kMostDriven)
+    met_carried_.emplace_back(slot, slot_of(other));
+  if (!is_carried_on(other)) energy_.pin(slot);
 }
 
 void ContactJoints::note_driven(dJointID joint, dBodyID first, dBodyID second,

@@ -47,6 +47,10 @@ class ContactJoints {
   void remove() noexcept { dJointGroupEmpty(joints_); }
 
   [[nodiscard]] IslandEnergy::Islands& islands() noexcept { return islands_; }
+  /// Slots of a body and of the carried body of another peer that it touches.
+  [[nodiscard]] std::span<const std::pair<std::size_t, std::size_t>> met_carried() const noexcept {
+    return met_carried_;
+  }
   /// Bodies of `some` whose island has more than kMostExact contacts.
   [[nodiscard]] BodySet crowded(BodySet some, const BodySlots& slots) noexcept;
   /// Whether more than kMostExact contacts are with carried objects. ODE treats all bodies that
@@ -66,7 +70,7 @@ class ContactJoints {
         Eigen::Vector3d::Zero();  // [m/s], of the carried object at the contact
     dJointFeedback force{};
   };
-  void note(dBodyID first, dBodyID second, std::span<const dContactGeom> places) noexcept;
+  void note(dGeomID a, dGeomID b, std::span<const dContactGeom> places) noexcept;
   void note_driven(dJointID joint, dBodyID first, dBodyID second, const dContact& contact) noexcept;
 
   dWorldID world_;
@@ -75,6 +79,7 @@ class ContactJoints {
   IslandEnergy::Islands islands_;
   std::vector<Driven> driven_;
   std::vector<std::pair<dGeomID, dGeomID>> met_;
+  std::vector<std::pair<std::size_t, std::size_t>> met_carried_;
 };
 
 }  // namespace reckon::haptics

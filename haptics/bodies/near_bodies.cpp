@@ -38,7 +38,8 @@ void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies
   for (const std::uint32_t i : bodies.awake) {
     const BodyState& state = bodies.states[i];
     const double reach = hand.covers + radius_[i] + state.velocity.norm() * time;
-    const bool is_near = (state.position - hand.at.middle).squaredNorm() <= reach * reach;
+    const bool is_near =
+        state.carried || (state.position - hand.at.middle).squaredNorm() <= reach * reach;
     if (is_near && !std::isinf(radius_[i])) out.push_back(i);
   }
   const Vector3d about = Vector3d::Constant(hand.covers);
@@ -55,7 +56,7 @@ std::vector<double> radii_of_moving(const EffectPlan& plan) {
     const Vector3d least = object.bounds.min() - object.position;
     const Vector3d most = object.bounds.max() - object.position;
     const double radius = least.cwiseAbs().cwiseMax(most.cwiseAbs()).norm();
-    const bool is_always = object.carried || object.acts_from_afar();
+    const bool is_always = !object.is_body() || object.acts_from_afar();
     out.push_back(is_always ? std::numeric_limits<double>::infinity() : radius);
   }
   return out;

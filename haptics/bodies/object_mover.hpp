@@ -22,6 +22,11 @@ class ObjectMover {
   /// @return its pose in the scene, S, with the velocity of its origin
   [[nodiscard]] virtual ObjectMotion motion_of(std::uint32_t object,
                                                std::chrono::nanoseconds now) noexcept = 0;
+  /// This peer no longer owns a body: it stands at `motion` until its new owner's motion is known.
+  virtual void leave_at(std::uint32_t object, const ObjectMotion& motion) noexcept {
+    static_cast<void>(object);
+    static_cast<void>(motion);
+  }
 };
 
 }  // namespace reckon::haptics

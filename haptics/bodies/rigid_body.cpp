@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "reckon/haptics/bodies/body_world.hpp"
+
 namespace reckon::haptics {
 
 using Eigen::Quaterniond;
@@ -94,27 +96,71 @@ void RigidBody::slow(double factor) noexcept {
   dBodySetAngularVel(id, w.x(), w.y(), w.z());
 }
 
-void RigidBody::carry(const ObjectMotion& motion) noexcept {
+void RigidBody::put(const ObjectMotion& motion) noexcept {
   const Quaterniond& q = motion.orientation;
   const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-  dBodySetPosition(id, motion.position.x(), motion.position.y(), motion.position.z());
+  Vector3d place = motion.position, v = motion.velocity;
+  const Vector3d& w = motion.turn_rate;
+  if (!middle.isZero(0.0)) {
+    place += q * middle;
+    v += w.cross(q * middle);
+  }
+  dBodySetPosition(id, place.x(), place.y(), place.z());
   dBodySetQuaternion(id, turned);
-  const Vector3d &v = motion.velocity, &w = motion.turn_rate;
   dBodySetLinearVel(id, v.x(), v.y(), v.z());
   dBodySetAngularVel(id, w.x(), w.y(), w.z());
-  if (v.isZero(0.0) && w.isZero(0.0)) {
+}
+
+void RigidBody::carry(const ObjectMotion& motion) noexcept {
+  put(motion);
+  if (motion.velocity.isZero(0.0) && motion.turn_rate.isZero(0.0)) {
     dBodyDisable(id);
   } else {
     dBodyEnable(id);
   }
 }
 
+void RigidBody::wake() noexcept {
+  dBodyEnable(id);
+  still = 0.0;
+}
+
+void RigidBody::start(const ObjectMotion& motion) noexcept {
+  put(motion);
+  limit_speed();
+  dBodySetForce(id, 0, 0, 0);
+  dBodySetTorque(id, 0, 0, 0);
+  account = lag = 0.0;
+  clear_since = 0;
+  wake();
+}
+
+void RigidBody::strike(const Vector3d& impulse, const Vector3d& point) noexcept {
+  Eigen::Matrix3d own;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) own(i, k) = inertia.I[4 * i + k];
+  const Quaterniond q = turned();
+  const Vector3d arm = point - vector_of(dBodyGetPosition(id));
+  const Vector3d twist = q * own.ldlt().solve(q.conjugate() * arm.cross(impulse));
+  const Vector3d v = vector_of(dBodyGetLinearVel(id)) + impulse / mass;
+  const Vector3d w = vector_of(dBodyGetAngularVel(id)) + twist;
+  dBodySetLinearVel(id, v.x(), v.y(), v.z());
+  dBodySetAngularVel(id, w.x(), w.y(), w.z());
+  limit_speed();
+  wake();
+}
+
+// A greater rate of rotation has a greater energy, which a limit of the solver would not see.
+void RigidBody::limit_speed() noexcept {
+  const double speed = vector_of(dBodyGetLinearVel(id)).norm() / BodyWorld::kFastest;
+  const double rate = vector_of(dBodyGetAngularVel(id)).norm() / BodyWorld::kFastestTurn;
+  const double most = std::max(speed, rate);
+  if (most > 1.0) slow(1.0 / most);
+}
+
 void RigidBody::push(const Vector3d& place, const Vector3d& force,
                      const Vector3d& torque) noexcept {
-  if (force.squaredNorm() > 0 && !is_awake()) {
-    dBodyEnable(id);
-    still = 0.0;
-  }
+  if (force.squaredNorm() > 0 && !is_awake()) wake();
   const Vector3d point = vector_of(dBodyGetPosition(id)) + turned() * (place - middle);
   dBodyAddForceAtPos(id, force.x(), force.y(), force.z(), point.x(), point.y(), point.z());
   dBodyAddTorque(id, torque.x(), torque.y(), torque.z());

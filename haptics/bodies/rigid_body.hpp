@@ -26,10 +26,12 @@ struct BodyKind {
   std::size_t number = 0;    ///< number of the body
   std::uint32_t object = 0;  ///< index in the plan
   bool is_carried = false;
-  double effort = 1.0;  ///< cost of a step, over a box
-  double mass = 0.0;    ///< [kg]; 0: carried
-  double drag = 0.0;    ///< [N s/m]
-  double inner = 0.0;   ///< [m], radius of the largest ball around its center of mass inside it
+  bool can_be_owned = false;  ///< it has a mass; its mode may change
+  double effort = 1.0;        ///< cost of a step, over a box
+  double mass = 0.0;          ///< [kg]; 0: carried
+  double whole_mass = 0.0;    ///< [kg], while it is owned
+  double drag = 0.0;          ///< [N s/m]
+  double inner = 0.0;  ///< [m], radius of the largest ball around its center of mass inside it
   double least_inertia = 0.0;  ///< [kg m^2], least principal moment
   double account = 0.0;        ///< [J], see IslandEnergy
   dMass inertia{};
@@ -66,6 +68,7 @@ struct RigidBody : BodyKind {
   double still = 0.0;             ///< [s]
   bool flies = true;              ///< only its weight acts on it in this step
   double lag = 0.0;               ///< [s], time by which its velocity lags its position
+  std::size_t island = 0;         ///< a slot of its contact island in the last step; its own: none
   State before, kept;             ///< before the step; of BodySolver::keep()
   Eigen::AlignedBox3d clear;      ///< [m], S: box without inactive bodies, see BodySlots
   std::uint64_t clear_since = 0;  ///< number of additions at which `clear` was valid; 0: unknown
@@ -84,14 +87,24 @@ struct RigidBody : BodyKind {
   [[nodiscard]] double weight_energy(const Eigen::Vector3d& gravity) const noexcept;
   /// Kinetic and potential energy plus a positive account, see IslandEnergy [J].
   [[nodiscard]] double energy(const Eigen::Vector3d& gravity) const noexcept;
+  /// Puts an owned body into a state and wakes it, at most at BodyWorld's limits of speed.
+  void start(const ObjectMotion& motion) noexcept;
+  /// Makes it active.
+  void wake() noexcept;
   /// Sets pose and velocity of a carried object.
   void carry(const ObjectMotion& motion) noexcept;
   /// Applies a force; if it is not zero, wakes the body. @param place in the axes of its shape [m]
   /// @param force [N]  @param torque [N m], S, for the next step
   void push(const Eigen::Vector3d& place, const Eigen::Vector3d& force,
             const Eigen::Vector3d& torque) noexcept;
+  /// Gives it an impulse [N s] at a point [m], S, and wakes it.
+  void strike(const Eigen::Vector3d& impulse, const Eigen::Vector3d& point) noexcept;
   /// Multiplies its velocities.
   void slow(double factor) noexcept;
+
+ private:
+  void put(const ObjectMotion& motion) noexcept;
+  void limit_speed() noexcept;
 };
 
 }  // namespace reckon::haptics

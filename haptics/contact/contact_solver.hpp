@@ -65,6 +65,9 @@ class ContactSolver {
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     moving_.place(body, motion, before, contacts_);
   }
+  /// Sets whether a mover carries a moving object now, see carried_work().
+  void set_carried(std::uint32_t body, bool is) noexcept { moving_.set_carried(body, is); }
+  [[nodiscard]] bool is_carried(std::uint32_t i) const noexcept { return objects_[i]->carried; }
   /// Velocity of an object's material point at `point` [m, S], [m/s]; zero for a static object.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
                                             const Eigen::Vector3d& point) const noexcept {
@@ -74,9 +77,7 @@ class ContactSolver {
   /// of the storage from the motion of the surfaces.
   [[nodiscard]] double carried_work() const noexcept { return moving_.carried_work(contacts_); }
   /// Time by which an object's velocity lags its position [s]; see ObjectMotion::step.
-  [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept {
-    return moving_.ahead_of(index);
-  }
+  [[nodiscard]] double ahead_of(std::uint32_t i) const noexcept { return moving_.ahead_of(i); }
   /// The next placed object from `next` on that the probe does not touch, but may touch within
   /// `time` [s] at this velocity [m/s]. @return std::nullopt: none
   [[nodiscard]] std::optional<NearBody> near_body(std::size_t& next,

@@ -54,6 +54,10 @@ class MovingObjects {
 
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before,
              std::span<const ObjectContact> contacts) noexcept;
+  /// See PlannedObject::carried.
+  void set_carried(std::uint32_t body, bool is_carried) noexcept {
+    moving_[body].now.carried = is_carried;
+  }
   /// Ends a round of place() and step(), even if the step was impossible.
   void next_round() noexcept { forget_placed(round_++); }
 

@@ -144,8 +144,7 @@ template <int axes>
 bool StaticContactOf<axes>::touches_others_body(const EffectPlan& plan) const noexcept {
   for (std::size_t probe = 0; probe < size(); ++probe) {
     for (const std::uint32_t index : walls_[probe]->result().touched) {
-      const PlannedObject& object = plan.objects()[index];
-      if (object.carried && object.matter.mass > 0) return true;
+      if (walls_[probe]->is_carried(index) && plan.objects()[index].is_body()) return true;
     }
   }
   return false;

@@ -52,6 +52,10 @@ class StaticContactOf {
       if (grabs_[i].holds() && grabs_[i].body() == body) grabs_[i].place(motion);
     }
   }
+  /// Sets whether a mover carries a moving object now.
+  void set_carried(std::uint32_t body, bool is_carried) noexcept {
+    for (std::size_t i = 0; i < size(); ++i) walls_[i]->set_carried(body, is_carried);
+  }
   /// Sets the predicted change of the force of bodies' springs at a probe in the next sample [N];
   /// for the next load().
   void foresee(std::size_t probe, const Eigen::Vector3d& change) noexcept {

@@ -38,6 +38,12 @@ class WallContact {
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     solver_.place(body, motion, before);
   }
+  void set_carried(std::uint32_t body, bool is_carried) noexcept {
+    solver_.set_carried(body, is_carried);
+  }
+  [[nodiscard]] bool is_carried(std::uint32_t index) const noexcept {
+    return solver_.is_carried(index);
+  }
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 

@@ -56,14 +56,14 @@ struct PlannedObject {
   std::shared_ptr<const SurfacePatches> patches;
   Matter matter;
   GrabSpring grab;       ///< of a body: it sticks to the hand that touches it
-  bool carried = false;  ///< by an ObjectMover
+  bool carried = false;  ///< by an ObjectMover; if it has a mass, until its peer owns it
   /// For a body, the result of least_mass_of() [kg]; infinite if no effect depends on its velocity.
   double least_mass = std::numeric_limits<double>::infinity();
 
   /// Whether it moves; its pose here is then the initial one.
   [[nodiscard]] bool moves() const noexcept { return is_body() || carried; }
-  /// Whether pushes and its weight move it.
-  [[nodiscard]] bool is_body() const noexcept { return matter.mass > 0 && !carried; }
+  /// Whether pushes and its weight move it while its peer owns it.
+  [[nodiscard]] bool is_body() const noexcept { return matter.mass > 0; }
   /// Takes another pose. @param at [m], S
   void place(const Eigen::Vector3d& at, const Eigen::Matrix3d& turned) noexcept;
   /// Stiffness of all its springs together [N/m]; with patches, of the stiffest one.

@@ -57,8 +57,8 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
   for (const BodyState& body : world_->states()) {
     const PlannedObject& object = plan.objects()[body.object];
     const auto held = [&](const GrabSpring& spring) {
-      return body.carried ? GrabSpring{}
-                          : held_by(spring, object.matter.mass, period, stiffness_cap);
+      return object.is_body() ? held_by(spring, object.matter.mass, period, stiffness_cap)
+                              : GrabSpring{};
     };
     body_of_[body.object] = static_cast<std::uint32_t>(holds_.size());
     holds_.push_back({held(config.grab), held(object.grab)});
@@ -124,8 +124,9 @@ void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes
   placed_ = 0;
   const auto put = [&](std::size_t body) {
     ++placed_;
-    contacts.place(static_cast<std::uint32_t>(body), world_->states()[body],
-                   world_->state_before(body));
+    const auto number = static_cast<std::uint32_t>(body);
+    contacts.set_carried(number, world_->states()[body].carried);
+    contacts.place(number, world_->states()[body], world_->state_before(body));
   };
   reach_ = reach_of(tool, contacts);
   for (const std::uint32_t body : world_->near(hand_, reach_, period)) put(body);
@@ -137,7 +138,10 @@ template <int axes>
 void PressedBodiesOf<axes>::place_all(StaticContactOf<axes>& contacts) const noexcept {
   if (!world_) return;
   const std::span<const BodyState> states = world_->states();
-  for (std::uint32_t i = 0; i < states.size(); ++i) contacts.place(i, states[i], states[i]);
+  for (std::uint32_t i = 0; i < states.size(); ++i) {
+    contacts.set_carried(i, states[i].carried);
+    contacts.place(i, states[i], states[i]);
+  }
 }
 
 template <int axes>
@@ -147,7 +151,9 @@ void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>
   const bool is_pressed = (pressed & buttons_) != 0;
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     Grab& grab = contacts.grab(probe);
-    if (grab.tears() || (grab.holds() && by_[probe] && !is_pressed)) grab.release(ledger);
+    const bool is_gone = grab.holds() && world_->states()[grab.body()].carried;
+    if (is_gone || grab.tears() || (grab.holds() && by_[probe] && !is_pressed))
+      grab.release(ledger);
     if (!grab.holds()) take(tool, contacts, probe, is_pressed);
   }
 }
@@ -161,7 +167,7 @@ void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>
   double most = 0.0;
   for (const std::uint32_t object : touched.touched) {
     const std::uint32_t i = body_of_[object];
-    if (i == kNoBody) continue;
+    if (i == kNoBody || states[i].carried) continue;
     const double force = touched.objects[object].force.norm();
     const Hold& hold = holds_[i];
     const bool by_button = pressed && hold.by_button.stiffness > 0;
@@ -218,6 +224,7 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
 template <int axes>
 void PressedBodiesOf<axes>::press_held(const Grab& grab, std::size_t probe,
                                        const Vector3d& velocity) noexcept {
+  world_->touch(static_cast<std::uint32_t>(grab.body()));
   BodySpring spring;
   spring.body = grab.body();
   spring.point = grab.point();
@@ -239,6 +246,7 @@ template <int axes>
 void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, std::uint32_t object,
                                   BodySpring spring) noexcept {
   const std::uint32_t body = body_of_[object];
+  if (!(spring.gap > 0)) world_->touch(body);
   if (world_->states()[body].carried) return;
   spring.body = body;
   spring.stiffness = walls.stiffness_of(object);

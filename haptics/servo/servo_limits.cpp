@@ -95,10 +95,14 @@ std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies, con
                                           const ServoConfig& config) {
   if (!plan.has_moving()) return nullptr;
   require(bodies != nullptr, "a scene with moving objects needs a BodyWorld");
+  std::size_t next = 0;
   for (const PlannedObject& object : plan.objects()) {
+    const std::size_t body = next;
+    next += object.moves() ? 1 : 0;
     if (!object.is_body()) continue;
     const double most = stiffest_push(object.matter.mass, pdu::to_seconds(config.period));
-    require(object.stiffness() <= most,
+    if (object.carried && object.stiffness() > most) bodies->keep_carried(body);
+    require(object.carried || object.stiffness() <= most,
             "body '" + object.name + "' of " + std::to_string(object.matter.mass) +
                 " kg is too light for its stiffness of " + std::to_string(object.stiffness()) +
                 " N/m at this rate: at most " + std::to_string(most) +

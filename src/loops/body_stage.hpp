@@ -15,6 +15,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/stepped_bodies.hpp"
 #include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/peer_view.hpp"
@@ -27,7 +28,10 @@ namespace reckon::peer {
 class BodyStage {
  public:
   explicit BodyStage(const ModelWiring& wiring)
-      : scene_(wiring.scene), own_(wiring.own_bodies), mover_(wiring.mover) {
+      : scene_(wiring.scene),
+        own_(wiring.own_bodies),
+        stepped_(wiring.stepped),
+        mover_(wiring.mover) {
     std::size_t moving = 0;
     for (const haptics::SceneObject& object : scene_.scene.objects) {
       const bool is_body = object.matter.mass > 0 && !object.carried;
@@ -54,16 +58,20 @@ class BodyStage {
         static_cast<void>(owned.add_body(number, description, body_id(body.number), ownership));
     }
   }
-  /// Moves these entities, by move(number, truth). A sleeping one keeps its last state, which its
-  /// heartbeat repeats.
-  void move_own(const OwnedEntities& owned, auto&& move) noexcept {
+  /// Steps the bodies, if no servo does, and moves these entities, by move(number, truth). A
+  /// sleeping one keeps its last state, which its heartbeat repeats.
+  void move_own(std::chrono::nanoseconds now, const OwnedEntities& owned, auto&& move) noexcept {
+    if (stepped_ != nullptr) {
+      const OwnedEntity* first = owned.find(owned.first_id().entity);
+      stepped_->step(now, first != nullptr && first->is_frozen());
+    }
     if (own_ == nullptr || !own_->update()) return;
     const haptics::BodyStates& states = own_->read();
     for (std::size_t i = 0; i < states.bodies.size(); ++i) {
       const auto number = static_cast<EntityNumber>(first_ + i);
       const OwnedEntity* entity = owned.find(number);
-      if (entity == nullptr) continue;
       const haptics::BodyState& body = states.bodies[i];
+      if (entity == nullptr || body.carried) continue;
       if (body.awake || !entity->is_resting() || entity->truth().position != body.position)
         move(number, truth_of(body, states.time));
     }
@@ -103,6 +111,10 @@ class BodyStage {
   [[nodiscard]] const aoim::BodyOwners* owners() const noexcept {
     return scene_.network.interop ? nullptr : &owners_;
   }
+  /// When move_own() is due if no servo steps the bodies.
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
+    return stepped_ != nullptr ? stepped_->next_step() : std::chrono::nanoseconds::max();
+  }
   [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
   /// Writes their number, and the number of awake ones.
   void show(PeerView& view) const noexcept {
@@ -140,7 +152,8 @@ class BodyStage {
   const SceneFile& scene_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: none are ours
   EntityNumber first_ = 0;
-  BodyMover* mover_;          // null: nothing is carried
+  SteppedBodies* stepped_;    // null: servos step the bodies
+  BodyMover* mover_;          // null: nothing is or will be carried
   std::vector<Body> bodies_;  // of the scene, of any owner
   BodyOwner owner_;
   aoim::BodyOwners owners_;

@@ -107,8 +107,7 @@ void ModelLoop::read_sensors() noexcept {
   doubt_silent_peers();
   remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
-  bodies_.move_own(owned_,
-                   [this](EntityNumber number, const EntityTruth& truth) { move(number, truth); });
+  bodies_.move_own(pass_.now, owned_, [this](EntityNumber n, const EntityTruth& t) { move(n, t); });
 }
 
 void ModelLoop::do_tasks() noexcept {

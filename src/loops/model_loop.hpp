@@ -108,7 +108,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), assured_.next_step(), view_.next(), owned_.next_due(),
-                     tracked_.next_due()});
+                     tracked_.next_due(), bodies_.next_step()});
   }
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.

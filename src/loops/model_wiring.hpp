@@ -18,6 +18,7 @@
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
+#include "reckon/peer/loops/stepped_bodies.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
@@ -45,7 +46,8 @@ struct ModelWiring {
   haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< for the read loop; may be null
   haptics::TripleBuffer<haptics::BodyStates>* own_bodies = nullptr;  ///< bodies that this peer
                                                                      ///< sends; may be null
-  BodyMover* mover = nullptr;  ///< moves carried objects; may be null
+  SteppedBodies* stepped = nullptr;  ///< bodies that no servo steps; may be null
+  BodyMover* mover = nullptr;        ///< moves carried objects; may be null
   /// Fault reports of the program's own effects, from the servos.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
   std::span<const NamedHooks> mechanisms = {};  ///< of the program; only for the construction

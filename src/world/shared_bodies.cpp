@@ -69,7 +69,8 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
   const auto place = static_cast<std::size_t>(found - bodies_.begin());
   const ShownBodies& shown = shown_.read();
   haptics::ObjectMotion& last = found->last;
-  if (place >= shown.rows.size() || shown.known[place] != ShownBodies::Known::here) {
+  if (found->left && *found->left != shown.rows[place].entity().version) found->left.reset();
+  if (found->left || place >= shown.rows.size() || shown.known[place] != ShownBodies::Known::here) {
     last.velocity.setZero();
     last.turn_rate.setZero();
     return last;
@@ -80,6 +81,15 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
   last.velocity = pose.velocity;
   last.turn_rate = pose.orientation * pose.angular_velocity;
   return last;
+}
+
+void BodyMover::leave_at(std::uint32_t object, const haptics::ObjectMotion& motion) noexcept {
+  (void)shown_.update();
+  const auto found = std::ranges::find(bodies_, object, &Body::object);
+  if (found == bodies_.end()) return;
+  const auto place = static_cast<std::size_t>(found - bodies_.begin());
+  found->last = motion;
+  found->left = shown_.read().rows[place].entity().version;
 }
 
 haptics::ObjectMotion BodyMover::by_time(NodeIndex node, nanoseconds now) noexcept {

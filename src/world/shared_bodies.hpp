@@ -61,6 +61,8 @@ class BodyMover final : public haptics::ObjectMover {
 
   [[nodiscard]] haptics::ObjectMotion motion_of(std::uint32_t object,
                                                 std::chrono::nanoseconds now) noexcept override;
+  /// The body stands until an update of another peer comes after this call.
+  void leave_at(std::uint32_t object, const haptics::ObjectMotion& motion) noexcept override;
   /// Written by the model loop.
   [[nodiscard]] haptics::TripleBuffer<ShownBodies>& shown() noexcept { return shown_; }
   /// Universal time minus the time of the servos; from the model loop.
@@ -73,6 +75,7 @@ class BodyMover final : public haptics::ObjectMover {
     std::uint32_t object = 0;
     NodeIndex node = kNoNode;  // below a time function
     haptics::ObjectMotion last;
+    std::optional<std::uint32_t> left;  // version of the row that leave_at() found, until the next
   };
   [[nodiscard]] haptics::ObjectMotion by_time(NodeIndex node,
                                               std::chrono::nanoseconds now) noexcept;

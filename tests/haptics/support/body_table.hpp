@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "reckon/haptics/bodies/body_world.hpp"
 
@@ -47,9 +48,10 @@ class Table {
     scene_.work_space.size = size;
     scene_.work_space.restitution = restitution;
   }
-  BodyWorld& begin() {
+  BodyWorld& begin(std::shared_ptr<ObjectMover> mover = nullptr) {
     plan_.emplace(scene_);
-    world_ = std::make_unique<BodyWorld>(*plan_, scene_.gravity, nullptr, scene_.work_space);
+    world_ =
+        std::make_unique<BodyWorld>(*plan_, scene_.gravity, std::move(mover), scene_.work_space);
     world_->advance_to(now_);
     return *world_;
   }
@@ -57,6 +59,8 @@ class Table {
     const auto steps = std::llround(seconds / (1e-9 * static_cast<double>(step.count())));
     for (long i = 0; i < steps; ++i) world_->advance_to(now_ += step);
   }
+  [[nodiscard]] nanoseconds now() const { return now_; }
+  [[nodiscard]] BodyWorld& world() { return *world_; }
   [[nodiscard]] const BodyState& state(std::size_t body = 0) const {
     return world_->states()[body];
   }
