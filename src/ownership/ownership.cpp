@@ -10,16 +10,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kSlowRound = milliseconds(500);
-constexpr nanoseconds kFound = milliseconds(1200);       // without an older peer
-constexpr nanoseconds kActive = milliseconds(1000);      // after the last active round
-constexpr nanoseconds kQuietVoter = milliseconds(1200);  // then rounds are fast
-constexpr nanoseconds kShortLease = milliseconds(1300);  // then rounds are fast
-constexpr nanoseconds kDecidedGap = milliseconds(30);
-constexpr nanoseconds kTableGap = milliseconds(150), kDiffers = milliseconds(100);
-constexpr nanoseconds kThreat = milliseconds(1000);
-constexpr std::uint32_t kMostAttempts = 1000;    // ahead of those known here
-constexpr std::uint32_t kMostMissed = 1U << 16;  // acts
+constexpr nanoseconds kFound = milliseconds(1200);  // without an older peer
+constexpr std::uint32_t kMostAttempts = 1000;       // ahead of those known here
+constexpr std::uint32_t kMostMissed = 1U << 16;     // acts
 
 }  // namespace
 
@@ -36,11 +29,14 @@ void Ownership::receive(std::uint32_t from, const OwnershipMessage& message, nan
         if constexpr (std::is_same_v<Message, Round> || std::is_same_v<Message, Proposal> ||
                       std::is_same_v<Message, Vote>) {
           receive(sent, from, now);
-        } else if constexpr (std::is_same_v<Message, Refusal> ||
-                             std::is_same_v<Message, Agreement>) {
-          hand_overs_.receive(sent, from);
+        } else if constexpr (std::is_same_v<Message, Refusal>) {
+          granting_.receive(sent, from);
+        } else if constexpr (std::is_same_v<Message, Request>) {
+          granting_.receive(sent, from, now);
+        } else if constexpr (std::is_same_v<Message, Agreement>) {
+          taking_.receive(sent, from);
         } else {
-          hand_overs_.receive(sent, from, now);
+          taking_.receive(sent, from, now);
         }
       },
       message);
@@ -53,7 +49,7 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   if (round != nullptr && round->act == 0) {
     chair_.note_newcomer(from, world, now);
     core_.leases.receive(from, round->round, now);
-    if (core_.acts.exists()) send_decided(from, now);
+    if (core_.acts.exists()) rounds_.send_decided(from, now);
     return false;
   }
   if (!world.exists()) return false;
@@ -70,7 +66,9 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
 }
 
 void Ownership::merge(const WorldId& older) {
-  hand_overs_.drop_all(OwnerChange::merged);
+  rows_.drop_all(OwnerChange::merged);
+  granting_.clear();
+  taking_.clear();
   core_.acts.clear();
   core_.table.clear();
   chair_.end();
@@ -84,10 +82,9 @@ void Ownership::found_if_due(nanoseconds now) {
   if (!core_.acts.exists() && core_.world.exists() && now - joined_ > LeaseBook::kDead)
     core_.world = {};
   if (!core_.config.votes || core_.world.exists() || now - started_ < kFound) return;
-  const WorldId own{core_.config.started + founded_, core_.config.epoch};
-  if (chair_.is_preceded(own, now)) return;
-  core_.world = own;
-  ++founded_;
+  if (chair_.is_preceded(core_.to_found, now)) return;
+  core_.world = core_.to_found;
+  ++core_.to_found.founded;
   Act act;
   act.number = 1;
   act.chair = core_.config.epoch;
@@ -109,159 +106,7 @@ void Ownership::go_alone(std::uint32_t utc, nanoseconds now) {
   decide(act, now);
 }
 
-// Rounds
-
-void Ownership::receive(const Round& round, std::uint32_t from, nanoseconds now) {
-  core_.leases.receive(from, round.round, now);
-  if (round.is_active) active_at_ = now;
-  if (round.yields_to != 0) chair_.note_leaving(from, round.yields_to, now);
-  const std::size_t place = core_.acts.decided().roll.index_of(from);
-  if (place != Roll::kNone) tables_[place] = round.table;
-  note_round(round, from, now);
-  compare_tables(round, from, now);
-}
-
-void Ownership::note_round(const Round& round, std::uint32_t from, nanoseconds now) {
-  const ActBook& acts = core_.acts;
-  if (round.act < acts.decided().number ||
-      (round.act == acts.decided().number && !round.is_decided))
-    return send_decided(from, now);
-  const bool is_same = round.act == acts.newest().number && round.hash == acts.hash();
-  const std::size_t place = acts.newest().roll.index_of(core_.config.epoch);
-  if (is_same && place != Roll::kNone) core_.leases.confirm(from, round.heard[place], now);
-  if (!acts.decided().roll.contains(from) && round.act == acts.decided().number)
-    chair_.note_newcomer(from, {~0U, from}, now);
-}
-
-// Tables that differ for some time are sent; soon only by the more senior of two peers.
-void Ownership::compare_tables(const Round& round, std::uint32_t from, nanoseconds now) {
-  if (!core_.acts.exists() || round.table == core_.table.hash()) return;
-  if (now - differed_ > 2 * kSlowRound) differs_since_ = now;
-  differed_ = now;
-  const Roll& roll = core_.acts.decided().roll;
-  const bool is_senior = roll.index_of(core_.config.epoch) < roll.index_of(from);
-  const bool is_due =
-      now - differs_since_ >= (is_senior ? kDiffers : 3 * kDiffers) || round.table == 0;
-  if (is_due && now - table_sent_ >= kTableGap) send_table(now);
-}
-
-void Ownership::send_table(nanoseconds now) {
-  table_sent_ = now;
-  TableExtract extract;
-  for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (core_.table[i] == Tenure{}) continue;
-    extract.holdings.add(i, core_.table[i]);
-    if (extract.holdings.count < kMostHoldings) continue;
-    core_.send(0, extract);
-    extract.holdings = {};
-  }
-  if (extract.holdings.count > 0) core_.send(0, extract);
-}
-
-void Ownership::send_decided(std::uint32_t to, nanoseconds now) {
-  if (now - decided_sent_ < kDecidedGap) return;
-  decided_sent_ = now;
-  Proposal decided;
-  decided.act = core_.acts.decided();
-  decided.is_decided = true;
-  core_.send(to, decided);
-}
-
-// This peer agrees to be removed once a majority knows to whom it has given objects.
-std::uint32_t Ownership::yields_to(nanoseconds now) noexcept {
-  if (!core_.is_leaving && !complies_) {
-    hand_overs_.open();
-    return 0;
-  }
-  hand_overs_.close();
-  const std::uint32_t table = core_.table.hash();
-  const Roll& roll = core_.acts.decided().roll;
-  const bool is_known = roll.is_majority([&](const Voter& voter) {
-    return voter.epoch == core_.config.epoch || tables_[roll.index_of(voter.epoch)] == table;
-  });
-  if (hand_overs_.has_granted(now) && (!is_known || hand_overs_.is_granting())) return 0;
-  return core_.is_leaving ? kAnyAct : threat_.act;
-}
-
-bool Ownership::is_active(nanoseconds now) const {
-  if (core_.user.is_any_awake() || hand_overs_.is_busy()) return true;
-  if (core_.acts.pending() != nullptr || core_.is_leaving) return true;
-  if (hand_overs_.held().any() && core_.lease_end(now) - now < kShortLease) return true;
-  return std::ranges::any_of(core_.acts.decided().roll.voters(), [&](const Voter& voter) {
-    return voter.epoch != core_.config.epoch &&
-           now - core_.leases.silent_since(voter.epoch) > kQuietVoter;
-  });
-}
-
-void Ownership::send_round(nanoseconds now) {
-  if (!core_.config.votes) return;
-  const bool is_active_here = is_active(now);
-  const bool is_fast = is_active_here || now - active_at_ < kActive || !is_voter();
-  if (now - round_at_ < (is_fast ? LeaseBook::kRound : kSlowRound)) return;
-  round_at_ = now;
-  const Act& act = core_.acts.newest();
-  Round round;
-  round.act = core_.acts.exists() ? act.number : 0;
-  round.hash = core_.acts.hash();
-  round.table = core_.table.hash();
-  round.round = core_.leases.round(now);
-  round.is_decided = core_.acts.pending() == nullptr;
-  round.is_active = is_active_here;
-  round.has_lease = core_.has_lease(now);
-  round.yields_to = yields_to(now);
-  agrees_ = round.yields_to != 0;
-  const auto voters = act.roll.voters();
-  for (std::size_t i = 0; i < voters.size(); ++i)
-    round.heard[i] = core_.leases.round_of(voters[i].epoch, now);
-  core_.send(0, round);
-  if (core_.acts.exists()) return;
-  std::get<Round>(core_.out.back().message).world = {core_.config.started + founded_,
-                                                     core_.config.epoch};
-}
-
 // Acts
-
-bool Ownership::accepts_removals(const Act& act, nanoseconds now) const {
-  const Act& last = core_.acts.decided();
-  for (const Voter& voter : last.roll.voters()) {
-    const bool is_removed = !act.roll.contains(voter.epoch);
-    if (is_removed != act.removes(voter.epoch)) return false;
-    if (!is_removed) continue;
-    const bool is_own = voter.epoch == core_.config.epoch;
-    const bool agrees = is_own ? agrees_ : chair_.leaves(voter.epoch, act.number, now);
-    const bool is_dead =
-        !is_own && now - core_.leases.silent_since(voter.epoch) >= LeaseBook::kDead;
-    if (!agrees && !is_dead) return false;
-  }
-  return act.chair == last.chair || act.removes(last.chair);
-}
-
-// An object is given only if its owner is removed or silent, or has released it, and if this peer
-// knows of no newer owner than the proposer.
-bool Ownership::accepts_gifts(const Proposal& proposal, nanoseconds now) {
-  const Act& act = proposal.act;
-  if (act.given.none()) return true;
-  if (now - core_.leases.restarted() < LeaseBook::kDead) return false;
-  for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (!act.given[i]) continue;
-    const std::uint32_t owner = core_.table[i].owner;
-    const bool is_silent =
-        owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
-    if (act.roll.contains(owner) && !is_silent) return false;
-  }
-  if (core_.table.digest(act.given) == proposal.digest) return true;
-  if (now - table_sent_ >= kTableGap / 3) send_table(now);
-  return false;
-}
-
-bool Ownership::accepts(const Proposal& proposal, nanoseconds now) {
-  const Act& act = proposal.act;
-  if (!core_.acts.may_accept(act, proposal.ballot, proposal.seen)) return false;
-  const bool is_known = core_.acts.pending() != nullptr && core_.acts.hash() == act.hash() &&
-                        core_.acts.pending()->number == act.number;
-  if (!act.roll.contains(act.chair)) return false;
-  return is_known || (accepts_removals(act, now) && accepts_gifts(proposal, now));
-}
 
 void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanoseconds now) {
   const Act& last = core_.acts.decided();
@@ -270,7 +115,7 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
     if (proposal.act.number > last.number && is_near) decide(proposal.act, now);
     return;
   }
-  if (proposal.act.number <= last.number) return send_decided(from, now);
+  if (proposal.act.number <= last.number) return rounds_.send_decided(from, now);
   if (proposal.act.number > last.number + 1 || !core_.acts.exists()) return;
   const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts &&
                        proposal.ballot.proposer == from;
@@ -278,7 +123,7 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
       last.roll.contains(core_.config.epoch) || proposal.act.roll.contains(core_.config.epoch);
   if (!is_sane || !may_vote || !(last.roll.contains(from) || proposal.act.roll.contains(from)))
     return;
-  if (accepts(proposal, now)) {
+  if (voting_.accepts(proposal, now)) {
     if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
     core_.acts.accept(proposal.act, proposal.ballot, now);
     Vote vote;
@@ -286,7 +131,7 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
     vote.ballot = proposal.ballot;
     return core_.send(from, vote);
   }
-  note_threat(proposal.act, now);
+  voting_.note_threat(proposal.act, now);
   if (const Act* pending = core_.acts.pending()) {
     Proposal other;
     other.act = *pending;
@@ -313,51 +158,22 @@ void Ownership::decide(const Act& act, nanoseconds now) {
     ours[i] = act.chair == core_.config.epoch;
   }
   if (is_first) leased_ = now;
-  hand_overs_.follow_act(lease_end);
+  rows_.follow_act(lease_end);
   if (!is_voter()) core_.table.clear();
   chair_.end();
-  tables_.fill(0);
-  complies_ = false;
-  threat_ = {};
-  decided_sent_ = kNever;
+  rounds_.follow_act();
+  voting_.follow_act();
   if (ours.any()) {
     core_.counts.adopted += is_first ? 0 : ours.count();
-    hand_overs_.gain(ours, is_first ? OwnerChange::founded : OwnerChange::adopted);
+    rows_.gain(ours, is_first ? OwnerChange::founded : OwnerChange::adopted);
   }
-}
-
-// A proposal that we refuse, and that others may have accepted, blocks all later acts. After a
-// while we give it what it takes.
-void Ownership::note_threat(const Act& act, nanoseconds now) noexcept {
-  const ObjectSet taken = act.given & hand_overs_.held();
-  const bool removes = act.removes(core_.config.epoch);
-  if (!removes && taken.none()) return;
-  if (threat_.act != act.number || now - threat_.seen > kThreat) {
-    threat_ = {};
-    threat_.act = act.number;
-    threat_.since = now;
-  }
-  threat_.seen = now;
-  threat_.removes = threat_.removes || removes;
-  threat_.takes |= taken;
-}
-
-void Ownership::comply(nanoseconds now) {
-  if (const Act* pending = core_.acts.pending()) note_threat(*pending, now);
-  const bool is_open = threat_.act == core_.acts.decided().number + 1;
-  complies_ = complies_ && is_open;
-  // With a lease, a majority is on our side.
-  if (!is_open || now - threat_.since < kThreat || now - leased_ < kThreat) return;
-  complies_ = complies_ || threat_.removes;
-  const ObjectSet taken = threat_.takes & hand_overs_.held();
-  if (taken.any()) hand_overs_.release(taken);
 }
 
 void Ownership::propose(nanoseconds now) {
   const Proposal* proposal = chair_.step(now);
   if (proposal == nullptr) return;
   const Proposal sent = *proposal;
-  if (!accepts(sent, now)) return;
+  if (!voting_.accepts(sent, now)) return;
   if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
   core_.acts.accept(sent.act, sent.ballot, now);
   core_.send(0, sent);
@@ -365,7 +181,7 @@ void Ownership::propose(nanoseconds now) {
   own.act = sent.act.number;
   own.ballot = sent.ballot;
   receive(own, core_.config.epoch, now);
-  if (core_.acts.pending() == nullptr) send_decided(0, now);
+  if (core_.acts.pending() == nullptr) rounds_.send_decided(0, now);
 }
 
 // Steps
@@ -377,15 +193,17 @@ void Ownership::step(nanoseconds now) {
   found_if_due(now);
   if (core_.acts.exists()) {
     if (core_.has_lease(now)) leased_ = now;
-    comply(now);
+    voting_.comply(leased_, now);
     propose(now);
-    hand_overs_.step(now);
+    granting_.step(now);
+    taking_.step(now);
   }
-  send_round(now);
+  rounds_.step(voting_.complied(), now);
 }
 
 bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
-  if (!hand_overs_.owns(object, now) || complies_ || core_.is_leaving || now - stepped_ > kSlept)
+  if (!rows_.owns(object, now) || voting_.complied() != 0 || core_.is_leaving ||
+      now - stepped_ > kSlept)
     return false;
   const Act* pending = core_.acts.pending();
   if (pending != nullptr && pending->removes(core_.config.epoch)) return false;

@@ -10,18 +10,22 @@
 #include <span>
 
 #include "reckon/peer/ownership/chair.hpp"
-#include "reckon/peer/ownership/hand_overs.hpp"
+#include "reckon/peer/ownership/granting.hpp"
+#include "reckon/peer/ownership/object_rows.hpp"
 #include "reckon/peer/ownership/ownership_core.hpp"
+#include "reckon/peer/ownership/rounds.hpp"
+#include "reckon/peer/ownership/taking.hpp"
+#include "reckon/peer/ownership/voting.hpp"
 
 namespace reckon::peer {
 
 /// At most one peer of a world owns an object at any instant, whatever the network does.
 ///
 /// An owner acts while a majority of the voters has received it in the last 2 s (LeaseBook), and
-/// gives objects away by itself (HandOvers). A majority removes a voter that it has not received
-/// for 3 s, and gives its objects to the chair (Chair, ActBook). Peers fail by stopping for ever: a
-/// restarted process is a new peer. Peers without a majority keep their objects at rest until a
-/// majority returns, or until go_alone().
+/// gives objects away by itself (Granting, Taking). A majority removes a voter that it has not
+/// received for 3 s, and gives its objects to the chair (Chair, ActBook). Peers fail by stopping
+/// for ever: a restarted process is a new peer. Peers without a majority keep their objects at rest
+/// until a majority returns, or until go_alone().
 ///
 /// One thread. Allocates nothing after its first messages. Some us for a message.
 class Ownership {
@@ -31,8 +35,7 @@ class Ownership {
   static constexpr Nanoseconds kSlept = std::chrono::milliseconds(500);
 
   /// @param user outlives this
-  Ownership(const OwnershipConfig& config, OwnershipUser& user)
-      : core_(config, user), hand_overs_(core_), chair_(core_) {}
+  Ownership(const OwnershipConfig& config, OwnershipUser& user) : core_(config, user) {}
   Ownership(const Ownership&) = delete;
   Ownership& operator=(const Ownership&) = delete;
 
@@ -46,20 +49,18 @@ class Ownership {
   void clear_events() noexcept { core_.events.clear(); }
 
   /// Wants the object, until withdraw(). The owner grants it when nothing holds it there.
-  void ask(std::size_t object) noexcept { hand_overs_.ask(object); }
-  void withdraw(std::size_t object) { hand_overs_.withdraw(object); }
+  void ask(std::size_t object) noexcept { taking_.ask(object); }
+  void withdraw(std::size_t object) { taking_.withdraw(object); }
   /// The state of an object as it was granted to us.
   [[nodiscard]] const ObjectState& granted_state(std::size_t object) const noexcept {
-    return hand_overs_.state(object);
+    return rows_[object].state;
   }
   /// The state in which this peer has stopped simulating an object; before yielded().
   void set_state(std::size_t object, const ObjectState& state) noexcept {
-    hand_overs_.set_state(object, state);
+    rows_[object].state = state;
   }
   /// Answers OwnershipEvent::Kind::yield.
-  void yielded(std::uint32_t transaction, Nanoseconds now) {
-    hand_overs_.yielded(transaction, now);
-  }
+  void yielded(std::uint32_t transaction, Nanoseconds now) { granting_.yielded(transaction, now); }
   /// Gives all objects to another voter. Call step() until has_left(), at most a second.
   void leave() noexcept { core_.is_leaving = true; }
   [[nodiscard]] bool has_left() const noexcept;
@@ -85,52 +86,31 @@ class Ownership {
   [[nodiscard]] const OwnershipCounts& counts() const noexcept { return core_.counts; }
 
  private:
-  void receive(const Round& round, std::uint32_t from, Nanoseconds now);
+  void receive(const Round& round, std::uint32_t from, Nanoseconds now) {
+    rounds_.receive(round, from, now);
+  }
   void receive(const Proposal& proposal, std::uint32_t from, Nanoseconds now);
   void receive(const Vote& vote, std::uint32_t from, Nanoseconds now);
   [[nodiscard]] bool is_of_world(const WorldId& world, const Round* round, std::uint32_t from,
                                  Nanoseconds now);
   void merge(const WorldId& older);
   void found_if_due(Nanoseconds now);
-  void note_round(const Round& round, std::uint32_t from, Nanoseconds now);
-  void compare_tables(const Round& round, std::uint32_t from, Nanoseconds now);
-  void send_table(Nanoseconds now);
-  void send_decided(std::uint32_t to, Nanoseconds now);
-  [[nodiscard]] bool accepts(const Proposal& proposal, Nanoseconds now);
-  [[nodiscard]] bool accepts_removals(const Act& act, Nanoseconds now) const;
-  [[nodiscard]] bool accepts_gifts(const Proposal& proposal, Nanoseconds now);
   void decide(const Act& act, Nanoseconds now);
-  void send_round(Nanoseconds now);
-  [[nodiscard]] std::uint32_t yields_to(Nanoseconds now) noexcept;
-  [[nodiscard]] bool is_active(Nanoseconds now) const;
-  void note_threat(const Act& act, Nanoseconds now) noexcept;
-  void comply(Nanoseconds now);
   void propose(Nanoseconds now);
 
-  /// Proposed acts of one number that remove this peer or take its objects.
-  struct Threat {
-    std::uint32_t act = 0;
-    Nanoseconds since{0}, seen{0};
-    bool removes = false;
-    ObjectSet takes;
-  };
   static constexpr Nanoseconds kNever = Nanoseconds::min() / 4;
 
   OwnershipCore core_;
-  HandOvers hand_overs_;
-  Chair chair_;
+  ObjectRows rows_{core_};
+  Granting granting_{core_, rows_};
+  Taking taking_{core_, rows_};
+  Chair chair_{core_};
+  Rounds rounds_{core_, rows_, granting_, chair_};
+  Voting voting_{core_, rows_, rounds_, chair_};
   Nanoseconds started_ = kNever, stepped_ = kNever;
   Nanoseconds joined_ = kNever;     // when we began to follow a world
   Nanoseconds leased_ = kNever;     // last time with a lease
-  Nanoseconds round_at_ = kNever;   // our last round
-  Nanoseconds active_at_ = kNever;  // last round of an active peer
   Nanoseconds old_lease_ = kNever;  // end of the lease when the pending act was accepted
-  Nanoseconds decided_sent_ = kNever;
-  Nanoseconds table_sent_ = kNever, differs_since_ = kNever, differed_ = kNever;
-  std::uint32_t founded_ = 0;  // worlds that this peer has founded
-  Threat threat_;
-  std::array<std::uint32_t, Roll::kMost> tables_{};  // hashes of the voters' tables
-  bool complies_ = false, agrees_ = false;
 };
 
 }  // namespace reckon::peer

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "reckon/peer/ownership/act_book.hpp"
@@ -84,7 +86,10 @@ struct OwnershipCounts {
 
 struct OwnershipCore {
   OwnershipCore(const OwnershipConfig& settings, OwnershipUser& asked)
-      : config(settings), user(asked), table(settings.objects) {
+      : config(settings),
+        user(asked),
+        to_found{settings.started, settings.epoch},
+        table(settings.objects) {
     out.reserve(256);
     events.reserve(64);
   }
@@ -109,6 +114,7 @@ struct OwnershipCore {
   OwnershipConfig config;
   OwnershipUser& user;
   WorldId world;
+  WorldId to_found;  ///< the next one that this peer would found
   ActBook acts;
   LeaseBook leases;
   TenureTable table;

@@ -60,7 +60,7 @@ PLANTS = [
     ("states kept by group", "leader/leading.cpp",
      "counts ? kept_as(state) : kBaseGroup", "counts && config_.on ? group : kBaseGroup"),
     ("lost part not asked for again", "leader/snapshot_reader.cpp",
-     "    if (!reading->got[i]) role.parts", "    if (false && !reading->got[i]) role.parts"),
+     "  role.parts = missing.parts;\n", "  role.parts = 0;\n"),
     ("group left at once", "leader/leading.cpp",
      "handed = {cell, now + config_.lease, true};", "handed = {cell, now, true};"),
     ("map not said to who asks", "leader/leader_role.cpp",

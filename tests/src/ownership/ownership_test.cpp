@@ -9,7 +9,7 @@
 #include "reckon/tests/src/ownership/local_owners.hpp"
 
 namespace reckon::peer {
-namespace {
+namespace ownership_test {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -114,7 +114,7 @@ TEST(Ownership, RestsWithTheJuniorOfTwo) {
   EXPECT_EQ(owners[2].protocol.counts().merged, 1U);
 }
 
-TEST(Ownership, CountsThePeersOfAHostAsOneVote) {
+TEST(Ownership, CountsPeersOfAHostAsOneVote) {
   LocalOwners owners(4);
   for (std::size_t i = 1; i <= 4; ++i) owners[i].one_host = true;
   owners.begin();
@@ -258,5 +258,5 @@ TEST(OwnershipAttack, AVoterThatConfirmsNothingIsOutvoted) {
   EXPECT_TRUE(owners.owns(2, 0));
 }
 
-}  // namespace
+}  // namespace ownership_test
 }  // namespace reckon::peer

@@ -1,23 +1,63 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The side of a hand-over that takes objects.
-#include <algorithm>
+#include "reckon/peer/ownership/taking.hpp"
 
-#include "reckon/peer/ownership/hand_overs.hpp"
+#include <algorithm>
 
 namespace reckon::peer {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
+using Hold = ObjectRow::Hold;
+using Row = ObjectRow;
 
+// A request is repeated, so that the owner remembers it.
+constexpr nanoseconds kAskAgain = std::chrono::seconds(1);
+// Time that an unconfirmed owner loses, for clocks of different rates.
 constexpr nanoseconds kTakingMargin = milliseconds(100);
 constexpr nanoseconds kAnnounceGap = milliseconds(20);
 
 }  // namespace
 
+void Taking::withdraw(std::size_t object) {
+  Row& row = rows_[object];
+  row.wanted = false;
+  if (row.asked == 0) return;
+  Request request;
+  request.objects.set(object);
+  request.withdraws = true;
+  core_.send(row.asked, request, true);
+  row.asked = 0;
+}
+
+// One request to each owner names all objects that are due.
+void Taking::ask_due(nanoseconds now) {
+  if (!core_.acts.decided().roll.contains(core_.config.epoch) || core_.is_leaving) return;
+  ObjectSet due;
+  for (std::size_t i = 0; i < core_.table.size(); ++i) {
+    Row& row = rows_[i];
+    const std::uint32_t owner = core_.table[i].owner;
+    if (!row.wanted || row.hold != Hold::none || owner == 0 || owner == core_.config.epoch)
+      continue;
+    if (row.asked != owner) row.asked = owner, row.ask_at = now;
+    due[i] = now >= row.ask_at;
+  }
+  for (std::size_t i = 0; i < core_.table.size(); ++i) {
+    if (!due[i]) continue;
+    Request request;
+    for (std::size_t j = i; j < core_.table.size(); ++j) {
+      if (!due[j] || rows_[j].asked != rows_[i].asked) continue;
+      request.objects.set(j);
+      due.reset(j);
+      rows_[j].ask_at = now + kAskAgain;
+    }
+    core_.send(rows_[i].asked, request, true);
+  }
+}
+
 // Whether this peer may own the objects of a grant now. The round shows that the grant is new.
-bool HandOvers::may_take(const Grant& grant, std::uint32_t from, nanoseconds now) const {
+bool Taking::may_take(const Grant& grant, std::uint32_t from, nanoseconds now) const {
   const ActBook& acts = core_.acts;
   const auto sent = core_.leases.sent_at(grant.round, now);
   if (!sent || now - *sent >= kTake || acts.pending() != nullptr || core_.is_leaving) return false;
@@ -37,7 +77,7 @@ bool HandOvers::may_take(const Grant& grant, std::uint32_t from, nanoseconds now
 }
 
 // Whether the table is as new as the grant.
-bool HandOvers::is_outdated(const Grant& grant) const noexcept {
+bool Taking::is_outdated(const Grant& grant) const noexcept {
   return std::ranges::any_of(grant.holdings(), [&](const Holding& holding) {
     return holding.object < core_.table.size() &&
            core_.table[holding.object].version >= holding.tenure.version;
@@ -45,8 +85,7 @@ bool HandOvers::is_outdated(const Grant& grant) const noexcept {
 }
 
 // Null if there is no room: only an entry whose grant cannot be taken any more makes room.
-HandOvers::Incoming* HandOvers::incoming_of(const Grant& grant, std::uint32_t from,
-                                            nanoseconds now) {
+Taking::Incoming* Taking::incoming_of(const Grant& grant, std::uint32_t from, nanoseconds now) {
   const auto known = std::ranges::find_if(incoming_, [&](const Incoming& incoming) {
     return incoming.transaction == grant.transaction && incoming.from == from;
   });
@@ -63,7 +102,7 @@ HandOvers::Incoming* HandOvers::incoming_of(const Grant& grant, std::uint32_t fr
 
 // Every peer that receives a grant is a witness of the new owner. Only an object that we wanted is
 // taken, or one in its company.
-void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
+void Taking::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
   for (const Holding& holding : grant.holdings()) {
     if (holding.tenure.owner == grant.to && grant.to != from)
       core_.table.name(holding.object, holding.tenure);
@@ -93,7 +132,7 @@ void HandOvers::receive(const Grant& grant, std::uint32_t from, nanoseconds now)
   if (incoming->arrived == incoming->objects) take(*incoming, grant, now);
 }
 
-void HandOvers::take(const Incoming& grant, const Grant& last, nanoseconds now) {
+void Taking::take(const Incoming& grant, const Grant& last, nanoseconds now) {
   const nanoseconds sent = core_.leases.sent_at(last.round, now).value_or(now - kTake);
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!grant.objects[i]) continue;
@@ -105,7 +144,7 @@ void HandOvers::take(const Incoming& grant, const Grant& last, nanoseconds now) 
     row.state = state;
     row.hold = Hold::owned;
     row.wanted = wanted;
-    row.first_serial = serial_ + 1;
+    row.first_serial = rows_.serial + 1;
     row.until =
         sent + milliseconds(last.lease_ms) + LeaseBook::kDead - LeaseBook::kLease - kTakingMargin;
     ++core_.counts.taken;
@@ -118,7 +157,7 @@ void HandOvers::take(const Incoming& grant, const Grant& last, nanoseconds now) 
 // Confirming
 
 // An owner that is not confirmed asks all voters to note it.
-void HandOvers::announce(nanoseconds now) {
+void Taking::announce(nanoseconds now) {
   if (now < announce_at_) return;
   TableExtract extract;
   extract.asks = true;
@@ -130,11 +169,11 @@ void HandOvers::announce(nanoseconds now) {
   }
   if (extract.holdings.count == 0) return;
   announce_at_ = now + kAnnounceGap;
-  extract.serial = ++serial_;
+  extract.serial = ++rows_.serial;
   core_.send(0, extract);
 }
 
-void HandOvers::confirm_if_agreed(Row& row) noexcept {
+void Taking::confirm_if_agreed(Row& row) noexcept {
   const Roll& roll = core_.acts.decided().roll;
   if (core_.acts.pending() != nullptr) return;
   row.confirmed = roll.is_majority([&](const Voter& voter) {
@@ -143,7 +182,7 @@ void HandOvers::confirm_if_agreed(Row& row) noexcept {
 }
 
 // An act that this peer has accepted bars the former owners.
-bool HandOvers::may_agree(const Holding& holding, std::uint32_t from) const noexcept {
+bool Taking::may_agree(const Holding& holding, std::uint32_t from) const noexcept {
   const Roll& roll = core_.acts.decided().roll;
   if (holding.tenure.owner != from || !roll.contains(from) || !roll.contains(core_.config.epoch))
     return false;
@@ -151,7 +190,7 @@ bool HandOvers::may_agree(const Holding& holding, std::uint32_t from) const noex
   return pending == nullptr || (!pending->given[holding.object] && !pending->removes(from));
 }
 
-void HandOvers::receive(const TableExtract& extract, std::uint32_t from, nanoseconds now) {
+void Taking::receive(const TableExtract& extract, std::uint32_t from, nanoseconds now) {
   Agreement agreement;
   agreement.serial = extract.serial;
   TableExtract newer;
@@ -162,7 +201,7 @@ void HandOvers::receive(const TableExtract& extract, std::uint32_t from, nanosec
         owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
     const Offer offer =
         core_.table.offer(holding.object, holding.tenure, from, core_.acts, is_silent);
-    if (offer == Offer::taken) note_table(holding.object, from);
+    if (offer == Offer::taken) rows_.note_table(holding.object, from);
     if (offer == Offer::taken || offer == Offer::known) {
       if (may_agree(holding, from)) agreement.objects.set(holding.object);
     } else if (offer == Offer::older) {
@@ -176,9 +215,9 @@ void HandOvers::receive(const TableExtract& extract, std::uint32_t from, nanosec
   if (newer.holdings.count > 0) core_.send(from, newer);
 }
 
-void HandOvers::receive(const Agreement& agreement, std::uint32_t from) {
+void Taking::receive(const Agreement& agreement, std::uint32_t from) {
   const std::size_t voter = core_.acts.decided().roll.index_of(from);
-  if (voter == Roll::kNone || serial_ - agreement.serial > 50) return;
+  if (voter == Roll::kNone || rows_.serial - agreement.serial > 50) return;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     Row& row = rows_[i];
     const bool is_for_us = agreement.objects[i] && row.hold != Hold::none && !row.confirmed &&
@@ -189,10 +228,8 @@ void HandOvers::receive(const Agreement& agreement, std::uint32_t from) {
   }
 }
 
-void HandOvers::step(nanoseconds now) {
-  give_up(now);
-  release_unheld();
-  grant_due(now);
+void Taking::step(nanoseconds now) {
+  rows_.release_unheld();
   ask_due(now);
   announce(now);
 }

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The side of a hand-over that gives objects: remembers who asks, and grants when it can.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/peer/ownership/object_rows.hpp"
+
+namespace reckon::peer {
+
+/// One thread; no allocation.
+class Granting {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+  /// A grant without an answer is given up after this time. By then the new owner has taken it and
+  /// a majority knows that, or it does not act.
+  static constexpr Nanoseconds kGiveUp = LeaseBook::kDead + std::chrono::milliseconds(300);
+
+  Granting(OwnershipCore& core, ObjectRows& rows) : core_(core), rows_(rows) {}
+
+  void receive(const Request& request, std::uint32_t from, Nanoseconds now);
+  void receive(const Refusal& refusal, std::uint32_t from);
+  /// The objects of a yield are at rest here, and their states are set: the grant is sent.
+  void yielded(std::uint32_t transaction, Nanoseconds now);
+  void step(Nanoseconds now);
+  void clear() noexcept { outgoing_.fill({}); }
+
+  /// Whether a grant of ours may have an owner that is not confirmed yet.
+  [[nodiscard]] bool has_granted(Nanoseconds now) const noexcept;
+  /// Whether it gives nothing away any more.
+  void close(bool closed) noexcept { is_closed_ = closed; }
+
+ private:
+  struct Outgoing {
+    std::uint32_t transaction = 0;  // 0: none
+    std::uint32_t to = 0;
+    ObjectSet objects;
+    std::uint32_t lease_ms = 0;
+  };
+
+  void grant_due(Nanoseconds now);
+  void begin_grant(std::size_t object, std::uint32_t to);
+  [[nodiscard]] bool can_grant(std::size_t object, Nanoseconds now) const;
+  void send_grant(const Outgoing& grant, Nanoseconds now);
+  void give_up(Nanoseconds now);
+
+  OwnershipCore& core_;
+  ObjectRows& rows_;
+  std::array<Outgoing, 32> outgoing_{};
+  std::uint32_t transactions_ = 0;
+  Nanoseconds granted_at_ = Nanoseconds::min() / 4;
+  bool is_closed_ = false;
+};
+
+}  // namespace reckon::peer
