@@ -16,11 +16,8 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kMostPeers = aoim::PresenceConfig{}.capacity;
 constexpr nanoseconds kNoticeGap = std::chrono::seconds(1);
 
-// Further kinds belong to users.
-constexpr auto kFirstUserKind = pdu::AssuredKind::ownership_round;
-
 bool is_of_users(pdu::AssuredKind kind) noexcept {
-  return kind == pdu::AssuredKind::record || kind >= kFirstUserKind;
+  return kind == pdu::AssuredKind::record || kind >= pdu::AssuredKind::ownership_round;
 }
 
 bool holds_pdu(const pdu::AssuredRecord& record) noexcept {
@@ -155,15 +152,6 @@ void AssuredStage::acknowledge(const DueReceipt& due) noexcept {
   if (due.is_for_host) send_to_host(due.epoch, record);
 }
 
-void AssuredStage::send_once(pdu::AssuredKind kind, std::span<const std::byte> octets,
-                             std::uint32_t to, const Pass& pass) noexcept {
-  pass_ = pass;
-  pdu::AssuredRecord record = record_of(kind, 0);
-  if (to != 0) record.addressees = store_addressees(std::span(&to, 1));
-  record.content = pdu::OctetBlock<std::uint16_t>::of(octets);
-  send_to_all(record);
-}
-
 // To all addressees, or to all peers if the addressees leave too little room.
 void AssuredStage::send_to_all(const pdu::AssuredRecord& record) noexcept {
   pdu::AssuredRecord sent = record;
@@ -243,11 +231,6 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   }
 
   const bool is_for_us = record.addressees.empty() || names_us(record);
-  if (is_users && record.sequence == 0) {
-    if (is_for_us)
-      static_cast<void>(user_->take_record({record.epoch, record.kind, record.content.bytes}));
-    return false;
-  }
   // A marked PDU is for everybody.
   if (!is_for_us && record.kind != pdu::AssuredKind::mark)
     return received_.follow(record.epoch, record.sequence, arrival.now), false;

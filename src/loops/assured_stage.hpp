@@ -38,12 +38,12 @@ struct UserRecord {
   std::span<const std::byte> octets;  ///< valid until the call returns
 };
 
-/// A user of records that hold no PDU: of kinds from ownership_round on, and octets of an
-/// application. By the thread of the model loop; must not throw.
+/// A user of assured records that hold no PDU: of kinds from ownership_round on, and octets
+/// of an application. By the thread of the model loop; must not throw.
 class AssuredUser {
  public:
   virtual ~AssuredUser() = default;
-  /// Takes a record; each assured one is given once. False refuses it; its sender receives that verdict.
+  /// Takes a record; each is given once. False refuses it; its sender receives that verdict.
   [[nodiscard]] virtual bool take_record(const UserRecord& record) noexcept = 0;
   /// The end of an own record for one addressee. Must not send a record.
   virtual void settle(const AssuredReport& report) noexcept = 0;
@@ -73,10 +73,6 @@ class AssuredStage final : private AssuredReports {
                                     const Pass& pass) noexcept {
     return sent_.add(content, addressees, pass.now);
   }
-
-  /// Sends a record of a user once, without acknowledgement.  @param to epoch; 0: all
-  void send_once(pdu::AssuredKind kind, std::span<const std::byte> octets, std::uint32_t to,
-                 const Pass& pass) noexcept;
 
   /// Judges an update if it is a record or an acknowledgement, and consumes all but PDUs.
   /// @return whether it is to be delivered; then call conclude(), for a PDU
