@@ -137,7 +137,7 @@ void Granting::send_grant(const Outgoing& grant, nanoseconds now) {
   if (part.count > 0) core_.send(0, part, true);
 }
 
-void Granting::receive(const Refusal& refusal, std::uint32_t from) {
+void Granting::receive(const GrantRefusal& refusal, std::uint32_t from) {
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     const Row& row = rows_[i];
     if (row.hold == Hold::granting && row.transaction == refusal.transaction && row.to == from)

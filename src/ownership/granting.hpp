@@ -23,7 +23,7 @@ class Granting {
   Granting(OwnershipCore& core, ObjectRows& rows) : core_(core), rows_(rows) {}
 
   void receive(const Request& request, std::uint32_t from, Nanoseconds now);
-  void receive(const Refusal& refusal, std::uint32_t from);
+  void receive(const GrantRefusal& refusal, std::uint32_t from);
   /// The objects of a yield are at rest here, and their states are set: the grant is sent.
   void yielded(std::uint32_t transaction, Nanoseconds now);
   void step(Nanoseconds now);

@@ -188,7 +188,7 @@ EncodedMessage encode(const Grant& grant, const TransferNames& names,
 }
 
 // The world is not in an Acknowledge PDU; the transaction is unique for its grantor.
-EncodedMessage encode(const Refusal& refusal, const TransferNames& names,
+EncodedMessage encode(const GrantRefusal& refusal, const TransferNames& names,
                       std::span<std::byte> out) noexcept {
   pdu::Acknowledge pdu;
   pdu.header.exercise_id = names.exercise;

@@ -174,7 +174,7 @@ std::optional<OwnershipMessage> decode_refusal(std::span<const std::byte> octets
   const bool is_refusal = pdu.acknowledge_flag == pdu::AcknowledgeFlag::transfer_ownership &&
                           pdu.response_flag == pdu::ResponseFlag::unable_to_comply;
   if (!is_refusal) return {};
-  return Refusal{{}, pdu.request_id};
+  return GrantRefusal{{}, pdu.request_id};
 }
 
 }  // namespace

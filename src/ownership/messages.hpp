@@ -126,12 +126,12 @@ struct Grant {
 };
 
 /// The new owner does not take the objects.
-struct Refusal {
+struct GrantRefusal {
   WorldId world;
   std::uint32_t transaction = 0;
 };
 
 using OwnershipMessage =
-    std::variant<Round, Proposal, Vote, TableExtract, Agreement, Request, Grant, Refusal>;
+    std::variant<Round, Proposal, Vote, TableExtract, Agreement, Request, Grant, GrantRefusal>;
 
 }  // namespace reckon::peer

@@ -21,7 +21,7 @@ void Ownership::receive(std::uint32_t from, const OwnershipMessage& message, nan
   const WorldId world = std::visit([](const auto& sent) { return sent.world; }, message);
   const Round* round = std::get_if<Round>(&message);
   // An Acknowledge PDU names no world.
-  const bool is_refusal = std::holds_alternative<Refusal>(message);
+  const bool is_refusal = std::holds_alternative<GrantRefusal>(message);
   if (!is_refusal && !is_of_world(world, round, from, now)) return;
   std::visit(
       [&](const auto& sent) {
@@ -29,7 +29,7 @@ void Ownership::receive(std::uint32_t from, const OwnershipMessage& message, nan
         if constexpr (std::is_same_v<Message, Round> || std::is_same_v<Message, Proposal> ||
                       std::is_same_v<Message, Vote>) {
           receive(sent, from, now);
-        } else if constexpr (std::is_same_v<Message, Refusal>) {
+        } else if constexpr (std::is_same_v<Message, GrantRefusal>) {
           granting_.receive(sent, from);
         } else if constexpr (std::is_same_v<Message, Request>) {
           granting_.receive(sent, from, now);

@@ -119,7 +119,7 @@ void Taking::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
   incoming->heard = now;
   if (incoming->is_refused) {
     ++core_.counts.refused;
-    Refusal refusal;
+    GrantRefusal refusal;
     refusal.transaction = grant.transaction;
     return core_.send(from, refusal, true);
   }

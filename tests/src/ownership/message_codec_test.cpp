@@ -104,7 +104,7 @@ TEST(OwnershipCodec, KeepsEveryMessage) {
   request.objects.set(200);
   expect_same_again(request);
   expect_same_again(grant_of(kMostGranted));
-  expect_same_again(Refusal{{}, 12});
+  expect_same_again(GrantRefusal{{}, 12});
 }
 
 TEST(OwnershipCodec, KeepsTheStateOfAGrantedObject) {
@@ -133,8 +133,8 @@ TEST(OwnershipCodec, TwoRoundsNameAllVotersOfALargeRoll) {
   std::array<std::uint8_t, Roll::kMost> heard{};
   for (std::uint32_t half = 0; half < 2; ++half) {
     EncodedMessage encoded;
-    const auto decoded = decode_message(pdu::AssuredKind::ownership_round,
-                                        octets_of(round_of(63), encoded, half));
+    const auto decoded =
+        decode_message(pdu::AssuredKind::ownership_round, octets_of(round_of(63), encoded, half));
     ASSERT_TRUE(decoded.has_value());
     for (std::size_t i = 0; i < heard.size(); ++i)
       heard[i] = std::max(heard[i], std::get<Round>(*decoded).heard[i]);
@@ -154,9 +154,9 @@ TEST(OwnershipCodec, RefusesStatesThatAreNotFinite) {
 }
 
 TEST(OwnershipCodec, RefusesOctetsThatAreCutShort) {
-  const std::array<OwnershipMessage, 6> messages{round_of(5), proposal_of(5, 2),
-                                                 Vote{{1, 2}, 3, {4, 5}}, TableExtract{},
-                                                 Agreement{},  OwnershipMessage(grant_of(3))};
+  const std::array<OwnershipMessage, 6> messages{
+      round_of(5),    proposal_of(5, 2), Vote{{1, 2}, 3, {4, 5}},
+      TableExtract{}, Agreement{},       OwnershipMessage(grant_of(3))};
   for (const OwnershipMessage& message : messages) {
     EncodedMessage encoded;
     const std::vector<std::byte> octets = octets_of(message, encoded);

@@ -49,9 +49,8 @@ TEST(Roll, GivesPeersOfAHostPartsOfAVote) {
 }
 
 TEST(Roll, HasNoTwoMajoritiesApart) {
-  for (const Roll& roll :
-       {roll_of({0, 1}), roll_of({0, 0, 1}), roll_of({0, 1, 1, 2}), roll_of({0, 0, 1, 1, 2, 2}),
-        roll_of({0, 0, 0, 1, 1, 2, 3})}) {
+  for (const Roll& roll : {roll_of({0, 1}), roll_of({0, 0, 1}), roll_of({0, 1, 1, 2}),
+                           roll_of({0, 0, 1, 1, 2, 2}), roll_of({0, 0, 0, 1, 1, 2, 3})}) {
     const std::uint32_t all = (1U << roll.size()) - 1;
     for (std::uint32_t bits = 0; bits <= all; ++bits)
       ASSERT_FALSE(is_majority(roll, bits) && is_majority(roll, all & ~bits)) << bits;
