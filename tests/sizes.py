@@ -48,7 +48,7 @@ LARGE = {
     "haptics/RemoteContact": (348, 30),
     "haptics/SerialSession": (178, 27),
     "haptics/ServoSnapshot": (1, 35),
-    "src/ModelLoop": (302, 24),
+    "src/ModelLoop": (301, 24),
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (190, 27),
     "src/RemoteEntities": (445, 21),

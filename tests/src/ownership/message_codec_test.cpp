@@ -129,7 +129,7 @@ TEST(OwnershipCodec, ARoundOf32VotersHas100Octets) {
   }
 }
 
-TEST(OwnershipCodec, TwoRoundsNameAllVotersOfALargeRoll) {
+TEST(OwnershipCodec, TwoRoundsNameAllVotersOfLargeRolls) {
   std::array<std::uint8_t, Roll::kMost> heard{};
   for (std::uint32_t half = 0; half < 2; ++half) {
     EncodedMessage encoded;

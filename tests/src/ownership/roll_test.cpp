@@ -37,7 +37,7 @@ TEST(Roll, GivesATieToTheSenior) {
   EXPECT_TRUE(is_majority(three, 0b110));
 }
 
-TEST(Roll, GivesPeersOfAHostPartsOfAVote) {
+TEST(Roll, GivesPeersOfAHostOneVote) {
   const Roll local = roll_of({0, 0, 0});
   EXPECT_FALSE(is_majority(local, 0b001));
   EXPECT_TRUE(is_majority(local, 0b110));
