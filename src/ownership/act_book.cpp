@@ -11,8 +11,7 @@ bool ActBook::may_accept(const Act& act, const Ballot& ballot, const Ballot& see
   return ballot >= promised_ && (!pending_ || accepted_ <= seen || accepted_ == ballot);
 }
 
-void ActBook::accept(const Act& act, const Ballot& ballot, std::chrono::nanoseconds now) noexcept {
-  if (!pending_) since_ = now;
+void ActBook::accept(const Act& act, const Ballot& ballot) noexcept {
   pending_ = act;
   accepted_ = ballot;
   promised_ = std::max(promised_, ballot);

@@ -3,7 +3,6 @@
 // The last decided act, and the next one as far as this peer has accepted it.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -26,7 +25,6 @@ class ActBook {
   [[nodiscard]] const Ballot& accepted() const noexcept { return accepted_; }
   /// The highest ballot that this peer has answered or received for the next act.
   [[nodiscard]] const Ballot& promised() const noexcept { return promised_; }
-  [[nodiscard]] std::chrono::nanoseconds pending_since() const noexcept { return since_; }
 
   /// The accepted next act, or the decided one.
   [[nodiscard]] const Act& newest() const noexcept { return pending_ ? *pending_ : decided_; }
@@ -36,7 +34,7 @@ class ActBook {
   /// Whether a proposal of the next act may be accepted, as far as ballots decide.
   [[nodiscard]] bool may_accept(const Act& act, const Ballot& ballot,
                                 const Ballot& seen) const noexcept;
-  void accept(const Act& act, const Ballot& ballot, std::chrono::nanoseconds now) noexcept;
+  void accept(const Act& act, const Ballot& ballot) noexcept;
   /// Skips attempts up to this one in our own next ballot.
   void note_ballot(const Ballot& ballot) noexcept;
   /// A decided act. False if it is not newer than ours.
@@ -48,7 +46,6 @@ class ActBook {
   std::optional<Act> pending_;
   Ballot accepted_, promised_;
   std::uint32_t hash_ = 0;
-  std::chrono::nanoseconds since_{0};
 };
 
 }  // namespace reckon::peer

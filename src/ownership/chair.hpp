@@ -36,7 +36,6 @@ class Chair {
   [[nodiscard]] bool leaves(std::uint32_t epoch, std::uint32_t act, Nanoseconds now) const noexcept;
   /// Whether another peer would found an older world than this.
   [[nodiscard]] bool is_preceded(const WorldId& own, Nanoseconds now) const noexcept;
-  [[nodiscard]] std::span<const Newcomer> newcomers() const noexcept { return newcomers_; }
 
   /// A vote for our proposal. True if it decides the act.
   [[nodiscard]] bool count(const Vote& vote, std::uint32_t from) noexcept;

@@ -125,7 +125,7 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
     return;
   if (voting_.accepts(proposal, now)) {
     if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
-    core_.acts.accept(proposal.act, proposal.ballot, now);
+    core_.acts.accept(proposal.act, proposal.ballot);
     Vote vote;
     vote.act = proposal.act.number;
     vote.ballot = proposal.ballot;
@@ -175,7 +175,7 @@ void Ownership::propose(nanoseconds now) {
   const Proposal sent = *proposal;
   if (!voting_.accepts(sent, now)) return;
   if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
-  core_.acts.accept(sent.act, sent.ballot, now);
+  core_.acts.accept(sent.act, sent.ballot);
   core_.send(0, sent);
   Vote own;
   own.act = sent.act.number;

@@ -96,7 +96,7 @@ TEST(ActBook, HoldsToWhatAMajorityMayHaveAccepted) {
   one.number = other.number = 2;
   other.chair = 3;
   ASSERT_TRUE(acts.may_accept(one, {1, 1}, {}));
-  acts.accept(one, {1, 1}, seconds(1));
+  acts.accept(one, {1, 1});
   EXPECT_FALSE(acts.may_accept(other, {2, 3}, {})) << "its proposer does not know of the first";
   EXPECT_TRUE(acts.may_accept(one, {2, 3}, {1, 1}));
   EXPECT_FALSE(acts.may_accept(one, {0, 9}, {1, 1})) << "a lower ballot";
