@@ -129,14 +129,12 @@ bool Chair::compose(Act& act, nanoseconds now) const {
 
 // Proposing
 
-void Chair::begin(const Act& act, nanoseconds now) {
+void Chair::begin(const Act& act, const Ballot& seen, nanoseconds now) {
   proposal_ = {};
   proposal_.world = core_.world;
   proposal_.act = act;
   proposal_.ballot = {core_.acts.promised().attempt + 1, core_.config.epoch};
-  proposal_.seen = core_.acts.pending() != nullptr ? core_.acts.accepted() : Ballot{};
-  if (core_.acts.pending() != nullptr && other_.act.number == act.number)
-    proposal_.seen = std::max(proposal_.seen, other_.ballot);
+  proposal_.seen = seen;
   vote_count_ = 0;
   is_open_ = true;
   tried_ = now;
@@ -177,15 +175,20 @@ const Proposal* Chair::step(nanoseconds now) {
   if (!core_.acts.exists()) return nullptr;
   if (!is_open_ || now >= restart_) {
     Act act;
+    Ballot seen;
     if (const Act* pending = core_.acts.pending()) {
       if (!is_my_turn(now)) return is_open_ = false, nullptr;
+      // The other one is right if a majority needs its voters; this peer may be unable to accept
+      // it. So both are tried in turn.
       const bool is_behind =
           other_.act.number == pending->number && other_.ballot > core_.acts.accepted();
-      act = is_behind ? other_.act : *pending;
+      tries_other_ = is_behind && !tries_other_;
+      act = tries_other_ ? other_.act : *pending;
+      seen = tries_other_ ? other_.ballot : core_.acts.accepted();
     } else if ((!may_propose(now) || !compose(act, now)) && !pass_over(act, now)) {
       return is_open_ = false, nullptr;
     }
-    begin(act, now);
+    begin(act, seen, now);
   }
   if (now < next_) return nullptr;
   next_ = now + (restart_ - now > kAttempt - 4 * kRepeat ? kRepeat : kSlowRepeat);
@@ -194,7 +197,10 @@ const Proposal* Chair::step(nanoseconds now) {
 }
 
 void Chair::learn(const Proposal& other, nanoseconds now) noexcept {
-  if (other.ballot > proposal_.ballot) tried_ = now;
+  const Roll& roll = core_.acts.decided().roll;
+  const bool is_of_senior =
+      roll.index_of(other.ballot.proposer) < roll.index_of(core_.config.epoch);
+  if (is_of_senior && other.ballot > proposal_.ballot) tried_ = now;
   core_.acts.note_ballot(other.ballot);
   if (other.act.number != core_.acts.decided().number + 1) return;
   if (other_.act.number != other.act.number) other_since_ = now;

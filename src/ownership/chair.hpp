@@ -61,7 +61,7 @@ class Chair {
   void add_newcomers(Act& act, Nanoseconds now) const;
   void give_objects(Act& act) const;
   [[nodiscard]] std::uint8_t host_number(const Act& act, std::uint32_t epoch) const;
-  void begin(const Act& act, Nanoseconds now);
+  void begin(const Act& act, const Ballot& seen, Nanoseconds now);
   [[nodiscard]] int rank(Nanoseconds now) const noexcept;
   [[nodiscard]] bool is_my_turn(Nanoseconds now) const noexcept;
 
@@ -69,7 +69,7 @@ class Chair {
   std::array<Newcomer, Roll::kMost> newcomers_{};
   std::array<Leaving, Roll::kMost> leaving_{};
   Proposal proposal_;
-  bool is_open_ = false;
+  bool is_open_ = false, tries_other_ = false;
   Nanoseconds next_{0}, restart_{0};
   Nanoseconds tried_{0};                                // last ballot, of any voter
   std::array<std::uint32_t, 2 * Roll::kMost> votes_{};  // epochs

@@ -15,15 +15,16 @@ std::uint8_t LeaseBook::round(nanoseconds now) noexcept {
 }
 
 const LeaseBook::Row* LeaseBook::find(std::uint32_t epoch) const noexcept {
-  const auto found = std::ranges::find(rows_, epoch, &Row::epoch);
-  return found == rows_.end() ? nullptr : &*found;
+  const auto used = std::span(rows_).first(used_);
+  const auto found = std::ranges::find(used, epoch, &Row::epoch);
+  return found == used.end() ? nullptr : &*found;
 }
 
 // The peer that has been silent for the longest makes room.
 LeaseBook::Row& LeaseBook::row_of(std::uint32_t epoch) noexcept {
-  const auto found = std::ranges::find(rows_, epoch, &Row::epoch);
-  if (found != rows_.end()) return *found;
-  Row& row = *std::ranges::min_element(rows_, {}, &Row::heard);
+  if (const Row* known = find(epoch)) return const_cast<Row&>(*known);
+  Row& row =
+      used_ < rows_.size() ? rows_[used_++] : *std::ranges::min_element(rows_, {}, &Row::heard);
   row = {};
   row.epoch = epoch;
   return row;
@@ -76,16 +77,8 @@ nanoseconds LeaseBook::lease_end(const Roll& roll, std::uint32_t own,
     const Row* row = find(voters[i].epoch);
     confirmed[i] = voters[i].epoch == own ? now : row == nullptr ? kNever : row->confirmed;
   }
-  // The latest time since which a majority has confirmed.
-  std::array<nanoseconds, Roll::kMost> times = confirmed;
-  const auto last = times.begin() + static_cast<std::ptrdiff_t>(voters.size());
-  std::sort(times.begin(), last, std::greater<>());
-  for (auto time = times.begin(); time != last && *time != kNever; ++time) {
-    if (roll.is_majority(
-            [&](const Voter& voter) { return confirmed[roll.index_of(voter.epoch)] >= *time; }))
-      return *time + kLease;
-  }
-  return kNever;
+  const std::size_t last = roll.last_of_majority(std::span(confirmed).first(voters.size()));
+  return last == Roll::kNone ? kNever : confirmed[last] + kLease;
 }
 
 }  // namespace reckon::peer

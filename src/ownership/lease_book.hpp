@@ -68,6 +68,7 @@ class LeaseBook {
   [[nodiscard]] Row& row_of(std::uint32_t epoch) noexcept;
 
   std::array<Row, kRows> rows_{};
+  std::size_t used_ = 0;  // of rows_
   std::array<Nanoseconds, kRounds> sent_{};
   std::uint32_t rounds_ = 0;  // begun so far
   Nanoseconds restarted_ = kNever;

@@ -117,12 +117,13 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
   }
   if (proposal.act.number <= last.number) return rounds_.send_decided(from, now);
   if (proposal.act.number > last.number + 1 || !core_.acts.exists()) return;
-  const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts &&
-                       proposal.ballot.proposer == from;
+  const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts;
   const bool may_vote =
       last.roll.contains(core_.config.epoch) || proposal.act.roll.contains(core_.config.epoch);
   if (!is_sane || !may_vote || !(last.roll.contains(from) || proposal.act.roll.contains(from)))
     return;
+  // A voter reports what it has accepted of another proposer.
+  if (proposal.ballot.proposer != from) return chair_.learn(proposal, now);
   if (voting_.accepts(proposal, now)) {
     if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
     core_.acts.accept(proposal.act, proposal.ballot);

@@ -3,7 +3,6 @@
 #include "reckon/peer/ownership/roll.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "reckon/pdu/random/split_mix.hpp"
 
@@ -30,24 +29,44 @@ std::size_t Roll::index_of(std::uint32_t epoch) const noexcept {
   return found == all.end() ? kNone : static_cast<std::size_t>(found - all.begin());
 }
 
-bool Roll::is_majority_of(const std::array<bool, kMost>& in) const noexcept {
-  std::array<std::uint8_t, kMost> of_host{}, in_host{};
-  for (std::size_t i = 0; i < count_; ++i) {
-    const std::size_t host = voters_[i].host % kMost;
-    ++of_host[host];
-    if (in[i]) ++in_host[host];
-  }
-  double votes = 0.0, all = 0.0;
-  for (std::size_t host = 0; host < of_host.size(); ++host) {
-    if (of_host[host] == 0) continue;
-    all += 1.0;
-    votes += static_cast<double>(in_host[host]) / of_host[host];
-  }
-  if (all == 0.0) return false;
-  // Parts differ by at least 1 / 64^2; the sum of 64 of them has an error below 1e-13.
+double Roll::share(std::array<double, kMost>& shares) const noexcept {
+  std::array<std::uint8_t, kMost> of_host{};
+  double hosts = 0.0;
+  for (const Voter& voter : voters()) hosts += of_host[voter.host % kMost]++ == 0 ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < count_; ++i) shares[i] = 1.0 / of_host[voters_[i].host % kMost];
+  return hosts;
+}
+
+// Parts differ by at least 1 / 64^2; the sum of 64 of them has an error below 1e-13.
+bool Roll::is_most(double votes, double all, bool with_senior) noexcept {
   constexpr double kRounding = 1e-9;
-  if (std::abs(2.0 * votes - all) < kRounding) return in[0];
-  return 2.0 * votes > all;
+  return 2.0 * votes > all + kRounding || (with_senior && 2.0 * votes > all - kRounding);
+}
+
+bool Roll::is_majority_of(const std::array<bool, kMost>& in) const noexcept {
+  std::array<double, kMost> shares;
+  const double all = share(shares);
+  double votes = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) votes += in[i] ? shares[i] : 0.0;
+  return count_ > 0 && is_most(votes, all, in[0]);
+}
+
+std::size_t Roll::last_of_majority(std::span<const std::chrono::nanoseconds> times) const noexcept {
+  std::array<double, kMost> shares;
+  const double all = share(shares);
+  std::array<std::uint8_t, kMost> order;
+  for (std::size_t i = 0; i < count_; ++i) order[i] = static_cast<std::uint8_t>(i);
+  const auto voters = std::span(order).first(count_);
+  std::ranges::sort(voters, [&](std::uint8_t a, std::uint8_t b) { return times[a] > times[b]; });
+  double votes = 0.0;
+  bool with_senior = false;
+  for (std::size_t i = 0; i < voters.size(); ++i) {
+    votes += shares[voters[i]];
+    with_senior = with_senior || voters[i] == 0;
+    const bool is_tied = i + 1 < voters.size() && times[voters[i + 1]] == times[voters[i]];
+    if (!is_tied && is_most(votes, all, with_senior)) return voters[i];
+  }
+  return kNone;
 }
 
 std::uint32_t Roll::hash() const noexcept {

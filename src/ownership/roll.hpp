@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -48,6 +49,10 @@ class Roll {
     for (std::size_t i = 0; i < count_; ++i) in[i] = has(voters_[i]);
     return is_majority_of(in);
   }
+  /// The voter whose time is the latest such that the voters with this time or a later one are a
+  /// majority; kNone for an empty roll.  @param times of the voters, in order
+  [[nodiscard]] std::size_t last_of_majority(
+      std::span<const std::chrono::nanoseconds> times) const noexcept;
   /// Of the voters in order.
   [[nodiscard]] std::uint32_t hash() const noexcept;
 
@@ -55,6 +60,9 @@ class Roll {
 
  private:
   [[nodiscard]] bool is_majority_of(const std::array<bool, kMost>& in) const noexcept;
+  /// The share of its host's vote that each voter has, and the number of hosts.
+  double share(std::array<double, kMost>& shares) const noexcept;
+  [[nodiscard]] static bool is_most(double votes, double all, bool with_senior) noexcept;
 
   std::array<Voter, kMost> voters_{};
   std::size_t count_ = 0;

@@ -76,7 +76,7 @@ Plan plan_of(std::uint64_t seed) {
   for (std::size_t i = 0; i < plan.peers; ++i) plan.hosts.push_back(i % hosts);
   plan.moves = dice.chance(0.5);
   plan.is_contested = !plan.moves || dice.chance(0.3);
-  plan.step = dice.between(milliseconds(2), milliseconds(9));
+  plan.step = dice.between(milliseconds(4), milliseconds(16));
   plan.line = line_of(dice);
   add_touches(plan, dice);
   add_faults(plan, dice);

@@ -17,7 +17,7 @@ PLANTS = [
      "return core_.acts.decided().roll.is_majority(has) && ", "return "),
     ("old voters decide alone", "chair.cpp", ".is_majority(has) && proposal_.act.roll.is_majority(has)",
      ".is_majority(has)"),
-    ("any half is a majority", "roll.cpp", "return in[0];", "return true;"),
+    ("any half is a majority", "roll.cpp", "(with_senior && 2.0", "(2.0"),
     ("tables not compared", "voting.cpp",
      "  if (core_.table.digest(act.given) == proposal.digest) return true;\n", "  return true;\n"),
     ("no pause after an act", "ownership.cpp",

@@ -115,7 +115,7 @@ class Trial {
   }
   void happen(const Arrive& arrival) {
     SimulatedOwner& owner = owners_[arrival.peer];
-    const auto message = store_[arrival.message];
+    const peer::OwnershipMessage& message = store_[arrival.message];
     if (!owner.runs() || owner.epoch() != arrival.to) return;
     if (arrival.record != kNoRecord) {
       Record& record = records_[arrival.record];
