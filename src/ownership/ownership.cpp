@@ -54,11 +54,11 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   }
   if (!world.exists()) return false;
   if (core_.world == world) return true;
-  if (core_.acts.exists()) {
+  if (core_.world.exists()) {
     // An older world has precedence, and any that has a majority if ours has none for long.
     const bool is_older = world < core_.world || now - leased_ > LeaseBook::kDead;
     if (round == nullptr || !round->has_lease || !is_older) return false;
-    merge(world);
+    if (core_.acts.exists()) merge(world);
   }
   core_.world = world;
   joined_ = now;
