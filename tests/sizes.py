@@ -28,7 +28,7 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 39500,
-    "src": 49500,
+    "src": 50000,
     "tools": 40000,
     "python": 2500,
     "bench": 36500,

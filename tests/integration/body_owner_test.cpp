@@ -76,11 +76,7 @@ class Exercise {
     if (link == kThief) {
       peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link),
                                                   std::span<const peer::PeerDevice>());
-      peers_[link]->model().add_bodies(1);
-      peer::EntityTruth cube;
-      cube.time = clock_.now();
-      cube.position = {0.1, 0, 0.02};
-      ASSERT_TRUE(peers_[link]->model().move(1, cube));
+      place_stolen_cube(*peers_[link], scene_peer);
     } else {
       const auto still = [link](double) { return wait_at(link == kFirst ? -0.5 : 0.1); };
       haptics::SimulatedDeviceConfig config;
@@ -90,6 +86,22 @@ class Exercise {
       peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link), *hands_[link]);
     }
     peers_[link]->start(clock_.now());
+  }
+  // As the first peer the thief simulates the cube; otherwise it states it without a right.
+  void place_stolen_cube(peer::Peer& thief, std::uint8_t scene_peer) {
+    const Eigen::Vector3d place(0.1, 0, 0.02);
+    if (scene_peer == 1) {
+      haptics::BodyOrder order;
+      order.act = haptics::BodyAct::place;
+      order.state.position = place;
+      ASSERT_NE(thief.bodies()->exchange().send(std::span(&order, 1)), 0u);
+      return;
+    }
+    thief.model().add_bodies(1);
+    peer::EntityTruth cube;
+    cube.time = clock_.now();
+    cube.position = place;
+    ASSERT_TRUE(thief.model().move(1, cube));
   }
   void stop(std::size_t link) {
     peers_[link]->stop(clock_.now(), clock_.utc_now());

@@ -781,7 +781,9 @@ local OWN = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
     { "kind", 16, 1, "u8", {
-      [0] = "None", [1] = "Record", [2] = "Mark", [3] = "Acknowledgement", } },
+      [0] = "None", [1] = "Record", [2] = "Mark", [3] = "Acknowledgement",
+      [16] = "Ownership Round", [17] = "Ownership Proposal", [18] = "Ownership Vote",
+      [19] = "Ownership Table", [20] = "Ownership Agreement", } },
     { "flags", 17, 1, "u8" },
     { "padding", 18, 2, "u16" },
     { "epoch", 20, 4, "u32" },
