@@ -187,7 +187,7 @@ def damaged_bundles(samples):
         struct.pack_into(">" + form, changed, at, value)
         return bytes(changed)
 
-    first = len(state)
+    first, whole = len(state), len(attribute)
     # One variable datum with a declared length of 2^32 - 1 bits, in 56 octets.
     bomb = put(put(put(data, 8, "H", 56), 32, "I", 0), 36, "I", 1)[:40]
     bomb += struct.pack(">II", 7, 2**32 - 1) + bytes(8)
@@ -202,10 +202,10 @@ def damaged_bundles(samples):
         (state + put(state, 19, "B", 200) + trailer, [(2, "E-COUNT", first + 19)]),
         (state + put(state, 48, "d", math.nan) + trailer, [(2, "W-NOT-FINITE", first + 48)]),
         (state + put(state, 36, "f", -math.inf) + trailer, [(2, "W-NOT-FINITE", first + 36)]),
-        (attribute + put(attribute, 40 + 16, "f", math.nan), [(2, "W-NOT-FINITE", 160 + 56)]),
-        (attribute + put(attribute, 40 + 4, "H", 5), [(2, "E-RECORD", 160 + 40)]),
-        (attribute + put(attribute, 40 + 6, "B", 9), [(2, "E-VERSION", 160 + 40)]),
-        (attribute + put(attribute, 30, "H", 3), [(2, "E-COUNT", 160 + 160)]),
+        (attribute + put(attribute, 40 + 16, "f", math.nan), [(2, "W-NOT-FINITE", whole + 56)]),
+        (attribute + put(attribute, 40 + 4, "H", 5), [(2, "E-RECORD", whole + 40)]),
+        (attribute + put(attribute, 40 + 6, "B", 9), [(2, "E-VERSION", whole + 40)]),
+        (attribute + put(attribute, 30, "H", 4), [(2, "E-COUNT", whole + whole)]),
         (bomb + trailer, [(1, "E-RECORD", 40)]),
         (b"\x07", [(1, "E-TRUNCATED", 0)]),
         (b"\x07\x01", [(1, "E-TRUNCATED", 0)]),
