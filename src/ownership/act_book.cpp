@@ -8,7 +8,7 @@ namespace reckon::peer {
 
 bool ActBook::may_accept(const Act& act, const Ballot& ballot, const Ballot& seen) const noexcept {
   if (!exists() || act.number != decided_.number + 1) return false;
-  return ballot >= promised_ && (!pending_ || accepted_ <= seen || accepted_ == ballot);
+  return ballot >= promised_ && (!pending_ || accepted_ <= seen || hash_ == act.hash());
 }
 
 void ActBook::accept(const Act& act, const Ballot& ballot) noexcept {

@@ -12,8 +12,9 @@ namespace reckon::peer {
 
 /// A voter's part in the decision on the next act: Paxos, with both phases in one message. A
 /// proposal states the highest ballot that its proposer knows to be accepted, and has that ballot's
-/// content. A voter that has accepted a higher ballot refuses, and returns it. So two proposals of
-/// one number that a majority accepts have the same content. One thread; no allocation.
+/// content. A voter that has accepted other content with a higher ballot refuses, and returns it.
+/// So two proposals of one number that a majority accepts have the same content. One thread; no
+/// allocation.
 class ActBook {
  public:
   [[nodiscard]] bool exists() const noexcept { return decided_.number > 0; }

@@ -11,7 +11,7 @@ PLANTS = [
     ("unconfirmed owner goes on", "object_rows.cpp", "(row.confirmed || now < row.until)", "true"),
     ("grantor goes on", "object_rows.cpp", "return row.hold == Hold::owned && (", "return row.hold != Hold::none && ("),
     ("accepted act forgotten", "act_book.cpp",
-     " && (!pending_ || accepted_ <= seen || accepted_ == ballot)", ""),
+     " && (!pending_ || accepted_ <= seen || hash_ == act.hash())", ""),
     ("lower ballot accepted", "act_book.cpp", "return ballot >= promised_ && ", "return "),
     ("new voters decide alone", "chair.cpp",
      "return core_.acts.decided().roll.is_majority(has) && ", "return "),
