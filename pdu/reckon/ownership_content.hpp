@@ -28,15 +28,13 @@ struct OwnershipRound {
 };
 static_assert(kFixedSize<OwnershipRound> == 24);
 
-inline constexpr std::uint8_t kProposalDecided = 1;
-
 /// Kind 17. `voters` OwnershipVoters and `removed` epochs follow.
 struct OwnershipProposal {
   std::uint32_t founded = 0, founder = 0;
   std::uint32_t act = 0, chair = 0;
-  std::uint32_t attempt = 0, proposer = 0, seen_attempt = 0, seen_proposer = 0;
+  std::uint32_t attempt = 0, proposer = 0, accepted_attempt = 0, accepted_proposer = 0;
   std::uint32_t digest = 0;
-  std::uint8_t flags = 0;  ///< kProposalDecided
+  std::uint8_t phase = 0;  ///< 0 prepare, 1 promise, 2 propose, 3 decided
   std::uint8_t voters = 0, removed = 0;
   std::uint8_t padding = 0;
   ObjectBits given{};
@@ -62,10 +60,11 @@ inline constexpr std::uint16_t kTableAsks = 1;
 struct OwnershipTable {
   std::uint32_t founded = 0, founder = 0;
   std::uint32_t serial = 0;
+  std::uint32_t act = 0;
   std::uint16_t flags = 0;  ///< kTableAsks
   std::uint16_t count = 0;
 };
-static_assert(kFixedSize<OwnershipTable> == 16);
+static_assert(kFixedSize<OwnershipTable> == 20);
 
 struct OwnershipHolding {
   std::uint16_t object = 0, padding = 0;

@@ -6,9 +6,8 @@
 
 namespace reckon::peer {
 
-bool ActBook::may_accept(const Act& act, const Ballot& ballot, const Ballot& seen) const noexcept {
-  if (!exists() || act.number != decided_.number + 1) return false;
-  return ballot >= promised_ && (!pending_ || accepted_ <= seen || hash_ == act.hash());
+bool ActBook::may_accept(const Act& act, const Ballot& ballot) const noexcept {
+  return exists() && act.number == decided_.number + 1 && ballot >= promised_;
 }
 
 void ActBook::accept(const Act& act, const Ballot& ballot) noexcept {
@@ -18,9 +17,7 @@ void ActBook::accept(const Act& act, const Ballot& ballot) noexcept {
   hash_ = act.hash();
 }
 
-void ActBook::note_ballot(const Ballot& ballot) noexcept {
-  promised_ = std::max(promised_, ballot);
-}
+void ActBook::promise(const Ballot& ballot) noexcept { promised_ = std::max(promised_, ballot); }
 
 bool ActBook::decide(const Act& act) noexcept {
   if (act.number <= decided_.number) return false;

@@ -10,11 +10,9 @@
 
 namespace reckon::peer {
 
-/// A voter's part in the decision on the next act: Paxos, with both phases in one message. A
-/// proposal states the highest ballot that its proposer knows to be accepted, and has that ballot's
-/// content. A voter that has accepted other content with a higher ballot refuses, and returns it.
-/// So two proposals of one number that a majority accepts have the same content. One thread; no
-/// allocation.
+/// A voter's part in the decision on the next act, as in Paxos. A proposer asks a majority for
+/// promises, and proposes what the promise with the highest accepted ballot names, else its own
+/// wish. So two acts of one number that a majority accepts are the same. One thread; no allocation.
 class ActBook {
  public:
   [[nodiscard]] bool exists() const noexcept { return decided_.number > 0; }
@@ -24,7 +22,7 @@ class ActBook {
   [[nodiscard]] const Act* pending() const noexcept { return pending_ ? &*pending_ : nullptr; }
   /// Ballot of the accepted next act.
   [[nodiscard]] const Ballot& accepted() const noexcept { return accepted_; }
-  /// The highest ballot that this peer has answered or received for the next act.
+  /// The highest ballot that this peer has promised to or seen; lower ones are refused.
   [[nodiscard]] const Ballot& promised() const noexcept { return promised_; }
 
   /// The accepted next act, or the decided one.
@@ -33,11 +31,10 @@ class ActBook {
   [[nodiscard]] std::uint32_t hash() const noexcept { return hash_; }
 
   /// Whether a proposal of the next act may be accepted, as far as ballots decide.
-  [[nodiscard]] bool may_accept(const Act& act, const Ballot& ballot,
-                                const Ballot& seen) const noexcept;
+  [[nodiscard]] bool may_accept(const Act& act, const Ballot& ballot) const noexcept;
   void accept(const Act& act, const Ballot& ballot) noexcept;
-  /// Skips attempts up to this one in our own next ballot.
-  void note_ballot(const Ballot& ballot) noexcept;
+  /// Refuses lower ballots from now on.
+  void promise(const Ballot& ballot) noexcept;
   /// A decided act. False if it is not newer than ours.
   bool decide(const Act& act) noexcept;
   void clear() noexcept { *this = {}; }

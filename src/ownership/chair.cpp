@@ -123,23 +123,65 @@ bool Chair::compose(Act& act, nanoseconds now) const {
   }
   if (act.removed_count == 0) add_newcomers(act, now);
   // Until then the former voters may know of an owner that the present ones do not know.
-  if (now - core_.leases.restarted() >= LeaseBook::kDead) give_objects(act);
+  if (now - core_.leases.restarted() >= LeaseBook::kDead && core_.is_informed()) give_objects(act);
   return act.removed_count > 0 || act.given.any() || act.roll.size() != last.roll.size();
 }
 
 // Proposing
 
-void Chair::begin(const Act& act, const Ballot& seen, nanoseconds now) {
+void Chair::begin(const Act& wish, nanoseconds now) {
   proposal_ = {};
+  proposal_.phase = DecisionPhase::prepare;
   proposal_.world = core_.world;
-  proposal_.act = act;
+  proposal_.act.number = core_.acts.decided().number + 1;
   proposal_.ballot = {core_.acts.promised().attempt + 1, core_.config.epoch};
-  proposal_.seen = seen;
+  wish_ = wish;
+  best_ = {};
+  if (const Act* pending = core_.acts.pending()) {
+    wish_ = *pending;
+    best_ = core_.acts.accepted();
+  }
+  core_.acts.promise(proposal_.ballot);
   vote_count_ = 0;
   is_open_ = true;
   tried_ = now;
   next_ = now;
   restart_ = now + kAttempt + rank(now) * kStagger;
+  add_vote(core_.config.epoch);
+  propose_if_promised();
+}
+
+void Chair::add_vote(std::uint32_t from) noexcept {
+  const auto votes = std::span(votes_).first(vote_count_);
+  if (std::ranges::find(votes, from) == votes.end() && vote_count_ < votes_.size())
+    votes_[vote_count_++] = from;
+}
+
+bool Chair::has_majority(const Roll& roll) const noexcept {
+  const auto votes = std::span(votes_).first(vote_count_);
+  return roll.is_majority(
+      [&](const Voter& voter) { return std::ranges::find(votes, voter.epoch) != votes.end(); });
+}
+
+void Chair::propose_if_promised() noexcept {
+  if (!has_majority(core_.acts.decided().roll)) return;
+  proposal_.act = wish_;
+  proposal_.phase = DecisionPhase::propose;
+  vote_count_ = 0;
+  next_ = {};
+}
+
+void Chair::count_promise(const Proposal& promise, std::uint32_t from) noexcept {
+  const bool is_for_us = is_open_ && proposal_.phase == DecisionPhase::prepare &&
+                         promise.act.number == proposal_.act.number;
+  if (!is_for_us) return;
+  if (promise.ballot != proposal_.ballot) return core_.acts.promise(promise.ballot);
+  add_vote(from);
+  if (promise.accepted.proposer != 0 && promise.accepted > best_) {
+    best_ = promise.accepted;
+    wish_ = promise.act;
+  }
+  propose_if_promised();
 }
 
 // The number of more senior voters that seem to live.
@@ -162,7 +204,7 @@ bool Chair::is_my_turn(nanoseconds now) const noexcept {
 bool Chair::pass_over(Act& act, nanoseconds now) const {
   const Act& last = core_.acts.decided();
   const bool is_blocked =
-      other_.act.number == last.number + 1 && now - other_since_ >= kBlocked + rank(now) * kAttempt;
+      blocked_ == last.number + 1 && now - blocked_since_ >= kBlocked + rank(now) * kAttempt;
   if (!is_blocked || !last.roll.contains(core_.config.epoch) || !core_.has_lease(now)) return false;
   act = {};
   act.number = last.number + 1;
@@ -174,21 +216,13 @@ bool Chair::pass_over(Act& act, nanoseconds now) const {
 const Proposal* Chair::step(nanoseconds now) {
   if (!core_.acts.exists()) return nullptr;
   if (!is_open_ || now >= restart_) {
-    Act act;
-    Ballot seen;
-    if (const Act* pending = core_.acts.pending()) {
-      if (!is_my_turn(now)) return is_open_ = false, nullptr;
-      // The other one is right if a majority needs its voters; this peer may be unable to accept
-      // it. So both are tried in turn.
-      const bool is_behind =
-          other_.act.number == pending->number && other_.ballot > core_.acts.accepted();
-      tries_other_ = is_behind && !tries_other_;
-      act = tries_other_ ? other_.act : *pending;
-      seen = tries_other_ ? other_.ballot : core_.acts.accepted();
-    } else if ((!may_propose(now) || !compose(act, now)) && !pass_over(act, now)) {
-      return is_open_ = false, nullptr;
-    }
-    begin(act, seen, now);
+    Act wish;
+    const bool has_pending = core_.acts.pending() != nullptr;
+    const bool begins = has_pending
+                            ? is_my_turn(now)
+                            : (may_propose(now) && compose(wish, now)) || pass_over(wish = {}, now);
+    if (!begins) return is_open_ = false, nullptr;
+    begin(wish, now);
   }
   if (now < next_) return nullptr;
   next_ = now + (restart_ - now > kAttempt - 4 * kRepeat ? kRepeat : kSlowRepeat);
@@ -196,34 +230,27 @@ const Proposal* Chair::step(nanoseconds now) {
   return &proposal_;
 }
 
-void Chair::learn(const Proposal& other, nanoseconds now) noexcept {
+void Chair::note_other(const Proposal& other, nanoseconds now) noexcept {
   const Roll& roll = core_.acts.decided().roll;
   const bool is_of_senior =
       roll.index_of(other.ballot.proposer) < roll.index_of(core_.config.epoch);
   if (is_of_senior && other.ballot > proposal_.ballot) tried_ = now;
-  core_.acts.note_ballot(other.ballot);
   if (other.act.number != core_.acts.decided().number + 1) return;
-  if (other_.act.number != other.act.number) other_since_ = now;
-  if (other_.act.number == other.act.number && other.ballot <= other_.ballot) return;
-  other_ = other;
+  if (blocked_ != other.act.number) blocked_since_ = now;
+  blocked_ = other.act.number;
 }
 
 bool Chair::count(const Vote& vote, std::uint32_t from) noexcept {
-  if (!is_open_ || vote.act != proposal_.act.number || vote.ballot != proposal_.ballot)
-    return false;
-  const auto votes = std::span(votes_).first(vote_count_);
-  if (std::ranges::find(votes, from) == votes.end() && vote_count_ < votes_.size())
-    votes_[vote_count_++] = from;
-  const auto has = [&](const Voter& voter) {
-    const auto all = std::span(votes_).first(vote_count_);
-    return std::ranges::find(all, voter.epoch) != all.end();
-  };
-  return core_.acts.decided().roll.is_majority(has) && proposal_.act.roll.is_majority(has);
+  const bool is_for_us = is_open_ && proposal_.phase == DecisionPhase::propose &&
+                         vote.act == proposal_.act.number && vote.ballot == proposal_.ballot;
+  if (!is_for_us) return false;
+  add_vote(from);
+  return has_majority(core_.acts.decided().roll) && has_majority(proposal_.act.roll);
 }
 
 void Chair::end() noexcept {
   is_open_ = false;
-  other_ = {};
+  blocked_ = 0;
 }
 
 }  // namespace reckon::peer

@@ -39,8 +39,10 @@ class Chair {
 
   /// A vote for our proposal. True if it decides the act.
   [[nodiscard]] bool count(const Vote& vote, std::uint32_t from) noexcept;
-  /// A voter has accepted another proposal of the same number.
-  void learn(const Proposal& other, Nanoseconds now) noexcept;
+  /// A promise for our proposal, or a refusal.
+  void count_promise(const Proposal& promise, std::uint32_t from) noexcept;
+  /// Another voter proposes an act of this number.
+  void note_other(const Proposal& other, Nanoseconds now) noexcept;
   /// Our proposal, if it is due; null if none is.
   [[nodiscard]] const Proposal* step(Nanoseconds now);
   [[nodiscard]] const Proposal& proposal() const noexcept { return proposal_; }
@@ -61,7 +63,10 @@ class Chair {
   void add_newcomers(Act& act, Nanoseconds now) const;
   void give_objects(Act& act) const;
   [[nodiscard]] std::uint8_t host_number(const Act& act, std::uint32_t epoch) const;
-  void begin(const Act& act, const Ballot& seen, Nanoseconds now);
+  void begin(const Act& wish, Nanoseconds now);
+  void add_vote(std::uint32_t from) noexcept;
+  [[nodiscard]] bool has_majority(const Roll& roll) const noexcept;
+  void propose_if_promised() noexcept;
   [[nodiscard]] int rank(Nanoseconds now) const noexcept;
   [[nodiscard]] bool is_my_turn(Nanoseconds now) const noexcept;
 
@@ -69,13 +74,15 @@ class Chair {
   std::array<Newcomer, Roll::kMost> newcomers_{};
   std::array<Leaving, Roll::kMost> leaving_{};
   Proposal proposal_;
-  bool is_open_ = false, tries_other_ = false;
+  Act wish_;     // to be proposed
+  Ballot best_;  // in which it was accepted; proposer 0: our own
+  bool is_open_ = false;
   Nanoseconds next_{0}, restart_{0};
   Nanoseconds tried_{0};                                // last ballot, of any voter
   std::array<std::uint32_t, 2 * Roll::kMost> votes_{};  // epochs
   std::size_t vote_count_ = 0;
-  Proposal other_;  // accepted by another voter, with the highest ballot
-  Nanoseconds other_since_{0};
+  std::uint32_t blocked_ = 0;  // number of an act that another voter proposes ..
+  Nanoseconds blocked_since_{0};
 };
 
 }  // namespace reckon::peer

@@ -84,10 +84,10 @@ EncodedMessage encode(const Proposal& proposal, RecordWriter& out) noexcept {
   head.chair = act.chair;
   head.attempt = proposal.ballot.attempt;
   head.proposer = proposal.ballot.proposer;
-  head.seen_attempt = proposal.seen.attempt;
-  head.seen_proposer = proposal.seen.proposer;
+  head.accepted_attempt = proposal.accepted.attempt;
+  head.accepted_proposer = proposal.accepted.proposer;
   head.digest = proposal.digest;
-  head.flags = proposal.is_decided ? pdu::kProposalDecided : std::uint8_t{0};
+  head.phase = static_cast<std::uint8_t>(proposal.phase);
   head.voters = static_cast<std::uint8_t>(act.roll.size());
   head.removed = static_cast<std::uint8_t>(act.removed_count);
   head.given = bits_of(act.given);
@@ -106,7 +106,7 @@ EncodedMessage encode(const Vote& vote, RecordWriter& out) noexcept {
 
 EncodedMessage encode(const TableExtract& extract, RecordWriter& out) noexcept {
   out.add(pdu::OwnershipTable{extract.world.founded, extract.world.founder, extract.serial,
-                              extract.asks ? pdu::kTableAsks : std::uint16_t{0},
+                              extract.act, extract.asks ? pdu::kTableAsks : std::uint16_t{0},
                               static_cast<std::uint16_t>(extract.holdings.count)});
   for (const Holding& holding : extract.holdings.list()) out.add(wire(holding));
   return {AssuredKind::ownership_table, false, out.size()};

@@ -64,14 +64,15 @@ std::optional<OwnershipMessage> decode_proposal(RecordReader in) noexcept {
   pdu::OwnershipProposal head;
   if (!in.read(head) || head.act == 0) return {};
   if (head.voters > Roll::kMost || head.removed > Roll::kMost) return {};
+  if (head.phase > static_cast<std::uint8_t>(DecisionPhase::decided)) return {};
   Proposal proposal;
   proposal.world = {head.founded, head.founder};
   proposal.act.number = head.act;
   proposal.act.chair = head.chair;
   proposal.ballot = {head.attempt, head.proposer};
-  proposal.seen = {head.seen_attempt, head.seen_proposer};
+  proposal.accepted = {head.accepted_attempt, head.accepted_proposer};
   proposal.digest = head.digest;
-  proposal.is_decided = (head.flags & pdu::kProposalDecided) != 0;
+  proposal.phase = static_cast<DecisionPhase>(head.phase);
   proposal.act.given = objects_of(head.given);
   for (std::size_t i = 0; i < head.voters; ++i) {
     pdu::OwnershipVoter voter;
@@ -99,6 +100,7 @@ std::optional<OwnershipMessage> decode_table(RecordReader in) noexcept {
   TableExtract extract;
   extract.world = {head.founded, head.founder};
   extract.serial = head.serial;
+  extract.act = head.act;
   extract.asks = (head.flags & pdu::kTableAsks) != 0;
   for (std::size_t i = 0; i < head.count; ++i) {
     pdu::OwnershipHolding holding;

@@ -59,14 +59,22 @@ struct Round {
   std::array<std::uint8_t, Roll::kMost> heard{};  ///< last round of each voter of the act
 };
 
-/// A proposal of an act, or a decided act.
+/// The steps of a decision, as in Paxos.
+enum class DecisionPhase : std::uint8_t {
+  prepare,  ///< asks for promises; `act` has only its number
+  promise,  ///< no lower ballot is accepted any more; or a refusal, with a higher ballot
+  propose,  ///< asks for votes
+  decided,
+};
+
+/// A step of the decision on an act. In a promise, `accepted` is the ballot of the act that its
+/// sender has accepted, and `act` that act; proposer 0: none.
 struct Proposal {
   WorldId world;
   Act act;
-  Ballot ballot;
-  Ballot seen;               ///< highest ballot known to be accepted for this number
+  Ballot ballot, accepted;
   std::uint32_t digest = 0;  ///< of the proposer's tenures of the objects that the act gives
-  bool is_decided = false;
+  DecisionPhase phase = DecisionPhase::propose;
 };
 
 struct Vote {
@@ -80,6 +88,9 @@ struct TableExtract {
   WorldId world;
   Holdings holdings;
   std::uint32_t serial = 0;
+  /// Number of the decided act, if the sender knows all objects that acts up to it have given; else
+  /// 0.
+  std::uint32_t act = 0;
   bool asks = false;
 };
 

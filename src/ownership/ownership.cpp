@@ -90,7 +90,9 @@ void Ownership::found_if_due(nanoseconds now) {
   act.chair = core_.config.epoch;
   act.roll.add({core_.config.epoch, 0});
   for (std::size_t i = 0; i < core_.table.size(); ++i) act.given.set(i);
+  is_founding_ = true;
   decide(act, now);
+  is_founding_ = false;
 }
 
 void Ownership::go_alone(std::uint32_t utc, nanoseconds now) {
@@ -103,44 +105,61 @@ void Ownership::go_alone(std::uint32_t utc, nanoseconds now) {
   act.chair = core_.config.epoch;
   act.roll.add({core_.config.epoch, 0});
   for (std::size_t i = 0; i < core_.table.size(); ++i) act.given.set(i);
+  is_founding_ = true;
   decide(act, now);
+  is_founding_ = false;
 }
 
 // Acts
 
 void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanoseconds now) {
   const Act& last = core_.acts.decided();
-  if (proposal.is_decided) {
+  if (proposal.phase == DecisionPhase::decided) {
     const bool is_near = !core_.acts.exists() || proposal.act.number - last.number < kMostMissed;
     if (proposal.act.number > last.number && is_near) decide(proposal.act, now);
     return;
   }
   if (proposal.act.number <= last.number) return rounds_.send_decided(from, now);
-  if (proposal.act.number > last.number + 1 || !core_.acts.exists()) return;
+  const bool is_next = core_.acts.exists() && proposal.act.number == last.number + 1;
   const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts;
-  const bool may_vote =
-      last.roll.contains(core_.config.epoch) || proposal.act.roll.contains(core_.config.epoch);
-  if (!is_sane || !may_vote || !(last.roll.contains(from) || proposal.act.roll.contains(from)))
+  const bool is_voter = last.roll.contains(from) || proposal.act.roll.contains(from);
+  if (!is_next || !is_sane || !is_voter) return;
+  if (proposal.phase == DecisionPhase::promise) return chair_.count_promise(proposal, from);
+  if (proposal.ballot.proposer != from) return;
+  chair_.note_other(proposal, now);
+  if (proposal.phase == DecisionPhase::prepare) return promise(proposal, from);
+  const std::uint32_t own = core_.config.epoch;
+  if (!last.roll.contains(own) && !proposal.act.roll.contains(own)) return;
+  if (!voting_.accepts(proposal, now)) {
+    voting_.note_threat(proposal.act, now);
+    if (proposal.ballot < core_.acts.promised()) promise(proposal, from);
     return;
-  // A voter reports what it has accepted of another proposer.
-  if (proposal.ballot.proposer != from) return chair_.learn(proposal, now);
-  if (voting_.accepts(proposal, now)) {
-    if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
-    core_.acts.accept(proposal.act, proposal.ballot);
-    Vote vote;
-    vote.act = proposal.act.number;
-    vote.ballot = proposal.ballot;
-    return core_.send(from, vote);
   }
-  voting_.note_threat(proposal.act, now);
+  accept(proposal, now);
+  Vote vote;
+  vote.act = proposal.act.number;
+  vote.ballot = proposal.ballot;
+  core_.send(from, vote);
+}
+
+// To a lower ballot than promised, the answer is that of the higher one.
+void Ownership::promise(const Proposal& proposal, std::uint32_t from) {
+  if (!is_voter()) return;
+  if (proposal.ballot > core_.acts.promised()) core_.acts.promise(proposal.ballot);
+  Proposal answer;
+  answer.phase = DecisionPhase::promise;
+  answer.ballot = core_.acts.promised();
+  answer.act.number = proposal.act.number;
   if (const Act* pending = core_.acts.pending()) {
-    Proposal other;
-    other.act = *pending;
-    other.ballot = core_.acts.accepted();
-    other.seen = other.ballot;
-    if (other.ballot > proposal.seen && other.ballot != proposal.ballot) core_.send(from, other);
+    answer.act = *pending;
+    answer.accepted = core_.acts.accepted();
   }
-  if (proposal.ballot.proposer != core_.config.epoch) chair_.learn(proposal, now);
+  core_.send(from, answer);
+}
+
+void Ownership::accept(const Proposal& proposal, nanoseconds now) {
+  if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
+  core_.acts.accept(proposal.act, proposal.ballot);
 }
 
 void Ownership::receive(const Vote& vote, std::uint32_t from, nanoseconds now) {
@@ -150,17 +169,27 @@ void Ownership::receive(const Vote& vote, std::uint32_t from, nanoseconds now) {
 void Ownership::decide(const Act& act, nanoseconds now) {
   const nanoseconds lease_end = core_.acts.pending() != nullptr ? old_lease_ : core_.lease_end(now);
   const bool is_first = !core_.acts.exists();
+  const bool is_uninformed = !is_founding_ && !core_.is_informed();
+  const bool is_missing_one = act.number != core_.acts.decided().number + 1;
   if (!core_.acts.decide(act)) return;
+  const bool is_late = !is_founding_ && (is_first || is_missing_one);
+  core_.unknown.reset();
+  if (is_late || is_uninformed) core_.forget_gifts();
   if (!is_first) core_.leases.restart(now);
   ObjectSet ours;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (!act.given[i]) continue;
-    core_.table.set(i, {version_of(act.number, 0), act.chair});
-    ours[i] = act.chair == core_.config.epoch;
+    const Tenure given{version_of(act.number, 0), act.chair};
+    if (!act.given[i] || !is_newer(given, core_.table[i])) continue;
+    core_.table.set(i, given);
+    // After an act that this peer missed, its objects may have been handed over since.
+    ours[i] = act.chair == core_.config.epoch && !is_late;
   }
   if (is_first) leased_ = now;
   rows_.follow_act(lease_end);
-  if (!is_voter()) core_.table.clear();
+  if (!is_voter()) {
+    core_.table.clear();
+    core_.forget_gifts();
+  }
   chair_.end();
   rounds_.follow_act();
   voting_.follow_act();
@@ -174,10 +203,9 @@ void Ownership::propose(nanoseconds now) {
   const Proposal* proposal = chair_.step(now);
   if (proposal == nullptr) return;
   const Proposal sent = *proposal;
-  if (!voting_.accepts(sent, now)) return;
-  if (core_.acts.pending() == nullptr) old_lease_ = core_.lease_end(now);
-  core_.acts.accept(sent.act, sent.ballot);
   core_.send(0, sent);
+  if (sent.phase == DecisionPhase::prepare || !voting_.accepts(sent, now)) return;
+  accept(sent, now);
   Vote own;
   own.act = sent.act.number;
   own.ballot = sent.ballot;
@@ -208,7 +236,7 @@ bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
     return false;
   const Act* pending = core_.acts.pending();
   if (pending != nullptr && pending->removes(core_.config.epoch)) return false;
-  return core_.has_lease(now);
+  return core_.is_informed() && core_.has_lease(now);
 }
 
 bool Ownership::has_left() const noexcept {

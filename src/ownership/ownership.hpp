@@ -97,6 +97,8 @@ class Ownership {
   void found_if_due(Nanoseconds now);
   void decide(const Act& act, Nanoseconds now);
   void propose(Nanoseconds now);
+  void promise(const Proposal& proposal, std::uint32_t from);
+  void accept(const Proposal& proposal, Nanoseconds now);
 
   static constexpr Nanoseconds kNever = Nanoseconds::min() / 4;
 
@@ -107,6 +109,7 @@ class Ownership {
   Chair chair_{core_};
   Rounds rounds_{core_, rows_, granting_, chair_};
   Voting voting_{core_, rows_, rounds_, chair_};
+  bool is_founding_ = false;
   Nanoseconds started_ = kNever, stepped_ = kNever;
   Nanoseconds joined_ = kNever;     // when we began to follow a world
   Nanoseconds leased_ = kNever;     // last time with a lease

@@ -107,6 +107,13 @@ struct OwnershipCore {
       end = std::min(end, leases.lease_end(pending->roll, config.epoch, now));
     return end;
   }
+  /// Whether this peer knows all objects that acts have given. After it missed an act, it neither
+  /// owns nor agrees to anything until others have sent their whole tables.
+  [[nodiscard]] bool is_informed() const noexcept { return unknown.none(); }
+  /// All objects may have been given away.
+  void forget_gifts() noexcept {
+    for (std::size_t i = 0; i < table.size(); ++i) unknown.set(i);
+  }
   [[nodiscard]] bool has_lease(std::chrono::nanoseconds now) const noexcept {
     return acts.exists() && acts.newest().roll.contains(config.epoch) && lease_end(now) > now;
   }
@@ -121,6 +128,7 @@ struct OwnershipCore {
   OwnershipCounts counts;
   std::vector<OutgoingMessage> out;
   std::vector<OwnershipEvent> events;
+  ObjectSet unknown;  ///< objects that an act which this peer missed may have given
   bool is_leaving = false;
 };
 

@@ -57,8 +57,8 @@ void Rounds::send_table(nanoseconds gap, nanoseconds now) {
   if (now - table_sent_ < gap) return;
   table_sent_ = now;
   TableExtract extract;
+  extract.act = core_.is_informed() ? core_.acts.decided().number : 0;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (core_.table[i] == Tenure{}) continue;
     extract.holdings.add(i, core_.table[i]);
     if (extract.holdings.count < kMostHoldings) continue;
     core_.send(0, extract);
@@ -72,7 +72,7 @@ void Rounds::send_decided(std::uint32_t to, nanoseconds now) {
   decided_sent_ = now;
   Proposal decided;
   decided.act = core_.acts.decided();
-  decided.is_decided = true;
+  decided.phase = DecisionPhase::decided;
   core_.send(to, decided);
 }
 
@@ -111,7 +111,7 @@ void Rounds::step(std::uint32_t complied, nanoseconds now) {
   Round round;
   round.act = core_.acts.exists() ? act.number : 0;
   round.hash = core_.acts.hash();
-  round.table = core_.table.hash();
+  round.table = core_.is_informed() ? core_.table.hash() : 0;
   round.round = core_.leases.round(now);
   round.is_decided = core_.acts.pending() == nullptr;
   round.is_active = is_active_here;

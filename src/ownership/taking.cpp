@@ -60,6 +60,7 @@ void Taking::ask_due(nanoseconds now) {
 bool Taking::may_take(const Grant& grant, std::uint32_t from, nanoseconds now) const {
   const ActBook& acts = core_.acts;
   const auto sent = core_.leases.sent_at(grant.round, now);
+  if (!core_.is_informed()) return false;
   if (!sent || now - *sent >= kTake || acts.pending() != nullptr || core_.is_leaving) return false;
   if (!acts.decided().roll.contains(core_.config.epoch) || !acts.decided().roll.contains(from))
     return false;
@@ -184,8 +185,8 @@ void Taking::confirm_if_agreed(Row& row) noexcept {
 // An act that this peer has accepted bars the former owners.
 bool Taking::may_agree(const Holding& holding, std::uint32_t from) const noexcept {
   const Roll& roll = core_.acts.decided().roll;
-  if (holding.tenure.owner != from || !roll.contains(from) || !roll.contains(core_.config.epoch))
-    return false;
+  const bool are_voters = roll.contains(from) && roll.contains(core_.config.epoch);
+  if (holding.tenure.owner != from || !are_voters || !core_.is_informed()) return false;
   const Act* pending = core_.acts.pending();
   return pending == nullptr || (!pending->given[holding.object] && !pending->removes(from));
 }
@@ -194,8 +195,11 @@ void Taking::receive(const TableExtract& extract, std::uint32_t from, nanosecond
   Agreement agreement;
   agreement.serial = extract.serial;
   TableExtract newer;
+  const bool is_whole = extract.act >= core_.acts.decided().number &&
+                        core_.acts.decided().roll.contains(from) && core_.acts.exists();
   for (const Holding& holding : extract.holdings.list()) {
     if (holding.object >= core_.table.size()) continue;
+    if (is_whole) core_.unknown.reset(holding.object);
     const std::uint32_t owner = core_.table[holding.object].owner;
     const bool is_silent =
         owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;

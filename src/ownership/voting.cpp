@@ -33,7 +33,7 @@ bool Voting::accepts_removals(const Act& act, nanoseconds now) const {
 bool Voting::accepts_gifts(const Proposal& proposal, nanoseconds now) {
   const Act& act = proposal.act;
   if (act.given.none()) return true;
-  if (now - core_.leases.restarted() < LeaseBook::kDead) return false;
+  if (now - core_.leases.restarted() < LeaseBook::kDead || !core_.is_informed()) return false;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!act.given[i]) continue;
     const std::uint32_t owner = core_.table[i].owner;
@@ -48,7 +48,7 @@ bool Voting::accepts_gifts(const Proposal& proposal, nanoseconds now) {
 
 bool Voting::accepts(const Proposal& proposal, nanoseconds now) {
   const Act& act = proposal.act;
-  if (!core_.acts.may_accept(act, proposal.ballot, proposal.seen)) return false;
+  if (!core_.acts.may_accept(act, proposal.ballot)) return false;
   const bool is_known = core_.acts.pending() != nullptr && core_.acts.hash() == act.hash() &&
                         core_.acts.pending()->number == act.number;
   if (!act.roll.contains(act.chair)) return false;

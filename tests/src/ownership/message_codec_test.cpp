@@ -64,7 +64,8 @@ Proposal proposal_of(std::size_t voters, std::size_t removed) {
   proposal.act.given.set(3);
   proposal.act.given.set(255);
   proposal.ballot = {4, 2};
-  proposal.seen = {3, 1};
+  proposal.accepted = {3, 1};
+  proposal.phase = DecisionPhase::promise;
   proposal.digest = 77;
   return proposal;
 }

@@ -86,23 +86,26 @@ TEST(LeaseBook, CountsSilenceFromTheLastNewRound) {
   EXPECT_EQ(leases.silent_since(5), seconds(7));
 }
 
-TEST(ActBook, HoldsToWhatAMajorityMayHaveAccepted) {
+TEST(ActBook, RefusesLowerBallotsThanItPromised) {
   ActBook acts;
   Act first;
   first.number = 1;
   first.chair = 1;
   ASSERT_TRUE(acts.decide(first));
-  Act one = first, other = first;
-  one.number = other.number = 2;
-  other.chair = 3;
-  ASSERT_TRUE(acts.may_accept(one, {1, 1}, {}));
-  acts.accept(one, {1, 1});
-  EXPECT_FALSE(acts.may_accept(other, {2, 3}, {})) << "its proposer does not know of the first";
-  EXPECT_TRUE(acts.may_accept(one, {2, 3}, {1, 1}));
-  EXPECT_FALSE(acts.may_accept(one, {0, 9}, {1, 1})) << "a lower ballot";
-  Act later = first;
+  Act next = first, later = first;
+  next.number = 2;
   later.number = 3;
-  EXPECT_FALSE(acts.may_accept(later, {5, 1}, {5, 1}));
+  ASSERT_TRUE(acts.may_accept(next, {1, 1}));
+  acts.promise({2, 3});
+  EXPECT_FALSE(acts.may_accept(next, {1, 9}));
+  EXPECT_TRUE(acts.may_accept(next, {2, 3}));
+  EXPECT_FALSE(acts.may_accept(later, {5, 1}));
+  acts.accept(next, {2, 3});
+  EXPECT_EQ(acts.newest().number, 2U);
+  EXPECT_EQ(acts.decided().number, 1U);
+  ASSERT_TRUE(acts.decide(next));
+  EXPECT_EQ(acts.pending(), nullptr);
+  EXPECT_FALSE(acts.decide(first)) << "an older one";
 }
 
 }  // namespace roll_test
