@@ -80,6 +80,8 @@ class Ownership {
   [[nodiscard]] bool is_voter() const noexcept {
     return core_.acts.decided().roll.contains(core_.config.epoch);
   }
+  /// Whether this peer knows what all acts gave; if not, it owns nothing.
+  [[nodiscard]] bool is_informed() const noexcept { return core_.is_informed(); }
   [[nodiscard]] const WorldId& world() const noexcept { return core_.world; }
   [[nodiscard]] const ActBook& acts() const noexcept { return core_.acts; }
   [[nodiscard]] const TenureTable& table() const noexcept { return core_.table; }

@@ -196,7 +196,8 @@ class Trial {
       if (!owners_[i].is_up()) restart(i);
     }
   }
-  // In a world that lacks a majority for ever, the user of the most senior voter goes on alone.
+  // In a world that lacks a majority for ever, or whose gifts nobody knows any more, the user of
+  // the most senior voter goes on alone.
   void happen(const UsersWord&) {
     for (std::size_t i = 0; i < owners_.size(); ++i) {
       const auto& acts = owners_[i].protocol().acts();
@@ -206,7 +207,12 @@ class Trial {
           return owner.epoch() == voter.epoch && owner.runs();
         });
       };
-      const bool has_majority = roll.is_majority(lives) && acts.newest().roll.is_majority(lives);
+      const bool is_known = std::ranges::any_of(owners_, [&](const SimulatedOwner& owner) {
+        return owner.runs() && owner.protocol().is_informed() &&
+               owner.protocol().world() == owners_[i].protocol().world();
+      });
+      const bool has_majority =
+          is_known && roll.is_majority(lives) && acts.newest().roll.is_majority(lives);
       if (!owners_[i].runs() || !acts.exists() || has_majority) continue;
       const auto first = std::ranges::find_if(roll.voters(), lives);
       if (first != roll.voters().end() && first->epoch != owners_[i].epoch()) continue;
