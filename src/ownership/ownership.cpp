@@ -204,7 +204,8 @@ void Ownership::propose(nanoseconds now) {
   if (proposal == nullptr) return;
   const Proposal sent = *proposal;
   core_.send(0, sent);
-  if (sent.phase == DecisionPhase::prepare || !voting_.accepts(sent, now)) return;
+  if (sent.phase == DecisionPhase::prepare) return;
+  if (!voting_.accepts(sent, now)) return voting_.note_threat(sent.act, now);
   accept(sent, now);
   Vote own;
   own.act = sent.act.number;
@@ -221,7 +222,7 @@ void Ownership::step(nanoseconds now) {
   stepped_ = now;
   found_if_due(now);
   if (core_.acts.exists()) {
-    if (core_.has_lease(now)) leased_ = now;
+    if (core_.is_informed() && core_.has_lease(now)) leased_ = now;
     voting_.comply(leased_, now);
     propose(now);
     granting_.step(now);

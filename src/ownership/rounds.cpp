@@ -115,7 +115,7 @@ void Rounds::step(std::uint32_t complied, nanoseconds now) {
   round.round = core_.leases.round(now);
   round.is_decided = core_.acts.pending() == nullptr;
   round.is_active = is_active_here;
-  round.has_lease = core_.has_lease(now);
+  round.has_lease = core_.is_informed() && core_.has_lease(now);
   round.yields_to = yields_to(complied, now);
   agrees_ = round.yields_to != 0;
   const auto voters = act.roll.voters();
