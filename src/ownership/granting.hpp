@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The side of a hand-over that gives objects: remembers who asks, and grants when it can.
+// The giving side of a hand-over. It keeps a list of the peers that ask for an object, and grants
+// the object when no hand holds it.
 #pragma once
 
 #include <array>

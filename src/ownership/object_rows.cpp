@@ -11,9 +11,6 @@ using std::chrono::nanoseconds;
 using Hold = ObjectRow::Hold;
 using Row = ObjectRow;
 
-// Time that an unconfirmed owner loses, for clocks of different rates.
-constexpr nanoseconds kMargin = std::chrono::milliseconds(100);
-
 }  // namespace
 
 bool ObjectRows::owns(std::size_t object, nanoseconds now) const noexcept {
@@ -86,7 +83,7 @@ void ObjectRows::follow_act(nanoseconds lease_end) {
       take_back(i);
     }
     if (row.hold == Hold::none || act_of(core_.table[i].version) == act.number) continue;
-    const nanoseconds until = lease_end + LeaseBook::kDead - LeaseBook::kLease - kMargin;
+    const nanoseconds until = lease_end + LeaseBook::kGrace;
     row.until = row.confirmed ? until : std::min(row.until, until);
     row.confirmed = false;
     row.agreed = 0;

@@ -72,6 +72,8 @@ void Ownership::merge(const WorldId& older) {
   core_.acts.clear();
   core_.table.clear();
   chair_.end();
+  rounds_.follow_act();
+  voting_.follow_act();
   core_.world = older;
   ++core_.counts.merged;
   core_.report({OwnershipEvent::Kind::merged, OwnerChange::merged, {}, 0, older.founder});
@@ -85,8 +87,13 @@ void Ownership::found_if_due(nanoseconds now) {
   if (chair_.is_preceded(core_.to_found, now)) return;
   core_.world = core_.to_found;
   ++core_.to_found.founded;
+  found(1, now);
+}
+
+// The only voter, and the owner of all objects.
+void Ownership::found(std::uint32_t number, nanoseconds now) {
   Act act;
-  act.number = 1;
+  act.number = number;
   act.chair = core_.config.epoch;
   act.roll.add({core_.config.epoch, 0});
   for (std::size_t i = 0; i < core_.table.size(); ++i) act.given.set(i);
@@ -100,14 +107,7 @@ void Ownership::go_alone(std::uint32_t utc, nanoseconds now) {
   core_.acts.clear();
   core_.world = {utc, core_.config.epoch};
   chair_.forget_newcomers();
-  Act act;
-  act.number = number;
-  act.chair = core_.config.epoch;
-  act.roll.add({core_.config.epoch, 0});
-  for (std::size_t i = 0; i < core_.table.size(); ++i) act.given.set(i);
-  is_founding_ = true;
-  decide(act, now);
-  is_founding_ = false;
+  found(number, now);
 }
 
 // Acts

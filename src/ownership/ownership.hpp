@@ -97,6 +97,7 @@ class Ownership {
                                  Nanoseconds now);
   void merge(const WorldId& older);
   void found_if_due(Nanoseconds now);
+  void found(std::uint32_t number, Nanoseconds now);
   void decide(const Act& act, Nanoseconds now);
   void propose(Nanoseconds now);
   void promise(const Proposal& proposal, std::uint32_t from);

@@ -14,8 +14,6 @@ using Row = ObjectRow;
 
 // A request is repeated, so that the owner remembers it.
 constexpr nanoseconds kAskAgain = std::chrono::seconds(1);
-// Time that an unconfirmed owner loses, for clocks of different rates.
-constexpr nanoseconds kTakingMargin = milliseconds(100);
 constexpr nanoseconds kAnnounceGap = milliseconds(20);
 
 }  // namespace
@@ -146,8 +144,7 @@ void Taking::take(const Incoming& grant, const Grant& last, nanoseconds now) {
     row.hold = Hold::owned;
     row.wanted = wanted;
     row.first_serial = rows_.serial + 1;
-    row.until =
-        sent + milliseconds(last.lease_ms) + LeaseBook::kDead - LeaseBook::kLease - kTakingMargin;
+    row.until = sent + milliseconds(last.lease_ms) + LeaseBook::kGrace;
     ++core_.counts.taken;
   }
   core_.report({OwnershipEvent::Kind::gained, OwnerChange::granted, grant.objects,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The side of a hand-over that takes objects: asks for them, takes grants, and lets all voters note
+// The taking side of a hand-over. It asks for objects, takes grants, and asks all voters to note
 // the new owner.
 #pragma once
 
