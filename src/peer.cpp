@@ -180,7 +180,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               urgent_.get(),
               &read_.known(),
               &read_.felt(),
-              sends_bodies() ? &bodies_->outgoing() : nullptr,
+              bodies_.get(),
               stepped_.get(),
               mover_.get(),
               custom_effects_of(servos_),
@@ -191,10 +191,12 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               options.started,
               !devices.empty(),
               sends_bodies() ? std::uint8_t{1} : options.scene_peer,
-              options.chain_secret}) {
+              options.chain_secret,
+              !devices.empty() || options.scene_peer > 0,
+              owns_ && options.founds}) {
   add_hands(options, devices);
   const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
-  if (sends_bodies()) model_.add_bodies(next);
+  if (sends_bodies() || (bodies_ != nullptr && !scene.network.interop)) model_.add_bodies(next);
 }
 
 void Peer::add_hands(const PeerOptions& options, std::span<const PeerDevice> devices) {

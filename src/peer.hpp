@@ -47,6 +47,9 @@ struct PeerOptions {
   aoim::ChainLink chain_secret{};  ///< random secret with which this epoch proves its identity
   std::uint32_t started = 0;       ///< UTC second of that start; the older peer keeps a disputed ID
   std::uint8_t scene_peer = 0;     ///< its number in the scene, from 1; 0: none
+  /// The first peer of a scene owns its bodies at once. False: it first looks for 1.2 s whether
+  /// other peers own them.
+  bool founds = true;
   bool transfer = true;            ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()

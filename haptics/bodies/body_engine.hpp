@@ -51,6 +51,9 @@ class BodyEngine {
     return !carried_.empty() && carried_.bodies().size() < book_.now().size();
   }
   void keep_carried(std::size_t body) noexcept { solver_.slots().keep_carried(body); }
+  [[nodiscard]] bool can_own(std::size_t body) const noexcept {
+    return solver_.slots().can_be_owned(body);
+  }
   [[nodiscard]] bool is_any_moving() const noexcept { return book_.woken().is_any_moving(kSoon); }
 
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,

@@ -71,6 +71,9 @@ class BodySlots {
 
   /// Changes the mode of a body that can be owned: carried, or moved by forces.
   void set_carried(std::size_t body, bool is_carried) noexcept;
+  [[nodiscard]] bool can_be_owned(std::size_t body) const noexcept {
+    return kinds_[body].can_be_owned;
+  }
   /// It stays carried.
   void keep_carried(std::size_t body) noexcept { kinds_[body].can_be_owned = false; }
   /// Moves a body without a slot.

@@ -114,6 +114,8 @@ std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,
 bool BodyWorld::is_any_moving() const noexcept { return engine_->is_any_moving(); }
 bool BodyWorld::is_mixed() const noexcept { return engine_->is_mixed(); }
 void BodyWorld::keep_carried(std::size_t body) noexcept { engine_->keep_carried(body); }
+
+bool BodyWorld::can_own(std::size_t body) const noexcept { return engine_->can_own(body); }
 void BodyWorld::touch(std::uint32_t body) noexcept { engine_->touch(body); }
 std::size_t BodyWorld::add_hand() { return engine_->add_hand(); }
 std::span<const std::uint32_t> BodyWorld::near(std::size_t hand, const HandReach& reach,

@@ -122,6 +122,8 @@ class BodyWorld {
   [[nodiscard]] bool is_mixed() const noexcept;
   /// This peer never owns that body. Call before the first advance.
   void keep_carried(std::size_t body) noexcept;
+  /// Whether this peer can own it. Any thread after the first advance.
+  [[nodiscard]] bool can_own(std::size_t body) const noexcept;
   /// A hand touches a body; for BodyState::touched.
   void touch(std::uint32_t body) noexcept;
 

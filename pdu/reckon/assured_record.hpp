@@ -22,6 +22,8 @@ namespace reckon::pdu {
 inline constexpr std::size_t kMostAssured = 1200;
 /// Bit of AssuredRecord::flags in a record: its content is one whole PDU.
 inline constexpr std::uint8_t kAssuredPdu = 1;
+/// The record is sent once, without acknowledgement; its sequence has no meaning.
+inline constexpr std::uint8_t kAssuredOnce = 2;
 
 struct AssuredRecord {
   static constexpr PduType kPduType = PduType::assured_record;
@@ -32,7 +34,7 @@ struct AssuredRecord {
   PduHeader header = header_of<AssuredRecord>();
   SimulationAddress simulation;  ///< of the sender
   AssuredKind kind = AssuredKind::none;
-  std::uint8_t flags = 0;  ///< kAssuredPdu
+  std::uint8_t flags = 0;  ///< kAssuredPdu, kAssuredOnce
   std::uint16_t padding = 0;
   std::uint32_t epoch = 0;     ///< of the sender, as in its trailers
   std::uint32_t sequence = 0;  ///< of the record; in an acknowledgement the highest received

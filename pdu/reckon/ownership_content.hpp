@@ -16,7 +16,7 @@ namespace reckon::pdu {
 using ObjectBits = std::array<std::uint8_t, 32>;
 
 inline constexpr std::uint8_t kRoundDecided = 1, kRoundActive = 2, kRoundLease = 4,
-                              kRoundLeaves = 8, kRoundYields = 16;
+                              kRoundLeaves = 8, kRoundYields = 16, kRoundFollows = 32;
 
 /// Kind 16. `count` octets follow: the last round of each voter from `first` on.
 struct OwnershipRound {

@@ -31,6 +31,8 @@ struct ModelIdentity {
   bool haptic;            ///< it has devices
   std::uint8_t scene_peer = 0;  ///< number of the peer in the scene, from 1; 0: none
   aoim::ChainLink secret{};     ///< proves this epoch, random
+  bool may_own = false;         ///< bodies of the scene
+  bool founds = false;          ///< see OwnershipConfig::founds_at_once
 };
 
 /// The rows of tiers by distance with their own groups, except kept ones, the nearest first; else

@@ -16,6 +16,9 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kMostPeers = aoim::PresenceConfig{}.capacity;
 constexpr nanoseconds kNoticeGap = std::chrono::seconds(1);
 
+// Further kinds belong to users.
+constexpr auto kFirstUserKind = pdu::AssuredKind::ownership_round;
+
 bool is_of_users(pdu::AssuredKind kind) noexcept {
   return kind == pdu::AssuredKind::record || kind >= pdu::AssuredKind::ownership_round;
 }
@@ -65,12 +68,22 @@ AssuredStage::AssuredStage(const ModelWiring& wiring, std::uint32_t epoch,
 
 // Out
 
-void AssuredStage::send(std::span<const std::byte> pdu, std::uint64_t tag,
-                        const Pass& pass) noexcept {
+void AssuredStage::find_joined() noexcept {
   joined_.clear();
   for (const aoim::Peer& peer : aoim_.presence().peers()) {
     if (peer.joined && joined_.size() < joined_.capacity()) joined_.push_back(peer.announced.epoch);
   }
+}
+
+std::optional<std::uint32_t> AssuredStage::send_to_joined(const AssuredContent& content,
+                                                          const Pass& pass) noexcept {
+  find_joined();
+  return joined_.empty() ? std::nullopt : sent_.add(content, joined_, pass.now);
+}
+
+void AssuredStage::send(std::span<const std::byte> pdu, std::uint64_t tag,
+                        const Pass& pass) noexcept {
+  find_joined();
   if (joined_.empty()) {
     static_cast<void>(aoim_.send(aoim::kEverybody, aoim::PduPayload{pdu}, {}, pass.now));
     return;
@@ -152,6 +165,16 @@ void AssuredStage::acknowledge(const DueReceipt& due) noexcept {
   if (due.is_for_host) send_to_host(due.epoch, record);
 }
 
+void AssuredStage::send_once(pdu::AssuredKind kind, std::span<const std::byte> octets,
+                             std::uint32_t to, const Pass& pass) noexcept {
+  pass_ = pass;
+  pdu::AssuredRecord record = record_of(kind, 0);
+  record.flags = pdu::kAssuredOnce;
+  if (to != 0) record.addressees = store_addressees(std::span(&to, 1));
+  record.content = pdu::OctetBlock<std::uint16_t>::of(octets);
+  send_to_all(record);
+}
+
 // To all addressees, or to all peers if the addressees leave too little room.
 void AssuredStage::send_to_all(const pdu::AssuredRecord& record) noexcept {
   pdu::AssuredRecord sent = record;
@@ -225,12 +248,17 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   const bool is_unusable = !is_pdu && holds_pdu(record);
   const bool is_users = !is_pdu && !is_unusable;
   if (is_users && !is_of_users(record.kind)) return counted_.unknown.add(), false;
+  const bool is_for_us = record.addressees.empty() || names_us(record);
+  if (is_users && (record.flags & pdu::kAssuredOnce) != 0) {
+    if (is_for_us && user_ != nullptr)
+      static_cast<void>(user_->take_record({record.epoch, record.kind, record.content.bytes}));
+    return false;
+  }
   if (is_users && user_ == nullptr) {
     received_.follow(record.epoch, record.sequence, arrival.now);
     return counted_.unknown.add(), false;
   }
 
-  const bool is_for_us = record.addressees.empty() || names_us(record);
   // A marked PDU is for everybody.
   if (!is_for_us && record.kind != pdu::AssuredKind::mark)
     return received_.follow(record.epoch, record.sequence, arrival.now), false;

@@ -43,7 +43,8 @@ struct UserRecord {
 class AssuredUser {
  public:
   virtual ~AssuredUser() = default;
-  /// Takes a record; each is given once. False refuses it; its sender receives that verdict.
+  /// Takes a record; each assured one is given once. False refuses it; its sender receives that
+  /// verdict.
   [[nodiscard]] virtual bool take_record(const UserRecord& record) noexcept = 0;
   /// The end of an own record for one addressee. Must not send a record.
   virtual void settle(const AssuredReport& report) noexcept = 0;
@@ -74,6 +75,13 @@ class AssuredStage final : private AssuredReports {
     return sent_.add(content, addressees, pass.now);
   }
 
+  /// The same to all joined peers. Nothing if there are none.
+  std::optional<std::uint32_t> send_to_joined(const AssuredContent& content,
+                                              const Pass& pass) noexcept;
+  /// Sends a record of a user once, without acknowledgement.  @param to epoch; 0: all
+  void send_once(pdu::AssuredKind kind, std::span<const std::byte> octets, std::uint32_t to,
+                 const Pass& pass) noexcept;
+
   /// Judges an update if it is a record or an acknowledgement, and consumes all but PDUs.
   /// @return whether it is to be delivered; then call conclude(), for a PDU
   [[nodiscard]] bool admits(const Inbound& update, const Arrival& arrival) noexcept {
@@ -95,6 +103,7 @@ class AssuredStage final : private AssuredReports {
   using Nanoseconds = std::chrono::nanoseconds;
   static constexpr std::size_t kMostOctets = 1352;  ///< of a PDU
 
+  void find_joined() noexcept;
   void settle(const AssuredReport& report) noexcept override;
   void note_undelivered(const Undelivered& undelivered) noexcept;
   void transmit(const DueRecord& due) noexcept;

@@ -55,6 +55,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       hooks_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       assured_(wiring, identity.epoch, aoim_, time_, hooks_, outlet_, watches_.notices()),
+      ownership_(wiring, identity,
+                 {aoim_, assured_, bodies_, owned_, remote_, watches_.notices()}),
       view_(wiring) {}
 
 // A pass
@@ -107,7 +109,9 @@ void ModelLoop::read_sensors() noexcept {
   doubt_silent_peers();
   remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
-  bodies_.move_own(pass_.now, owned_, [this](EntityNumber n, const EntityTruth& t) { move(n, t); });
+  bodies_.read(pass_.now, owned_);
+  ownership_.step(pass_);
+  bodies_.move_own(owned_, [this](EntityNumber n, const EntityTruth& t) { move(n, t); });
 }
 
 void ModelLoop::do_tasks() noexcept {
@@ -192,7 +196,7 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
 }
 
 void ModelLoop::add_bodies(EntityNumber first) {
-  bodies_.add_own(first, aoim_.presence().own().epoch, owned_);
+  bodies_.add_own(first, owned_);
   aoim_.introductions().set_owned(owned_.size());
   subscriber_.note_moved();
 }
@@ -249,7 +253,8 @@ void ModelLoop::consider_others() noexcept {
 }
 
 bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcept {
-  if (entity.truth().time <= nanoseconds(0) || touch_.is_hand(number)) return false;
+  const bool is_sent = entity.is_ours() && entity.truth().time > nanoseconds(0);
+  if (!is_sent || touch_.is_hand(number)) return false;
   const PortlessBody* body = entity.touch() == nullptr ? nullptr : touch_.body_of(number);
   return sender_.consider(entity, pass_, pass_.now, {},
                           body == nullptr ? std::span<const EnergyAccount>() : body->accounts());
@@ -282,10 +287,8 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
-  bodies_.look(aoim_.presence(), owned_, pass_.now);
   watches_.look(remote_, aoim_.presence().id(), pass_.now);
   hooks_.look({remote_, aoim_, unfelt, touch_.crowder(), pass_.now, watches_.notices()});
-  watches_.look(bodies_.owner(), pass_.now);
   view.own = own_id();
   view.owned = owned_.size();
   view.peers = aoim_.presence().peers().size();
@@ -311,7 +314,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (!assured_.admits(update, arrival)) return;
   if (update.kind != Inbound::Kind::entity)
     return assured_.conclude(update, take_interaction(update, arrival));
-  bodies_.prepare(update, arrival, aoim_.presence(), owned_);
+  ownership_.note_state(update, arrival);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
   bodies_.note(update, arrival, remote_);
@@ -319,6 +322,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
 
 // A forged PDU is neither obeyed nor delivered; then false.
 bool ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
+  if (ownership_.takes(update, arrival)) return true;
   const bool order = update.kind != Inbound::Kind::other;
   if (order && !orders_.obeys(update, arrival, pass_)) return false;
   const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);

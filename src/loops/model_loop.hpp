@@ -27,6 +27,7 @@
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/order_stage.hpp"
+#include "reckon/peer/loops/ownership_stage.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/peer_watches.hpp"
 #include "reckon/peer/loops/returned_peers.hpp"
@@ -88,6 +89,8 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
   /// Queues an encoded PDU, for the peers that can sense `place` [m, S] or for all.
   aoim::AddResult send(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
+  /// The owners of the bodies.
+  [[nodiscard]] OwnershipStage& ownership() noexcept { return ownership_; }
   /// Assured messages of this peer, for send() and for users of further kinds of records.
   [[nodiscard]] AssuredStage& assured() noexcept { return assured_; }
   /// @param guest outlives the loop, or the next call; nullptr: none.
@@ -108,7 +111,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), assured_.next_step(), view_.next(), owned_.next_due(),
-                     tracked_.next_due(), bodies_.next_step()});
+                     tracked_.next_due(), bodies_.next_step(), ownership_.next_step()});
   }
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.
@@ -179,6 +182,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   HookList hooks_;  // behind the stages that ask it, whose counters its rows read
   OrderStage orders_;
   AssuredStage assured_;
+  OwnershipStage ownership_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
   ReturnedPeers returned_;

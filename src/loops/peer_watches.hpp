@@ -50,8 +50,6 @@ class PeerWatches {
     refusal_watch_.look(touched, remote, now);
     return silence_watch_.look(presence, touched, remote, now, notices_);
   }
-  /// Reports rivals of the owner of the scene's bodies; call it some twenty times a second.
-  void look(const BodyOwner& bodies, Nanoseconds now) noexcept { refusal_watch_.look(bodies, now); }
   /// Makes the remaining reports; call it some twenty times a second.
   void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept {
     while (const MutedSender* sender = muted_ == nullptr ? nullptr : muted_->front()) {

@@ -82,16 +82,6 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
   }
 }
 
-void RefusalWatch::look(const BodyOwner& bodies, Nanoseconds now) noexcept {
-  const auto& rival = bodies.rival();
-  if (rivals_.turn(rival.has_value(), now) != NoticeCondition::Turn::begins || !rival) return;
-  report(make_notice(NoticeKind::first_peer_disputed,
-                     "{}:{} at {} claims to be the scene's first peer: the bodies stay with {}:{}",
-                     rival->name.site, rival->name.application, AddressText(rival->from).view(),
-                     rival->owner.site, rival->owner.application),
-         rival->from, now);
-}
-
 void RefusalWatch::look(std::span<const Touched> touched, RemoteEntities& remote,
                         Nanoseconds now) noexcept {
   for (const Touched& one : touched) {

@@ -14,7 +14,6 @@
 #include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
-#include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -33,9 +32,6 @@ class RefusalWatch {
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept;
   /// Call it some times a second. @param own our simulation
   void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
-  /// Reports another sender that announces itself as the scene's first peer, if the scene has
-  /// bodies.
-  void look(const BodyOwner& bodies, Nanoseconds now) noexcept;
   /// Reports owners that press our hands while the touch rule neither lists owners nor needs a key.
   /// @param touched entities in contact with our hands
   void look(std::span<const Touched> touched, RemoteEntities& remote, Nanoseconds now) noexcept;
@@ -56,7 +52,7 @@ class RefusalWatch {
 
   NoticeGate& gate_;
   haptics::SpscRing<Notice>& out_;
-  NoticeCondition orders_, rivals_;
+  NoticeCondition orders_;
   Growing untouchable_, evicted_, strangers_, bodies_, inside_, silent_;
   Disputes pushers_;
 };

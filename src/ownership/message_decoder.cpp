@@ -52,6 +52,7 @@ std::optional<OwnershipMessage> decode_round(RecordReader in) noexcept {
   round.is_decided = (head.flags & pdu::kRoundDecided) != 0;
   round.is_active = (head.flags & pdu::kRoundActive) != 0;
   round.has_lease = (head.flags & pdu::kRoundLease) != 0;
+  round.follows = (head.flags & pdu::kRoundFollows) != 0;
   if ((head.flags & pdu::kRoundYields) != 0)
     round.yields_to = head.act + (round.is_decided ? 1U : 0U);
   if ((head.flags & pdu::kRoundLeaves) != 0) round.yields_to = kAnyAct;

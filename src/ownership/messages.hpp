@@ -54,6 +54,7 @@ struct Round {
   bool is_decided = false;  ///< the act is
   bool is_active = false;   ///< the sender has or wants an object in motion
   bool has_lease = false;   ///< a majority receives the sender
+  bool follows = false;     ///< the sender wants no vote
   /// Number of an act that may remove the sender; kAnyAct if it leaves, 0 for none.
   std::uint32_t yields_to = 0;
   std::array<std::uint8_t, Roll::kMost> heard{};  ///< last round of each voter of the act

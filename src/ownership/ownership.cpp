@@ -47,12 +47,15 @@ void Ownership::receive(std::uint32_t from, const OwnershipMessage& message, nan
 bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint32_t from,
                             nanoseconds now) {
   if (round != nullptr && round->act == 0) {
-    chair_.note_newcomer(from, world, now);
+    if (!round->follows) chair_.note_newcomer(from, world, now);
     core_.leases.receive(from, round->round, now);
     if (core_.acts.exists()) rounds_.send_decided(from, now);
     return false;
   }
   if (!world.exists()) return false;
+  // A peer without a vote has no lease of its own: that of a voter counts.
+  if (!core_.config.votes && round != nullptr && round->has_lease && core_.world == world)
+    leased_ = now;
   if (core_.world == world) return true;
   if (core_.world.exists()) {
     // An older world has precedence, and any that has a majority if ours has none for long.
@@ -83,7 +86,8 @@ void Ownership::found_if_due(nanoseconds now) {
   // The peers of a world that we wanted to join have gone.
   if (!core_.acts.exists() && core_.world.exists() && now - joined_ > LeaseBook::kDead)
     core_.world = {};
-  if (!core_.config.votes || core_.world.exists() || now - started_ < kFound) return;
+  const nanoseconds wait = core_.config.founds_at_once ? nanoseconds(0) : kFound;
+  if (!core_.config.votes || core_.world.exists() || now - started_ < wait) return;
   if (chair_.is_preceded(core_.to_found, now)) return;
   core_.world = core_.to_found;
   ++core_.to_found.founded;
@@ -186,7 +190,7 @@ void Ownership::decide(const Act& act, nanoseconds now) {
   }
   if (is_first) leased_ = now;
   rows_.follow_act(lease_end);
-  if (!is_voter()) {
+  if (!is_voter() && core_.config.votes) {
     core_.table.clear();
     core_.forget_gifts();
   }

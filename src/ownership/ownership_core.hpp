@@ -40,6 +40,8 @@ struct OwnershipConfig {
   std::uint32_t started = 0;  ///< [s], UTC since 1970
   std::size_t objects = 0;    ///< at most kMostOwnable
   bool votes = true;          ///< false: the peer only follows the owners
+  /// Founds a world in its first step; else it waits 1.2 s for an older one.
+  bool founds_at_once = false;
 };
 
 /// A message to send.

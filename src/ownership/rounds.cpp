@@ -37,7 +37,8 @@ void Rounds::note_round(const Round& round, std::uint32_t from, nanoseconds now)
   const bool is_same = round.act == acts.newest().number && round.hash == acts.hash();
   const std::size_t place = acts.newest().roll.index_of(core_.config.epoch);
   if (is_same && place != Roll::kNone) core_.leases.confirm(from, round.heard[place], now);
-  if (!acts.decided().roll.contains(from) && round.act == acts.decided().number)
+  const bool is_new = !acts.decided().roll.contains(from) && !round.follows;
+  if (is_new && round.act == acts.decided().number)
     chair_.note_newcomer(from, {~0U, from}, now);
 }
 
@@ -46,6 +47,7 @@ void Rounds::compare_tables(const Round& round, std::uint32_t from, nanoseconds 
   if (!core_.acts.exists() || round.table == core_.table.hash()) return;
   if (now - differed_ > 2 * kSlowRound) differs_since_ = now;
   differed_ = now;
+  if (!core_.config.votes) return;
   const Roll& roll = core_.acts.decided().roll;
   const bool is_senior = roll.index_of(core_.config.epoch) < roll.index_of(from);
   const bool is_due =
@@ -100,8 +102,24 @@ bool Rounds::is_active(nanoseconds now) const {
   });
 }
 
+// Asks for the act and the table of the voters while ours differ.
+void Rounds::follow(nanoseconds now) {
+  const bool lacks_act = core_.world.exists() && !core_.acts.exists();
+  if (!lacks_act && now - differed_ > kSlowRound) return;
+  if (now - round_at_ < kTableGap) return;
+  round_at_ = now;
+  Round round;
+  round.follows = true;
+  round.act = core_.acts.decided().number;
+  round.hash = core_.acts.hash();
+  round.table = core_.table.hash();
+  round.round = core_.leases.round(now);
+  round.is_decided = true;
+  core_.send(0, round);
+}
+
 void Rounds::step(std::uint32_t complied, nanoseconds now) {
-  if (!core_.config.votes) return;
+  if (!core_.config.votes) return follow(now);
   const bool is_active_here = is_active(now);
   const bool is_fast = is_active_here || now - active_at_ < kActive ||
                        !core_.acts.decided().roll.contains(core_.config.epoch);

@@ -43,6 +43,7 @@ class Rounds {
   void compare_tables(const Round& round, std::uint32_t from, Nanoseconds now);
   [[nodiscard]] std::uint32_t yields_to(std::uint32_t complied, Nanoseconds now) noexcept;
   [[nodiscard]] bool is_active(Nanoseconds now) const;
+  void follow(Nanoseconds now);
 
   static constexpr Nanoseconds kNever = Nanoseconds::min() / 4;
 

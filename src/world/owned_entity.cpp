@@ -371,6 +371,7 @@ bool OwnedEntity::hold_back(nanoseconds time) noexcept {
 
 // Without listeners nothing is due.
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
+  if (!is_ours()) return nanoseconds::max();
   const nanoseconds own = last_built_ + pdu::from_seconds(policy_.silence());
   if (!audiences_) return std::max(withheld_until_, std::min(held_until_, own));
   const std::size_t served = audiences_->served();

@@ -117,8 +117,15 @@ class OwnedEntity {
   /// Changes the number after an identity conflict; the next decide() returns `event`.
   void rename(const pdu::EntityId& id) noexcept;
   /// Makes it a body of the scene, whose ID names no owner: each update carries this record.
+  /// @param ownership with owner 0: another peer owns it
   void own_by(const pdu::OwnershipRecord& ownership) noexcept { ownership_ = ownership; }
+  /// Whether this peer owns it; else it is not sent.
+  [[nodiscard]] bool is_ours() const noexcept { return !ownership_ || ownership_->owner != 0; }
   [[nodiscard]] bool is_body() const noexcept { return ownership_.has_value(); }
+  /// Of a body.
+  [[nodiscard]] const std::optional<pdu::OwnershipRecord>& ownership() const noexcept {
+    return ownership_;
+  }
 
   /// Makes the next decide() return `event`, for a new peer or an abrupt change.
   void event() noexcept { event(kAllAudiences); }

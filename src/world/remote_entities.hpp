@@ -93,6 +93,8 @@ class RemoteEntities {
                                         std::chrono::nanoseconds now) noexcept;
   /// Fades its force out from `now` until it is updated.
   void fade(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
+  /// Removes the row of a body that this peer owns from now on.
+  void forget(const pdu::EntityId& body) noexcept;
   /// A peer has claimed these numbers with this epoch: drops rows of other senders under them.
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops entities that were silent for longer than their time-out, except bodies of the scene.

@@ -83,6 +83,11 @@ void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
   changes_.updated(place);
 }
 
+void RemoteEntities::forget(const pdu::EntityId& body) noexcept {
+  if (const RemoteEntity* row = table_.find(body)) drop(table_.place_of(*row), Removal::owner_changed);
+  outside_.forget_if([&](const OutsideEntity& entity) { return entity.id() == body; });
+}
+
 void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
   for (std::size_t i = 0; i < table_.rows().size();) {
     const RemoteEntity& row = table_.rows()[i];

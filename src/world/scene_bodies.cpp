@@ -14,10 +14,8 @@ bool SceneBodies::admits(const Inbound& update, const Arrival& arrival) noexcept
   }
   const std::uint64_t version = update.ownership->version;
   aoim::BodyOwnership& last = recorded_[update.entity.entity - 1u];
-  const bool is_new = last.epoch != arrival.epoch;
-  const bool counts = presence_.standing(last.epoch) == aoim::Standing::member;
-  const bool is_older = version < last.version || (is_new && version == last.version);
-  if (version < owner.version || (counts && is_older)) return counts_.bodies_stale.add(), false;
+  const bool is_older = last.epoch == arrival.epoch && version < last.version;
+  if (version < owner.version || is_older) return counts_.bodies_stale.add(), false;
   last = {arrival.epoch, version};
   return true;
 }

@@ -32,8 +32,6 @@ class SceneBodies {
     return owners_ != nullptr && aoim::BodyOwners::are_for(id);
   }
   /// Whether an update of a body may be taken; then its ownership is recorded, else it is counted.
-  /// A version counts only while its owner is in the exercise: without that owner the next one may
-  /// begin anew.
   [[nodiscard]] bool admits(const Inbound& update, const Arrival& arrival) noexcept;
   /// Epoch of the owner of a body; 0 if it is not known.
   [[nodiscard]] std::uint32_t owner_of(const pdu::EntityId& body) const noexcept {
@@ -45,7 +43,8 @@ class SceneBodies {
   }
   /// Whether it is a body whose owner is not in the exercise.
   [[nodiscard]] bool is_orphan(const RemoteEntity& row) const noexcept {
-    return contains(row.id) && presence_.standing(row.epoch) != aoim::Standing::member;
+    return contains(row.id) && row.epoch != presence_.own().epoch &&
+           presence_.standing(row.epoch) != aoim::Standing::member;
   }
   /// Simulation address of the owner of a row; of an orphan the scene's.
   [[nodiscard]] aoim::PeerId owner_of(const RemoteEntity& row) const noexcept {

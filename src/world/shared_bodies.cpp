@@ -125,6 +125,11 @@ void RemoteBodies::note(const Inbound& update, const Arrival& arrival,
   if (place.id != update.entity) place = {update.entity, row->version - 1, row->doubted_at};
 }
 
+void RemoteBodies::note_own(const pdu::EntityId& body, const RemoteEntities& rows) noexcept {
+  const RemoteEntity* row = rows.find(body);
+  if (row != nullptr) places_[body.entity - 1u] = {body, row->version - 1, row->doubted_at};
+}
+
 bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
                          RemoteEntities& rows) const noexcept {
   const aoim::PeerId owner = rows.bodies().owner_of(row);

@@ -99,6 +99,8 @@ class RemoteBodies {
 
   /// An update with a state that the table has taken.
   void note(const Inbound& update, const Arrival& arrival, RemoteEntities& rows) noexcept;
+  /// The table has a state of this peer, for a body that it has given away.
+  void note_own(const pdu::EntityId& body, const RemoteEntities& rows) noexcept;
   /// Publishes the rows that have changed.
   void publish(const RemoteEntities& rows) noexcept;
 

@@ -1,0 +1,377 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/ownership_stage.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/random/split_mix.hpp"
+#include "reckon/pdu/reckon/assured_record.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+// Between two steps of the protocol while nothing arrives.
+constexpr nanoseconds kStep = milliseconds(20);
+constexpr double kLongestTransit = 0.5;  // [s] that a granted state is extrapolated
+// The new owner of a body that we gave away states it within this time, or it stands still.
+constexpr nanoseconds kSilence = milliseconds(500);
+
+std::size_t moving_in(const SceneFile& scene) {
+  const auto moving = std::ranges::count_if(scene.scene.objects, [](const auto& object) {
+    return object.carried || object.matter.mass > 0;
+  });
+  return std::min<std::size_t>(static_cast<std::size_t>(moving), kMostOwnable);
+}
+
+bool has_bodies(const SceneFile& scene) {
+  return std::ranges::any_of(scene.scene.objects, [](const auto& object) {
+    return !object.carried && object.matter.mass > 0;
+  });
+}
+
+OwnershipConfig config_of(const ModelWiring& wiring, const ModelIdentity& identity) {
+  OwnershipConfig config;
+  config.epoch = identity.epoch;
+  config.started = identity.started;
+  config.objects = moving_in(wiring.scene);
+  config.votes = identity.may_own;
+  config.founds_at_once = identity.founds;
+  return config;
+}
+
+ObjectState state_of(const haptics::ObjectMotion& motion, nanoseconds utc) noexcept {
+  ObjectState state;
+  state.utc = utc;
+  for (int i = 0; i < 3; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    state.position[place] = motion.position[i];
+    state.velocity[place] = motion.velocity[i];
+    state.turn_rate[place] = motion.turn_rate[i];
+  }
+  state.orientation = {motion.orientation.w(), motion.orientation.x(), motion.orientation.y(),
+                       motion.orientation.z()};
+  return state;
+}
+
+}  // namespace
+
+OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& identity,
+                               const Parts& parts)
+    : scene_(wiring.scene),
+      link_(wiring.link),
+      world_(wiring.bodies),
+      epoch_(identity.epoch),
+      parts_(parts),
+      is_on_(wiring.bodies != nullptr && !wiring.scene.network.interop && has_bodies(wiring.scene)),
+      protocol_(config_of(wiring, identity), *this),
+      counted_(wiring.counters),
+      watch_(parts.aoim.presence(), parts.notices) {
+  if (is_on_) parts_.assured.set_user(this);
+}
+
+std::span<const haptics::BodyState> OwnershipStage::states() const noexcept {
+  const haptics::BodyStates* states = parts_.bodies.states();
+  return states == nullptr ? std::span<const haptics::BodyState>() : states->bodies;
+}
+
+// In
+
+bool OwnershipStage::take_record(const UserRecord& record) noexcept {
+  const auto message = decode_message(record.kind, record.octets);
+  if (!message) return false;
+  protocol_.receive(record.epoch, *message, pass_.now);
+  next_ = pass_.now;
+  return true;
+}
+
+bool OwnershipStage::takes(const Inbound& update, const Arrival& arrival) noexcept {
+  const pdu::PduType type = update.pdu.header.pdu_type;
+  const bool is_ours =
+      type == pdu::PduType::transfer_ownership || type == pdu::PduType::acknowledge;
+  if (!is_on_ || !is_ours || update.record.empty() || arrival.epoch == 0) return false;
+  const auto message = decode_message(pdu::AssuredKind::record, update.pdu.bytes);
+  if (!message) return false;
+  protocol_.receive(arrival.epoch, *message, arrival.now);
+  next_ = arrival.now;
+  return true;
+}
+
+// A state shows that a hand-over has ended, perhaps before the table of a voter does.
+void OwnershipStage::note_state(const Inbound& update, const Arrival& arrival) noexcept {
+  const bool is_body = is_on_ && update.ownership && aoim::BodyOwners::are_for(update.entity);
+  if (!is_body || arrival.epoch == 0 || update.ownership->owner != arrival.epoch) return;
+  const std::size_t body = update.entity.entity - 1u;
+  if (update.entity.entity == 0 || body >= protocol_.table().size()) return;
+  const Tenure stated{update.ownership->version, arrival.epoch};
+  if (stated == protocol_.tenure(body)) return;
+  const bool is_of_ours = !protocol_.acts().exists() || update.ownership->world == world_number();
+  const aoim::Presence& presence = parts_.aoim.presence();
+  if (!is_of_ours || presence.standing(arrival.epoch, &arrival.from) != aoim::Standing::member)
+    return;
+  if (is_newer(stated, claims_[body]) ||
+      presence.standing(claims_[body].owner) != aoim::Standing::member)
+    claims_[body] = stated;
+  if (protocol_.acts().exists()) {
+    TableExtract extract;
+    extract.world = protocol_.world();
+    extract.holdings.add(body, stated);
+    protocol_.receive(arrival.epoch, extract, arrival.now);
+  }
+  const Tenure& owner = owner_of(body);
+  parts_.bodies.name_owner(body, {owner.owner, owner.version});
+}
+
+// Questions of the protocol
+
+bool OwnershipStage::may_take(std::size_t object, std::uint32_t epoch) {
+  if (epoch == epoch_) return parts_.bodies.is_body(object) && world_->can_own(object);
+  const auto id = parts_.aoim.presence().id_of(epoch);
+  const auto source = parts_.aoim.presence().source_of(epoch);
+  return id && source && parts_.remote.touch().admits(*id, true, *source);
+}
+
+bool OwnershipStage::is_busy(std::size_t object) {
+  return object < states().size() && states()[object].touched;
+}
+
+// Bodies of other owners stay with them.
+ObjectSet OwnershipStage::company_of(std::size_t object) {
+  ObjectSet company;
+  std::array<std::uint32_t, kMostHoldings + 1> island{};
+  const haptics::BodyStates* all = parts_.bodies.states();
+  if (all == nullptr || object >= all->bodies.size()) return company;
+  const std::size_t count = all->copy_island(object, island);
+  for (const std::uint32_t body : std::span(island).first(count)) {
+    if (body < company.size() && !all->bodies[body].carried) company.set(body);
+  }
+  return company;
+}
+
+bool OwnershipStage::is_any_awake() {
+  return std::ranges::any_of(states(), [](const haptics::BodyState& body) {
+    return body.awake && !body.carried;
+  });
+}
+
+std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
+  const auto source = epoch == epoch_ ? std::optional(source_of(link_.local_endpoint()))
+                                      : parts_.aoim.presence().source_of(epoch);
+  std::uint64_t host = 0;
+  if (!source) return host;
+  for (const std::uint8_t octet : source->octets) host = pdu::split_mix(host ^ octet);
+  return host;
+}
+
+// Events
+
+void OwnershipStage::take_events() noexcept {
+  for (const OwnershipEvent& event : protocol_.events()) {
+    watch_.note(event);
+    if (event.kind == OwnershipEvent::Kind::gained) {
+      if (event.cause == OwnerChange::granted) granted_ |= event.objects;
+    } else if (event.kind == OwnershipEvent::Kind::lost) {
+      granted_ &= ~event.objects;
+    } else if (event.kind == OwnershipEvent::Kind::yield) {
+      const auto free = std::ranges::find(yields_, 0U, &Yield::transaction);
+      // The protocol has no more transactions than there are places.
+      if (free != yields_.end()) *free = {event.transaction, 0, event.objects};
+    }
+  }
+  protocol_.clear_events();
+}
+
+// A body that this peer does not simulate, because it has no lease, is given as it stands.
+void OwnershipStage::send_yields() noexcept {
+  std::array<haptics::BodyOrder, haptics::BodyExchange::kMostOrders> orders{};
+  for (Yield& yield : yields_) {
+    if (yield.transaction == 0 || yield.serial != 0) continue;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < yield.objects.size() && count < orders.size(); ++i) {
+      if (!yield.objects[i]) continue;
+      if (i < states().size()) protocol_.set_state(i, state_of(states()[i], pass_.utc));
+      orders[count++] = {haptics::BodyAct::disown, static_cast<std::uint32_t>(i)};
+    }
+    yield.serial = world_->exchange().send(std::span(orders).first(count));
+    if (yield.serial == 0) return;
+    for (std::size_t i = 0; i < yield.objects.size(); ++i) {
+      if (yield.objects[i]) sent_[i] = yield.serial;
+    }
+  }
+}
+
+void OwnershipStage::take_ends() noexcept {
+  haptics::BodyEnd end;
+  while (world_->exchange().take_end(end)) {
+    const auto yield = std::ranges::find(yields_, end.serial, &Yield::serial);
+    if (yield == yields_.end()) continue;
+    yield->objects.reset(end.body);
+    if (!end.was_owned) continue;
+    const nanoseconds utc = pass_.utc - (pass_.now - end.time);
+    protocol_.set_state(end.body, state_of(end.state, utc));
+    parts_.bodies.leave(end, pass_, epoch_, parts_.owned, parts_.remote);
+    left_at_[end.body] = pass_.now;
+  }
+}
+
+void OwnershipStage::finish_yields() noexcept {
+  for (Yield& yield : yields_) {
+    if (yield.transaction == 0 || yield.serial == 0 || yield.objects.any()) continue;
+    protocol_.yielded(yield.transaction, pass_.now);
+    yield = {};
+  }
+}
+
+// The state of a grant, moved on by the time since.
+haptics::ObjectMotion OwnershipStage::granted_motion(std::size_t object) const noexcept {
+  const ObjectState& state = protocol_.granted_state(object);
+  haptics::ObjectMotion motion;
+  motion.position = {state.position[0], state.position[1], state.position[2]};
+  motion.orientation = Eigen::Quaterniond(state.orientation[0], state.orientation[1],
+                                          state.orientation[2], state.orientation[3]);
+  motion.velocity = {state.velocity[0], state.velocity[1], state.velocity[2]};
+  motion.turn_rate = {state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]};
+  const double age = std::clamp(pdu::to_seconds(pass_.utc - state.utc), 0.0, kLongestTransit);
+  motion.position += age * motion.velocity;
+  const double angle = age * motion.turn_rate.norm();
+  if (angle > 0.0) {
+    const Eigen::AngleAxisd turn(angle, motion.turn_rate.normalized());
+    motion.orientation = (turn * motion.orientation).normalized();
+  }
+  return motion;
+}
+
+haptics::BodyOrder OwnershipStage::order_for(std::size_t body, bool owns) noexcept {
+  haptics::BodyOrder order;
+  order.body = static_cast<std::uint32_t>(body);
+  order.act = owns ? haptics::BodyAct::own : haptics::BodyAct::disown;
+  if (owns) {
+    order.state = states()[body];
+    if (granted_[body]) order.state = granted_motion(body);
+  }
+  granted_.reset(body);
+  return order;
+}
+
+// The world simulates what this peer may move now, and nothing else.
+void OwnershipStage::send_orders() noexcept {
+  const haptics::BodyStates* all = parts_.bodies.states();
+  if (all == nullptr) return;
+  std::array<haptics::BodyOrder, haptics::BodyExchange::kMostOrders> orders{};
+  std::size_t count = 0;
+  const auto flush = [&] {
+    const std::uint64_t serial = world_->exchange().send(std::span(orders).first(count));
+    for (const haptics::BodyOrder& order : std::span(orders).first(count))
+      sent_[order.body] = serial;
+    count = 0;
+    return serial != 0;
+  };
+  const std::size_t size = std::min(protocol_.table().size(), all->bodies.size());
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool owns = protocol_.owns(i, pass_.now);
+    const bool is_done = owns != all->bodies[i].carried;
+    const bool is_on_its_way = sent_[i] > all->serial;
+    if (is_done || is_on_its_way || (owns && !may_take(i, epoch_))) continue;
+    orders[count++] = order_for(i, owns);
+    if (count == orders.size() && !flush()) return;
+  }
+  if (count > 0) flush();
+}
+
+// Out
+
+const Tenure& OwnershipStage::owner_of(std::size_t body) const noexcept {
+  const Tenure& known = protocol_.tenure(body);
+  return known.version > 0 ? known : claims_[body];
+}
+
+std::uint32_t OwnershipStage::world_number() const noexcept {
+  const WorldId& world = protocol_.world();
+  const std::uint64_t both = std::uint64_t{world.founded} << 32 | world.founder;
+  return static_cast<std::uint32_t>(pdu::split_mix(both) >> 32 | 1U);
+}
+
+void OwnershipStage::name_owners() noexcept {
+  for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
+    const Tenure& owner = owner_of(i);
+    parts_.bodies.name_owner(i, {owner.owner, owner.version});
+    if (i >= states().size()) continue;
+    const bool is_ours = protocol_.owns(i, pass_.now) && !states()[i].carried;
+    pdu::OwnershipRecord record;
+    record.owner = is_ours ? owner.owner : 0;
+    record.version = owner.version;
+    record.world = world_number();
+    if (!parts_.bodies.set_own(i, record, parts_.owned)) continue;
+    parts_.remote.forget(body_id(i));
+    left_at_[i] = nanoseconds(0);
+  }
+}
+
+// Only our last state shows a body whose new owner failed at once.
+void OwnershipStage::doubt_left() noexcept {
+  for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
+    if (left_at_[i] == nanoseconds(0) || pass_.now - left_at_[i] < kSilence) continue;
+    left_at_[i] = nanoseconds(0);
+    const RemoteEntity* row = parts_.remote.find(body_id(i));
+    if (row != nullptr && row->epoch == epoch_) parts_.remote.doubt(body_id(i), pass_.now);
+  }
+}
+
+TransferNames OwnershipStage::names_for(std::uint32_t to) const noexcept {
+  const aoim::Presence& presence = parts_.aoim.presence();
+  const aoim::PeerId receiver = presence.id_of(to).value_or(aoim::PeerId{0xFFFF, 0xFFFF});
+  return {scene_.network.exercise, presence.id(), receiver, aoim::kSceneId};
+}
+
+// An assured message to all has every joined peer as an addressee, because all are witnesses.
+void OwnershipStage::send(const OutgoingMessage& message) noexcept {
+  std::array<std::byte, pdu::kMostAssured> octets;
+  const EncodedMessage encoded =
+      encode_message(message.message, names_for(message.to), half_++, octets);
+  const std::span<const std::byte> content = std::span(octets).first(encoded.size);
+  if (encoded.size == 0) return;
+  if (!message.is_assured)
+    return parts_.assured.send_once(encoded.kind, content, message.to, pass_);
+  const std::uint8_t flags = encoded.is_pdu ? pdu::kAssuredPdu : std::uint8_t{0};
+  const AssuredContent sent{encoded.kind, flags, content, 0};
+  if (message.to != 0) {
+    static_cast<void>(parts_.assured.send(sent, std::span(&message.to, 1), pass_));
+  } else {
+    static_cast<void>(parts_.assured.send_to_joined(sent, pass_));
+  }
+}
+
+void OwnershipStage::send_messages() noexcept {
+  for (const OutgoingMessage& message : protocol_.outgoing()) send(message);
+  protocol_.clear_outgoing();
+}
+
+void OwnershipStage::go_alone() noexcept {
+  if (!is_on_) return;
+  const auto utc = std::chrono::duration_cast<std::chrono::seconds>(pass_.utc).count();
+  protocol_.go_alone(static_cast<std::uint32_t>(utc), pass_.now);
+  next_ = pass_.now;
+}
+
+void OwnershipStage::step(const Pass& pass) noexcept {
+  pass_ = pass;
+  if (!is_on_) return;
+  take_ends();
+  finish_yields();
+  protocol_.step(pass.now);
+  take_events();
+  send_yields();
+  send_orders();
+  name_owners();
+  doubt_left();
+  send_messages();
+  watch_.look(protocol_, pass.now);
+  counted_.publish(protocol_.counts());
+  next_ = pass.now + kStep;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs the protocol of ownership for the bodies of the scene: takes and sends its messages, lets the
+// world simulate the bodies that this peer owns, and names the owner of each body.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/peer/loops/assured_stage.hpp"
+#include "reckon/peer/loops/body_stage.hpp"
+#include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/ownership_counters.hpp"
+#include "reckon/peer/loops/ownership_watch.hpp"
+#include "reckon/peer/ownership/message_codec.hpp"
+#include "reckon/peer/ownership/ownership.hpp"
+#include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+
+namespace reckon::peer {
+
+struct ModelIdentity;
+
+/// Thread of the model loop. Does nothing in a scene without bodies and in a plain DIS exercise.
+/// Allocates nothing after its first messages.
+class OwnershipStage final : public AssuredUser, private OwnershipUser {
+ public:
+  /// The stages that it works with; all outlive it.
+  struct Parts {
+    aoim::AreaOfInterestManager& aoim;
+    AssuredStage& assured;
+    BodyStage& bodies;
+    OwnedEntities& owned;
+    RemoteEntities& remote;
+    haptics::SpscRing<Notice>& notices;
+  };
+
+  OwnershipStage(const ModelWiring& wiring, const ModelIdentity& identity, const Parts& parts);
+
+  /// Whether the owners of bodies can change.
+  [[nodiscard]] bool is_on() const noexcept { return is_on_; }
+  /// Whether an assured PDU was a request, a grant or a refusal between peers.
+  bool takes(const Inbound& update, const Arrival& arrival) noexcept;
+  /// Notes the owner that a state of a body names. Call it before the state is judged.
+  void note_state(const Inbound& update, const Arrival& arrival) noexcept;
+  /// Between BodyStage::read() and BodyStage::move_own().
+  void step(const Pass& pass) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
+    return is_on_ ? next_ : std::chrono::nanoseconds::max();
+  }
+
+  /// Wants a body, until withdraw().
+  void ask(std::size_t body) noexcept { protocol_.ask(body); }
+  void withdraw(std::size_t body) { protocol_.withdraw(body); }
+  /// Gives all bodies to other peers. Call step() until has_left(), at most for a second.
+  void leave() noexcept { protocol_.leave(); }
+  [[nodiscard]] bool has_left() const noexcept { return !is_on_ || protocol_.has_left(); }
+  /// See Ownership::go_alone().
+  void go_alone() noexcept;
+  [[nodiscard]] const Ownership& protocol() const noexcept { return protocol_; }
+  /// Epoch that owns a body, and the version of that, as far as this peer knows.
+  [[nodiscard]] const Tenure& owner_of(std::size_t body) const noexcept;
+
+  [[nodiscard]] bool take_record(const UserRecord& record) noexcept override;
+  void settle(const AssuredReport&) noexcept override {}
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+  // Bodies that this peer stops simulating in order to give them away.
+  struct Yield {
+    std::uint32_t transaction = 0;  // 0: none
+    std::uint64_t serial = 0;       // of the orders; 0: not sent yet
+    ObjectSet objects;              // without an answer
+  };
+
+  [[nodiscard]] bool may_take(std::size_t object, std::uint32_t epoch) override;
+  [[nodiscard]] bool is_busy(std::size_t object) override;
+  [[nodiscard]] ObjectSet company_of(std::size_t object) override;
+  [[nodiscard]] bool is_any_awake() override;
+  [[nodiscard]] std::uint64_t host_of(std::uint32_t epoch) override;
+
+  [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
+  void take_events() noexcept;
+  void take_ends() noexcept;
+  void send_yields() noexcept;
+  void finish_yields() noexcept;
+  void send_orders() noexcept;
+  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) noexcept;
+  [[nodiscard]] haptics::ObjectMotion granted_motion(std::size_t object) const noexcept;
+  void name_owners() noexcept;
+  void doubt_left() noexcept;
+  void send(const OutgoingMessage& message) noexcept;
+  void send_messages() noexcept;
+  [[nodiscard]] TransferNames names_for(std::uint32_t to) const noexcept;
+  [[nodiscard]] std::uint32_t world_number() const noexcept;
+
+  const SceneFile& scene_;
+  const Link& link_;  // for its address
+  haptics::BodyWorld* world_;
+  std::uint32_t epoch_;
+  Parts parts_;
+  bool is_on_;
+  Ownership protocol_;
+  OwnershipCounters counted_;
+  OwnershipWatch watch_;
+  Pass pass_;
+  ObjectSet granted_;                               // gained in the state of a grant
+  std::array<std::uint64_t, kMostOwnable> sent_{};  // serial of the last order to a body
+  std::array<Nanoseconds, kMostOwnable> left_at_{};  // shown by its last state here; 0: not
+  std::array<Yield, 16> yields_{};
+  std::array<Tenure, kMostOwnable> claims_{};  // by states, for bodies that the table lacks
+  std::uint32_t half_ = 0;
+  Nanoseconds next_{0};
+};
+
+}  // namespace reckon::peer
