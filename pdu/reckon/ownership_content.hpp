@@ -94,14 +94,16 @@ struct TransferRequest {
 static_assert(kFixedSize<TransferRequest> == 40);
 
 /// In a push. `count` TransferStates follow.
+inline constexpr std::uint16_t kGrantPushed = 1;
+
 struct TransferGrant {
   std::uint32_t founded = 0, founder = 0;
   std::uint32_t to = 0;        ///< epoch
   std::uint32_t lease_ms = 0;  ///< remainder of the lease [ms]
   std::uint8_t round = 0;
   std::uint8_t count = 0;
-  std::uint16_t padding = 0;
-  std::uint32_t more_padding = 0;
+  std::uint16_t flags = 0;  ///< kGrantPushed
+  std::uint32_t padding = 0;
   ObjectBits objects{};
 };
 static_assert(kFixedSize<TransferGrant> == 56);

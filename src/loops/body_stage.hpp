@@ -47,6 +47,12 @@ class BodyStage {
   void leave(const haptics::BodyEnd& end, const Pass& pass, std::uint32_t epoch,
              OwnedEntities& owned, RemoteEntities& remote) noexcept;
 
+  /// Notes where its owner states a body, also beyond the radius of interest.
+  void note_place(std::size_t body, const pdu::EntityState& state) noexcept;
+  /// Motion of a body as this peer knows it: as shown, else as last stated or simulated.
+  [[nodiscard]] haptics::ObjectMotion motion_now(std::size_t body, const RemoteEntities& remote,
+                                                 std::chrono::nanoseconds now) const noexcept;
+
   /// Names the owner whose states of a body are taken.
   void name_owner(std::size_t body, const aoim::BodyOwnership& owner) noexcept {
     owners_.set(body, owner);
@@ -99,6 +105,10 @@ class BodyStage {
   void show(PeerView& view) const noexcept;
 
  private:
+  struct Stated {
+    Eigen::Vector3d position;
+    Eigen::Quaterniond orientation;
+  };
   struct Body {
     std::size_t number;  // among the moving objects
     const haptics::SceneObject* object;
@@ -109,6 +119,7 @@ class BodyStage {
                                   const haptics::BodyState& body) noexcept;
 
   const SceneFile& scene_;
+  const deadreckon::LocalFrame& frame_;
   haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: the scene moves nothing here
   EntityNumber first_ = 0;
   SteppedBodies* stepped_;    // null: servos step the bodies
@@ -116,6 +127,7 @@ class BodyStage {
   std::vector<Body> bodies_;  // of the scene, of any owner
   bool is_fresh_ = false;     // what own_ reads, or who owns it, since move_own()
   aoim::BodyOwners owners_;
+  std::array<std::optional<Stated>, kMostSharedBodies> stated_{};  // by other owners
   std::optional<RemoteBodies> remote_;
 };
 

@@ -241,7 +241,7 @@ void ModelLoop::consider_others() noexcept {
   if (aoim_.introductions().is_pending()) {
     const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
     owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
-      if (sender_.is_asked(entity, pass_)) owned_.look_at(number);
+      if (entity.is_ours() && sender_.is_asked(entity, pass_)) owned_.look_at(number);
     });
   }
   std::size_t room = outlet_.paced_room();
@@ -290,13 +290,14 @@ void ModelLoop::publish_view() noexcept {
   watches_.look(remote_, aoim_.presence().id(), pass_.now);
   hooks_.look({remote_, aoim_, unfelt, touch_.crowder(), pass_.now, watches_.notices()});
   view.own = own_id();
-  view.owned = owned_.size();
+  view.owned = owned_.ours();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscriptions().joined_groups();
   view.leaders = subscriber_.leaders();
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
   bodies_.show(view);
+  ownership_.show(view);
   view.set_out = tracked_.begun();
   view.middle = middle_of_interest();
   emissions_.expire(pass_.now);

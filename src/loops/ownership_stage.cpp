@@ -108,8 +108,14 @@ void OwnershipStage::note_state(const Inbound& update, const Arrival& arrival) n
   const std::size_t body = update.entity.entity - 1u;
   if (update.entity.entity == 0 || body >= protocol_.table().size()) return;
   const Tenure stated{update.ownership->version, arrival.epoch};
-  if (stated == protocol_.tenure(body)) return;
-  const bool is_of_ours = !protocol_.acts().exists() || update.ownership->world == world_number();
+  if (stated != protocol_.tenure(body)) note_claim(body, stated, *update.ownership, arrival);
+  if (owner_of(body) == stated && update.has_state) parts_.bodies.note_place(body, update.state);
+}
+
+void OwnershipStage::note_claim(std::size_t body, const Tenure& stated,
+                                const pdu::OwnershipRecord& record,
+                                const Arrival& arrival) noexcept {
+  const bool is_of_ours = !protocol_.acts().exists() || record.world == world_number();
   const aoim::Presence& presence = parts_.aoim.presence();
   if (!is_of_ours || presence.standing(arrival.epoch, &arrival.from) != aoim::Standing::member)
     return;
@@ -136,7 +142,7 @@ bool OwnershipStage::may_take(std::size_t object, std::uint32_t epoch) {
 }
 
 bool OwnershipStage::is_busy(std::size_t object) {
-  return object < states().size() && states()[object].touched;
+  return kept_[object] || (object < states().size() && states()[object].touched);
 }
 
 // Bodies of other owners stay with them.
@@ -193,7 +199,8 @@ void OwnershipStage::send_yields() noexcept {
     std::size_t count = 0;
     for (std::size_t i = 0; i < yield.objects.size() && count < orders.size(); ++i) {
       if (!yield.objects[i]) continue;
-      if (i < states().size()) protocol_.set_state(i, state_of(states()[i], pass_.utc));
+      const haptics::ObjectMotion motion = parts_.bodies.motion_now(i, parts_.remote, pass_.now);
+      protocol_.set_state(i, state_of(motion, pass_.utc));
       orders[count++] = {haptics::BodyAct::disown, static_cast<std::uint32_t>(i)};
     }
     yield.serial = world_->exchange().send(std::span(orders).first(count));
@@ -250,8 +257,8 @@ haptics::BodyOrder OwnershipStage::order_for(std::size_t body, bool owns) noexce
   order.body = static_cast<std::uint32_t>(body);
   order.act = owns ? haptics::BodyAct::own : haptics::BodyAct::disown;
   if (owns) {
-    order.state = states()[body];
-    if (granted_[body]) order.state = granted_motion(body);
+    order.state = granted_[body] ? granted_motion(body)
+                                 : parts_.bodies.motion_now(body, parts_.remote, pass_.now);
   }
   granted_.reset(body);
   return order;
@@ -299,6 +306,7 @@ void OwnershipStage::name_owners() noexcept {
   for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
     const Tenure& owner = owner_of(i);
     parts_.bodies.name_owner(i, {owner.owner, owner.version});
+    note_owner(i, owner);
     if (i >= states().size()) continue;
     const bool is_ours = protocol_.owns(i, pass_.now) && !states()[i].carried;
     pdu::OwnershipRecord record;
@@ -308,6 +316,31 @@ void OwnershipStage::name_owners() noexcept {
     if (!parts_.bodies.set_own(i, record, parts_.owned)) continue;
     parts_.remote.forget(body_id(i));
     left_at_[i] = nanoseconds(0);
+  }
+}
+
+// The cause follows from the version, so that all peers show the same.
+void OwnershipStage::note_owner(std::size_t body, const Tenure& owner) noexcept {
+  BodyOwnerView& shown = shown_[body];
+  if (shown.epoch == owner.owner && shown.version == owner.version) return;
+  if (shown.epoch != 0 && owner.owner != 0 && shown.epoch != owner.owner) ++shown.changes;
+  if (shown.epoch != owner.owner)
+    shown.cause = count_of(owner.version) == 0 ? OwnerChange::adopted : OwnerChange::granted;
+  if (act_of(owner.version) <= 1 && count_of(owner.version) == 0)
+    shown.cause = OwnerChange::founded;
+  shown.epoch = owner.owner;
+  shown.version = owner.version;
+}
+
+void OwnershipStage::show(PeerView& view) const noexcept {
+  view.bodies_rest = watch_.rests();
+  view.body_owner_count = is_on_ ? protocol_.table().size() : 0;
+  for (std::size_t i = 0; i < view.body_owner_count; ++i) {
+    BodyOwnerView& row = view.body_owners[i] = shown_[i];
+    row.is_ours = row.epoch == epoch_;
+    const aoim::Presence& presence = parts_.aoim.presence();
+    row.owner = row.is_ours ? presence.id()
+                            : presence.id_of(row.epoch).value_or(aoim::PeerId{});
   }
 }
 
@@ -348,6 +381,30 @@ void OwnershipStage::send(const OutgoingMessage& message) noexcept {
 void OwnershipStage::send_messages() noexcept {
   for (const OutgoingMessage& message : protocol_.outgoing()) send(message);
   protocol_.clear_outgoing();
+}
+
+// For the program
+
+void OwnershipStage::acquire(std::size_t body) noexcept {
+  if (!is_on_ || body >= protocol_.table().size() || !may_take(body, epoch_)) return;
+  kept_.set(body);
+  protocol_.ask(body);
+  next_ = pass_.now;
+}
+
+void OwnershipStage::divest(std::size_t body) {
+  if (!is_on_ || body >= protocol_.table().size()) return;
+  kept_.reset(body);
+  protocol_.withdraw(body);
+  next_ = pass_.now;
+}
+
+aoim::PeerId OwnershipStage::asker_of(std::size_t body) const noexcept {
+  return parts_.aoim.presence().id_of(protocol_.asker_of(body)).value_or(aoim::PeerId{});
+}
+
+bool OwnershipStage::order(const haptics::BodyOrder& order) noexcept {
+  return is_on_ && world_->exchange().send(std::span(&order, 1)) != 0;
 }
 
 void OwnershipStage::go_alone() noexcept {

@@ -55,17 +55,31 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
     return is_on_ ? next_ : std::chrono::nanoseconds::max();
   }
 
-  /// Wants a body, until withdraw().
-  void ask(std::size_t body) noexcept { protocol_.ask(body); }
-  void withdraw(std::size_t body) { protocol_.withdraw(body); }
+  /// Wants a body, and keeps it as the owner, until withdraw(). Its owner gives it to the peers in
+  /// the order of their requests, while none of its hands touches it.
+  void acquire(std::size_t body) noexcept;
+  /// Gives a body to the next peer that asks.
+  void divest(std::size_t body);
+  /// Simulation address of the peer that waits longest for a body that this peer keeps; 0:0: none.
+  [[nodiscard]] aoim::PeerId asker_of(std::size_t body) const noexcept;
+  /// Sends an order of the program to the world; it has an effect if this peer owns the body. False:
+  /// too many orders wait.
+  bool order(const haptics::BodyOrder& order) noexcept;
   /// Gives all bodies to other peers. Call step() until has_left(), at most for a second.
   void leave() noexcept { protocol_.leave(); }
   [[nodiscard]] bool has_left() const noexcept { return !is_on_ || protocol_.has_left(); }
   /// See Ownership::go_alone().
   void go_alone() noexcept;
   [[nodiscard]] const Ownership& protocol() const noexcept { return protocol_; }
+  /// Whether this peer owns a body, and may move it now.
+  [[nodiscard]] bool owns(std::size_t body) const noexcept {
+    return protocol_.owns(body, pass_.now);
+  }
   /// Epoch that owns a body, and the version of that, as far as this peer knows.
   [[nodiscard]] const Tenure& owner_of(std::size_t body) const noexcept;
+
+  /// Writes the owners.
+  void show(PeerView& view) const noexcept;
 
   [[nodiscard]] bool take_record(const UserRecord& record) noexcept override;
   void settle(const AssuredReport&) noexcept override {}
@@ -86,6 +100,8 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] std::uint64_t host_of(std::uint32_t epoch) override;
 
   [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
+  void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
+                  const Arrival& arrival) noexcept;
   void take_events() noexcept;
   void take_ends() noexcept;
   void send_yields() noexcept;
@@ -94,6 +110,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) noexcept;
   [[nodiscard]] haptics::ObjectMotion granted_motion(std::size_t object) const noexcept;
   void name_owners() noexcept;
+  void note_owner(std::size_t body, const Tenure& owner) noexcept;
   void doubt_left() noexcept;
   void send(const OutgoingMessage& message) noexcept;
   void send_messages() noexcept;
@@ -110,7 +127,9 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   OwnershipCounters counted_;
   OwnershipWatch watch_;
   Pass pass_;
-  ObjectSet granted_;                               // gained in the state of a grant
+  ObjectSet granted_;  // gained in the state of a grant
+  ObjectSet kept_;     // by the program
+  std::array<BodyOwnerView, kMostOwnable> shown_{};
   std::array<std::uint64_t, kMostOwnable> sent_{};  // serial of the last order to a body
   std::array<Nanoseconds, kMostOwnable> left_at_{};  // shown by its last state here; 0: not
   std::array<Yield, 16> yields_{};

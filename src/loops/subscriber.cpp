@@ -29,6 +29,7 @@ Subscriber::Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& a
 void Subscriber::cover_our_entities() noexcept {
   balls_.clear();
   owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
+    if (!entity.is_ours()) return;
     const EntityTruth& truth = entity.truth();
     balls_.push_back(
         {to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius, cut_});

@@ -39,7 +39,7 @@ void Chair::note_leaving(std::uint32_t epoch, std::uint32_t act, nanoseconds now
 }
 
 bool Chair::leaves(std::uint32_t epoch, std::uint32_t act, nanoseconds now) const noexcept {
-  if (epoch == core_.config.epoch) return core_.is_leaving;
+  if (epoch == core_.config.epoch) return core_.is_closing;
   const auto known = std::ranges::find(leaving_, epoch, &Leaving::epoch);
   if (known == leaving_.end() || now - known->heard >= kGone) return false;
   return known->act == kAnyAct || known->act == act;
@@ -66,7 +66,7 @@ bool Chair::may_propose(nanoseconds now) const noexcept {
   const Act& act = core_.acts.decided();
   if (!act.roll.contains(core_.config.epoch)) return false;
   if (act.chair == core_.config.epoch) return true;
-  if (core_.is_leaving || !is_dead(act.chair, now)) return false;
+  if (core_.is_closing || !is_dead(act.chair, now)) return false;
   for (const Voter& voter : act.roll.voters()) {
     if (voter.epoch == core_.config.epoch) return true;
     if (!is_dead(voter.epoch, now)) return false;
@@ -115,7 +115,7 @@ bool Chair::compose(Act& act, nanoseconds now) const {
     if (is_dead(voter.epoch, now)) act.remove(voter.epoch);
   }
   act.chair = core_.config.epoch;
-  if (core_.is_leaving) {
+  if (core_.is_closing) {
     const auto heir = std::ranges::find_if(
         act.roll.voters(), [&](const Voter& voter) { return !is_suspect(voter.epoch, now); });
     if (heir == act.roll.voters().end()) return false;

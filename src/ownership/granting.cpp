@@ -56,18 +56,15 @@ void Granting::grant_due(nanoseconds now) {
       askers.back() = {};
     }
     const std::uint32_t to = askers[0].epoch;
-    if (to == 0 || !core_.acts.decided().roll.contains(to) || core_.is_leaving) continue;
-    if (now - core_.leases.heard_at(to) <= kFreshRound && can_grant(i, now)) begin_grant(i, to);
+    if (to == 0 || !core_.acts.decided().roll.contains(to)) continue;
+    if (now - core_.leases.heard_at(to) <= kFreshRound && can_grant(i, now)) grant_company(i, to);
   }
 }
 
 // All objects of the company are ours and may go, or none goes.
-void Granting::begin_grant(std::size_t object, std::uint32_t to) {
-  const auto free = std::ranges::find(outgoing_, 0U, &Outgoing::transaction);
-  if (free == outgoing_.end()) return;
+void Granting::grant_company(std::size_t object, std::uint32_t to) {
   ObjectSet company = core_.user.company_of(object);
   company.set(object);
-  if (company.count() > kMostHoldings) return;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!company[i]) continue;
     const Row& row = rows_[i];
@@ -75,12 +72,18 @@ void Granting::begin_grant(std::size_t object, std::uint32_t to) {
                       !core_.user.is_busy(i);
     if (!goes) return;
   }
+  begin_grant(company, to);
+}
+
+void Granting::begin_grant(const ObjectSet& objects, std::uint32_t to) {
+  const auto free = std::ranges::find(outgoing_, 0U, &Outgoing::transaction);
+  if (free == outgoing_.end() || objects.count() > kMostHoldings) return;
   *free = {};
   free->transaction = ++transactions_;
   free->to = to;
-  free->objects = company;
+  free->objects = objects;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
-    if (!company[i]) continue;
+    if (!objects[i]) continue;
     Row& row = rows_[i];
     row.hold = Hold::yielding;
     row.transaction = free->transaction;
@@ -90,7 +93,29 @@ void Granting::begin_grant(std::size_t object, std::uint32_t to) {
     std::copy(asker + 1, row.askers.end(), asker);
     row.askers.back() = {};
   }
-  core_.report({OwnershipEvent::Kind::yield, OwnerChange::granted, company, free->transaction, to});
+  core_.report({OwnershipEvent::Kind::yield, OwnerChange::granted, objects, free->transaction, to});
+}
+
+// A leaver gives its objects to the most senior voter that it receives, also those that a hand
+// holds.
+void Granting::push_all(nanoseconds now) {
+  leaving_at_ = std::min(leaving_at_, now);
+  if (is_closed_ || core_.acts.pending() != nullptr || core_.lease_end(now) - now < kLeastLease)
+    return;
+  for (const Voter& voter : core_.acts.decided().roll.voters()) {
+    const bool is_here = now - core_.leases.heard_at(voter.epoch) <= kFreshRound;
+    if (voter.epoch == core_.config.epoch || !is_here) continue;
+    ObjectSet batch;
+    for (std::size_t i = 0; i < core_.table.size() && batch.count() < kMostHoldings; ++i) {
+      batch[i] = rows_[i].hold == Hold::owned && rows_[i].confirmed &&
+                 core_.user.may_take(i, voter.epoch);
+    }
+    if (batch.any()) begin_grant(batch, voter.epoch);
+  }
+}
+
+bool Granting::gives_away(nanoseconds now) const noexcept {
+  return now < leaving_at_ || (now - leaving_at_ < kPush && rows_.held().any());
 }
 
 void Granting::yielded(std::uint32_t transaction, nanoseconds now) {
@@ -126,6 +151,7 @@ void Granting::send_grant(const Outgoing& grant, nanoseconds now) {
   part.round = core_.leases.round_of(grant.to, now);
   part.lease_ms = grant.lease_ms;
   part.objects = grant.objects;
+  part.is_pushed = core_.is_leaving;
   for (std::size_t i = 0; i < core_.table.size(); ++i) {
     if (!grant.objects[i]) continue;
     part.part[part.count] = {static_cast<std::uint16_t>(i), {core_.table[i].version + 1, grant.to}};
@@ -154,7 +180,7 @@ void Granting::give_up(nanoseconds now) {
 
 void Granting::step(nanoseconds now) {
   give_up(now);
-  grant_due(now);
+  core_.is_leaving ? push_all(now) : grant_due(now);
 }
 
 }  // namespace reckon::peer

@@ -20,6 +20,8 @@ class Granting {
   /// A grant without an answer is given up after this time. By then the new owner has taken it and
   /// a majority knows that, or it does not act.
   static constexpr Nanoseconds kGiveUp = LeaseBook::kDead + std::chrono::milliseconds(300);
+  /// A leaver gives objects away for this time at most.
+  static constexpr Nanoseconds kPush = std::chrono::milliseconds(700);
 
   Granting(OwnershipCore& core, ObjectRows& rows) : core_(core), rows_(rows) {}
 
@@ -32,6 +34,8 @@ class Granting {
 
   /// Whether a grant of ours may have an owner that is not confirmed yet.
   [[nodiscard]] bool has_granted(Nanoseconds now) const noexcept;
+  /// Whether a leaver still has objects, and time to give them away.
+  [[nodiscard]] bool gives_away(Nanoseconds now) const noexcept;
   /// Whether it gives nothing away any more.
   void close(bool closed) noexcept { is_closed_ = closed; }
 
@@ -44,7 +48,9 @@ class Granting {
   };
 
   void grant_due(Nanoseconds now);
-  void begin_grant(std::size_t object, std::uint32_t to);
+  void push_all(Nanoseconds now);
+  void grant_company(std::size_t object, std::uint32_t to);
+  void begin_grant(const ObjectSet& objects, std::uint32_t to);
   [[nodiscard]] bool can_grant(std::size_t object, Nanoseconds now) const;
   void send_grant(const Outgoing& grant, Nanoseconds now);
   void give_up(Nanoseconds now);
@@ -54,6 +60,7 @@ class Granting {
   std::array<Outgoing, 32> outgoing_{};
   std::uint32_t transactions_ = 0;
   Nanoseconds granted_at_ = Nanoseconds::min() / 4;
+  Nanoseconds leaving_at_ = Nanoseconds::max();
   bool is_closed_ = false;
 };
 

@@ -181,6 +181,7 @@ EncodedMessage encode(const Grant& grant, const TransferNames& names,
   head.lease_ms = grant.lease_ms;
   head.round = grant.round;
   head.count = static_cast<std::uint8_t>(grant.count);
+  head.flags = grant.is_pushed ? pdu::kGrantPushed : std::uint16_t{0};
   head.objects = bits_of(grant.objects);
   writer.add(head);
   for (std::size_t i = 0; i < grant.count; ++i) writer.add(wire(grant.part[i], grant.states[i]));

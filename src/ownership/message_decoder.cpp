@@ -145,6 +145,7 @@ std::optional<OwnershipMessage> decode_grant(RecordReader in, std::uint32_t requ
   grant.transaction = request;
   grant.to = head.to;
   grant.lease_ms = std::min<std::uint32_t>(head.lease_ms, 10'000);
+  grant.is_pushed = (head.flags & pdu::kGrantPushed) != 0;
   grant.round = head.round;
   grant.objects = objects_of(head.objects);
   for (std::size_t i = 0; i < head.count; ++i) {

@@ -127,6 +127,7 @@ struct Grant {
   std::uint32_t to = 0;        ///< epoch of the new owner
   std::uint8_t round = 0;      ///< last round of the new owner that the sender received
   std::uint32_t lease_ms = 0;  ///< remainder of the sender's lease, rounded down
+  bool is_pushed = false;      ///< the sender leaves: the objects need not be wanted
   ObjectSet objects;
   std::size_t count = 0;
   std::array<Holding, kMostGranted> part{};  ///< with the new version

@@ -231,12 +231,13 @@ void Ownership::step(nanoseconds now) {
     propose(now);
     granting_.step(now);
     taking_.step(now);
+    core_.is_closing = core_.is_leaving && !granting_.gives_away(now);
   }
   rounds_.step(voting_.complied(), now);
 }
 
 bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
-  if (!rows_.owns(object, now) || voting_.complied() != 0 || core_.is_leaving ||
+  if (!rows_.owns(object, now) || voting_.complied() != 0 || core_.is_closing ||
       now - stepped_ > kSlept)
     return false;
   const Act* pending = core_.acts.pending();
@@ -245,7 +246,9 @@ bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
 }
 
 bool Ownership::has_left() const noexcept {
-  return core_.is_leaving && (!core_.acts.exists() || !is_voter());
+  const Roll& roll = core_.acts.decided().roll;
+  const bool is_alone = is_voter() && roll.size() == 1;
+  return core_.is_leaving && (!core_.acts.exists() || !is_voter() || is_alone);
 }
 
 }  // namespace reckon::peer

@@ -33,6 +33,7 @@ class Ownership {
   using Nanoseconds = std::chrono::nanoseconds;
   /// Time between two calls of step() after which this peer has slept.
   static constexpr Nanoseconds kSlept = std::chrono::milliseconds(500);
+  static constexpr Nanoseconds kLeaving = std::chrono::milliseconds(1500);
 
   /// @param user outlives this
   Ownership(const OwnershipConfig& config, OwnershipUser& user) : core_(config, user) {}
@@ -51,6 +52,10 @@ class Ownership {
   /// Wants the object, until withdraw(). The owner grants it when nothing holds it there.
   void ask(std::size_t object) noexcept { taking_.ask(object); }
   void withdraw(std::size_t object) { taking_.withdraw(object); }
+  /// The peer that waits longest for an object of ours; 0: none.
+  [[nodiscard]] std::uint32_t asker_of(std::size_t object) const noexcept {
+    return rows_[object].askers[0].epoch;
+  }
   /// The state of an object as it was granted to us.
   [[nodiscard]] const ObjectState& granted_state(std::size_t object) const noexcept {
     return rows_[object].state;
@@ -61,7 +66,8 @@ class Ownership {
   }
   /// Answers OwnershipEvent::Kind::yield.
   void yielded(std::uint32_t transaction, Nanoseconds now) { granting_.yielded(transaction, now); }
-  /// Gives all objects to another voter. Call step() until has_left(), at most a second.
+  /// Gives all objects to other voters, and its vote up. Call step() until has_left(), at most for
+  /// kLeaving.
   void leave() noexcept { core_.is_leaving = true; }
   [[nodiscard]] bool has_left() const noexcept;
   /// Goes on without the other voters, by the user's word: founds a world and owns all objects.

@@ -52,16 +52,6 @@ struct OutgoingMessage {
   OwnershipMessage message;
 };
 
-/// Reasons of a change of owner.
-enum class OwnerChange : std::uint8_t {
-  founded,   ///< the first owner
-  granted,   ///< by the former owner
-  adopted,   ///< the former owner has failed or left
-  returned,  ///< a grant was refused
-  alone,     ///< Ownership::go_alone()
-  merged,    ///< an older world has replaced ours
-};
-
 /// A change for the peer that runs the protocol.
 struct OwnershipEvent {
   enum class Kind : std::uint8_t {
@@ -132,6 +122,7 @@ struct OwnershipCore {
   std::vector<OwnershipEvent> events;
   ObjectSet unknown;  ///< objects that an act which this peer missed may have given
   bool is_leaving = false;
+  bool is_closing = false;  ///< leaves, and gives nothing away any more
 };
 
 }  // namespace reckon::peer

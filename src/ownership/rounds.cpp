@@ -80,7 +80,7 @@ void Rounds::send_decided(std::uint32_t to, nanoseconds now) {
 
 // This peer agrees to be removed once a majority knows to whom it has given objects.
 std::uint32_t Rounds::yields_to(std::uint32_t complied, nanoseconds now) noexcept {
-  const bool yields = core_.is_leaving || complied != 0;
+  const bool yields = core_.is_closing || complied != 0;
   granting_.close(yields);
   if (!yields) return 0;
   const std::uint32_t table = core_.table.hash();
@@ -89,7 +89,7 @@ std::uint32_t Rounds::yields_to(std::uint32_t complied, nanoseconds now) noexcep
     return voter.epoch == core_.config.epoch || tables_[roll.index_of(voter.epoch)] == table;
   });
   if (granting_.has_granted(now) && (!is_known || rows_.is_granting())) return 0;
-  return core_.is_leaving ? kAnyAct : complied;
+  return core_.is_closing ? kAnyAct : complied;
 }
 
 bool Rounds::is_active(nanoseconds now) const {

@@ -100,7 +100,7 @@ Taking::Incoming* Taking::incoming_of(const Grant& grant, std::uint32_t from, na
 }
 
 // Every peer that receives a grant is a witness of the new owner. Only an object that we wanted is
-// taken, or one in its company.
+// taken, or one in its company, or one of a leaver.
 void Taking::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
   for (const Holding& holding : grant.holdings()) {
     if (holding.tenure.owner == grant.to && grant.to != from)
@@ -110,7 +110,7 @@ void Taking::receive(const Grant& grant, std::uint32_t from, nanoseconds now) {
   Incoming* incoming = incoming_of(grant, from, now);
   if (incoming == nullptr || (incoming->arrived.any() && incoming->arrived == incoming->objects))
     return;
-  bool is_wanted = false;
+  bool is_wanted = grant.is_pushed;
   for (std::size_t i = 0; i < core_.table.size(); ++i)
     is_wanted = is_wanted || (grant.objects[i] && rows_[i].wanted);
   incoming->is_refused = incoming->is_refused || !is_wanted || grant.objects != incoming->objects ||

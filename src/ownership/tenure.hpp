@@ -22,6 +22,16 @@ struct Tenure {
   friend constexpr bool operator==(const Tenure&, const Tenure&) = default;
 };
 
+/// Reasons of a change of owner.
+enum class OwnerChange : std::uint8_t {
+  founded,   ///< the first owner
+  granted,   ///< by the former owner
+  adopted,   ///< the former owner has failed or left
+  returned,  ///< a grant was refused
+  alone,     ///< Ownership::go_alone()
+  merged,    ///< an older world has replaced ours
+};
+
 /// A count of hand-overs from here on is refused, so that no version overflows into the act.
 inline constexpr std::uint32_t kMostHandOvers = 1U << 31;
 

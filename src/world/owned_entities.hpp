@@ -69,6 +69,11 @@ class OwnedEntities {
   [[nodiscard]] OwnedEntity* find(EntityNumber number) noexcept;
   [[nodiscard]] const OwnedEntity* find(EntityNumber number) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// The same without bodies of other owners; visits all.
+  [[nodiscard]] std::size_t ours() const noexcept {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        slots_, [](const Slot& slot) { return slot.entity && slot.entity->is_ours(); }));
+  }
   /// Upper bound of the numbers in use.
   [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
   /// The entities that hands can feel, in the order of add().

@@ -15,6 +15,7 @@
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/world/device_stiffness.hpp"
+#include "reckon/peer/ownership/tenure.hpp"
 #include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
@@ -95,6 +96,16 @@ struct LeadersView {
   std::array<Followed, kFollowed> followed{};
 };
 
+/// Who owns a movable object of the scene.
+struct BodyOwnerView {
+  pdu::SimulationAddress owner;  ///< 0:0: not known, or it has left
+  bool is_ours = false;
+  std::uint32_t epoch = 0;    ///< of the owner
+  std::uint64_t version = 0;  ///< see OwnershipRecord
+  std::uint32_t changes = 0;  ///< of the owner, as seen here
+  OwnerChange cause = OwnerChange::founded;  ///< of the last one
+};
+
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
@@ -112,6 +123,10 @@ struct PeerView {
   std::size_t peers = 0;                     ///< other Reckon peers known
   std::size_t groups = 0;                    ///< cell groups joined
   std::size_t bodies = 0, bodies_awake = 0;  ///< that this peer moves and sends
+  /// Its bodies rest, because it does not receive enough of the peers that own bodies.
+  bool bodies_rest = false;
+  std::size_t body_owner_count = 0;  ///< movable objects of the scene; 0: their owner is fixed
+  std::array<BodyOwnerView, kMostOwnable> body_owners{};
   std::uint64_t bodies_not_woken = 0;        ///< see BodyWorld::crowded()
   LeadersView leaders;
   bool frozen = false;

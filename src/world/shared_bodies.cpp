@@ -47,6 +47,15 @@ EntityTruth truth_of(const haptics::BodyState& body, nanoseconds time) noexcept 
   return truth;
 }
 
+haptics::ObjectMotion motion_of(const deadreckon::Pose& shown) noexcept {
+  haptics::ObjectMotion motion;
+  motion.position = shown.position;
+  motion.orientation = shown.orientation * kLevel.conjugate();
+  motion.velocity = shown.velocity;
+  motion.turn_rate = shown.orientation * shown.angular_velocity;
+  return motion;
+}
+
 BodyMover::BodyMover(const haptics::EffectPlan& plan, const SceneNodes& nodes)
     : graph_(nodes.graph) {
   for (std::uint32_t i = 0; i < plan.objects().size(); ++i) {
@@ -75,12 +84,7 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
     last.turn_rate.setZero();
     return last;
   }
-  const deadreckon::Pose pose = shown.rows[place].shown(now);
-  last.position = pose.position;
-  last.orientation = pose.orientation * kLevel.conjugate();
-  last.velocity = pose.velocity;
-  last.turn_rate = pose.orientation * pose.angular_velocity;
-  return last;
+  return last = peer::motion_of(shown.rows[place].shown(now));
 }
 
 void BodyMover::leave_at(std::uint32_t object, const haptics::ObjectMotion& motion) noexcept {

@@ -41,6 +41,9 @@ inline constexpr std::size_t kMostSharedBodies = aoim::BodyOwners::kMost;
 [[nodiscard]] EntityTruth truth_of(const haptics::BodyState& body,
                                    std::chrono::nanoseconds time) noexcept;
 
+/// The inverse: motion of a body as shown.
+[[nodiscard]] haptics::ObjectMotion motion_of(const deadreckon::Pose& shown) noexcept;
+
 /// The bodies of another peer, from the model loop to the servos.
 struct ShownBodies {
   enum class Known : std::uint8_t {
