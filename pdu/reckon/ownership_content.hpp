@@ -115,7 +115,8 @@ struct TransferState {
   WorldCoordinates position;
   double w = 1.0, x = 0.0, y = 0.0, z = 0.0;  ///< orientation, from the object's axes to the scene
   WorldCoordinates velocity, turn_rate;       ///< [m/s], [rad/s]
+  WorldCoordinates acceleration;              ///< [m/s^2]
 };
-static_assert(kFixedSize<TransferState> == 128);
+static_assert(kFixedSize<TransferState> == 152);
 
 }  // namespace reckon::pdu

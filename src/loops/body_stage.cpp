@@ -62,8 +62,9 @@ bool BodyStage::set_own(std::size_t body, const pdu::OwnershipRecord& ownership,
   return begins;
 }
 
-void BodyStage::leave(const haptics::BodyEnd& end, const Pass& pass, std::uint32_t epoch,
-                      OwnedEntities& owned, RemoteEntities& remote) noexcept {
+void BodyStage::leave(const haptics::BodyEnd& end, const Pass& pass,
+                      const pdu::OwnershipRecord& ownership, OwnedEntities& owned,
+                      RemoteEntities& remote) noexcept {
   OwnedEntity* entity = entity_of(end.body, owned);
   if (entity == nullptr) return;
   haptics::BodyState state;
@@ -76,18 +77,18 @@ void BodyStage::leave(const haptics::BodyEnd& end, const Pass& pass, std::uint32
   own.entity = entity->id();
   own.has_state = true;
   own.state = update.state;
-  own.ownership = update.ownership;
+  own.ownership = ownership;
   Arrival arrival;
   arrival.now = arrival.arrival = pass.now;
   arrival.utc = pass.utc;
-  arrival.epoch = epoch;
+  arrival.epoch = ownership.owner;
   arrival.clock.ahead = nanoseconds(0);
   if (remote.take(own, arrival, {}) && remote_) remote_->note_own(own.entity, remote);
 }
 
 void BodyStage::note_place(std::size_t body, const pdu::EntityState& state) noexcept {
   deadreckon::KinematicState motion;
-  const bool is_good = deadreckon::from_wire(state, frame_, motion) == ConversionError::none;
+  const bool is_good = deadreckon::from_wire(state, frame_, motion) == deadreckon::ConversionError::none;
   if (is_good && body < stated_.size()) stated_[body] = Stated{motion.position, motion.orientation};
 }
 

@@ -43,8 +43,8 @@ class BodyStage {
     return first_ == 0 ? nullptr : owned.find(static_cast<EntityNumber>(first_ + body));
   }
   /// Shows a body that this peer has stopped simulating as it would be received from this peer.
-  /// @param end its last state, of this pass or earlier
-  void leave(const haptics::BodyEnd& end, const Pass& pass, std::uint32_t epoch,
+  /// @param end its last state, of this pass or earlier  @param ownership of this peer
+  void leave(const haptics::BodyEnd& end, const Pass& pass, const pdu::OwnershipRecord& ownership,
              OwnedEntities& owned, RemoteEntities& remote) noexcept;
 
   /// Notes where its owner states a body, also beyond the radius of interest.

@@ -18,6 +18,10 @@ using std::chrono::nanoseconds;
 // Between two steps of the protocol while nothing arrives.
 constexpr nanoseconds kStep = milliseconds(20);
 constexpr double kLongestTransit = 0.5;  // [s] that a granted state is extrapolated
+constexpr double kSeenJump = 0.001;      // [m]
+constexpr double kUsualOff = 0.005;      // [m]
+constexpr double kLongestStep = 0.02;    // [s] from which an acceleration is known
+constexpr double kMostSteady = 20.0;     // [m/s^2]; a knock has more
 // The new owner of a body that we gave away states it within this time, or it stands still.
 constexpr nanoseconds kSilence = milliseconds(500);
 
@@ -211,6 +215,25 @@ void OwnershipStage::send_yields() noexcept {
   }
 }
 
+void OwnershipStage::note_velocities() noexcept {
+  const haptics::BodyStates* all = parts_.bodies.states();
+  if (all == nullptr || all->time == last_.time) return;
+  std::swap(last_, earlier_);
+  last_.time = all->time;
+  const std::size_t size = std::min(all->bodies.size(), last_.velocities.size());
+  for (std::size_t i = 0; i < size; ++i) last_.velocities[i] = all->bodies[i].velocity;
+}
+
+// Over the last step; zero after a knock, which does not go on.
+Eigen::Vector3d OwnershipStage::acceleration_of(const haptics::BodyEnd& end) const noexcept {
+  const Velocities& before = last_.time < end.time ? last_ : earlier_;
+  const double step = pdu::to_seconds(end.time - before.time);
+  const Eigen::Vector3d acceleration =
+      (end.state.velocity - before.velocities[end.body]) / std::max(step, 1e-6);
+  const bool is_steady = step > 0.0 && step < kLongestStep && acceleration.norm() < kMostSteady;
+  return is_steady ? acceleration : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 void OwnershipStage::take_ends() noexcept {
   haptics::BodyEnd end;
   while (world_->exchange().take_end(end)) {
@@ -219,8 +242,11 @@ void OwnershipStage::take_ends() noexcept {
     yield->objects.reset(end.body);
     if (!end.was_owned) continue;
     const nanoseconds utc = pass_.utc - (pass_.now - end.time);
-    protocol_.set_state(end.body, state_of(end.state, utc));
-    parts_.bodies.leave(end, pass_, epoch_, parts_.owned, parts_.remote);
+    ObjectState state = state_of(end.state, utc);
+    const Eigen::Vector3d acceleration = acceleration_of(end);
+    std::ranges::copy(acceleration, state.acceleration.begin());
+    protocol_.set_state(end.body, state);
+    parts_.bodies.leave(end, pass_, own_record(end.body), parts_.owned, parts_.remote);
     left_at_[end.body] = pass_.now;
   }
 }
@@ -233,7 +259,8 @@ void OwnershipStage::finish_yields() noexcept {
   }
 }
 
-// The state of a grant, moved on by the time since.
+// The state of a grant, moved on by the time since. A body that is shown a little elsewhere goes on
+// from there, so that nobody sees it jump.
 haptics::ObjectMotion OwnershipStage::granted_motion(std::size_t object) const noexcept {
   const ObjectState& state = protocol_.granted_state(object);
   haptics::ObjectMotion motion;
@@ -243,12 +270,22 @@ haptics::ObjectMotion OwnershipStage::granted_motion(std::size_t object) const n
   motion.velocity = {state.velocity[0], state.velocity[1], state.velocity[2]};
   motion.turn_rate = {state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]};
   const double age = std::clamp(pdu::to_seconds(pass_.utc - state.utc), 0.0, kLongestTransit);
-  motion.position += age * motion.velocity;
+  const Eigen::Vector3d acceleration(state.acceleration[0], state.acceleration[1],
+                                     state.acceleration[2]);
+  motion.position += age * motion.velocity + 0.5 * age * age * acceleration;
+  motion.velocity += age * acceleration;
   const double angle = age * motion.turn_rate.norm();
   if (angle > 0.0) {
     const Eigen::AngleAxisd turn(angle, motion.turn_rate.normalized());
     motion.orientation = (turn * motion.orientation).normalized();
   }
+  const RemoteEntity* row = parts_.remote.find(body_id(object));
+  if (row == nullptr) return motion;
+  const haptics::ObjectMotion shown = peer::motion_of(row->shown(pass_.now));
+  const double off = (shown.position - motion.position).norm();
+  // What dead reckoning without acceleration misses until the grant arrives, and some thresholds.
+  const double usual = kUsualOff + 0.5 * acceleration.norm() * 4 * age * age;
+  if (off > kSeenJump && off < usual) motion.position = shown.position;
   return motion;
 }
 
@@ -302,6 +339,14 @@ std::uint32_t OwnershipStage::world_number() const noexcept {
   return static_cast<std::uint32_t>(pdu::split_mix(both) >> 32 | 1U);
 }
 
+pdu::OwnershipRecord OwnershipStage::own_record(std::size_t body) const noexcept {
+  pdu::OwnershipRecord record;
+  record.owner = epoch_;
+  record.version = protocol_.tenure(body).version;
+  record.world = world_number();
+  return record;
+}
+
 void OwnershipStage::name_owners() noexcept {
   for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
     const Tenure& owner = owner_of(i);
@@ -309,10 +354,8 @@ void OwnershipStage::name_owners() noexcept {
     note_owner(i, owner);
     if (i >= states().size()) continue;
     const bool is_ours = protocol_.owns(i, pass_.now) && !states()[i].carried;
-    pdu::OwnershipRecord record;
-    record.owner = is_ours ? owner.owner : 0;
-    record.version = owner.version;
-    record.world = world_number();
+    pdu::OwnershipRecord record = own_record(i);
+    if (!is_ours) record.owner = 0;
     if (!parts_.bodies.set_own(i, record, parts_.owned)) continue;
     parts_.remote.forget(body_id(i));
     left_at_[i] = nanoseconds(0);
@@ -418,6 +461,7 @@ void OwnershipStage::step(const Pass& pass) noexcept {
   pass_ = pass;
   if (!is_on_) return;
   take_ends();
+  note_velocities();
   finish_yields();
   protocol_.step(pass.now);
   take_events();

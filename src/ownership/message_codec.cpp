@@ -167,6 +167,7 @@ pdu::TransferState wire(const Holding& holding, const ObjectState& state) noexce
   wired.z = state.orientation[3];
   wired.velocity = {state.velocity[0], state.velocity[1], state.velocity[2]};
   wired.turn_rate = {state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]};
+  wired.acceleration = {state.acceleration[0], state.acceleration[1], state.acceleration[2]};
   return wired;
 }
 

@@ -124,6 +124,7 @@ bool is_sane(const pdu::TransferState& state) noexcept {
   };
   const double norm = state.w * state.w + state.x * state.x + state.y * state.y + state.z * state.z;
   return finite(state.position) && finite(state.velocity) && finite(state.turn_rate) &&
+         finite(state.acceleration) &&
          std::abs(norm - 1.0) < 1e-6 && state.holding.object < kMostOwnable;
 }
 
@@ -134,6 +135,7 @@ ObjectState plain(const pdu::TransferState& state) noexcept {
   plain.orientation = {state.w, state.x, state.y, state.z};
   plain.velocity = {state.velocity.x, state.velocity.y, state.velocity.z};
   plain.turn_rate = {state.turn_rate.x, state.turn_rate.y, state.turn_rate.z};
+  plain.acceleration = {state.acceleration.x, state.acceleration.y, state.acceleration.z};
   return plain;
 }
 

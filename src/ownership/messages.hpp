@@ -115,10 +115,11 @@ struct ObjectState {
   std::array<double, 3> position{};               ///< [m], S
   std::array<double, 4> orientation{1, 0, 0, 0};  ///< w, x, y, z: from the object's axes to S
   std::array<double, 3> velocity{}, turn_rate{};  ///< [m/s], [rad/s], S
+  std::array<double, 3> acceleration{};           ///< [m/s^2], S
 };
 
 /// Most objects of one part of a grant.
-inline constexpr std::size_t kMostGranted = 8;
+inline constexpr std::size_t kMostGranted = 7;
 
 /// Objects that change owner together. Each part names all of them and has some.
 struct Grant {

@@ -67,18 +67,18 @@ TEST(Ownership, PassesWithoutAJump) {
     exercise.start_all();
     exercise.run(3000);
     haptics::BodyOrder push{haptics::BodyAct::place, 0};
-    push.state.position = {0, 0, 5.0};
+    push.state.position = {0, 0, 0.1};
     push.state.velocity = {0.3, 0, 5.0};
     push.state.turn_rate = {0, 0, 1.0};
     ASSERT_TRUE(exercise.owners(0).order(push));
-    exercise.run(50 + 200);
+    exercise.run(100);
     double jump = 0;
     std::vector<Eigen::Vector3d> last(3);
     for (std::size_t i = 0; i < 3; ++i) last[i] = exercise.shown(i, 0).position;
     std::size_t hand_overs = 0;
-    for (int t = 0; t < 1200; ++t) {
-      if (t % 333 == 0) exercise.owners(1 + static_cast<std::size_t>(t / 333) % 2).acquire(0);
-      if (t % 333 == 300) exercise.owners(1 + static_cast<std::size_t>(t / 333) % 2).divest(0);
+    for (int t = 0; t < 800; ++t) {
+      if (t % 200 == 0) exercise.owners(1 + static_cast<std::size_t>(t / 200) % 2).acquire(0);
+      if (t % 200 == 180) exercise.owners(1 + static_cast<std::size_t>(t / 200) % 2).divest(0);
       exercise.step();
       for (std::size_t i = 0; i < 3; ++i) {
         const haptics::ObjectMotion body = exercise.shown(i, 0);
