@@ -283,8 +283,9 @@ haptics::ObjectMotion OwnershipStage::granted_motion(std::size_t object) const n
   if (row == nullptr) return motion;
   const haptics::ObjectMotion shown = peer::motion_of(row->shown(pass_.now));
   const double off = (shown.position - motion.position).norm();
-  // What dead reckoning without acceleration misses until the grant arrives, and some thresholds.
-  const double usual = kUsualOff + 0.5 * acceleration.norm() * 4 * age * age;
+  // What dead reckoning without acceleration misses until the grant arrives, also after a lost
+  // update, and some thresholds.
+  const double usual = kUsualOff + 0.5 * acceleration.norm() * 9 * age * age;
   if (off > kSeenJump && off < usual) motion.position = shown.position;
   return motion;
 }

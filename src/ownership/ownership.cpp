@@ -54,7 +54,7 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   }
   if (!world.exists()) return false;
   // A peer without a vote has no lease of its own: that of a voter counts.
-  if (!core_.config.votes && round != nullptr && round->has_lease && core_.world == world)
+  if (!is_voter() && round != nullptr && round->has_lease && core_.world == world)
     leased_ = now;
   if (core_.world == world) return true;
   if (core_.world.exists()) {
@@ -69,6 +69,13 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
 }
 
 void Ownership::merge(const WorldId& older) {
+  leave_world();
+  core_.world = older;
+  ++core_.counts.merged;
+  core_.report({OwnershipEvent::Kind::merged, OwnerChange::merged, {}, 0, older.founder});
+}
+
+void Ownership::leave_world() {
   rows_.drop_all(OwnerChange::merged);
   granting_.clear();
   taking_.clear();
@@ -77,18 +84,19 @@ void Ownership::merge(const WorldId& older) {
   chair_.end();
   rounds_.follow_act();
   voting_.follow_act();
-  core_.world = older;
-  ++core_.counts.merged;
-  core_.report({OwnershipEvent::Kind::merged, OwnerChange::merged, {}, 0, older.founder});
+  core_.world = {};
 }
 
 void Ownership::found_if_due(nanoseconds now) {
-  // The peers of a world that we wanted to join have gone.
-  if (!core_.acts.exists() && core_.world.exists() && now - joined_ > LeaseBook::kDead)
-    core_.world = {};
-  const nanoseconds wait = core_.config.founds_at_once ? nanoseconds(0) : kFound;
-  if (!core_.config.votes || core_.world.exists() || now - started_ < wait) return;
-  if (chair_.is_preceded(core_.to_found, now)) return;
+  // The peers of a world that we wanted to join have gone, or none of them can admit us.
+  const bool waits = core_.acts.exists() && !is_voter();
+  const nanoseconds since = waits ? std::max(joined_, leased_) : joined_;
+  const bool is_outside = waits || !core_.acts.exists();
+  if (core_.config.votes && is_outside && core_.world.exists() && now - since > LeaseBook::kDead)
+    leave_world();
+  if (!core_.config.votes || core_.world.exists()) return;
+  const bool is_early = now - started_ < kFound || chair_.is_preceded(core_.to_found, now);
+  if (is_early && !core_.config.founds_at_once) return;
   core_.world = core_.to_found;
   ++core_.to_found.founded;
   found(1, now);
@@ -190,6 +198,7 @@ void Ownership::decide(const Act& act, nanoseconds now) {
   }
   if (is_first) leased_ = now;
   rows_.follow_act(lease_end);
+  if (!is_voter()) joined_ = now;
   if (!is_voter() && core_.config.votes) {
     core_.table.clear();
     core_.forget_gifts();

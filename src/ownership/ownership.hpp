@@ -102,6 +102,7 @@ class Ownership {
   [[nodiscard]] bool is_of_world(const WorldId& world, const Round* round, std::uint32_t from,
                                  Nanoseconds now);
   void merge(const WorldId& older);
+  void leave_world();
   void found_if_due(Nanoseconds now);
   void found(std::uint32_t number, Nanoseconds now);
   void decide(const Act& act, Nanoseconds now);

@@ -1,54 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The first peer owns the bodies of a scene: other peers' states of them move nothing and press no
-// hand.
+// Only its owner states a body of the scene: forged states, and those of other members, move nothing
+// and press no hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "reckon/pdu/codec/codec.hpp"
-#include "reckon/peer/world/shared_bodies.hpp"
-#include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/integration/owners_exercise.hpp"
 
 namespace reckon::test {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-constexpr std::string_view kCube = R"(
-[[object]]
-name = "floor"
-plane = [0, 0, 1]
-surface = {stiffness = "400 N/m"}
-
-[[object]]
-name = "cube"
-box = "40 40 40 mm"
-position = "0 0 20 mm"
-mass = "50 g"
-body_friction = 0.4
-surface = {stiffness = "400 N/m"}
-
-[network]
-TOUCH
-
-[[operator]]
-passive = true
-
-[[device]]
-peer = 1
-operator = 1
-
-[[device]]
-peer = 2
-operator = 1
-)";
 
 constexpr std::size_t kFirst = 0, kSecond = 1, kThief = 2, kLinks = 3;
 
@@ -58,87 +27,66 @@ haptics::HandTarget wait_at(double x) {
   return target;
 }
 
-/// A first peer whose hand is far from its cube, a second whose hand waits 0.1 m beside it, and a
-/// thief that puts a cube of its own into the second hand.
-class Exercise {
+/// A member that states the cube 0.1 m from its place in each pass, as if it owned it.
+class Claims final : public peer::ModelGuest {
+ public:
+  explicit Claims(const pdu::OwnershipRecord& record) : record_(record) {}
+  void begin_pass(peer::ModelLoop& loop) noexcept override {
+    const auto number = static_cast<peer::EntityNumber>(1);
+    peer::OwnedEntity* cube = loop.find_own(number);
+    ASSERT_NE(cube, nullptr);
+    cube->own_by(record_);
+    peer::EntityTruth truth;
+    truth.time = loop.pass().now;
+    truth.position = {0.1, 0, 0.02};
+    ASSERT_TRUE(loop.move(number, truth));
+    cube->event();
+  }
+  void receive(const pdu::PduHeader&, std::span<const std::byte>,
+               const peer::InteractionSender&) noexcept override {}
+  void end_pass(peer::ModelLoop&) noexcept override {}
+  void note_undelivered(const peer::Undelivered&) noexcept override {}
+
+ private:
+  pdu::OwnershipRecord record_;
+};
+
+/// A first peer whose hand is far from its cube, and a second whose hand waits 0.1 m beside it.
+class Exercise : public OwnersExercise {
  public:
   explicit Exercise(const std::string& network = "")
-      : clock_(seconds(1), std::chrono::hours(1)),
-        network_({.links = kLinks}, clock_),
-        scene_(scene_of(with(kCube, "TOUCH", network))) {}
+      : OwnersExercise(kLinks, cubes_scene(1, 0.02, network)) {}
 
-  // By its number in the scene.
-  void start(std::size_t link, std::uint8_t scene_peer) {
-    peer::PeerOptions own;
-    own.application = static_cast<std::uint16_t>(link + 1);
-    own.epoch = ++lives_;
-    own.scene_peer = scene_peer;
-    if (link == kThief) {
-      peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link),
-                                                  std::span<const peer::PeerDevice>());
-      place_stolen_cube(*peers_[link], scene_peer);
-    } else {
-      const auto still = [link](double) { return wait_at(link == kFirst ? -0.5 : 0.1); };
-      haptics::SimulatedDeviceConfig config;
-      config.hand_stiffness = 300;
-      config.start = still(0).position;
-      hands_[link] = std::make_unique<haptics::SimulatedDevice>(config, still);
-      peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link), *hands_[link]);
-    }
-    peers_[link]->start(clock_.now());
+  void start_first() {
+    start_with_hand(kFirst, 1, [](double) { return wait_at(-0.5); });
   }
-  // As the first peer the thief simulates the cube; otherwise it states it without a right.
-  void place_stolen_cube(peer::Peer& thief, std::uint8_t scene_peer) {
-    const Eigen::Vector3d place(0.1, 0, 0.02);
-    if (scene_peer == 1) {
-      haptics::BodyOrder order;
-      order.act = haptics::BodyAct::place;
-      order.state.position = place;
-      ASSERT_NE(thief.bodies()->exchange().send(std::span(&order, 1)), 0u);
-      return;
-    }
-    thief.model().add_bodies(1);
-    peer::EntityTruth cube;
-    cube.time = clock_.now();
-    cube.position = place;
-    ASSERT_TRUE(thief.model().move(1, cube));
+  void start_second() {
+    start_with_hand(kSecond, 2, [](double) { return wait_at(0.1); });
   }
-  void stop(std::size_t link) {
-    peers_[link]->stop(clock_.now(), clock_.utc_now());
-    peers_[link].reset();
-  }
-  void kill(std::size_t link) { peers_[link].reset(); }
   /// @return the largest force on the second peer's hand meanwhile [N]
   double run(std::size_t steps) {
     double felt = 0.0;
     for (std::size_t i = 0; i < steps; ++i) {
-      clock_.advance(milliseconds(1));
-      for (auto& peer : peers_) {
-        if (!peer) continue;
-        peer->servo_step(clock_.now());
-        peer->read_step(clock_.now());
-        peer->model_step(clock_.now(), clock_.utc_now());
-        peer->write_step();
-      }
-      if (!peers_[kSecond]) continue;
-      peers_[kSecond]->views().update();
-      felt = std::max(felt, peers_[kSecond]->views().read().servo().force.norm());
+      step();
+      if (!lives(kSecond)) continue;
+      peer(kSecond).views().update();
+      felt = std::max(felt, peer(kSecond).views().read().servo().force.norm());
     }
     return felt;
   }
   /// From now on the thief's link, without a peer, receives what the others send.
   void eavesdrop() {
-    const peer::GroupPool pool = peer::pool_of(scene_);
-    static_cast<void>(network_.link(kThief).join(pool.base()));
+    const peer::GroupPool pool = peer::pool_of(scene());
+    static_cast<void>(network().link(kThief).join(pool.base()));
     for (std::size_t i = 0; i < pool.size(); ++i)
-      static_cast<void>(network_.link(kThief).join(pool.address(i)));
+      static_cast<void>(network().link(kThief).join(pool.address(i)));
   }
   /// The thief's link sends the received states of the cube again, 3 m from their place and with
   /// later sequence numbers.  @return their number
   std::size_t forge() {
     std::size_t forged = 0;
     std::array<peer::Datagram, 64> datagrams;
-    const std::size_t count = network_.link(kThief).receive(datagrams);
+    const std::size_t count = network().link(kThief).receive(datagrams);
     for (const peer::Datagram& datagram : std::span(datagrams).first(count)) {
       std::vector<std::byte> octets(datagram.bytes.begin(), datagram.bytes.end());
       pdu::EntityState state;
@@ -148,57 +96,47 @@ class Exercise {
       state.location.x += 3.0;
       EXPECT_GT(pdu::encode(state, octets), 0u);
       octets[octets.size() - 10] ^= std::byte{1};  // of the sequence number
-      forged += network_.link(kThief).send(datagram.group, octets) ? 1 : 0;
+      forged += network().link(kThief).send(datagram.group, octets) ? 1 : 0;
     }
     return forged;
   }
   [[nodiscard]] const peer::RemoteEntity* cube_row() {
-    return peers_[kSecond]->model().remote().find(peer::body_id(0));
+    return peer(kSecond).model().remote().find(peer::body_id(0));
   }
-  [[nodiscard]] double cube_at() { return peers_[kSecond]->bodies()->states()[0].position.x(); }
-  std::vector<std::string> notices(std::size_t link) {
-    std::vector<std::string> texts;
-    while (const peer::Notice* notice = peers_[link]->notices().front()) {
-      texts.emplace_back(notice->text.data());
-      peers_[link]->notices().pop();
-    }
-    return texts;
-  }
-  [[nodiscard]] std::uint64_t count(std::string_view name) {
-    const peer::Counter* found = peers_[kSecond]->counters().find(name);
-    EXPECT_NE(found, nullptr) << name;
-    return found == nullptr ? 0 : found->value();
-  }
-
- private:
-  peer::ManualClock clock_;
-  peer::SimulatedNetwork network_;
-  peer::SceneFile scene_;
-  std::array<std::unique_ptr<haptics::SimulatedDevice>, kLinks> hands_;
-  std::array<std::unique_ptr<peer::Peer>, kLinks> peers_;
-  std::uint32_t lives_ = 0;
+  [[nodiscard]] double cube_at() { return shown(kSecond, 0).position.x(); }
 };
 
-TEST(BodyOwner, IsTheFirstPeerOfTheScene) {
-  Exercise exercise;
-  exercise.start(kSecond, 2);
-  exercise.start(kThief, 3);
-  exercise.run(1000);
-  EXPECT_EQ(exercise.run(2000), 0.0) << "the thief came first";
-  EXPECT_EQ(exercise.cube_at(), 0.0);
-  EXPECT_GT(exercise.count("bodies_disputed"), 0u);
-  EXPECT_THAT(exercise.notices(kSecond),
-              Contains(HasSubstr("a body of the scene comes only from its owner")));
-  exercise.start(kFirst, 1);
-  EXPECT_EQ(exercise.run(3000), 0.0);
-  EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
+TEST(BodyOwner, AMemberThatClaimsItMovesNothing) {
+  const std::uint64_t versions[]{0, 1, 1ULL << 32, 2ULL << 32, (2ULL << 32) + 1, (2ULL << 32) + 999,
+                                 900ULL << 32, ~0ULL};
+  for (const std::uint64_t version : versions) {
+    Exercise exercise;
+    exercise.start_first();
+    exercise.start_second();
+    exercise.start(kThief, 3);
+    exercise.run(2000);
+    pdu::OwnershipRecord record;
+    record.owner = exercise.epoch(kThief);
+    record.version = version;
+    Claims claims(record);
+    exercise.peer(kThief).model().set_guest(&claims);
+    EXPECT_EQ(exercise.run(2000), 0.0) << version;
+    EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4) << version;
+    EXPECT_GT(exercise.count(kSecond, "bodies_disputed"), 0u) << version;
+    EXPECT_THAT(exercise.notices(kSecond),
+                Contains(HasSubstr("a body of the scene comes only from its owner")));
+    exercise.owners(kSecond).acquire(0);
+    exercise.run(500);
+    EXPECT_TRUE(exercise.simulates(kSecond, 0)) << "the thief is no obstacle, " << version;
+    exercise.peer(kThief).model().set_guest(nullptr);
+  }
 }
 
 TEST(BodyOwner, ForgedAddressMovesNothing) {
   Exercise exercise;
   exercise.eavesdrop();
-  exercise.start(kSecond, 2);
-  exercise.start(kFirst, 1);
+  exercise.start_second();
+  exercise.start_first();
   std::size_t forged = 0;
   for (int i = 0; i < 100; ++i) {
     exercise.run(20);
@@ -208,22 +146,23 @@ TEST(BodyOwner, ForgedAddressMovesNothing) {
   ASSERT_NE(exercise.cube_row(), nullptr);
   EXPECT_LT(exercise.cube_row()->state.position.norm(), 0.1);
   EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
-  EXPECT_GE(exercise.count("datagrams_refused"), forged);
+  EXPECT_GE(exercise.count(kSecond, "datagrams_refused"), forged);
 }
 
 TEST(BodyOwner, RestartedOwnerTakesTheRow) {
   Exercise exercise;
-  exercise.start(kSecond, 2);
-  exercise.start(kFirst, 1);
+  exercise.start_second();
+  exercise.start_first();
   exercise.run(1000);
   ASSERT_NE(exercise.cube_row(), nullptr);
   const auto first_heard = exercise.cube_row()->first_heard;
   const std::uint32_t epoch = exercise.cube_row()->epoch;
-  exercise.stop(kFirst);
+  exercise.peer(kFirst).stop(exercise.now(), exercise.utc_now());
+  exercise.kill(kFirst);
   exercise.run(70'000);  // longer than any time-out
   ASSERT_NE(exercise.cube_row(), nullptr);
   EXPECT_NE(exercise.cube_row()->doubted_at, peer::RemoteEntity::kTrusted);
-  exercise.start(kFirst, 1);
+  exercise.start_first();
   exercise.run(1000);
   ASSERT_NE(exercise.cube_row(), nullptr);
   EXPECT_NE(exercise.cube_row()->epoch, epoch);
@@ -232,7 +171,7 @@ TEST(BodyOwner, RestartedOwnerTakesTheRow) {
 }
 
 TEST(BodyOwner, NobodyTakesTheSceneSite) {
-  const peer::SceneFile scene = scene_of(with(kCube, "TOUCH", ""));
+  const peer::SceneFile scene = scene_of(cubes_scene(1));
   peer::ManualClock clock(seconds(1), std::chrono::hours(1));
   peer::SimulatedNetwork network({.links = 1}, clock);
   peer::PeerOptions own;
@@ -245,7 +184,7 @@ TEST(BodyOwner, NobodyTakesTheSceneSite) {
   }
   for (const std::string_view key : {"touch", "allow_management"}) {
     try {
-      static_cast<void>(scene_of(with(kCube, "TOUCH", std::string(key) + " = \"65534:1\"")));
+      static_cast<void>(scene_of(cubes_scene(1, 0.02, std::string(key) + " = \"65534:1\"")));
       FAIL() << "accepted";
     } catch (const peer::SceneFileError& error) {
       EXPECT_THAT(error.what(), HasSubstr("site 65534, which belongs to the scene's bodies"));
@@ -253,66 +192,47 @@ TEST(BodyOwner, NobodyTakesTheSceneSite) {
   }
 }
 
-TEST(BodyOwner, MayComeBackWhereAThiefIs) {
-  for (const bool killed : {false, true}) {
-    Exercise exercise;
-    exercise.start(kFirst, 1);
-    exercise.start(kSecond, 2);
-    exercise.start(kThief, 3);
-    exercise.run(2000);
-    killed ? exercise.kill(kFirst) : exercise.stop(kFirst);
-    EXPECT_EQ(exercise.run(8000), 0.0);
-    exercise.start(kFirst, 1);
-    EXPECT_EQ(exercise.run(6000), 0.0);
-    EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
-  }
-}
-
-TEST(BodyOwner, IsTheFirstOfTwoThatClaimIt) {
+// The older world has precedence.
+TEST(BodyOwner, IsTheFirstOfTwoFounders) {
   Exercise exercise;
-  exercise.start(kFirst, 1);
-  exercise.start(kSecond, 2);
-  exercise.run(1500);
-  exercise.start(kThief, 1);
+  exercise.start_first();
+  exercise.start_second();
+  exercise.run(3000);
+  peer::Peer& late = exercise.start(kThief, 1);
+  haptics::BodyOrder place{haptics::BodyAct::place, 0};
+  place.state.position = {0.1, 0, 0.02};
+  ASSERT_NE(late.bodies()->exchange().send(std::span(&place, 1)), 0u);
   EXPECT_EQ(exercise.run(4000), 0.0);
-  EXPECT_GT(exercise.count("bodies_disputed"), 0u);
-  for (const std::size_t link : {kFirst, kSecond, kThief})
-    EXPECT_THAT(exercise.notices(link), Contains(HasSubstr("claims to be the scene's first peer")))
-        << link;
-}
-
-TEST(BodyOwner, ComesNextWhenTheFirstClaimantLeaves) {
-  Exercise exercise;
-  exercise.start(kSecond, 2);
-  exercise.start(kThief, 1);
-  exercise.run(1500);
-  EXPECT_NEAR(exercise.cube_at(), 0.1, 1e-3) << "without a key nobody can tell";
-  exercise.start(kFirst, 1);
-  exercise.run(2000);
-  exercise.stop(kThief);
-  exercise.run(1000);
   EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
+  EXPECT_NEAR(exercise.shown(kThief, 0).position.x(), 0.0, 1e-4);
+  EXPECT_THAT(exercise.notices(kThief), Contains(HasSubstr("own the bodies again together")));
 }
 
 TEST(BodyOwner, IsFeltOnlyIfTouchAdmitsIt) {
-  Exercise exercise("touch = [\"1:2\"]");
-  exercise.start(kSecond, 2);
-  exercise.start(kThief, 1);
-  EXPECT_EQ(exercise.run(3000), 0.0);
-  EXPECT_EQ(exercise.cube_at(), 0.0);
-  EXPECT_GT(exercise.count("touch_refused"), 0u);
+  for (const bool admitted : {true, false}) {
+    Exercise exercise(admitted ? "touch = [\"1:2\", \"1:3\"]" : "touch = [\"1:2\"]");
+    exercise.start_second();
+    peer::Peer& first = exercise.start(kThief, 1);
+    haptics::BodyOrder place{haptics::BodyAct::place, 0};
+    place.state.position = {0.1, 0, 0.02};
+    ASSERT_NE(first.bodies()->exchange().send(std::span(&place, 1)), 0u);
+    const double felt = exercise.run(3000);
+    EXPECT_EQ(felt > 0.0, admitted) << felt;
+    EXPECT_EQ(exercise.count(kSecond, "touch_refused") > 0, !admitted);
+  }
 }
 
 TEST(BodyOwner, IsNamedInAnInteropExercise) {
-  Exercise open("interop = true");
-  open.start(kSecond, 2);
-  open.start(kThief, 1);
-  EXPECT_EQ(open.run(3000), 0.0);
-  Exercise named("interop = true\ntouch = [\"1:3\"]");
-  named.start(kSecond, 2);
-  named.start(kThief, 1);
-  named.run(1000);
-  EXPECT_NEAR(named.cube_at(), 0.1, 1e-3);
+  for (const bool named : {false, true}) {
+    Exercise exercise(named ? "interop = true\ntouch = [\"1:3\"]" : "interop = true");
+    exercise.start_second();
+    peer::Peer& first = exercise.start(kThief, 1);
+    haptics::BodyOrder place{haptics::BodyAct::place, 0};
+    place.state.position = {0.1, 0, 0.02};
+    ASSERT_NE(first.bodies()->exchange().send(std::span(&place, 1)), 0u);
+    const double felt = exercise.run(3000);
+    EXPECT_EQ(felt > 0.0, named) << felt;
+  }
 }
 
 }  // namespace

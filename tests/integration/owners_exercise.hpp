@@ -104,6 +104,8 @@ class OwnersExercise {
   [[nodiscard]] std::size_t size() const { return peers_.size(); }
   [[nodiscard]] peer::SimulatedNetwork& network() { return network_; }
   [[nodiscard]] nanoseconds now() const { return clock_.now(); }
+  [[nodiscard]] nanoseconds utc_now() const { return clock_.utc_now(); }
+  [[nodiscard]] const peer::SceneFile& scene() const { return scene_; }
   [[nodiscard]] peer::OwnershipStage& owners(std::size_t link) {
     return peers_[link]->model().ownership();
   }
