@@ -6,6 +6,15 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
+namespace {
+
+constexpr double kLongestStep = 0.02;  // [s] over which an acceleration is known
+constexpr double kMostSteady = 20.0;   // [m/s^2]; a knock has more
+constexpr double kKnock = 0.02;        // [m/s], a change of velocity that is sent at once
+constexpr int kMostWaits = 2;          // steps of 1 ms
+
+}  // namespace
+
 BodyStage::BodyStage(const ModelWiring& wiring)
     : scene_(wiring.scene),
       frame_(wiring.frame),
@@ -109,7 +118,30 @@ void BodyStage::read(nanoseconds now, const OwnedEntities& owned) noexcept {
     const OwnedEntity* first = owned.find(owned.first_id().entity);
     stepped_->step(now, first != nullptr && first->is_frozen());
   }
-  if (own_ != nullptr && own_->update()) is_fresh_ = true;
+  if (own_ == nullptr || !own_->update()) return;
+  is_fresh_ = true;
+  note_motions();
+}
+
+void BodyStage::note_motions() noexcept {
+  const haptics::BodyStates& states = own_->read();
+  const double step = pdu::to_seconds(states.time - read_at_);
+  const bool is_known = step > 0.0 && step < kLongestStep;
+  read_at_ = states.time;
+  for (std::size_t i = 0; i < std::min(states.bodies.size(), motions_.size()); ++i) {
+    const haptics::BodyState& body = states.bodies[i];
+    Motion& motion = motions_[i];
+    if (body.carried || (!body.awake && motion.acceleration.isZero(0))) continue;
+    const Eigen::Vector3d change = body.velocity - motion.velocity;
+    const bool is_knock = is_known && change.norm() > kKnock + kMostSteady * step;
+    const bool is_steady = is_known && body.awake && change.norm() < kMostSteady * step;
+    // The state after a knock waits for its acceleration.
+    motion.is_due = motion.is_due || (motion.waits > 0 && (is_steady || --motion.waits == 0));
+    if (is_knock && motion.waits == 0) motion.waits = kMostWaits;
+    if (is_steady) motion.waits = 0;
+    motion.acceleration = is_steady ? Eigen::Vector3d(change / step) : Eigen::Vector3d::Zero();
+    motion.velocity = body.velocity;
+  }
 }
 
 bool BodyStage::is_at(const OwnedEntity& entity, const haptics::BodyState& body) noexcept {

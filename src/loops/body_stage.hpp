@@ -53,6 +53,11 @@ class BodyStage {
   [[nodiscard]] haptics::ObjectMotion motion_now(std::size_t body, const RemoteEntities& remote,
                                                  std::chrono::nanoseconds now) const noexcept;
 
+  /// Of an owned body, over its last step [m/s^2]; zero after a knock, which does not go on.
+  [[nodiscard]] const Eigen::Vector3d& acceleration_of(std::size_t body) const noexcept {
+    return motions_[body].acceleration;
+  }
+
   /// Names the owner whose states of a body are taken.
   void name_owner(std::size_t body, const aoim::BodyOwnership& owner) noexcept {
     owners_.set(body, owner);
@@ -68,8 +73,8 @@ class BodyStage {
 
   /// Steps the bodies, if no servo does, and reads their states.
   void read(std::chrono::nanoseconds now, const OwnedEntities& owned) noexcept;
-  /// Moves the entities of owned bodies, by move(number, truth). A sleeping one keeps its last
-  /// state, which its heartbeat repeats.
+  /// Moves the entities of owned bodies, by move(number, truth, whether it was knocked). A sleeping
+  /// one keeps its last state, which its heartbeat repeats.
   void move_own(const OwnedEntities& owned, auto&& move) noexcept {
     if (!std::exchange(is_fresh_, false)) return;
     const haptics::BodyStates& states = own_->read();
@@ -78,8 +83,10 @@ class BodyStage {
       const OwnedEntity* entity = owned.find(number);
       const haptics::BodyState& body = states.bodies[i];
       if (entity == nullptr || body.carried || !entity->is_ours()) continue;
-      if (body.awake || !entity->is_resting() || !is_at(*entity, body))
-        move(number, truth_of(body, states.time));
+      if (!body.awake && entity->is_resting() && is_at(*entity, body)) continue;
+      EntityTruth truth = truth_of(body, states.time);
+      truth.acceleration = motions_[i].acceleration;
+      move(number, truth, std::exchange(motions_[i].is_due, false));
     }
   }
 
@@ -105,6 +112,13 @@ class BodyStage {
   void show(PeerView& view) const noexcept;
 
  private:
+  // Between two read states of an owned body.
+  struct Motion {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+    Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+    int waits = 0;        // readings until a knock is sent
+    bool is_due = false;  // a knock is to be sent
+  };
   struct Stated {
     Eigen::Vector3d position;
     Eigen::Quaterniond orientation;
@@ -115,6 +129,7 @@ class BodyStage {
   };
   [[nodiscard]] EntityDescription description_of(const haptics::SceneObject& object,
                                                  std::size_t number) const;
+  void note_motions() noexcept;
   [[nodiscard]] static bool is_at(const OwnedEntity& entity,
                                   const haptics::BodyState& body) noexcept;
 
@@ -126,6 +141,8 @@ class BodyStage {
   BodyMover* mover_;          // null: nothing is or will be carried
   std::vector<Body> bodies_;  // of the scene, of any owner
   bool is_fresh_ = false;     // what own_ reads, or who owns it, since move_own()
+  std::array<Motion, kMostSharedBodies> motions_{};
+  std::chrono::nanoseconds read_at_{0};  // time of these
   aoim::BodyOwners owners_;
   std::array<std::optional<Stated>, kMostSharedBodies> stated_{};  // by other owners
   std::optional<RemoteBodies> remote_;

@@ -111,7 +111,9 @@ void ModelLoop::read_sensors() noexcept {
   if (touch_.read_hands()) subscriber_.note_moved();
   bodies_.read(pass_.now, owned_);
   ownership_.step(pass_);
-  bodies_.move_own(owned_, [this](EntityNumber n, const EntityTruth& t) { move(n, t); });
+  bodies_.move_own(owned_, [this](EntityNumber number, const EntityTruth& truth, bool is_knocked) {
+    if (move(number, truth) && is_knocked) owned_.find(number)->event();
+  });
 }
 
 void ModelLoop::do_tasks() noexcept {

@@ -20,8 +20,6 @@ constexpr nanoseconds kStep = milliseconds(20);
 constexpr double kLongestTransit = 0.5;  // [s] that a granted state is extrapolated
 constexpr double kSeenJump = 0.001;      // [m]
 constexpr double kUsualOff = 0.005;      // [m]
-constexpr double kLongestStep = 0.02;    // [s] from which an acceleration is known
-constexpr double kMostSteady = 20.0;     // [m/s^2]; a knock has more
 // The new owner of a body that we gave away states it within this time, or it stands still.
 constexpr nanoseconds kSilence = milliseconds(500);
 
@@ -74,7 +72,7 @@ OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& i
       is_on_(wiring.bodies != nullptr && !wiring.scene.network.interop && has_bodies(wiring.scene)),
       protocol_(config_of(wiring, identity), *this),
       counted_(wiring.counters),
-      watch_(parts.aoim.presence(), parts.notices) {
+      watch_(parts.notices) {
   if (is_on_) parts_.assured.set_user(this);
 }
 
@@ -215,25 +213,6 @@ void OwnershipStage::send_yields() noexcept {
   }
 }
 
-void OwnershipStage::note_velocities() noexcept {
-  const haptics::BodyStates* all = parts_.bodies.states();
-  if (all == nullptr || all->time == last_.time) return;
-  std::swap(last_, earlier_);
-  last_.time = all->time;
-  const std::size_t size = std::min(all->bodies.size(), last_.velocities.size());
-  for (std::size_t i = 0; i < size; ++i) last_.velocities[i] = all->bodies[i].velocity;
-}
-
-// Over the last step; zero after a knock, which does not go on.
-Eigen::Vector3d OwnershipStage::acceleration_of(const haptics::BodyEnd& end) const noexcept {
-  const Velocities& before = last_.time < end.time ? last_ : earlier_;
-  const double step = pdu::to_seconds(end.time - before.time);
-  const Eigen::Vector3d acceleration =
-      (end.state.velocity - before.velocities[end.body]) / std::max(step, 1e-6);
-  const bool is_steady = step > 0.0 && step < kLongestStep && acceleration.norm() < kMostSteady;
-  return is_steady ? acceleration : Eigen::Vector3d(Eigen::Vector3d::Zero());
-}
-
 void OwnershipStage::take_ends() noexcept {
   haptics::BodyEnd end;
   while (world_->exchange().take_end(end)) {
@@ -243,7 +222,7 @@ void OwnershipStage::take_ends() noexcept {
     if (!end.was_owned) continue;
     const nanoseconds utc = pass_.utc - (pass_.now - end.time);
     ObjectState state = state_of(end.state, utc);
-    const Eigen::Vector3d acceleration = acceleration_of(end);
+    const Eigen::Vector3d& acceleration = parts_.bodies.acceleration_of(end.body);
     std::ranges::copy(acceleration, state.acceleration.begin());
     protocol_.set_state(end.body, state);
     parts_.bodies.leave(end, pass_, own_record(end.body), parts_.owned, parts_.remote);
@@ -462,7 +441,6 @@ void OwnershipStage::step(const Pass& pass) noexcept {
   pass_ = pass;
   if (!is_on_) return;
   take_ends();
-  note_velocities();
   finish_yields();
   protocol_.step(pass.now);
   take_events();

@@ -93,12 +93,6 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
     ObjectSet objects;              // without an answer
   };
 
-  // Of all bodies in one step.
-  struct Velocities {
-    Nanoseconds time{0};
-    std::array<Eigen::Vector3d, kMostOwnable> velocities{};
-  };
-
   [[nodiscard]] bool may_take(std::size_t object, std::uint32_t epoch) override;
   [[nodiscard]] bool is_busy(std::size_t object) override;
   [[nodiscard]] ObjectSet company_of(std::size_t object) override;
@@ -110,8 +104,6 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
                   const Arrival& arrival) noexcept;
   void take_events() noexcept;
   void take_ends() noexcept;
-  void note_velocities() noexcept;
-  [[nodiscard]] Eigen::Vector3d acceleration_of(const haptics::BodyEnd& end) const noexcept;
   void send_yields() noexcept;
   void finish_yields() noexcept;
   void send_orders() noexcept;
@@ -136,7 +128,6 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   OwnershipCounters counted_;
   OwnershipWatch watch_;
   Pass pass_;
-  Velocities last_, earlier_;
   ObjectSet granted_;  // gained in the state of a grant
   ObjectSet kept_;     // by the program
   std::array<BodyOwnerView, kMostOwnable> shown_{};

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/ownership_watch.hpp"
 
-#include <algorithm>
-
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
@@ -27,14 +25,6 @@ void OwnershipWatch::note(const OwnershipEvent& event) noexcept {
   }
 }
 
-std::size_t OwnershipWatch::received_voters(const Ownership& protocol) const noexcept {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(protocol.acts().decided().roll.voters(), [&](const Voter& voter) {
-        return voter.epoch == presence_.own().epoch ||
-               presence_.standing(voter.epoch) == aoim::Standing::member;
-      }));
-}
-
 void OwnershipWatch::look(const Ownership& protocol, Nanoseconds now) noexcept {
   const bool is_settled = !protocol.acts().exists() || !protocol.is_voter();
   if (is_settled || protocol.has_lease(now) || leased_ < Nanoseconds(0)) leased_ = now;
@@ -45,7 +35,7 @@ void OwnershipWatch::look(const Ownership& protocol, Nanoseconds now) noexcept {
         NoticeKind::bodies_rest,
         "bodies rest: {} of the {} peers that share them are received, and more than half are "
         "needed. Go on alone by the button of the page, or Federate::go_alone()",
-        received_voters(protocol), protocol.acts().decided().roll.size())));
+        protocol.received_voters(now), protocol.acts().decided().roll.size())));
   } else if (turn == NoticeCondition::Turn::ends) {
     static_cast<void>(out_.push(make_end(NoticeKind::bodies_rest, "bodies move again")));
   }

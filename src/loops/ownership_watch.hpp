@@ -4,9 +4,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 
-#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/notice_condition.hpp"
@@ -19,9 +17,8 @@ class OwnershipWatch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  /// References outlive this.
-  OwnershipWatch(const aoim::Presence& presence, haptics::SpscRing<Notice>& out)
-      : presence_(presence), out_(out) {}
+  /// @param out outlives this
+  explicit OwnershipWatch(haptics::SpscRing<Notice>& out) : out_(out) {}
 
   void note(const OwnershipEvent& event) noexcept;
   /// Call it in each pass.
@@ -30,9 +27,6 @@ class OwnershipWatch {
   [[nodiscard]] bool rests() const noexcept { return rests_; }
 
  private:
-  [[nodiscard]] std::size_t received_voters(const Ownership& protocol) const noexcept;
-
-  const aoim::Presence& presence_;
   haptics::SpscRing<Notice>& out_;
   NoticeCondition condition_;
   Nanoseconds leased_{-1};  // last time with a lease, or without a world

@@ -92,8 +92,10 @@ void Ownership::found_if_due(nanoseconds now) {
   const bool waits = core_.acts.exists() && !is_voter();
   const nanoseconds since = waits ? std::max(joined_, leased_) : joined_;
   const bool is_outside = waits || !core_.acts.exists();
-  if (core_.config.votes && is_outside && core_.world.exists() && now - since > LeaseBook::kDead)
+  if (core_.config.votes && is_outside && core_.world.exists() && now - since > LeaseBook::kDead) {
     leave_world();
+    started_ = now;
+  }
   if (!core_.config.votes || core_.world.exists()) return;
   const bool is_early = now - started_ < kFound || chair_.is_preceded(core_.to_found, now);
   if (is_early && !core_.config.founds_at_once) return;
@@ -252,6 +254,14 @@ bool Ownership::owns(std::size_t object, nanoseconds now) const noexcept {
   const Act* pending = core_.acts.pending();
   if (pending != nullptr && pending->removes(core_.config.epoch)) return false;
   return core_.is_informed() && core_.has_lease(now);
+}
+
+std::size_t Ownership::received_voters(nanoseconds now) const noexcept {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(core_.acts.decided().roll.voters(), [&](const Voter& voter) {
+        return voter.epoch == core_.config.epoch ||
+               now - core_.leases.heard_at(voter.epoch) < LeaseBook::kLease;
+      }));
 }
 
 bool Ownership::has_left() const noexcept {

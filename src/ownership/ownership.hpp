@@ -82,6 +82,8 @@ class Ownership {
   }
   /// Whether a majority receives this peer.
   [[nodiscard]] bool has_lease(Nanoseconds now) const noexcept { return core_.has_lease(now); }
+  /// Voters of the last decided act that were received within the time of a lease, and this peer.
+  [[nodiscard]] std::size_t received_voters(Nanoseconds now) const noexcept;
   /// Whether this peer votes in the last decided act.
   [[nodiscard]] bool is_voter() const noexcept {
     return core_.acts.decided().roll.contains(core_.config.epoch);

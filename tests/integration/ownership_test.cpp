@@ -141,7 +141,7 @@ TEST(Ownership, OfTwoTheJuniorRests) {
   exercise.kill(0);
   exercise.run(2900);
   EXPECT_FALSE(exercise.simulates(1, 0));
-  EXPECT_THAT(exercise.notices(1), Contains(HasSubstr("bodies rest: 2 of the 2 peers")));
+  EXPECT_THAT(exercise.notices(1), Contains(HasSubstr("bodies rest: 1 of the 2 peers")));
   exercise.run(10'000);
   EXPECT_FALSE(exercise.simulates(1, 1));
   exercise.owners(1).go_alone();
