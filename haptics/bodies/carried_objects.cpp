@@ -67,10 +67,16 @@ void CarriedObjects::drive(BodySlots& slots, double gap) const noexcept {
     const std::size_t slot = slots.slot_of(body);
     if (slot == BodySlots::kNone) continue;
     const Carried& one = all_[body];
-    ObjectMotion way = one.before;
-    way.velocity = (one.now.position - one.before.position) / gap;
-    const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
-    way.turn_rate = turn.angle() / gap * turn.axis();
+    ObjectMotion way = one.now;
+    if (one.may_jump) {
+      // The correction of a prediction has no impulse, or bodies of two peers drive each other.
+      way.position -= gap * way.velocity;
+    } else {
+      way = one.before;
+      way.velocity = (one.now.position - one.before.position) / gap;
+      const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
+      way.turn_rate = turn.angle() / gap * turn.axis();
+    }
     slots[slot].carry(one.jumps ? one.now : way);
   }
 }

@@ -41,7 +41,8 @@ class CarriedObjects {
   /// Whether the new pose of a body is farther than its velocity explains, as after an outage. It
   /// strikes nothing on the way.
   [[nodiscard]] bool has_jumped(std::uint32_t body) const noexcept { return all_[body].jumps; }
-  /// In the next steps they move from their last to their present pose at constant velocity.
+  /// In the next steps they move to their present pose at constant velocity: bodies of other peers
+  /// at the stated one, all others from their last pose.
   /// @param gap [s] between the two
   void drive(BodySlots& slots, double gap) const noexcept;
   /// Sets their present poses.

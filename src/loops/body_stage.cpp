@@ -9,7 +9,8 @@ using std::chrono::nanoseconds;
 namespace {
 
 constexpr double kLongestStep = 0.02;  // [s] over which an acceleration is known
-constexpr double kMostSteady = 20.0;   // [m/s^2]; a knock has more
+constexpr double kMostSteady = 12.0;   // [m/s^2]; a knock has more
+constexpr double kFalls = 0.5;         // [m/s^2], difference from gravity
 constexpr double kKnock = 0.02;        // [m/s], a change of velocity that is sent at once
 constexpr int kMostWaits = 2;          // steps of 1 ms
 
@@ -114,8 +115,9 @@ haptics::ObjectMotion BodyStage::motion_now(std::size_t body, const RemoteEntiti
 }
 
 void BodyStage::read(nanoseconds now, const OwnedEntities& owned) noexcept {
-  if (stepped_ != nullptr) {
-    const OwnedEntity* first = owned.find(owned.first_id().entity);
+  if (stepped_ != nullptr && !bodies_.empty()) {
+    const auto number = static_cast<EntityNumber>(first_ + bodies_.front().number);
+    const OwnedEntity* first = owned.find(number);
     stepped_->step(now, first != nullptr && first->is_frozen());
   }
   if (own_ == nullptr || !own_->update()) return;
@@ -139,7 +141,9 @@ void BodyStage::note_motions() noexcept {
     motion.is_due = motion.is_due || (motion.waits > 0 && (is_steady || --motion.waits == 0));
     if (is_knock && motion.waits == 0) motion.waits = kMostWaits;
     if (is_steady) motion.waits = 0;
-    motion.acceleration = is_steady ? Eigen::Vector3d(change / step) : Eigen::Vector3d::Zero();
+    // Only free fall goes on. A predicted friction would reverse the motion of a body that stops.
+    const bool falls = is_steady && (change / step - scene_.scene.gravity).norm() < kFalls;
+    motion.acceleration = falls ? scene_.scene.gravity : Eigen::Vector3d(Eigen::Vector3d::Zero());
     motion.velocity = body.velocity;
   }
 }

@@ -53,7 +53,7 @@ class BodyStage {
   [[nodiscard]] haptics::ObjectMotion motion_now(std::size_t body, const RemoteEntities& remote,
                                                  std::chrono::nanoseconds now) const noexcept;
 
-  /// Of an owned body, over its last step [m/s^2]; zero after a knock, which does not go on.
+  /// Of an owned body [m/s^2]: gravity while it falls freely, else zero.
   [[nodiscard]] const Eigen::Vector3d& acceleration_of(std::size_t body) const noexcept {
     return motions_[body].acceleration;
   }

@@ -57,10 +57,12 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   if (!is_voter() && round != nullptr && round->has_lease && core_.world == world)
     leased_ = now;
   if (core_.world == world) return true;
+  // A world whose voters have lost their majority admits nobody.
+  if (round == nullptr || !round->has_lease) return false;
   if (core_.world.exists()) {
     // An older world has precedence, and any that has a majority if ours has none for long.
     const bool is_older = world < core_.world || now - leased_ > LeaseBook::kDead;
-    if (round == nullptr || !round->has_lease || !is_older) return false;
+    if (!is_older) return false;
     if (core_.acts.exists()) merge(world);
   }
   core_.world = world;
@@ -94,6 +96,7 @@ void Ownership::found_if_due(nanoseconds now) {
   const bool is_outside = waits || !core_.acts.exists();
   if (core_.config.votes && is_outside && core_.world.exists() && now - since > LeaseBook::kDead) {
     leave_world();
+    core_.config.founds_at_once = false;
     started_ = now;
   }
   if (!core_.config.votes || core_.world.exists()) return;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
@@ -20,6 +21,18 @@ deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
   if (terms.acceleration) return deadreckon::SentRates::acceleration;
   return terms.velocity ? deadreckon::SentRates::velocity : deadreckon::SentRates::position;
+}
+
+constexpr double kKnock = 0.1;  // [m/s]
+
+// A body of the scene that was knocked moves on at its new speed at once: its velocity had a step.
+deadreckon::Pose knocked(const RemoteEntity& row, deadreckon::Pose shown,
+                         const deadreckon::Pose& after) noexcept {
+  const bool is_body = aoim::BodyOwners::are_for(row.id);
+  if (!is_body || (after.velocity - shown.velocity).norm() < kKnock) return shown;
+  shown.velocity = after.velocity;
+  shown.angular_velocity = after.angular_velocity;
+  return shown;
 }
 
 }  // namespace
@@ -68,8 +81,8 @@ RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
   if (is_adaptive_) note_history(row, place, expected, abrupt || other_model);
   if (known) {
     note_jump(row, before, after, servo);
-    row.convergence.restart(settings_.convergence.settings, shown, row.expected(after, at.now),
-                            pdu::to_seconds(at.now));
+    row.convergence.restart(settings_.convergence.settings, knocked(row, shown, after),
+                            row.expected(after, at.now), pdu::to_seconds(at.now));
   }
   if (abrupt) snap(row);
   return abrupt ? Outcome::abrupt : Outcome::smooth;

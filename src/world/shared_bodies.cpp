@@ -84,7 +84,12 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
     last.turn_rate.setZero();
     return last;
   }
-  return last = peer::motion_of(shown.rows[place].shown(now));
+  // The convergence of a shown pose strikes nothing.
+  deadreckon::Pose pose = shown.rows[place].shown(now);
+  const deadreckon::Pose predicted = shown.rows[place].entity().predicted(now);
+  pose.velocity = predicted.velocity;
+  pose.angular_velocity = predicted.angular_velocity;
+  return last = peer::motion_of(pose);
 }
 
 void BodyMover::leave_at(std::uint32_t object, const haptics::ObjectMotion& motion) noexcept {
