@@ -118,6 +118,8 @@ struct Federate::Participation {
 
   LoopSide side;
   JoinedPeer joined;
+  FederateBodies bodies{side, *options().scene,
+                        !options().devices.empty() || options().scene_peer > 0};
   EntityNumbers numbers{given_already(joined.options())};
   std::vector<bool> alive;  // registered and not deleted, by number
   std::uint64_t dropped = 0, messages = 0;
@@ -148,6 +150,8 @@ void Federate::resign() {
   Participation& s = *participation_;
   if (s.resigned) return;
   s.resigned = true;
+  s.post();
+  s.joined.leave_bodies();
   s.joined.stop_loops();
   // Executes the last requests: the loop may have one letter with requests, the program another.
   for (int letter = 0; letter < 2; ++letter) {
@@ -158,6 +162,10 @@ void Federate::resign() {
   }
   s.joined.resign();
 }
+
+void Federate::begin_resign() noexcept { participation_->joined.peer().begin_leaving(); }
+
+bool Federate::can_resign() const noexcept { return participation_->joined.peer().has_left(); }
 
 // Publish and subscribe ---------------------------------------------------------------------------
 
@@ -268,6 +276,15 @@ std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
   return copy == nullptr ? std::nullopt : std::optional(RemoteObject(*copy));
 }
 
+// Bodies ------------------------------------------------------------------------------------------
+
+FederateBodies& Federate::bodies() noexcept {
+  participation_->side.read_bodies();
+  return participation_->bodies;
+}
+
+void Federate::go_alone() { participation_->wishes().go_alone = true; }
+
 // Interactions ------------------------------------------------------------------------------------
 
 MessageHandle Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
@@ -369,6 +386,7 @@ void Federate::call_back(News& news) {
     s.set_time(octets, utc());
     if (interaction != s.interactions.end()) interaction->second(octets, heard.sender);
   }
+  s.bodies.call_back(news);
   report_undelivered(news.undelivered, s.undelivered);
 }
 

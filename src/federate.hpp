@@ -21,6 +21,7 @@
 #include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/delivery.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
+#include "reckon/peer/federation/federate_bodies.hpp"
 #include "reckon/peer/federation/remote_object.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/world/entity_description.hpp"
@@ -78,9 +79,20 @@ class Federate {
   Federate(const Federate&) = delete;
   Federate& operator=(const Federate&) = delete;
 
-  /// Leaves the exercise: sends pending PDUs, deactivates all own entities, and announces the end
-  /// of the peer. After that only const functions may be called.
+  /// Leaves the exercise: gives its bodies to other federates, sends pending PDUs, deactivates all
+  /// own entities, and announces the end of the peer. After that only const functions may be
+  /// called. The bodies take some 0.2 s, at most 1.5 s. With a link of the caller or
+  /// FederateLoops::by_hand it cannot wait for that: see begin_resign().
   void resign();
+  /// Begins to give its bodies away. Optional: where resign() cannot wait, others adopt the bodies
+  /// some seconds later, unless the caller steps on.
+  ///
+  ///   federate.begin_resign();
+  ///   while (!federate.can_resign() && now() < end) advance_time(), federate.step();
+  ///   federate.resign();
+  void begin_resign() noexcept;
+  /// Whether they are given away. At the latest 1.5 s later it will not come true any more.
+  [[nodiscard]] bool can_resign() const noexcept;
 
   // Publish and subscribe -------------------------------------------------------------------------
 
@@ -171,6 +183,14 @@ class Federate {
     for (std::size_t i = 0; i < size(); ++i) visit(object_at(i));
   }
   [[nodiscard]] std::size_t size() const noexcept;
+
+  // Bodies ----------------------------------------------------------------------------------------
+
+  /// The bodies of the scene: their ownership and motion. Registered entities have no other owner.
+  [[nodiscard]] FederateBodies& bodies() noexcept;
+  /// Goes on without the other federates, if this one receives too few of them and its bodies
+  /// therefore rest: it owns all bodies then. When they meet again, the older world counts.
+  void go_alone();
 
   // Interactions ----------------------------------------------------------------------------------
 

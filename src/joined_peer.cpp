@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "reckon/pdu/reckon/unicast_frame.hpp"
@@ -20,6 +21,8 @@
 
 namespace reckon::peer {
 namespace {
+
+constexpr std::chrono::milliseconds kLeavingStep{1};
 
 LanLinkOptions lan_options(const FederateOptions& options) {
   const SceneFile& scene = *options.scene;
@@ -132,6 +135,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   own.entities = entities_of(*options_.scene, options_.scene_peer);
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
+  own.founds = !lan_ || (roll && roll->is_first());
   peer_ = std::make_unique<Peer>(*options_.scene, own, way, options_.devices);
   if (lan_) check_step_cost();
   if (sealed_) sealed_->count_in(peer_->counters());
@@ -181,6 +185,7 @@ void JoinedPeer::run() {
   PeerThreadsOptions threads;
   threads.servo = options_.servo;
   threads_ = std::make_unique<PeerThreads>(*peer_, *clock_, threads);
+  runs_ = true;
 }
 
 void JoinedPeer::pass() noexcept {
@@ -193,11 +198,28 @@ void JoinedPeer::pass() noexcept {
 
 void JoinedPeer::stop_loops() noexcept {
   if (threads_) threads_->stop();
+  runs_ = false;
+}
+
+void JoinedPeer::leave_bodies() noexcept {
+  const bool steps = options_.loops == FederateLoops::in_step;
+  if (!lan_ || (!runs_ && !steps) || std::exchange(has_given_, true)) return;
+  const std::chrono::nanoseconds end = clock_->now() + Ownership::kLeaving;
+  peer_->begin_leaving();
+  if (runs_) threads_->wake();
+  if (steps) pass();
+  while (!peer_->has_left() && clock_->now() < end) {
+    if (runs_)
+      std::this_thread::sleep_for(kLeavingStep);
+    else
+      static_cast<void>(lan_->link().wait(kLeavingStep)), pass();
+  }
 }
 
 void JoinedPeer::resign() noexcept {
   if (resigned_) return;
   resigned_ = true;
+  leave_bodies();
   stop_loops();
   peer_->stop(clock_->now(), clock_->utc_now());
   peer_->model().set_guest(nullptr);

@@ -53,8 +53,12 @@ class JoinedPeer {
   void pass() noexcept;
   /// Ends the threads. Their statistics remain until the next run().
   void stop_loops() noexcept;
-  /// Calls stop_loops(), deactivates all own entities, and announces the end of the peer. Its
-  /// application is free for others after that. A second call does nothing.
+  /// Gives its bodies to other peers, before stop_loops(). Waits until they have them, at most for
+  /// 1.5 s; not at all if this peer is alone. Does nothing if the caller steps the loops, or has
+  /// given the link: use Peer::begin_leaving(). Only the first call has an effect.
+  void leave_bodies() noexcept;
+  /// Calls leave_bodies() and stop_loops(), deactivates all own entities, and announces the end of
+  /// the peer. Its application is free for others after that. A second call does nothing.
   void resign() noexcept;
 
   [[nodiscard]] Peer& peer() noexcept { return *peer_; }
@@ -95,7 +99,8 @@ class JoinedPeer {
   std::unique_ptr<Peer> peer_;
   std::unique_ptr<PeerThreads> threads_;
   std::chrono::nanoseconds begun_{0};
-  bool resigned_ = false;
+  bool runs_ = false;  // on threads
+  bool has_given_ = false, resigned_ = false;
 };
 
 }  // namespace reckon::peer

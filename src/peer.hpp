@@ -6,6 +6,7 @@
 // access to the loops.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -50,7 +51,7 @@ struct PeerOptions {
   /// The first peer of a scene owns its bodies at once. False: it first looks for 1.2 s whether
   /// other peers own them.
   bool founds = true;
-  bool transfer = true;            ///< give energy on demand
+  bool transfer = true;  ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()
   bool record_shown = false;                ///< fill shown() at every model step
@@ -107,7 +108,10 @@ class Peer {
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// One pass of the model loop. `utc` is the same instant as `now`.
   void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
+    const bool is_leaving = leaving_.begun.load(std::memory_order_relaxed);
+    if (is_leaving) model_.ownership().leave();
     model_.step(now, utc);
+    if (is_leaving) leaving_.done.store(model_.ownership().has_left(), std::memory_order_release);
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
@@ -143,6 +147,13 @@ class Peer {
   /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and
   /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// Gives its bodies to other peers, from the next model_step() on. Step on until has_left(), at
+  /// most for Ownership::kLeaving, before stop(). Any thread.
+  void begin_leaving() noexcept { leaving_.begun.store(true, std::memory_order_relaxed); }
+  /// Whether begin_leaving() was called and no other peer waits for this one. Any thread.
+  [[nodiscard]] bool has_left() const noexcept {
+    return leaving_.done.load(std::memory_order_acquire);
+  }
 
   /// The software stop: takes the force off all its hands while it is pressed, from the next servo
   /// step of each hand on. Any thread, and signal handlers.
@@ -205,6 +216,10 @@ class Peer {
     std::chrono::nanoseconds period, time{0};
   };
   std::vector<ServoDue> servo_due_;
+  struct Leaving {
+    std::atomic<bool> begun{false}, done{false};
+  };
+  Leaving leaving_;
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;

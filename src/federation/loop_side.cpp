@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/federation/loop_side.hpp"
 
+#include <algorithm>
+
 #include "reckon/pdu/codec/byte_order.hpp"
 
 namespace reckon::peer {
@@ -23,6 +25,7 @@ void LoopSide::begin_pass(ModelLoop& loop) noexcept {
   if (wishes == nullptr) return;
   grant(*wishes, loop);
   send(*wishes, loop);
+  order_bodies(*wishes, loop.ownership());
   wishes->clear();
   wishes_.give_back();
 }
@@ -59,6 +62,32 @@ void LoopSide::send(Wishes& wishes, ModelLoop& loop) {
   }
 }
 
+// Orders of one step take effect together, as far as one transaction holds them.
+void LoopSide::order_bodies(Wishes& wishes, OwnershipStage& owners) {
+  if (wishes.go_alone) owners.go_alone();
+  for (const Wishes::Own& wish : wishes.owned)
+    wish.acquire ? owners.acquire(wish.body) : owners.divest(wish.body);
+  std::vector<std::uint32_t>& refused = news_.letter().refused;
+  std::erase_if(wishes.orders, [&](const haptics::BodyOrder& order) {
+    if (owners.owns(order.body)) return false;
+    refused.push_back(order.body);
+    return true;
+  });
+  std::span<const haptics::BodyOrder> orders = wishes.orders;
+  while (!orders.empty()) {
+    const auto some = orders.first(std::min(orders.size(), haptics::BodyExchange::kMostOrders));
+    orders = orders.subspan(some.size());
+    if (owners.order(some)) continue;
+    for (const haptics::BodyOrder& order : some) refused.push_back(order.body);
+  }
+}
+
+void LoopSide::note_bodies(std::vector<KnownBody>& bodies, const OwnershipStage& owners) {
+  bodies.resize(owners.protocol().table().size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    bodies[i] = {owners.motion_now(i), owners.owner_id_of(i), owners.asker_of(i), owners.owns(i)};
+}
+
 void LoopSide::receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
                        const InteractionSender& sender) noexcept {
   if (!wanted_[static_cast<std::uint8_t>(header.pdu_type)].load(std::memory_order_relaxed)) return;
@@ -87,6 +116,7 @@ void LoopSide::end_pass(ModelLoop& loop) noexcept {
       news.states.emplace_back(*row);
     }
   }
+  if (reads_bodies_.load(std::memory_order_relaxed)) note_bodies(news.bodies, loop.ownership());
   news.now = loop.pass().now;
   news.utc = loop.pass().utc;
   news.simulation = loop.owned().simulation();

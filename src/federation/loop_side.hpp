@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "reckon/peer/federation/mailbox.hpp"
 #include "reckon/peer/loops/model_loop.hpp"
@@ -37,14 +38,19 @@ class LoopSide final : public ModelGuest {
   void listen_for(pdu::PduType type) noexcept {
     wanted_[static_cast<std::uint8_t>(type)].store(true, std::memory_order_relaxed);
   }
+  /// Collects the states of the bodies from now on. Any thread.
+  void read_bodies() noexcept { reads_bodies_.store(true, std::memory_order_relaxed); }
 
  private:
   static void grant(Wishes& wishes, ModelLoop& loop);
   static void send(Wishes& wishes, ModelLoop& loop);
+  void order_bodies(Wishes& wishes, OwnershipStage& owners);
+  static void note_bodies(std::vector<KnownBody>& bodies, const OwnershipStage& owners);
 
   LetterBox<Wishes> wishes_;
   LetterBox<News> news_;
   std::array<std::atomic<bool>, 256> wanted_{};
+  std::atomic<bool> reads_bodies_{false};
   std::uint64_t dropped_ = 0;
 };
 

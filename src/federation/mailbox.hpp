@@ -15,7 +15,9 @@
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
+#include "reckon/haptics/bodies/body_exchange.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/peer/federation/known_body.hpp"
 #include "reckon/peer/reliable/undelivered.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
@@ -48,6 +50,10 @@ struct Wishes {
     std::optional<aoim::Position> place;
     std::uint64_t assured = 0;  ///< tag of an assured message; 0: best effort
   };
+  struct Own {
+    std::uint32_t body;
+    bool acquire;  ///< false: divest
+  };
   std::vector<Register> registered;
   std::vector<Move> moved;
   std::vector<Appearance> appearances;
@@ -55,10 +61,13 @@ struct Wishes {
   std::vector<EntityNumber> removed;
   std::vector<Say> said;
   std::vector<std::byte> octets;
+  std::vector<Own> owned;
+  std::vector<haptics::BodyOrder> orders;
+  bool go_alone = false;
 
   [[nodiscard]] bool empty() const noexcept {
     return registered.empty() && moved.empty() && appearances.empty() && parts.empty() &&
-           removed.empty() && said.empty();
+           removed.empty() && said.empty() && owned.empty() && orders.empty() && !go_alone;
   }
   void clear() noexcept {
     registered.clear();
@@ -68,6 +77,9 @@ struct Wishes {
     removed.clear();
     said.clear();
     octets.clear();
+    owned.clear();
+    orders.clear();
+    go_alone = false;
   }
 };
 
@@ -89,7 +101,9 @@ struct News {
   std::vector<Heard> heard;
   std::vector<Undelivered> undelivered;
   std::vector<std::byte> octets;
-  std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read
+  std::vector<KnownBody> bodies;       ///< all moving objects as of now, if the program reads them
+  std::vector<std::uint32_t> refused;  ///< bodies whose orders had no effect
+  std::uint64_t dropped = 0;           ///< PDUs lost so far because the program did not read
 
   void clear() noexcept {
     states.clear();
@@ -97,6 +111,7 @@ struct News {
     heard.clear();
     undelivered.clear();
     octets.clear();
+    refused.clear();
   }
 };
 

@@ -313,6 +313,12 @@ const Tenure& OwnershipStage::owner_of(std::size_t body) const noexcept {
   return known.version > 0 ? known : claims_[body];
 }
 
+aoim::PeerId OwnershipStage::owner_id_of(std::size_t body) const noexcept {
+  const aoim::Presence& presence = parts_.aoim.presence();
+  const std::uint32_t owner = owner_of(body).owner;
+  return owner == epoch_ ? presence.id() : presence.id_of(owner).value_or(aoim::PeerId{});
+}
+
 std::uint32_t OwnershipStage::world_number() const noexcept {
   const WorldId& world = protocol_.world();
   const std::uint64_t both = std::uint64_t{world.founded} << 32 | world.founder;
@@ -361,9 +367,7 @@ void OwnershipStage::show(PeerView& view) const noexcept {
   for (std::size_t i = 0; i < view.body_owner_count; ++i) {
     BodyOwnerView& row = view.body_owners[i] = shown_[i];
     row.is_ours = row.epoch == epoch_;
-    const aoim::Presence& presence = parts_.aoim.presence();
-    row.owner = row.is_ours ? presence.id()
-                            : presence.id_of(row.epoch).value_or(aoim::PeerId{});
+    row.owner = owner_id_of(i);
   }
 }
 
@@ -426,8 +430,8 @@ aoim::PeerId OwnershipStage::asker_of(std::size_t body) const noexcept {
   return parts_.aoim.presence().id_of(protocol_.asker_of(body)).value_or(aoim::PeerId{});
 }
 
-bool OwnershipStage::order(const haptics::BodyOrder& order) noexcept {
-  return is_on_ && world_->exchange().send(std::span(&order, 1)) != 0;
+bool OwnershipStage::order(std::span<const haptics::BodyOrder> orders) noexcept {
+  return is_on_ && world_->exchange().send(orders) != 0;
 }
 
 void OwnershipStage::go_alone() noexcept {

@@ -64,7 +64,9 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] aoim::PeerId asker_of(std::size_t body) const noexcept;
   /// Sends an order of the program to the world; it has an effect if this peer owns the body. False:
   /// too many orders wait.
-  bool order(const haptics::BodyOrder& order) noexcept;
+  bool order(const haptics::BodyOrder& order) noexcept { return this->order(std::span(&order, 1)); }
+  /// The same for at most kMostOrders orders, which take effect together.
+  bool order(std::span<const haptics::BodyOrder> orders) noexcept;
   /// Gives all bodies to other peers. Call step() until has_left(), at most for a second.
   void leave() noexcept { protocol_.leave(); }
   [[nodiscard]] bool has_left() const noexcept { return !is_on_ || protocol_.has_left(); }
@@ -77,6 +79,13 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   }
   /// Epoch that owns a body, and the version of that, as far as this peer knows.
   [[nodiscard]] const Tenure& owner_of(std::size_t body) const noexcept;
+  /// Simulation address of that owner; 0:0: not known, or it has left.
+  [[nodiscard]] aoim::PeerId owner_id_of(std::size_t body) const noexcept;
+  /// Motion of a body as this peer simulates or shows it.
+  [[nodiscard]] haptics::ObjectMotion motion_now(std::size_t body) const noexcept {
+    return body < states().size() ? parts_.bodies.motion_now(body, parts_.remote, pass_.now)
+                                  : haptics::ObjectMotion{};
+  }
 
   /// Writes the owners.
   void show(PeerView& view) const noexcept;

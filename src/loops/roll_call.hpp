@@ -47,12 +47,17 @@ class RollCall {
       listen(kListen);
     }
     presence_.take_scene_peer();
+    is_first_ = std::ranges::none_of(presence_.peers(), [](const aoim::Peer& peer) {
+      return peer.joined && peer.announced.scene_peer != pdu::kScenePeerWanted;
+    });
     presence_.start(clock_.now());  // at once
     speak();
     return presence_.own().scene_peer;
   }
   /// The ID, settled by answer().
   [[nodiscard]] aoim::PeerId id() const noexcept { return presence_.id(); }
+  /// Whether answer() has received no peer of this scene that had joined before.
+  [[nodiscard]] bool is_first() const noexcept { return is_first_; }
   /// Sends the leaving announcement of this epoch; call it after the peer itself has announced its
   /// number.
   void leave() {
@@ -105,6 +110,7 @@ class RollCall {
   const Clock& clock_;
   GroupAddress base_;
   aoim::Presence presence_;
+  bool is_first_ = false;
 };
 
 }  // namespace reckon::peer

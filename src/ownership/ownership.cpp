@@ -54,8 +54,7 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   }
   if (!world.exists()) return false;
   // A peer without a vote has no lease of its own: that of a voter counts.
-  if (!is_voter() && round != nullptr && round->has_lease && core_.world == world)
-    leased_ = now;
+  if (!is_voter() && round != nullptr && round->has_lease && core_.world == world) leased_ = now;
   if (core_.world == world) return true;
   // A world whose voters have lost their majority admits nobody.
   if (round == nullptr || !round->has_lease) return false;
@@ -180,7 +179,9 @@ void Ownership::accept(const Proposal& proposal, nanoseconds now) {
 }
 
 void Ownership::receive(const Vote& vote, std::uint32_t from, nanoseconds now) {
-  if (chair_.count(vote, from)) decide(chair_.proposal().act, now);
+  if (!chair_.count(vote, from)) return;
+  decide(chair_.proposal().act, now);
+  rounds_.send_decided(0, now);
 }
 
 void Ownership::decide(const Act& act, nanoseconds now) {
@@ -229,7 +230,6 @@ void Ownership::propose(nanoseconds now) {
   own.act = sent.act.number;
   own.ballot = sent.ballot;
   receive(own, core_.config.epoch, now);
-  if (core_.acts.pending() == nullptr) rounds_.send_decided(0, now);
 }
 
 // Steps
@@ -270,7 +270,8 @@ std::size_t Ownership::received_voters(nanoseconds now) const noexcept {
 bool Ownership::has_left() const noexcept {
   const Roll& roll = core_.acts.decided().roll;
   const bool is_alone = is_voter() && roll.size() == 1;
-  return core_.is_leaving && (!core_.acts.exists() || !is_voter() || is_alone);
+  const bool is_out = !is_voter() && rounds_.is_act_known();
+  return core_.is_leaving && (!core_.acts.exists() || is_out || is_alone);
 }
 
 }  // namespace reckon::peer

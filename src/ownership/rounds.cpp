@@ -34,12 +34,12 @@ void Rounds::note_round(const Round& round, std::uint32_t from, nanoseconds now)
   if (round.act < acts.decided().number ||
       (round.act == acts.decided().number && !round.is_decided))
     return send_decided(from, now);
+  if (acts.decided().roll.contains(from)) is_act_known_ = true;
   const bool is_same = round.act == acts.newest().number && round.hash == acts.hash();
   const std::size_t place = acts.newest().roll.index_of(core_.config.epoch);
   if (is_same && place != Roll::kNone) core_.leases.confirm(from, round.heard[place], now);
   const bool is_new = !acts.decided().roll.contains(from) && !round.follows;
-  if (is_new && round.act == acts.decided().number)
-    chair_.note_newcomer(from, {~0U, from}, now);
+  if (is_new && round.act == acts.decided().number) chair_.note_newcomer(from, {~0U, from}, now);
 }
 
 // Tables that differ for some time are sent; soon only by the more senior of two peers.

@@ -32,9 +32,12 @@ class Rounds {
   void send_table(Nanoseconds gap, Nanoseconds now);
   /// Sends the decided act, at most some thirty times a second.
   void send_decided(std::uint32_t to, Nanoseconds now);
+  /// Whether a voter of the decided act knows it too.
+  [[nodiscard]] bool is_act_known() const noexcept { return is_act_known_; }
   /// An act was decided.
   void follow_act() noexcept {
     tables_.fill(0);
+    is_act_known_ = false;
     decided_sent_ = kNever;
   }
 
@@ -56,7 +59,7 @@ class Rounds {
   Nanoseconds decided_sent_ = kNever;
   Nanoseconds table_sent_ = kNever, differs_since_ = kNever, differed_ = kNever;
   std::array<std::uint32_t, Roll::kMost> tables_{};  // hashes of the voters' tables
-  bool agrees_ = false;
+  bool agrees_ = false, is_act_known_ = false;
 };
 
 }  // namespace reckon::peer

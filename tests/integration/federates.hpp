@@ -39,13 +39,14 @@ class Federates {
   }
 
   /// Joins the next federate, which publishes and subscribes to all; its application number is its
-  /// index from 1.
-  peer::Federate& join(const peer::SceneFile& scene) {
+  /// index from 1.  @param scene_peer its number in the scene; 0: none
+  peer::Federate& join(const peer::SceneFile& scene, std::uint32_t scene_peer = 0) {
     const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
     peer::FederateOptions options;
     options.name = "FED" + std::to_string(number);
     options.scene = scene;
     options.application = static_cast<std::uint16_t>(number);
+    options.scene_peer = scene_peer;
     federates_.push_back(
         std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
     federates_.back()->publish(peer::EntityClass{});

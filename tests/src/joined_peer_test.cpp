@@ -140,6 +140,59 @@ TEST(JoinedPeer, GuestSeesEachPassUntilThePeerResigns) {
   EXPECT_EQ(guest.passes, 3);
 }
 
+// A body, and no number in an ID that others have.
+FederateOptions with_a_body(std::uint8_t group) {
+  FederateOptions options = on_loopback(group);
+  options.scene->network.interop = false;
+  options.scene->aoim = {};
+  haptics::SceneObject cube;
+  cube.name = "cube";
+  cube.shape = haptics::BoxShape{{0.02, 0.02, 0.02}};
+  cube.matter.mass = 0.05;
+  options.scene->scene.objects.push_back(cube);
+  return options;
+}
+
+bool owns_after_a_pass(JoinedPeer& joined) {
+  joined.pass();
+  return joined.peer().model().ownership().owns(0);
+}
+
+TEST(JoinedPeer, OwnsBodiesAtOnceIfNobodyAnswers) {
+  FederateOptions options = with_a_body(66);
+  options.deal = [](std::uint32_t) { return std::vector<PeerDevice>(); };
+  JoinedPeer first(options);
+  EXPECT_EQ(first.options().scene_peer, 1u);
+  EXPECT_TRUE(owns_after_a_pass(first));
+  options.deal = nullptr;
+  options.scene_peer = 1;
+  JoinedPeer unasked(options);
+  EXPECT_FALSE(owns_after_a_pass(unasked)) << "another peer may own it";
+}
+
+// The present peer may own the bodies of a first peer that has left.
+TEST(JoinedPeer, OwnsNoBodiesAtOnceIfOneAnswers) {
+  FederateOptions options = with_a_body(67);
+  options.loops = FederateLoops::threads;
+  options.scene_peer = 2;
+  JoinedPeer present(options);
+  present.run();
+  options.loops = FederateLoops::in_step;
+  options.deal = [](std::uint32_t) { return std::vector<PeerDevice>(); };
+  JoinedPeer late(options);
+  EXPECT_EQ(late.options().scene_peer, 1u);
+  EXPECT_FALSE(owns_after_a_pass(late));
+}
+
+TEST(JoinedPeer, OwnsBodiesAtOnceOnACallersLink) {
+  ManualClock clock(1s, 1h);
+  test::ManualLink link;
+  FederateOptions options = with_a_body(68);
+  options.scene_peer = 1;
+  JoinedPeer joined(options, link, clock, 1);
+  EXPECT_TRUE(owns_after_a_pass(joined));
+}
+
 TEST(JoinedPeer, OneServoThreadServesSeveralPeersInTurn) {
   const SteadyClock clock;
   ServoThread servo(clock);

@@ -74,47 +74,52 @@ void write_identification(Xml& xml) {
   xml.close();
 }
 
-void write_attribute(Xml& xml, const ModelField& field, std::string_view when) {
+void write_attribute(Xml& xml, const ModelField& field, std::string_view when,
+                     std::string_view ownership) {
   xml.open("attribute");
   xml.leaf("name", field.name);
   xml.leaf("dataType", field.type);
   xml.leaf("updateType", "Conditional");
   xml.leaf("updateCondition", when);
-  xml.leaf("ownership", "NoTransfer");
+  xml.leaf("ownership", ownership);
   xml.leaf("sharing", "PublishSubscribe");
   xml.leaf("transportation", "HLAbestEffort");
   xml.leaf("order", "Receive");
   xml.close();
 }
 
-// The first level of EntityClass: kinds. All of them have the same attributes.
-void write_objects(Xml& xml, ModelTypes& types) {
+// Begins a class of objects with an Entity State.
+void open_class(Xml& xml, std::string_view name, std::string_view semantics, ModelTypes& types,
+                std::string_view ownership) {
   FieldTypes state(types, "EntityState");
   const pdu::EntityState entity_state{};
   fields(state, entity_state);
+  xml.open("objectClass");
+  xml.leaf("name", name);
+  xml.leaf("sharing", "PublishSubscribe");
+  xml.leaf("semantics", semantics);
+  for (const ModelField& field : state.members()) {
+    if (field.name == "header") continue;
+    write_attribute(xml, field,
+                    "An error above the thresholds, an event, a newcomer, or the heartbeat",
+                    ownership);
+  }
+}
+
+// The first level of EntityClass: kinds. All of them have the same attributes.
+void write_entities(Xml& xml, ModelTypes& types) {
   FieldTypes felt(types, "Entity");
   felt("force_model", pdu::HapticRecord{});
   const std::string account = felt.record(pdu::EnergyAccountRecord{}, "energy_accounts");
   types.arrays[account + "s"] = {account, "Dynamic"};
 
-  xml.open("objects");
-  xml.open("objectClass");
-  xml.leaf("name", "HLAobjectRoot");
-  xml.open("objectClass");
-  xml.leaf("name", "Entity");
-  xml.leaf("sharing", "PublishSubscribe");
-  xml.leaf(
-      "semantics",
-      "An entity as EntityClass{} means it: Entity State PDU, and records of the Attribute PDU "
-      "for what hands feel");
-  for (const ModelField& field : state.members()) {
-    if (field.name == "header") continue;
-    write_attribute(xml, field,
-                    "An error above the thresholds, an event, a newcomer, or the heartbeat");
-  }
+  open_class(xml, "Entity",
+             "An entity as EntityClass{} means it: Entity State PDU, and records of the Attribute "
+             "PDU for what hands feel",
+             types, "NoTransfer");
   const std::string_view touched = "With each update of an entity that hands can touch";
-  write_attribute(xml, felt.members().front(), touched);
-  write_attribute(xml, {"energy_accounts", account + "s"}, touched);
+  write_attribute(xml, felt.members().front(), touched, "NoTransfer");
+  write_attribute(xml, {"energy_accounts", account + "s"}, touched, "NoTransfer");
   for (const auto& [value, name] : types.enumerations.at("EntityKind").values) {
     xml.open("objectClass");
     xml.leaf("name", name);
@@ -124,6 +129,21 @@ void write_objects(Xml& xml, ModelTypes& types) {
                                       value));
     xml.close();
   }
+  xml.close();
+}
+
+void write_objects(Xml& xml, ModelTypes& types) {
+  xml.open("objects");
+  xml.open("objectClass");
+  xml.leaf("name", "HLAobjectRoot");
+  write_entities(xml, types);
+  FieldTypes owned(types, "Body");
+  owned("ownership", pdu::OwnershipRecord{});
+  open_class(xml, "Body",
+             "An object of the scene with a mass (kind Other, category 66). Its attributes change "
+             "owner together, by FederateBodies",
+             types, "DivestAcquire");
+  write_attribute(xml, owned.members().front(), "With each Entity State PDU", "DivestAcquire");
   xml.close();
   xml.close();
   xml.close();
