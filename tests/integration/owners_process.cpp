@@ -10,8 +10,8 @@
 //   owns BODY, yields BODY   the same for what its protocol allows
 //   knows BODY EPOCH VERSION the owner, as this peer knows it
 //   pose BODY X Y Z          shown, after each 4 mm
-//   jump BODY EXCESS X Y Z   the pose does not follow from the last one, which is named, and both
-//                            velocities
+//   jump BODY EXCESS CHANGE X Y Z  the pose does not follow from the last one, which is named, and
+//                            both velocities; their difference
 //   gone BODY                not shown any more
 //   slept SINCE              time of the pass before; it got no processor time for long
 //   final BODY X Y Z, count NAME NUMBER  at the end
@@ -175,12 +175,15 @@ class Owner final : public peer::ModelGuest {
     if (body.is_remote) body.shown = peer::motion_of(row->shown(now));
     const haptics::ObjectMotion& is = body.shown;
     // Half of the change of velocity, and the part of a step that is not simulated yet.
-    const double allowed = 0.5 * since * (is.velocity - was.velocity).norm() +
-                           (body.is_remote ? 0.0 : kStep * is.velocity.norm());
+    const double change = (is.velocity - was.velocity).norm();
+    const double allowed =
+        0.5 * since * change + (body.is_remote ? 0.0 : kStep * is.velocity.norm());
     const Eigen::Vector3d follows = was.position + 0.5 * since * (was.velocity + is.velocity);
     const double excess = (is.position - follows).norm() - allowed;
     const bool jumps = last_ > 0ns && excess > kLeastJump;
-    if (jumps) log(now, "jump {} {:.2f} {}", number, 1e3 * excess, text_of(was.position));
+    if (jumps)
+      log(now, "jump {} {:.2f} {:.2f} {}", number, 1e3 * excess, 1e3 * change,
+          text_of(was.position));
     if (!jumps && (is.position - body.logged).norm() < kLogged) return;
     log(now, "pose {} {}", number, text_of(is.position));
     body.logged = is.position;
