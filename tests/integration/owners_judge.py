@@ -121,7 +121,8 @@ class Judge:
                     if version < last:
                         self.fault(time, body, f"{name} knows version {last}, then {version}")
                     last = version
-                    if owners.setdefault((body, version), owner) != owner:
+                    # Without an owner it is released: its owner does not know whether the taker has it.
+                    if owner != 0 and owners.setdefault((body, version), owner) != owner:
                         self.fault(time, body, f"version {version} has the owners {owner} and {owners[body, version]}")
 
     def truth(self, body, time):
@@ -172,7 +173,8 @@ class Judge:
                 if gap > (ADOPTED if fails else UNOWNED):
                     self.fault(two.begin, body, f"without an owner for {gap:.2f} s after {one.owner}")
             last = rows[-1]
-            if last.end < min(self.until, max(log.last for log in self.logs.values())) - ADOPTED * SECOND:
+            until = min(self.until, max(log.last for log in self.logs.values()))
+            if last.end < until - (ADOPTED if self.has_failure(last.end, until) else UNOWNED) * SECOND:
                 self.fault(last.end, body, f"{last.owner} ends, and nobody owns it any more")
 
     def old_places(self):

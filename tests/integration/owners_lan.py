@@ -103,9 +103,10 @@ class Owners:
         return owners_judge.Judge(logs, until)
 
 
-def verdict_of(judge, least):
-    judge.judge()
-    faults = judge.agreement()
+def verdict_of(judge, least, is_quiet=True):
+    faults = judge.judge()
+    if is_quiet:
+        judge.agreement()
     received, lost = judge.count("received"), judge.count("lost_by_law")
     print(f"  {judge.hand_overs} hand-overs; lost {lost} of {received + lost} datagrams; granted {judge.count('bodies_granted')}, "
           f"adopted {judge.count('bodies_adopted')}, released {judge.count('bodies_released')}, refused "
@@ -139,8 +140,7 @@ def soak(setup):
             check(all(program.process.poll() is None for program in owners.programs), "a process ended")
             print(f"  {count} hand-overs", flush=True)
             time.sleep(20)
-        judge = owners.finish()
-        verdict_of(judge, setup.hand_overs)
+        verdict_of(owners.finish(), setup.hand_overs, is_quiet=False)
 
 
 def stopped(setup):
