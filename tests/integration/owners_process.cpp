@@ -8,7 +8,7 @@
 //   begin BODY VERSION     it simulates the body; no later than its first step
 //   end BODY X Y Z VX VY VZ  it does not any more, no earlier than its last step; the last state
 //   owns BODY, yields BODY   the same for what its protocol allows
-//   knows BODY EPOCH VERSION the owner, as this peer knows it
+//   knows BODY EPOCH VERSION the owner by its table, while that is whole
 //   pose BODY X Y Z          shown, after each 4 mm
 //   jump BODY EXCESS CHANGE X Y Z  the pose does not follow from the last one, which is named, and
 //                            both velocities; their difference
@@ -147,13 +147,14 @@ class Owner final : public peer::ModelGuest {
   void note_owner(const peer::OwnershipStage& owners, std::size_t number, nanoseconds now,
                   nanoseconds ended) {
     Body& body = bodies_[number];
-    const peer::Tenure& known = owners.owner_of(number);
+    const peer::Ownership& protocol = owners.protocol();
+    const peer::Tenure& known = protocol.is_informed() ? protocol.tenure(number) : body.known;
     if (known.owner != body.known.owner || known.version != body.known.version)
       log(ended, "knows {} {} {}", number, known.owner, known.version);
     body.known = known;
     if (const bool simulates = !world()[number].carried; simulates != body.simulated) {
       if (simulates)
-        log(now, "begin {} {}", number, owners.protocol().tenure(number).version);
+        log(now, "begin {} {}", number, protocol.tenure(number).version);
       else
         log(last_end_, "end {} {} {}", number, text_of(body.shown.position),
             text_of(body.shown.velocity));
