@@ -178,7 +178,7 @@ class Judge:
                 self.fault(last.end, body, f"{last.owner} ends, and nobody owns it any more")
 
     def old_places(self):
-        """After a sleep nobody shows a body where the sleeper left it, if others have moved it."""
+        """After a sleep no pose jumps to where the sleeper left the body, if others have moved it."""
         for sleeper, log in self.logs.items():
             for asleep, awake in log.slept:
                 old = self.places(log, asleep)
@@ -193,15 +193,12 @@ class Judge:
         return {body: rows[-1][2] for body, rows in by_body([row for row in log.events["pose"] if row[0] <= time]).items()}
 
     def returns(self, name, log, old, since):
-        for body, place in old.items():
-            was_away = False
-            for time, _, pose in by_body(self.rows(log, "pose"))[body]:
-                if not since <= time <= since + AWAKE * SECOND:
-                    continue
-                is_away = math.dist(pose, place) > SAME
-                if was_away and not is_away:
-                    self.fault(time, body, f"{name} shows it again where it was before a sleep")
-                was_away = is_away
+        poses = {(time, body): pose for time, body, pose in log.events["pose"]}
+        for time, body, (_, _, *was) in self.rows(log, "jump"):
+            if body not in old or not since <= time <= since + AWAKE * SECOND or (time, body) not in poses:
+                continue
+            if math.dist(poses[time, body], old[body]) <= SAME < math.dist(was, old[body]):
+                self.fault(time, body, f"{name} jumps back to where it was before a sleep")
 
     def agreement(self):
         """Faults of the end, when nothing moves and nobody asks."""
@@ -249,7 +246,8 @@ PLANTED = (
     ("'begin' together", "one", "2000000000 end 0 0.00",
      "2600000000 slept 1900000000\n2700000000 end 0 0.00"),
     ("where it was before a sleep", "one", "3000000000 count",
-     "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 pose 0 0.00 0.00 20.00\n3000000000 count"),
+     "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 jump 0 40.00 0.00 40.00 0.00 20.00\n"
+     "2900000000 pose 0 0.00 0.00 20.00\n3000000000 count"),
 )
 # It may end in the first pass after a sleep.
 SLEPT = ("one", "2000000000 end 0 0.00", "2600000000 slept 1900000000\n2600000000 end 0 0.00")

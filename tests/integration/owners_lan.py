@@ -23,6 +23,7 @@ PROCESSES, CUBES = 4, 20
 JOINED = 2.5   # [s] until all have joined and one has founded
 QUIET = 3.0    # [s] after the last wish, until all agree
 STOPPED = 8.0  # [s]
+REST = 0.1     # [mm], between the places of a body at two processes after that
 SCENE = """
 [[object]]
 name = "floor"
@@ -116,6 +117,7 @@ def verdict_of(judge, least, is_quiet=True):
     for fault in faults[:20]:
         print(f"  {fault}")
     check(not faults, f"{len(faults)} faults")
+    check(not is_quiet or judge.spread() <= REST, f"places at the end differ by {judge.spread():.2f} mm")
     check(judge.hand_overs >= least, f"only {judge.hand_overs} hand-overs")
     check(lost > 0.07 * received, "datagrams were not lost")
 
