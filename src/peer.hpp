@@ -6,6 +6,7 @@
 // access to the loops.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -50,7 +51,7 @@ struct PeerOptions {
   /// The first peer of a scene owns its bodies at once. False: it first looks for 1.2 s whether
   /// other peers own them.
   bool founds = true;
-  bool transfer = true;            ///< give energy on demand
+  bool transfer = true;  ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()
   bool record_shown = false;                ///< fill shown() at every model step
@@ -108,6 +109,8 @@ class Peer {
   /// One pass of the model loop. `utc` is the same instant as `now`.
   void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
     model_.step(now, utc);
+    if (goes_alone_.load(std::memory_order_relaxed) && goes_alone_.exchange(false))
+      model_.ownership().go_alone();
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
@@ -147,6 +150,10 @@ class Peer {
   /// The software stop: takes the force off all its hands while it is pressed, from the next servo
   /// step of each hand on. Any thread, and signal handlers.
   [[nodiscard]] haptics::ForceStop& force_stop() noexcept { return *force_stop_; }
+
+  /// Goes on without the peers that are not received, by the user's word: see
+  /// OwnershipStage::go_alone(). Any thread; the next pass of the model loop does it.
+  void go_alone() noexcept { goes_alone_.store(true); }
 
   /// Newest view of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
@@ -208,6 +215,7 @@ class Peer {
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;
+  std::atomic<bool> goes_alone_{false};
 };
 
 }  // namespace reckon::peer

@@ -258,6 +258,10 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
   if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
     return text(numbers_message(watcher));
+  const HandFrame* frame = hands_at(shown_time(watcher));
+  const bool looks = std::exchange(watcher.owners_tick, numbers_tick_) != numbers_tick_;
+  if (looks && frame != nullptr && frame->owners != watcher.owners && frame->owners)
+    return watcher.owners = frame->owners;
   return next_scenery(watcher);
 }
 

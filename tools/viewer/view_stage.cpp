@@ -217,6 +217,9 @@ struct ViewStage::Requests {
     watcher.answer = hand_message(std::nullopt, "the hand is released");
   }
   void operator()(const FollowRequest& request) const { watcher.follow = request.slot; }
+  void operator()(const GoAloneRequest&) const {
+    stage.note("info", stage.options_.controls->go_alone());
+  }
 };
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {

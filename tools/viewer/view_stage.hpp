@@ -67,6 +67,7 @@ struct HandFrame {
   std::vector<BodyMark> bodies;  ///< of the scene
   std::vector<pdu::EntityId> ids;
   std::vector<TwinMark> twins;
+  std::shared_ptr<const std::string> owners;  ///< of the bodies, see bodies_message(); null: fixed
 };
 
 /// One thread. Times are since 1970-01-01 UTC, or the times of the capture.

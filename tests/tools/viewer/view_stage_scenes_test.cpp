@@ -3,12 +3,14 @@
 // The information of a tab about a scene and its peers, and its rights to push.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tests/tools/support/stage_tabs.hpp"
+#include "reckon/tools/viewer/own_hands.hpp"
 #include "reckon/tools/viewer/view_stage.hpp"
 
 namespace reckon::tools::view_stage_scenes_test {
@@ -78,6 +80,38 @@ TEST(ViewStage, SendsTheReceptionAmongPeers) {
   EXPECT_EQ(tab.last("numbers")["peers"]["lost_share"], 0.2);
 }
 
+TEST(ViewStage, ReportsOwnersOfBodiesWhenTheyChange) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  peer::PeerView view;
+  view.body_owner_count = 2;
+  view.body_owners[0] = {{1, 2}, true, 77, peer::version_of(1, 3), 3, peer::OwnerChange::granted};
+  OwnHands hands{peer::HandModel{}};
+  const auto show = [&] {
+    hands.take_owners(view);
+    HandFrame frame = hands.frame({}, false);
+    frame.time = live.now;
+    live.stage.take_hands(std::move(frame));
+    live.run(seconds(1), {&tab});
+  };
+  show();
+  const json first = tab.last("bodies");
+  EXPECT_EQ(first["rests"], false);
+  EXPECT_EQ(first["owners"][0], json::parse(R"({"owner": "1:2", "ours": true, "version": "1.3",
+                                                "changes": 3, "cause": "granted"})"));
+  EXPECT_FALSE(first["owners"][1].contains("owner")) << "none is known";
+  const auto count = [&] {
+    return std::ranges::count_if(tab.texts,
+                                 [](const json& one) { return one["type"] == "bodies"; });
+  };
+  show();
+  EXPECT_EQ(count(), 1) << "nothing has changed";
+  view.bodies_rest = true;
+  show();
+  EXPECT_EQ(count(), 2);
+  EXPECT_EQ(tab.last("bodies")["rests"], true);
+}
+
 /// Records the requests of pages.
 class NotedControls final : public ViewerControls {
  public:
@@ -95,9 +129,13 @@ class NotedControls final : public ViewerControls {
     ++networks;
     return "the network is as it was";
   }
+  std::string go_alone() override {
+    ++alone;
+    return "the bodies go on";
+  }
   std::optional<Watcher> owner;
   std::vector<PointerRequest> pointed;
-  int networks = 0;
+  int networks = 0, alone = 0;
 };
 
 TEST(ViewStage, OnlyTabsWithThePasswordMayPush) {
@@ -110,10 +148,12 @@ TEST(ViewStage, OnlyTabsWithThePasswordMayPush) {
   guest.ask(8);
   point(guest);
   guest.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});
+  guest.ask(11);
   live.run(kTick, {&guest, &owner});
   EXPECT_FALSE(controls.owner.has_value());
   EXPECT_TRUE(controls.pointed.empty());
   EXPECT_EQ(controls.networks, 0);
+  EXPECT_EQ(controls.alone, 0);
   EXPECT_TRUE(guest.last("hand")["index"].is_null());
 
   point(owner);
@@ -126,6 +166,8 @@ TEST(ViewStage, OnlyTabsWithThePasswordMayPush) {
   EXPECT_EQ(owner.last("hand")["index"], 0);
   EXPECT_EQ(controls.pointed.size(), 1U);
   EXPECT_EQ(guest.last("note")["text"], "the network is as it was");
+  owner.ask(11);
+  EXPECT_EQ(controls.alone, 1);
   live.stage.leave(owner.watcher());
   EXPECT_FALSE(controls.owner.has_value()) << "who goes gives its hand back";
 }
