@@ -65,7 +65,7 @@ void OwnHands::take(std::size_t hand, const ServoSnapshot& step) {
 void OwnHands::take_bodies(std::span<const haptics::BodyState> bodies) {
   bodies_.clear();
   for (const haptics::BodyState& body : bodies)
-    bodies_.push_back({body.position.cast<float>(), body.orientation});
+    bodies_.push_back({body.position.cast<float>(), body.orientation, body.carried});
 }
 
 void OwnHands::take_owners(const peer::PeerView& view) {

@@ -8,6 +8,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/listener/origin_at.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
+#include "reckon/tools/viewer/scenery/received_bodies.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -261,6 +262,7 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
     add_contacts(world, time, rows);
   }
   add_hands(time, rows);
+  place_received_bodies(solids_, history_.roster(), rows);
 }
 
 void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {

@@ -138,7 +138,6 @@ class ViewStage {
   [[nodiscard]] std::string origin_message() const;
   [[nodiscard]] std::string play_message(const Watcher& watcher) const;
   [[nodiscard]] std::string numbers_message(const Watcher& watcher) const;
-  void append_error(std::string& out, const NumbersSample& sample, std::uint16_t followed) const;
   [[nodiscard]] const ReceptionSample* reception_at(Time time) const;
   void append_origin(std::string& out) const;
 

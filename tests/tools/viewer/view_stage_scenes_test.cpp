@@ -7,7 +7,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tests/tools/support/stage_tabs.hpp"
 #include "reckon/tools/viewer/own_hands.hpp"
@@ -78,6 +80,65 @@ TEST(ViewStage, SendsTheReceptionAmongPeers) {
   tab.ask(2, 1.5);
   live.run(seconds(1), {&tab});
   EXPECT_EQ(tab.last("numbers")["peers"]["lost_share"], 0.2);
+}
+
+/// A state of the first body of a scene.
+peer::SourceDatagram body_state(const peer::SceneFile& scene, nanoseconds time,
+                                std::vector<std::byte>& octets) {
+  const deadreckon::LocalFrame frame(scene.origin.latitude, scene.origin.longitude,
+                                     scene.origin.height);
+  haptics::BodyState body;
+  body.position = {0.5, -0.25, 0.125};
+  const peer::EntityTruth truth = peer::truth_of(body, time);
+  pdu::EntityState state;
+  state.entity_id = peer::body_id(0);
+  const Eigen::Vector3d place = frame.world_from_scene(truth.position);
+  state.location = {place.x(), place.y(), place.z()};
+  const auto turn = deadreckon::euler_from_quaternion(frame.world_from_scene(truth.orientation));
+  state.orientation = {static_cast<float>(turn.psi), static_cast<float>(turn.theta),
+                       static_cast<float>(turn.phi)};
+  state.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::static_;
+  octets.resize(wire_size(state));
+  EXPECT_GT(encode(state, octets), 0U);
+  peer::SourceDatagram datagram;
+  datagram.time = time;
+  datagram.bytes = octets;
+  return datagram;
+}
+
+TEST(ViewStage, ShowsABodyWhereItsOwnerHasIt) {
+  const peer::SceneFile scene = scene_of(
+      "[[object]]\nname = \"cube\"\nbox = \"40 40 40 mm\"\nposition = [0, 0, 0.02]\n"
+      "mass = \"50 g\"\n[[operator]]\npassive = true\n[[device]]\npeer = 1\n");
+  StageOptions options;
+  options.scene = &scene;
+  LiveTrucks live(options);
+  Tab tab(live.stage, false);
+  std::vector<std::byte> octets;
+  const auto shown = [&] {
+    (void)live.stage.take(body_state(scene, live.now, octets));
+    live.run(seconds(1), {&tab});
+    const std::string& picture = tab.pictures.back();
+    Eigen::Vector3f place;
+    std::int16_t w = 0;
+    std::memcpy(place.data(), picture.data() + picture.size() - kBodyOctets, 12);
+    std::memcpy(&w, picture.data() + picture.size() - kBodyOctets + 12, 2);
+    EXPECT_EQ(std::abs(w), 32767) << "not turned";
+    return place;
+  };
+  const Eigen::Vector3f received(0.5F, -0.25F, 0.125F), own(0.0F, 0.0F, 1.0F);
+  EXPECT_LT((shown() - received).norm(), 1e-6) << "by a listener";
+  OwnHands hands{peer::HandModel{}};
+  haptics::BodyState simulated;
+  simulated.position.z() = 1.0;
+  for (const bool carried : {true, false}) {
+    simulated.carried = carried;
+    hands.take_bodies(std::span(&simulated, 1));
+    HandFrame frame = hands.frame({}, false);
+    frame.time = live.now;
+    live.stage.take_hands(std::move(frame));
+    EXPECT_LT((shown() - (carried ? received : own)).norm(), 1e-6) << carried;
+  }
 }
 
 TEST(ViewStage, ReportsOwnersOfBodiesWhenTheyChange) {

@@ -148,7 +148,7 @@ Octets stated(std::uint32_t owner, std::uint64_t version) {
   return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(writer.finish())};
 }
 
-TEST(InspectOwners, ListsWhoHadABodyAndWhoHasIt) {
+TEST(InspectOwners, ListsFormerAndNewOwners) {
   test::CaptureBuilder capture;
   pdu::Presence presence;
   presence.simulation = {1, 1};
