@@ -112,6 +112,8 @@ class Peer {
     if (is_leaving) model_.ownership().leave();
     model_.step(now, utc);
     if (is_leaving) leaving_.done.store(model_.ownership().has_left(), std::memory_order_release);
+    if (goes_alone_.load(std::memory_order_relaxed) && goes_alone_.exchange(false))
+      model_.ownership().go_alone();
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
@@ -158,6 +160,10 @@ class Peer {
   /// The software stop: takes the force off all its hands while it is pressed, from the next servo
   /// step of each hand on. Any thread, and signal handlers.
   [[nodiscard]] haptics::ForceStop& force_stop() noexcept { return *force_stop_; }
+
+  /// Goes on without the peers that are not received, by the user's word: see
+  /// OwnershipStage::go_alone(). Any thread; the next pass of the model loop does it.
+  void go_alone() noexcept { goes_alone_.store(true); }
 
   /// Newest view of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
@@ -223,6 +229,7 @@ class Peer {
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;
+  std::atomic<bool> goes_alone_{false};
 };
 
 }  // namespace reckon::peer

@@ -161,9 +161,8 @@ ObjectSet OwnershipStage::company_of(std::size_t object) {
 }
 
 bool OwnershipStage::is_any_awake() {
-  return std::ranges::any_of(states(), [](const haptics::BodyState& body) {
-    return body.awake && !body.carried;
-  });
+  return std::ranges::any_of(
+      states(), [](const haptics::BodyState& body) { return body.awake && !body.carried; });
 }
 
 std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
@@ -353,10 +352,8 @@ void OwnershipStage::note_owner(std::size_t body, const Tenure& owner) noexcept 
   BodyOwnerView& shown = shown_[body];
   if (shown.epoch == owner.owner && shown.version == owner.version) return;
   if (shown.epoch != 0 && owner.owner != 0 && shown.epoch != owner.owner) ++shown.changes;
-  if (shown.epoch != owner.owner)
-    shown.cause = count_of(owner.version) == 0 ? OwnerChange::adopted : OwnerChange::granted;
-  if (act_of(owner.version) <= 1 && count_of(owner.version) == 0)
-    shown.cause = OwnerChange::founded;
+  const OwnerChange cause = cause_of(owner.version);
+  if (shown.epoch != owner.owner || cause == OwnerChange::founded) shown.cause = cause;
   shown.epoch = owner.owner;
   shown.version = owner.version;
 }

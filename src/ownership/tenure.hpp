@@ -32,6 +32,13 @@ enum class OwnerChange : std::uint8_t {
   merged,    ///< an older world has replaced ours
 };
 
+/// How the owner of this version got the object, as all peers can tell: founded, granted or
+/// adopted.
+[[nodiscard]] constexpr OwnerChange cause_of(std::uint64_t version) noexcept {
+  if (static_cast<std::uint32_t>(version) != 0) return OwnerChange::granted;
+  return version >> 32 <= 1 ? OwnerChange::founded : OwnerChange::adopted;
+}
+
 /// A count of hand-overs from here on is refused, so that no version overflows into the act.
 inline constexpr std::uint32_t kMostHandOvers = 1U << 31;
 

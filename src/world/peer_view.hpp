@@ -14,8 +14,8 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
-#include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/peer/ownership/tenure.hpp"
+#include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
@@ -100,10 +100,12 @@ struct LeadersView {
 struct BodyOwnerView {
   pdu::SimulationAddress owner;  ///< 0:0: not known, or it has left
   bool is_ours = false;
-  std::uint32_t epoch = 0;    ///< of the owner
-  std::uint64_t version = 0;  ///< see OwnershipRecord
-  std::uint32_t changes = 0;  ///< of the owner, as seen here
+  std::uint32_t epoch = 0;                   ///< of the owner
+  std::uint64_t version = 0;                 ///< see OwnershipRecord
+  std::uint32_t changes = 0;                 ///< of the owner, as seen here
   OwnerChange cause = OwnerChange::founded;  ///< of the last one
+
+  friend bool operator==(const BodyOwnerView&, const BodyOwnerView&) = default;
 };
 
 /// A peer as a whole, some twenty times a second.
@@ -127,7 +129,7 @@ struct PeerView {
   bool bodies_rest = false;
   std::size_t body_owner_count = 0;  ///< movable objects of the scene; 0: their owner is fixed
   std::array<BodyOwnerView, kMostOwnable> body_owners{};
-  std::uint64_t bodies_not_woken = 0;        ///< see BodyWorld::crowded()
+  std::uint64_t bodies_not_woken = 0;  ///< see BodyWorld::crowded()
   LeadersView leaders;
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown

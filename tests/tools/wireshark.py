@@ -350,8 +350,30 @@ def mutated(tools):
     print(f"  {len(datagrams)} datagrams, {named} faults named, {len(missed)} left to inspect")
 
 
+def owners(tools):
+    """What a message about the owners of bodies is about; nothing where its content is cut short."""
+    sample = tools.samples()["assured_record"][:32]
+    group = struct.pack(">II", 1700000000, 0xB0B)
+    messages = {
+        16: (group + struct.pack(">IIIBBBB", 3, 0, 0, 9, 0, 0, 0), "round 9 of act 3"),
+        17: (group + struct.pack(">IIII", 4, 7, 2, 0x4A11C0DE) + bytes(48), "act 4, attempt 2 of 4a11c0de"),
+        18: (group + struct.pack(">III", 4, 2, 0x4A11C0DE), "vote for act 4, attempt 2 of 4a11c0de"),
+        19: (group + struct.pack(">IIHH", 5, 4, 0, 0), "table 5 with 0 owners"),
+        20: (group + struct.pack(">I", 5) + bytes(32), "agreement on table 5"),
+    }
+    for kind, (content, words) in messages.items():
+        for octets in (content, content[:-1]):
+            record = bytearray(sample + octets)
+            struct.pack_into(">H", record, 8, len(record))
+            record[16] = kind
+            struct.pack_into(">HH", record, 28, 0, len(octets))
+            text = tools.tshark("-n", "-r", tools.capture([bytes(record)]), "-O", "reckon")
+            check((f": {words}\n" in text) == (octets is content), f"kind {kind}, {len(octets)} octets: {text}")
+    print(f"  {len(messages)} kinds")
+
+
 CASES = {case.__name__: case for case in
-         (bundles, inner, values, filters, damage, mutated, foreign, sessions, generated)}
+         (bundles, inner, values, filters, damage, mutated, foreign, sessions, generated, owners)}
 
 
 if __name__ == "__main__":

@@ -5,6 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -13,7 +19,44 @@ auto awake_of(const haptics::BodyWorld& bodies) {
   return std::ranges::count_if(bodies.states(), &haptics::BodyState::awake);
 }
 
+constexpr std::size_t kMostOwners = 4;  // named; the others are counted
+
+using OwnerCounts = std::vector<std::pair<std::string, std::size_t>>;  // the most bodies first
+
+OwnerCounts counts_of(std::span<const peer::BodyOwnerView> bodies, bool is_alone) {
+  std::map<std::string, std::size_t> counts;
+  for (const peer::BodyOwnerView& body : bodies) {
+    const pdu::SimulationAddress& owner = body.owner;
+    if (body.is_ours && is_alone)
+      ++counts["ours"];
+    else if (owner == pdu::SimulationAddress{})
+      ++counts["without an owner"];
+    else
+      ++counts[fmt::format("of {}:{}", owner.site, owner.application)];
+  }
+  OwnerCounts sorted(counts.begin(), counts.end());
+  std::ranges::stable_sort(sorted, std::ranges::greater{}, &OwnerCounts::value_type::second);
+  return sorted;
+}
+
 }  // namespace
+
+std::string owners_text(const peer::PeerView& view, bool is_alone) {
+  const auto bodies = std::span(view.body_owners).first(view.body_owner_count);
+  if (bodies.empty()) return {};
+  const OwnerCounts counts = counts_of(bodies, is_alone);
+  std::string text = fmt::format("{}: ", bodies.size());
+  std::size_t rest = bodies.size();
+  for (const auto& [owner, count] : std::span(counts).first(std::min(counts.size(), kMostOwners))) {
+    text += fmt::format("{}{} {}", rest == bodies.size() ? "" : ", ", count, owner);
+    rest -= count;
+  }
+  if (rest > 0) text += fmt::format(", {} of others", rest);
+  std::uint64_t changes = 0;
+  for (const peer::BodyOwnerView& body : bodies) changes += body.changes;
+  text += fmt::format("; {}", counted(changes, "hand-over"));
+  return view.bodies_rest ? text + "; REST" : text;
+}
 
 void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
   if (bodies == nullptr) return;

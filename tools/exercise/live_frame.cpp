@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/tools/exercise/body_report.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -71,16 +72,23 @@ std::string softer_text(const LivePicture& picture) {
 }
 
 std::string bodies_text(const LivePicture& picture) {
+  std::string owners;
+  std::size_t bodies = 0, awake = 0;
+  std::uint64_t not_woken = 0;
   for (const TablePeer& peer : picture.peers) {
     const PeerView& view = *peer.view;
-    if (view.bodies == 0) continue;
-    std::string text = fmt::format("bodies: {} of {} move", view.bodies_awake, view.bodies);
-    if (view.bodies_not_woken > 0)
-      text +=
-          fmt::format(", in {} steps one stayed at rest, because 64 moved", view.bodies_not_woken);
-    return text;
+    if (owners.empty()) owners = owners_text(view, picture.peers.size() == 1);
+    bodies += view.bodies;
+    awake += view.bodies_awake;
+    not_woken += view.bodies_not_woken;
   }
-  return {};
+  if (owners.empty() && bodies == 0) return {};
+  std::string text = fmt::format("bodies: {} of {} move", awake, bodies);
+  if (!owners.empty()) text = "bodies " + owners;
+  if (!owners.empty() && bodies > 0) text += fmt::format("; {} of our {} move", awake, bodies);
+  if (not_woken > 0)
+    text += fmt::format(", in {} steps one stayed at rest, because 64 moved", not_woken);
+  return text;
 }
 
 std::string keys_text(const LivePicture& picture) {

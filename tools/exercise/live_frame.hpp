@@ -18,7 +18,7 @@ namespace reckon::tools {
 [[nodiscard]] std::string title_of(const LivePicture& picture, double bar_end, std::size_t columns);
 /// Sentences of all peers, each once; empty if all is shown as asked.
 [[nodiscard]] std::string softer_text(const LivePicture& picture);
-/// Text of the peer that simulates the bodies; empty without bodies.
+/// The owners of the bodies, and how many of the bodies simulated here move; empty without bodies.
 [[nodiscard]] std::string bodies_text(const LivePicture& picture);
 /// The present functions of the keys.
 [[nodiscard]] std::string keys_text(const LivePicture& picture);

@@ -314,7 +314,8 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
   add(softer_text(picture), LineStyle::bad);
   const std::string leaders = leaders_text(views);
   add(leaders.empty() ? leaders : "leaders: " + leaders, LineStyle::faint);
-  add(bodies_text(picture), LineStyle::faint);
+  const bool rests = std::ranges::any_of(views, &PeerView::bodies_rest);
+  add(bodies_text(picture), rests ? LineStyle::bad : LineStyle::faint);
 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)

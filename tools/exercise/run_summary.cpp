@@ -12,6 +12,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/emissions/emission_text.hpp"
+#include "reckon/tools/exercise/body_report.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/leaders_report.hpp"
@@ -192,6 +193,8 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
   if (view.leaders.on) {
     fmt::print(out, "  leaders                    {}\n", leaders_text(std::array{&view}));
   }
+  if (view.body_owner_count > 0)
+    fmt::print(out, "  bodies                     {}\n", owners_text(view, true));
   print_emissions(out, peer.model().emissions());
   print_hands(out, hands_of(view));
   const peer::Counters* counters = &peer.counters();

@@ -22,13 +22,14 @@ InspectViewKind bundles();
 InspectViewKind haptics();
 InspectViewKind top();
 InspectViewKind emissions();
+InspectViewKind owners();
 
 }  // namespace view
 
 /// THE list of views.
 std::span<const InspectViewKind> inspect_views() {
-  static const std::array kViews{view::tail(),    view::stats(), view::check(),    view::bundles(),
-                                 view::haptics(), view::top(),   view::emissions()};
+  static const std::array kViews{view::tail(),    view::stats(), view::check(),     view::bundles(),
+                                 view::haptics(), view::top(),   view::emissions(), view::owners()};
   return kViews;
 }
 

@@ -56,11 +56,13 @@ void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
 DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
                    const DemoPageOptions& options, Exercise& exercise, HandTwins& twins)
     : twins_(twins),
-      controls_(scene.impairment.law,
-                [&exercise, &twins](const peer::ImpairmentLaw& law) {
-                  exercise.change_impairment(law);
-                  twins.change_impairment(law);
-                }),
+      controls_(
+          scene.impairment.law,
+          [&exercise, &twins](const peer::ImpairmentLaw& law) {
+            exercise.change_impairment(law);
+            twins.change_impairment(law);
+          },
+          [&exercise] { exercise.peer(0).go_alone(); }),
       first_(first_hands(exercise)),
       pointers_(add_pointers(exercise)),
       view_(flags, scene, self_view_options(options, controls_), hands_of(exercise, scene)) {
@@ -72,6 +74,8 @@ void DemoPage::show(Exercise& exercise) {
     (void)bodies->published().update();
     view_.hands().take_bodies(bodies->published().read().bodies);
   }
+  view_.hands().take_owners(exercise.view(0));
+  controls_.set_rests(exercise.view(0).bodies_rest);
   for (std::size_t i = 0; i < exercise.size(); ++i)
     for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
       view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);

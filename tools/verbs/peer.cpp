@@ -214,8 +214,7 @@ class PageWhenSeen {
     if (!flags_) return;
     if (!page_) {
       const PeerPageOptions named{options_.scene.scene, options_.scene.iface};
-      page_.emplace(*flags_, scene_, named, view, running.pointers());
-      page_->add_receiver(running.peer());
+      page_.emplace(*flags_, scene_, named, running.peer(), view, running.pointers());
       show_address(page_->view(), !scene_.network.key.empty(), display);
       browser_ = open_browser(*flags_, page_->view().address());
     }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -24,29 +26,36 @@ struct PeerPageOptions {
 /// One thread, the reader of the peer's views.
 class PeerPage {
  public:
-  /// @param view of the peer, with its hands
+  /// @param peer outlives this @param view of the peer, with its hands
   /// @param pointers the hands that follow pointers; their devices outlive this
   /// @throws as SelfView
   PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerPageOptions& options,
-           const peer::PeerView& view, std::span<const PointerHand> pointers)
-      : pointers_(pointers.begin(), pointers.end()),
-        controls_({}, nullptr),
+           peer::Peer& peer, const peer::PeerView& view, std::span<const PointerHand> pointers)
+      : peer_(peer),
+        pointers_(pointers.begin(), pointers.end()),
+        controls_({}, nullptr, [&peer] { peer.go_alone(); }),
         view_(flags, scene,
               {.kind = "peer",
                .source = options.source,
                .iface = options.iface,
                .controls = &controls_},
-              hands_of(scene, view)) {}
+              hands_of(scene, view)) {
+    view_.add_receiver(peer);
+  }
 
-  /// From now on show() shows the reception statistics of `peer` too. @param peer outlives this
-  void add_receiver(const peer::Peer& peer) { view_.add_receiver(peer); }
-  /// Shows the present state of the hands.
+  /// Shows the present state of the hands and bodies.
   void show(const peer::PeerView& view) {
     OwnHands& hands = view_.hands();
     for (std::size_t i = 0; i < view.hand_count && i < hands.size(); ++i) {
       hands.set_id(i, view.hands[i].id);
       hands.take(i, view.hands[i].servo);
     }
+    if (haptics::BodyWorld* bodies = peer_.bodies(); bodies != nullptr) {
+      (void)bodies->published().update();
+      hands.take_bodies(bodies->published().read().bodies);
+    }
+    hands.take_owners(view);
+    controls_.set_rests(view.bodies_rest);
     mark_pointers(hands);
     view_.show_hands();
   }
@@ -66,6 +75,7 @@ class PeerPage {
     return hands;
   }
 
+  peer::Peer& peer_;
   std::vector<PointerHand> pointers_;
   ViewControls controls_;  // used by the page, so declared before it
   SelfView view_;

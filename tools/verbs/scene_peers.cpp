@@ -196,7 +196,7 @@ std::string mapping_text(const peer::DeviceConfig& device) {
 /// How its button holds bodies, if there are any.
 std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
                     const haptics::ServoLoop& servo) {
-  if (device.peer > 1) return "no: the scene's first peer moves them";
+  if (device.peer > 1) return "only those that its peer owns; at the start the first peer has all";
   if (!(scene.hand.grab.stiffness > 0)) return "no: set grab_stiffness of [hand]";
   std::string text = fmt::format("while button {} is pressed, by {}", device.grab_button,
                                  about(servo.grab_stiffness(), "N/m"));

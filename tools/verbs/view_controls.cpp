@@ -20,8 +20,8 @@ std::string network_text(const NetworkRequest& request) {
 
 }  // namespace
 
-ViewControls::ViewControls(peer::ImpairmentLaw law, ChangeNetwork change)
-    : law_(std::move(law)), change_(std::move(change)) {
+ViewControls::ViewControls(peer::ImpairmentLaw law, ChangeNetwork change, GoAlone go_alone)
+    : law_(std::move(law)), change_(std::move(change)), go_alone_(std::move(go_alone)) {
   network_.delay_ms = static_cast<float>(1e3 * pdu::to_seconds(law_.delay));
   network_.jitter_ms = static_cast<float>(1e3 * pdu::to_seconds(law_.jitter));
   network_.loss = static_cast<float>(law_.loss);
@@ -80,6 +80,12 @@ std::string ViewControls::set_network(const NetworkRequest& request) {
   law_.loss = request.outage ? 1.0 : static_cast<double>(request.loss);
   change_(law_);
   return network_text(request);
+}
+
+std::string ViewControls::go_alone() {
+  if (!rests_.load(std::memory_order_relaxed)) return "the bodies do not rest";
+  go_alone_();
+  return "the bodies go on without the missing peers";
 }
 
 }  // namespace reckon::tools

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/tools/viewer/protocol/short_messages.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -64,7 +65,17 @@ void OwnHands::take(std::size_t hand, const ServoSnapshot& step) {
 void OwnHands::take_bodies(std::span<const haptics::BodyState> bodies) {
   bodies_.clear();
   for (const haptics::BodyState& body : bodies)
-    bodies_.push_back({body.position.cast<float>(), body.orientation});
+    bodies_.push_back({body.position.cast<float>(), body.orientation, body.carried});
+}
+
+void OwnHands::take_owners(const peer::PeerView& view) {
+  const auto owners = std::span(view.body_owners).first(view.body_owner_count);
+  if (owners.empty() || (owners_text_ != nullptr && rests_ == view.bodies_rest &&
+                         std::ranges::equal(owners, owners_)))
+    return;
+  owners_.assign(owners.begin(), owners.end());
+  rests_ = view.bodies_rest;
+  owners_text_ = std::make_shared<const std::string>(bodies_message(owners, rests_));
 }
 
 std::vector<TouchHand> OwnHands::names() const {
@@ -133,6 +144,7 @@ HandMark OwnHands::mark(std::size_t index) {
 HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all) {
   HandFrame frame;
   frame.bodies = bodies_;
+  frame.owners = owners_text_;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandMark& hand = frame.hands.emplace_back(mark(i));
     frame.ids.push_back(hands_[i].id);

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "reckon/haptics/bodies/body_world.hpp"
@@ -45,6 +47,9 @@ class OwnHands {
   /// Sets the poses of the scene's bodies.
   void take_bodies(std::span<const haptics::BodyState> bodies);
 
+  /// Sets the owners of the bodies, as a peer knows them.
+  void take_owners(const peer::PeerView& view);
+
   [[nodiscard]] std::size_t size() const noexcept { return hands_.size(); }
   /// The constant properties of the hands.
   [[nodiscard]] std::vector<TouchHand> names() const;
@@ -69,6 +74,9 @@ class OwnHands {
 
   peer::HandModel hand_;
   std::vector<BodyMark> bodies_;
+  std::vector<peer::BodyOwnerView> owners_;  // of owners_text_
+  bool rests_ = false;
+  std::shared_ptr<const std::string> owners_text_;
   std::vector<Hand> hands_;
 };
 

@@ -23,8 +23,8 @@ namespace reckon::tools {
 namespace {
 
 /// Texts that a saved file keeps, as in recorder.js; numbers once a second.
-constexpr std::array<std::string_view, 7> kKeptText{"hello", "origin", "roster", "touch",
-                                                    "cells", "groups", "numbers"};
+constexpr std::array<std::string_view, 8> kKeptText{"hello", "origin", "roster", "touch",
+                                                    "cells", "groups", "bodies", "numbers"};
 /// Pictures farther apart are played faster: at normal speed the stage would mark a gap.
 constexpr double kApart = 0.25;  // [s]
 

@@ -101,6 +101,22 @@ void append_network(std::string& out, const NetworkRequest& network) {
       .end();
 }
 
+/// @param thresholds of the scene, or null
+void append_error(std::string& out, const NumbersSample& sample, const ShownThresholds* thresholds,
+                  const Roster& roster, std::uint16_t followed) {
+  JsonObject error(out);
+  append_optional(error, "mean_m", sample.error_mean, 6);
+  append_optional(error, "worst_m", sample.error_worst, 6);
+  if (thresholds != nullptr) {
+    error.array("thresholds_m", thresholds->told(), [](std::string& text, double threshold) {
+      fmt::format_to(std::back_inserter(text), "{:.6f}", threshold);
+    });
+    append_optional(error, "followed_m",
+                    thresholds->of(roster.marking_at(followed), roster.is_haptic(followed)), 6);
+  }
+  error.end();
+}
+
 }  // namespace
 
 void ViewStage::set_touch(const std::vector<TouchHand>& hands) {
@@ -172,22 +188,6 @@ std::string ViewStage::play_message(const Watcher& watcher) const {
   return out;
 }
 
-void ViewStage::append_error(std::string& out, const NumbersSample& sample,
-                             std::uint16_t followed) const {
-  JsonObject error(out);
-  append_optional(error, "mean_m", sample.error_mean, 6);
-  append_optional(error, "worst_m", sample.error_worst, 6);
-  if (thresholds_) {
-    error.array("thresholds_m", thresholds_->told(), [](std::string& text, double threshold) {
-      fmt::format_to(std::back_inserter(text), "{:.6f}", threshold);
-    });
-    const Roster& roster = history_.roster();
-    append_optional(error, "followed_m",
-                    thresholds_->of(roster.marking_at(followed), roster.is_haptic(followed)), 6);
-  }
-  error.end();
-}
-
 const ReceptionSample* ViewStage::reception_at(Time time) const {
   const auto after =
       std::upper_bound(receptions_.begin(), receptions_.end(), time,
@@ -206,7 +206,8 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
     append_optional(object, "lost_share", sample->lost_share, 5);
     append_delay(object, sample->delay_median, sample->delay_p95);
     if (sample->error_mean || thresholds_)
-      append_error(object.member("error"), *sample, watcher.follow);
+      append_error(object.member("error"), *sample, thresholds_ ? &*thresholds_ : nullptr,
+                   history_.roster(), watcher.follow);
   }
   if (const ReceptionSample* sample = reception_at(time)) {
     JsonObject peers(object.member("peers"));
@@ -258,6 +259,10 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
   if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
     return text(numbers_message(watcher));
+  const HandFrame* frame = hands_at(shown_time(watcher));
+  const bool looks = std::exchange(watcher.owners_tick, numbers_tick_) != numbers_tick_;
+  if (looks && frame != nullptr && frame->owners != watcher.owners && frame->owners)
+    return watcher.owners = frame->owners;
   return next_scenery(watcher);
 }
 

@@ -8,6 +8,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/listener/origin_at.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
+#include "reckon/tools/viewer/scenery/received_bodies.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -217,6 +218,9 @@ struct ViewStage::Requests {
     watcher.answer = hand_message(std::nullopt, "the hand is released");
   }
   void operator()(const FollowRequest& request) const { watcher.follow = request.slot; }
+  void operator()(const GoAloneRequest&) const {
+    stage.note("info", stage.options_.controls->go_alone());
+  }
 };
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
@@ -258,6 +262,7 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
     add_contacts(world, time, rows);
   }
   add_hands(time, rows);
+  place_received_bodies(solids_, history_.roster(), rows);
 }
 
 void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {

@@ -67,6 +67,7 @@ struct HandFrame {
   std::vector<BodyMark> bodies;  ///< of the scene
   std::vector<pdu::EntityId> ids;
   std::vector<TwinMark> twins;
+  std::shared_ptr<const std::string> owners;  ///< of the bodies, see bodies_message(); null: fixed
 };
 
 /// One thread. Times are since 1970-01-01 UTC, or the times of the capture.
@@ -137,7 +138,6 @@ class ViewStage {
   [[nodiscard]] std::string origin_message() const;
   [[nodiscard]] std::string play_message(const Watcher& watcher) const;
   [[nodiscard]] std::string numbers_message(const Watcher& watcher) const;
-  void append_error(std::string& out, const NumbersSample& sample, std::uint16_t followed) const;
   [[nodiscard]] const ReceptionSample* reception_at(Time time) const;
   void append_origin(std::string& out) const;
 

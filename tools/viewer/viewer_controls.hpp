@@ -32,6 +32,9 @@ class ViewerControls {
                      std::chrono::nanoseconds now) = 0;
   /// @return a sentence about the new impairment
   virtual std::string set_network(const NetworkRequest& request) = 0;
+  /// Lets the bodies go on without the missing peers, if they rest.
+  /// @return a sentence for the user
+  virtual std::string go_alone() = 0;
   /// The present impairment.
   [[nodiscard]] virtual NetworkRequest network() const { return {}; }
 

@@ -44,8 +44,10 @@ struct Watcher {
   std::uint32_t epoch = 0;         ///< of the roster sent to it
   std::uint64_t notes = 0;         ///< sent to it, counted from the first
   std::uint64_t numbers_tick = 0;  ///< of the last numbers
+  std::uint64_t owners_tick = 0;   ///< of the last look at the owners of bodies
   std::uint64_t cells_tick = 0, groups_tick = 0;
   std::string cells, groups;  ///< last messages sent
+  std::shared_ptr<const std::string> owners;
   std::uint16_t follow = kNoNumber;
   std::optional<std::uint16_t> hand;
   std::string answer;  ///< pending answer about a hand

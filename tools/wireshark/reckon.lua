@@ -1201,6 +1201,23 @@ local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
   peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group,
   assured_record = OWN.peer }
 
+-- Messages about the owners of bodies by the kind of their Assured Record: text and the offsets of
+-- its numbers in the content, which begins with the time and founder of a group.
+local OWNER_MESSAGES = {
+  [16] = { 24, "round %d of act %d", { 20, 1 }, { 8, 4 } },
+  [17] = { 72, "act %d, attempt %d of %08x", { 8, 4 }, { 16, 4 }, { 20, 4 } },
+  [18] = { 20, "vote for act %d, attempt %d of %08x", { 8, 4 }, { 12, 4 }, { 16, 4 } },
+  [19] = { 20, "table %d with %d owners", { 8, 4 }, { 18, 2 } },
+  [20] = { 44, "agreement on table %d", { 8, 4 } } }
+
+local function owners_text(s, at, stop, kind)
+  local row = OWNER_MESSAGES[kind]
+  if not row or stop - at < row[1] then return "" end
+  local numbers = {}
+  for i = 3, #row do numbers[#numbers + 1] = number_at(s, at + row[i][1], row[i][2]) end
+  return ": " .. string.format(row[2], table.unpack(numbers))
+end
+
 -- Types unknown to Wireshark's dissector: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
   add_own(tree, tvb, at, OWN.header)
@@ -1216,7 +1233,9 @@ local function add_experimental(tree, tvb, s, at, stop, type)
   local first = at + pdu.size
   for _, block in ipairs(pdu.blocks) do
     if block.kind ~= "records" then
-      if stop > first then tree:add(FIELD.body, tvb(first, stop - first)) end
+      if stop <= first then return end
+      local item = tree:add(FIELD.body, tvb(first, stop - first))
+      if own == OWN.assured then item:append_text(owners_text(s, first, stop, s:byte(at + 17))) end
       return
     end
     local behind = BLOCKS.records(s, at, block, first, stop) or first

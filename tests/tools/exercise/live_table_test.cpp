@@ -297,6 +297,35 @@ TEST(LiveTable, CountsMovingBodiesAndThoseNotWoken) {
   EXPECT_EQ(lines_with(peers.shown(24, 80), "12 of 150 move, in 7 steps one stayed at rest"), 1U);
 }
 
+// Bodies of two owners, and one whose owner is not known.
+void share_bodies(peer::PeerView& view, std::size_t ours, std::size_t others) {
+  view.body_owner_count = ours + others + 1;
+  for (std::size_t i = 0; i < ours + others; ++i) {
+    view.body_owners[i].is_ours = i < ours;
+    view.body_owners[i].owner = {1, static_cast<std::uint16_t>(i < ours ? 1 : 2)};
+    view.body_owners[i].changes = i < ours ? 2 : 0;
+  }
+}
+
+TEST(LiveTable, CountsTheBodiesOfEachOwner) {
+  Peers one(1, 1);
+  share_bodies(one.view(0), 12, 16);
+  one.view(0).bodies = 12;
+  one.view(0).bodies_awake = 3;
+  constexpr std::string_view kAll =
+      "bodies 29: 16 of 1:2, 12 ours, 1 without an owner; 24 hand-overs; 3 of our 12 move";
+  EXPECT_EQ(lines_with(one.shown(24, 100), kAll), 1U);
+  EXPECT_EQ(lines_with(one.shown(24, 100), "REST"), 0U);
+  one.view(0).bodies_rest = true;
+  one.view(0).bodies = 0;
+  EXPECT_EQ(lines_with(one.shown(24, 100), "24 hand-overs; REST"), 1U);
+
+  Peers two(2, 2);
+  share_bodies(two.view(0), 1, 1);
+  share_bodies(two.view(1), 1, 1);
+  EXPECT_EQ(lines_with(two.shown(24, 80), "bodies 3: 1 of 1:1, 1 of 1:2, 1 without an owner"), 1U);
+}
+
 TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {
   Peers peers(1, 1);
   peers.view(0).rows[0].marking = {'\033', '[', '2', 'J'};

@@ -18,7 +18,8 @@ class ViewControlsTest : public ::testing::Test {
  protected:
   ViewControlsTest() {
     law_.duplicate = 0.25;
-    controls_.emplace(law_, [this](const peer::ImpairmentLaw& law) { set_ = law; });
+    controls_.emplace(
+        law_, [this](const peer::ImpairmentLaw& law) { set_ = law; }, [this] { ++alone_; });
     for (std::size_t i = 0; i < inboxes_.size(); ++i) {
       PointerHand pointer;
       pointer.inbox = &inboxes_[i];
@@ -34,6 +35,7 @@ class ViewControlsTest : public ::testing::Test {
   }
 
   peer::ImpairmentLaw law_, set_;
+  int alone_ = 0;
   std::array<haptics::PointerInbox, 2> inboxes_;
   std::optional<ViewControls> controls_;
 };
@@ -86,8 +88,16 @@ TEST_F(ViewControlsTest, SetTheLawAndKeepItsOtherValues) {
   EXPECT_EQ(set_.loss, 0.0);
 }
 
+TEST_F(ViewControlsTest, GoAloneOnlyWhileBodiesRest) {
+  EXPECT_EQ(controls_->go_alone(), "the bodies do not rest");
+  EXPECT_EQ(alone_, 0);
+  controls_->set_rests(true);
+  EXPECT_EQ(controls_->go_alone(), "the bodies go on without the missing peers");
+  EXPECT_EQ(alone_, 1);
+}
+
 TEST_F(ViewControlsTest, ReportThatThereIsNoNetworkToChange) {
-  ViewControls without(law_, nullptr);
+  ViewControls without(law_, nullptr, nullptr);
   EXPECT_EQ(without.set_network({100, 0, 0, false}),
             "this program has no simulated network to change");
   EXPECT_EQ(without.take_hand(1).hand, std::nullopt);

@@ -13,6 +13,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/tools/datagrams/first_location.hpp"
+#include "reckon/tools/datagrams/ownership_text.hpp"
 #include "reckon/tools/datagrams/restored_states.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -113,6 +114,10 @@ void append_body(std::string& out, const PduRow& row, bool full) {
     append_member(out,
                   ",\"drm\":", static_cast<unsigned>(row.entity_state->dead_reckoning.algorithm));
   if (row.restored != nullptr) append_states(out, *row.restored, full);
+  if (may_be_about_owners(row.header.pdu_type)) {
+    const std::string text = ownership_text(row.bytes);
+    if (!text.empty()) append_json_member(out, "about_owners", text);
+  }
   if (!full && row.header.pdu_type != pdu::PduType::attribute) return;
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {

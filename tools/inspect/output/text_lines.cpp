@@ -15,6 +15,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/datagrams/ownership_text.hpp"
 #include "reckon/tools/datagrams/restored_states.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -113,7 +114,8 @@ void append_record(std::string& out, const pdu::EnergyAccountRecord& record) {
 }
 
 void append_record(std::string& out, const pdu::OwnershipRecord& record) {
-  fmt::format_to(end_of(out), "owner {:08x}, version {}", record.owner, record.version);
+  fmt::format_to(end_of(out), "owner {:08x}, version {}, {}", record.owner,
+                 version_text(record.version), cause_text(record.version));
 }
 
 void append_attribute(std::string& out, const pdu::Attribute& pdu) {
@@ -222,6 +224,13 @@ class BriefFields {
   bool named_first_ = false;
 };
 
+/// What peers say about the owners of bodies.
+void append_agreement(std::string& out, const PduRow& row) {
+  if (!may_be_about_owners(row.header.pdu_type)) return;
+  const std::string text = ownership_text(row.bytes);
+  if (!text.empty()) out.append("; ").append(text);
+}
+
 void append_brief(std::string& out, const PduRow& row) {
   if (row.entity_state != nullptr) return append_entity_state(out, *row.entity_state);
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
@@ -230,6 +239,7 @@ void append_brief(std::string& out, const PduRow& row) {
     } else {
       BriefFields brief(out, pdu);
       fields(brief, pdu);
+      append_agreement(out, row);
     }
   });
 }

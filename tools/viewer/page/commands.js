@@ -34,4 +34,5 @@ export const COMMANDS = {
   askHand: () => command(8),
   giveHand: () => command(9),
   follow: (slot) => command(10, ['u16', slot]),
+  goAlone: () => command(11),
 };

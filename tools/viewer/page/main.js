@@ -15,6 +15,7 @@ import { Plots } from './plots.js';
 import { PointerHand } from './pointer_hand.js';
 import { Recorder } from './recorder.js';
 import { Replay } from './replay.js';
+import { RestPanel } from './rest_panel.js';
 import { download, savePage } from './saving.js';
 import { Server } from './server.js';
 import { Stage } from './stage.js';
@@ -45,6 +46,7 @@ class Page {
     this.hand = new PointerHand(this.stage, tell, say);
     this.felt = new FeltHand(this);
     this.network = new NetworkPanel(tell, say);
+    this.rest = new RestPanel(tell, say);
     this.steering = new Steering(this);
     this.status = new Status(this);
     this.terms = new Terms();
@@ -69,6 +71,7 @@ class Page {
     this.least = Infinity;
     this.filled.clear();
     this.moment.reset();
+    this.rest.show(false);
     this.stage.auto.forget();
     this.recorder.clear();
     this.plots.clear();
@@ -132,6 +135,10 @@ class Page {
         moment.numbers = message;
         byId('twins').hidden = !message.twin;
         if (message.span && this.source instanceof Server) this.timeLine.setSpan(message.span);
+      },
+      bodies: () => {
+        moment.owners = message.owners ?? [];
+        this.rest.show(message.rests === true);
       },
       note: () => this.log.say(message.text, message.level),
       play: () => this.timeLine.play(message),

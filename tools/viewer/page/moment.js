@@ -7,6 +7,7 @@ import { NONE } from './picture.js';
 import { reachOf } from './solid_shapes.js';
 
 const MARKING = 11; // letters of a marking
+const BODY_ID = '65534:1:'; // of body k, which ends in k + 1
 
 export class Moment {
   constructor() {
@@ -31,6 +32,7 @@ export class Moment {
     this.numbers = {};
     this.isExercise = false;
     this.bodies = [];
+    this.owners = [];
     this.hello = {};
     this.geodesy = null;
     this.judge();
@@ -106,6 +108,9 @@ export class Moment {
 
   // The body of the scene that an entity is, by its name.
   bodyOf({ marking }) { return this.touch.solids.find(({ name, body }) => body !== undefined && marking && name?.slice(0, MARKING) === marking); }
+
+  // The owner of the body of the scene that an entity is, by its ID; else undefined.
+  ownerOf(row) { return row?.id?.startsWith(BODY_ID) ? this.owners[Number(row.id.slice(BODY_ID.length)) - 1] : undefined; }
 
   // Radius of an entity [m]: of its force model, or of the body of the scene that it is; else null.
   radiusOf(row) {

@@ -5,7 +5,7 @@
 
 const KEPT_SECONDS = 60;
 const BUDGET = 14e6; // octets of pictures; this value and the kept types of text are the same as in saved_run
-const STATE = ['hello', 'origin', 'roster', 'touch', 'cells', 'groups'];
+const STATE = ['hello', 'origin', 'roster', 'touch', 'cells', 'groups', 'bodies'];
 
 export class Recorder {
   constructor(budget = BUDGET) {

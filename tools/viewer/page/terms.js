@@ -41,6 +41,9 @@ export const TERMS = {
   heading: 'Where the nose points: degrees from north, by east.',
   'last update': 'Time since the last state of this entity came, and why it was sent.',
   owner: 'The program that sends this entity, and the address that its messages come from.',
+  version: 'Counts the owners of this body: how often the peers have given bodies of failed owners away, and the hand-overs since.',
+  'hand-overs': 'How often this body has changed its owner since the program joined, and why it last did. Granted: by its former owner. Adopted: its former owner failed or left. Founded: it is the first owner.',
+  'go on alone': 'This program takes all bodies and moves them. When the other peers are received again, the older group keeps its bodies.',
   camera: 'On: the camera keeps everything in the picture, or the entity that you follow. Moving the picture switches it off, and so does zooming among several entities.',
   scale: 'This length in the middle of the picture. The arrow points north.',
   // Marks of the pictures, by their names in the list of drawn things.

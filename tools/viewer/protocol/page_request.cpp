@@ -100,6 +100,7 @@ std::optional<PageRequest> network(Reader in) noexcept {
 std::optional<PageRequest> take_hand(Reader) noexcept { return TakeHandRequest{}; }
 std::optional<PageRequest> give_hand(Reader) noexcept { return GiveHandRequest{}; }
 std::optional<PageRequest> follow(Reader in) noexcept { return FollowRequest{in.u16()}; }
+std::optional<PageRequest> go_alone(Reader) noexcept { return GoAloneRequest{}; }
 
 /// THE list of requests: the first octet of the message, and its length.
 struct Kind {
@@ -107,7 +108,7 @@ struct Kind {
   std::size_t length;
   Read read;
 };
-constexpr std::array<Kind, 10> kKinds{{{1, 5, drawn},
+constexpr std::array<Kind, 11> kKinds{{{1, 5, drawn},
                                        {2, 9, seek},
                                        {3, 5, speed},
                                        {4, 1, live},
@@ -116,7 +117,8 @@ constexpr std::array<Kind, 10> kKinds{{{1, 5, drawn},
                                        {7, 14, network},
                                        {8, 1, take_hand},
                                        {9, 1, give_hand},
-                                       {10, 3, follow}}};
+                                       {10, 3, follow},
+                                       {11, 1, go_alone}}};
 
 }  // namespace
 
@@ -131,7 +133,8 @@ bool changes_exercise(const PageRequest& request) noexcept {
   return std::holds_alternative<PointerRequest>(request) ||
          std::holds_alternative<NetworkRequest>(request) ||
          std::holds_alternative<TakeHandRequest>(request) ||
-         std::holds_alternative<GiveHandRequest>(request);
+         std::holds_alternative<GiveHandRequest>(request) ||
+         std::holds_alternative<GoAloneRequest>(request);
 }
 
 }  // namespace reckon::tools

@@ -46,6 +46,8 @@ struct NetworkRequest {
 };
 struct TakeHandRequest {};
 struct GiveHandRequest {};
+/// Lets the bodies go on without the peers that are missing.
+struct GoAloneRequest {};
 /// Selects the entity whose cells are lit.
 struct FollowRequest {
   std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: none
@@ -53,7 +55,7 @@ struct FollowRequest {
 
 using PageRequest =
     std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
-                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest>;
+                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest, GoAloneRequest>;
 
 /// The request in a message; none if it is no request, has another length, or a number in it is not
 /// finite or out of its range.

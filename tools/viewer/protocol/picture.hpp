@@ -92,6 +92,7 @@ struct ToolMark {
 struct BodyMark {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  bool carried = false;  ///< by what is received of its owner; not sent to the page
 };
 
 /// A contact between two entities, as a listener computes it.

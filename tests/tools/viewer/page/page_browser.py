@@ -13,6 +13,7 @@
   twin    what a hand would feel without the gate: the same without delay, thrown about at 150 ms with 20 % loss, and said
   tour    the tour goes through its five steps by what its user does, and does not come back once left
   peer    a peer lends its own hand: it goes where the pointer goes
+  rest    the owner of the bodies is killed: the other peer's bodies rest, and go on by the button, which a tab without the word lacks
   recording  a capture opens with touch large, holds its last moment with somebody in it, and has axes of its own length
   empty   a world in which nobody sends says what to do
   lost    a program that ends is told, and is found again at the same port; a tab with the old word says so
@@ -326,6 +327,29 @@ def peer(reckon, scenes):
         shows_no_fault(page)
 
 
+def rest(reckon, scenes):
+    flags = (f"{scenes}/cubes.toml", "--iface", "lo", "--for", "10min", "--operator")
+    owner = subprocess.Popen([reckon, "peer", *flags, "1", "--json"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    with browser() as page, program(reckon, "peer", *flags, "2", "--view=0") as started:
+        try:
+            page.open(started.address)
+            page.wait("document.querySelectorAll('#table tbody tr:not([hidden])').length >= 6", "six cubes")
+            page.driver.execute_script("[...document.querySelectorAll('#table tbody tr')].find((row) => row.textContent.startsWith('cube')).click()")
+            page.wait("document.getElementById('card').textContent.includes('founded')", "the card of a cube says who owns it")
+            page.wait("window.reckon.numbers.peers !== undefined", "the owner is received")
+        finally:
+            owner.kill()
+            owner.wait()
+        page.wait(rests := "document.getElementById('rest').offsetWidth > 0", "the bodies rest")
+        page.open(started.address.split("#")[0])
+        page.wait("!document.getElementById('rest').hidden && document.getElementById('rest').offsetWidth === 0", "no button without the word")
+        page.open(started.address)
+        page.wait(rests, "the button")
+        page.click("go-alone")
+        page.wait("document.getElementById('rest').hidden", "they go on")
+        shows_no_fault(page)
+
+
 def recording(reckon, scenes):
     there = "window.reckon.entities === 2 && document.getElementById('notice').hidden"
     with program(reckon, "view", f"{scenes}/exercise.pcapng", "--port", "0") as started, browser() as page:
@@ -362,7 +386,7 @@ def lost(reckon, scenes):
             page.wait("document.getElementById('push').textContent.includes('started anew') && document.getElementById('hand').hidden", "an old word is told")
 
 
-CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour, peer, recording, empty, lost)}
+CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, tour, peer, rest, recording, empty, lost)}
 
 
 def main(arguments, cases=CASES):

@@ -124,6 +124,7 @@ test('Commands have the octets of the protocol', () => {
   assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true, true)), '0601000000803f000000000000000002');
   assert.equal(hex(COMMANDS.network({ delay: 1, jitter: 0, loss: 1, outage: true })), '070000803f000000000000803f01');
   assert.deepEqual([hex(COMMANDS.askHand()), hex(COMMANDS.giveHand()), hex(COMMANDS.follow(258))], ['08', '09', '0a0201']);
+  assert.equal(hex(COMMANDS.goAlone()), '0b');
 });
 
 // A canvas that is touched: what a hand and a camera were told.

@@ -56,6 +56,16 @@ test('A sentence says what is seen', () => {
   assert.equal(sentence(new Moment(), 'world', null), '');
 });
 
+test('An entity is the body of its ID, whoever owns it', () => {
+  const moment = new Moment();
+  moment.owners = [{ owner: '1:1' }, { owner: '1:2' }];
+  assert.equal(moment.ownerOf({ id: '65534:1:2' }).owner, '1:2');
+  for (const id of ['65534:1:3', '65534:1:0', '1:1:2', '65534:12:1']) assert.equal(moment.ownerOf({ id }), undefined, id);
+  assert.equal(moment.ownerOf(undefined), undefined);
+  moment.reset();
+  assert.equal(moment.ownerOf({ id: '65534:1:2' }), undefined);
+});
+
 test('Each mark and each plot has its words', () => {
   for (const { name } of DRAWN) assert.ok(TERMS[name]?.length > 20, name);
   for (const { name, good } of PLOTS) assert.ok(TERMS[name === 'delay' ? 'delay and loss' : name] && good.length < 62, name);

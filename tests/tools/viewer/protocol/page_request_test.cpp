@@ -49,6 +49,7 @@ TEST(PageRequest, IsReadOfEachKind) {
   EXPECT_TRUE(std::holds_alternative<TakeHandRequest>(*read_page_request(message(8))));
   EXPECT_TRUE(std::holds_alternative<GiveHandRequest>(*read_page_request(message(9))));
   EXPECT_EQ(std::get<FollowRequest>(*read_page_request(message(10, std::uint16_t{5}))).slot, 5);
+  EXPECT_TRUE(std::holds_alternative<GoAloneRequest>(*read_page_request(message(11))));
 }
 
 TEST(PageRequest, RefusesInvalidAndOutOfRangeNumbers) {
@@ -76,7 +77,7 @@ TEST(PageRequest, RefusesEveryOtherLengthAndKind) {
     EXPECT_FALSE(read_page_request(std::span(pointer).first(size)).has_value()) << size;
   EXPECT_FALSE(read_page_request(message(4, kOn)).has_value());
   EXPECT_FALSE(read_page_request(message(0)).has_value());
-  EXPECT_FALSE(read_page_request(message(11)).has_value());
+  EXPECT_FALSE(read_page_request(message(12)).has_value());
 }
 
 TEST(PageRequest, PointerNetworkAndHandsChangeTheExercise) {
@@ -84,6 +85,7 @@ TEST(PageRequest, PointerNetworkAndHandsChangeTheExercise) {
   EXPECT_TRUE(changes_exercise(NetworkRequest{}));
   EXPECT_TRUE(changes_exercise(TakeHandRequest{}));
   EXPECT_TRUE(changes_exercise(GiveHandRequest{}));
+  EXPECT_TRUE(changes_exercise(GoAloneRequest{}));
   EXPECT_FALSE(changes_exercise(SeekRequest{}));
   EXPECT_FALSE(changes_exercise(FollowRequest{}));
 }
