@@ -283,7 +283,7 @@ FederateBodies& Federate::bodies() noexcept {
   return participation_->bodies;
 }
 
-void Federate::go_alone() { participation_->wishes().go_alone = true; }
+void Federate::go_alone() { participation_->joined.peer().go_alone(); }
 
 // Interactions ------------------------------------------------------------------------------------
 

@@ -64,7 +64,6 @@ void LoopSide::send(Wishes& wishes, ModelLoop& loop) {
 
 // Orders of one step take effect together, as far as one transaction holds them.
 void LoopSide::order_bodies(Wishes& wishes, OwnershipStage& owners) {
-  if (wishes.go_alone) owners.go_alone();
   for (const Wishes::Own& wish : wishes.owned)
     wish.acquire ? owners.acquire(wish.body) : owners.divest(wish.body);
   std::vector<std::uint32_t>& refused = news_.letter().refused;

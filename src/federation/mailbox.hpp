@@ -63,11 +63,10 @@ struct Wishes {
   std::vector<std::byte> octets;
   std::vector<Own> owned;
   std::vector<haptics::BodyOrder> orders;
-  bool go_alone = false;
 
   [[nodiscard]] bool empty() const noexcept {
     return registered.empty() && moved.empty() && appearances.empty() && parts.empty() &&
-           removed.empty() && said.empty() && owned.empty() && orders.empty() && !go_alone;
+           removed.empty() && said.empty() && owned.empty() && orders.empty();
   }
   void clear() noexcept {
     registered.clear();
@@ -79,7 +78,6 @@ struct Wishes {
     octets.clear();
     owned.clear();
     orders.clear();
-    go_alone = false;
   }
 };
 

@@ -89,8 +89,13 @@ Taking::Incoming* Taking::incoming_of(const Grant& grant, std::uint32_t from, na
     return incoming.transaction == grant.transaction && incoming.from == from;
   });
   if (known != incoming_.end()) return &*known;
-  Incoming& room = *std::ranges::min_element(incoming_, {}, &Incoming::heard);
-  if (room.from != 0 && now - room.heard < kTake) return nullptr;
+  // The table refuses the repetition of a grant that was taken.
+  const auto free = std::ranges::find_if(incoming_, [now](const Incoming& incoming) {
+    const bool is_taken = incoming.arrived.any() && incoming.arrived == incoming.objects;
+    return incoming.from == 0 || is_taken || now - incoming.heard >= kTake;
+  });
+  if (free == incoming_.end()) return nullptr;
+  Incoming& room = *free;
   room = {};
   room.transaction = grant.transaction;
   room.from = from;

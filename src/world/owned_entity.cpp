@@ -10,6 +10,7 @@
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -22,6 +23,7 @@ using std::chrono::nanoseconds;
 // which quickly repairs a loss. A felt change cannot wait as long as a visible one.
 constexpr double kFirstRepeatFelt = 0.2;
 constexpr double kFirstRepeat = 1.0;
+constexpr double kFirstRepeatBody = 0.05;  // its motion has steps, and a lost one is seen at once
 // Accounts alone cause at most one packet in this time. The next repetition repairs a loss, because
 // accounts are totals, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
@@ -62,9 +64,10 @@ double heartbeat_of(const EntityDescription& description) {
 
 deadreckon::UpdatePolicy policy_of(const EntityDescription& description, const pdu::EntityId& id) {
   const double heartbeat = heartbeat_of(description);
+  const double visible = body_of(description.type) ? kFirstRepeatBody : kFirstRepeat;
   deadreckon::UpdatePolicy policy(description.dead_reckoning.thresholds,
                                   deadreckon::jittered_heartbeat(heartbeat, id),
-                                  description.model ? kFirstRepeatFelt : kFirstRepeat,
+                                  description.model ? kFirstRepeatFelt : visible,
                                   *description.dead_reckoning.rule, deadreckon::kEventRepeat);
   if (description.model || heartbeat < kLeastAligned) return policy;
   const deadreckon::HeartbeatGrid grid = deadreckon::heartbeat_grid(heartbeat, id.simulation());

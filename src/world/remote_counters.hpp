@@ -17,6 +17,8 @@ struct RemoteCounters {
             counters.make("touch_refused", "force models of senders that `touch` does not permit")),
         bodies_disputed(counters.make("bodies_disputed",
                                       "states of the scene's bodies from others than their owner")),
+        bodies_early(counters.make(
+            "bodies_early", "states of the scene's bodies from an owner that is not known yet")),
         bodies_stale(counters.make(
             "bodies_stale", "states of the scene's bodies of an older version of ownership")),
         reserved(counters.make("reserved_ids_in",
@@ -43,6 +45,7 @@ struct RemoteCounters {
   Counter& refused_models;
   Counter& untouchables;
   Counter& bodies_disputed;
+  Counter& bodies_early;
   Counter& bodies_stale;
   Counter& reserved;
   Counter& stale;

@@ -27,9 +27,9 @@ constexpr double kKnock = 0.1;  // [m/s]
 
 // A body of the scene that was knocked moves on at its new speed at once: its velocity had a step.
 deadreckon::Pose knocked(const RemoteEntity& row, deadreckon::Pose shown,
-                         const deadreckon::Pose& after) noexcept {
+                         const deadreckon::Pose& before, const deadreckon::Pose& after) noexcept {
   const bool is_body = aoim::BodyOwners::are_for(row.id);
-  if (!is_body || (after.velocity - shown.velocity).norm() < kKnock) return shown;
+  if (!is_body || (after.velocity - before.velocity).norm() < kKnock) return shown;
   shown.velocity = after.velocity;
   shown.angular_velocity = after.angular_velocity;
   return shown;
@@ -81,7 +81,7 @@ RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
   if (is_adaptive_) note_history(row, place, expected, abrupt || other_model);
   if (known) {
     note_jump(row, before, after, servo);
-    row.convergence.restart(settings_.convergence.settings, knocked(row, shown, after),
+    row.convergence.restart(settings_.convergence.settings, knocked(row, shown, before, after),
                             row.expected(after, at.now), pdu::to_seconds(at.now));
   }
   if (abrupt) snap(row);

@@ -3,11 +3,32 @@
 #include "reckon/peer/world/scene_bodies.hpp"
 
 namespace reckon::peer {
+namespace {
+
+constexpr std::chrono::seconds kEarly{1};
+
+}  // namespace
+
+// A new owner may be received before what made it the owner.
+bool SceneBodies::is_early(const Inbound& update, const Arrival& arrival,
+                           const aoim::BodyOwnership& owner) noexcept {
+  const std::size_t body = update.entity.entity - 1u;
+  const bool is_newer = update.ownership->version > owner.version;
+  if (!is_newer || body >= early_.size() ||
+      presence_.standing(arrival.epoch, &arrival.from) != aoim::Standing::member)
+    return false;
+  Early& early = early_[body];
+  if (early.epoch != arrival.epoch || arrival.now - early.last > kEarly)
+    early = {arrival.epoch, arrival.now, arrival.now};
+  early.last = arrival.now;
+  return arrival.now - early.since < kEarly;
+}
 
 bool SceneBodies::admits(const Inbound& update, const Arrival& arrival) noexcept {
   const aoim::BodyOwnership owner = owners_->of(update.entity);
   const bool is_named = update.ownership && update.ownership->owner == arrival.epoch;
   if (!is_named || arrival.epoch == 0 || owner.epoch != arrival.epoch) {
+    if (is_named && is_early(update, arrival, owner)) return counts_.bodies_early.add(), false;
     counts_.bodies_disputed.add();
     last_disputed_ = {update.entity, arrival.from};
     return false;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 
 #include "reckon/aoim/groups/body_owners.hpp"
@@ -57,10 +58,18 @@ class SceneBodies {
   [[nodiscard]] const Untouchable& last_disputed() const noexcept { return last_disputed_; }
 
  private:
+  struct Early {
+    std::uint32_t epoch = 0;
+    std::chrono::nanoseconds since{0}, last{0};
+  };
+  [[nodiscard]] bool is_early(const Inbound& update, const Arrival& arrival,
+                              const aoim::BodyOwnership& owner) noexcept;
+
   const aoim::BodyOwners* owners_;
   const aoim::Presence& presence_;
   const RemoteCounters& counts_;
   std::array<aoim::BodyOwnership, aoim::BodyOwners::kMost> recorded_{};
+  std::array<Early, aoim::BodyOwners::kMost> early_{};
   Untouchable last_disputed_;
 };
 

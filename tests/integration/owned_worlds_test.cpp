@@ -69,8 +69,8 @@ TEST(OwnedBodies, AreShownRightAtAKnock) {
     exercise.network().impair(line_of(milliseconds(delay), {}, 0.0));
     exercise.start_all();
     exercise.run(3000);
-    ASSERT_TRUE(exercise.owners(0).order(placed(0, {-0.15, 0, 0.02}, {1.0, 0, 0})));
-    exercise.run(120);
+    ASSERT_TRUE(exercise.owners(0).order(placed(0, {-0.45, 0, 0.02}, {1.0, 0, 0})));
+    exercise.run(400);
     double worst = 0.0, later = 0.0, knock = 0.0, last = exercise.body(0, 1).velocity.norm();
     int since = -1000;
     for (int t = 0; t < 400; ++t) {
