@@ -108,11 +108,11 @@ class Peer {
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// One pass of the model loop. `utc` is the same instant as `now`.
   void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
-    const bool is_leaving = leaving_.begun.load(std::memory_order_relaxed);
+    const bool is_leaving = words_.leaves.load(std::memory_order_relaxed);
     if (is_leaving) model_.ownership().leave();
     model_.step(now, utc);
-    if (is_leaving) leaving_.done.store(model_.ownership().has_left(), std::memory_order_release);
-    if (goes_alone_.load(std::memory_order_relaxed) && goes_alone_.exchange(false))
+    if (is_leaving) words_.has_left.store(model_.ownership().has_left(), std::memory_order_release);
+    if (words_.goes_alone.load(std::memory_order_relaxed) && words_.goes_alone.exchange(false))
       model_.ownership().go_alone();
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
@@ -151,10 +151,10 @@ class Peer {
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
   /// Gives its bodies to other peers, from the next model_step() on. Step on until has_left(), at
   /// most for Ownership::kLeaving, before stop(). Any thread.
-  void begin_leaving() noexcept { leaving_.begun.store(true, std::memory_order_relaxed); }
+  void begin_leaving() noexcept { words_.leaves.store(true, std::memory_order_relaxed); }
   /// Whether begin_leaving() was called and no other peer waits for this one. Any thread.
   [[nodiscard]] bool has_left() const noexcept {
-    return leaving_.done.load(std::memory_order_acquire);
+    return words_.has_left.load(std::memory_order_acquire);
   }
 
   /// The software stop: takes the force off all its hands while it is pressed, from the next servo
@@ -163,7 +163,7 @@ class Peer {
 
   /// Goes on without the peers that are not received, by the user's word: see
   /// OwnershipStage::go_alone(). Any thread; the next pass of the model loop does it.
-  void go_alone() noexcept { goes_alone_.store(true); }
+  void go_alone() noexcept { words_.goes_alone.store(true); }
 
   /// Newest view of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
@@ -222,14 +222,13 @@ class Peer {
     std::chrono::nanoseconds period, time{0};
   };
   std::vector<ServoDue> servo_due_;
-  struct Leaving {
-    std::atomic<bool> begun{false}, done{false};
+  struct Words {
+    std::atomic<bool> leaves{false}, has_left{false}, goes_alone{false};
   };
-  Leaving leaving_;
+  Words words_;  // to and from the model loop
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;
-  std::atomic<bool> goes_alone_{false};
 };
 
 }  // namespace reckon::peer

@@ -98,7 +98,8 @@ void BodyStage::leave(const haptics::BodyEnd& end, const Pass& pass,
 
 void BodyStage::note_place(std::size_t body, const pdu::EntityState& state) noexcept {
   deadreckon::KinematicState motion;
-  const bool is_good = deadreckon::from_wire(state, frame_, motion) == deadreckon::ConversionError::none;
+  const bool is_good =
+      deadreckon::from_wire(state, frame_, motion) == deadreckon::ConversionError::none;
   if (is_good && body < stated_.size()) stated_[body] = Stated{motion.position, motion.orientation};
 }
 

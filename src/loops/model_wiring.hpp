@@ -44,9 +44,9 @@ struct ModelWiring {
   DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
   haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< for the read loop; may be null
-  haptics::BodyWorld* bodies = nullptr;  ///< of the scene; may be null
-  SteppedBodies* stepped = nullptr;      ///< bodies that no servo steps; may be null
-  BodyMover* mover = nullptr;            ///< moves carried objects; may be null
+  haptics::BodyWorld* bodies = nullptr;                  ///< of the scene; may be null
+  SteppedBodies* stepped = nullptr;  ///< bodies that no servo steps; may be null
+  BodyMover* mover = nullptr;        ///< moves carried objects; may be null
   /// Fault reports of the program's own effects, from the servos.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
   std::span<const NamedHooks> mechanisms = {};  ///< of the program; only for the construction

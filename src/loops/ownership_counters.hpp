@@ -15,8 +15,9 @@ class OwnershipCounters {
       : granted_(counters.make("bodies_granted", "bodies given to other peers")),
         taken_(counters.make("bodies_taken", "bodies granted to this peer")),
         adopted_(counters.make("bodies_adopted", "bodies of failed or departed owners taken over")),
-        refused_(counters.make("ownership_refused",
-                               "grants and owners refused: old, not asked for, or without witness")),
+        refused_(
+            counters.make("ownership_refused",
+                          "grants and owners refused: old, not asked for, or without witness")),
         released_(counters.make("bodies_released", "bodies whose grant had no answer")),
         merged_(counters.make("worlds_merged", "worlds of owners left for an older one")) {}
 

@@ -17,12 +17,6 @@ using std::chrono::nanoseconds;
 
 // Between two steps of the protocol while nothing arrives.
 constexpr nanoseconds kStep = milliseconds(20);
-constexpr double kLongestTransit = 0.5;  // [s] that a granted state is extrapolated
-constexpr double kSeenJump = 0.001;      // [m]
-constexpr double kUsualOff = 0.005;      // [m]
-// The new owner of a body that we gave away states it within this time, or it stands still.
-constexpr nanoseconds kSilence = milliseconds(500);
-
 std::size_t moving_in(const SceneFile& scene) {
   const auto moving = std::ranges::count_if(scene.scene.objects, [](const auto& object) {
     return object.carried || object.matter.mass > 0;
@@ -46,20 +40,6 @@ OwnershipConfig config_of(const ModelWiring& wiring, const ModelIdentity& identi
   return config;
 }
 
-ObjectState state_of(const haptics::ObjectMotion& motion, nanoseconds utc) noexcept {
-  ObjectState state;
-  state.utc = utc;
-  for (int i = 0; i < 3; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    state.position[place] = motion.position[i];
-    state.velocity[place] = motion.velocity[i];
-    state.turn_rate[place] = motion.turn_rate[i];
-  }
-  state.orientation = {motion.orientation.w(), motion.orientation.x(), motion.orientation.y(),
-                       motion.orientation.z()};
-  return state;
-}
-
 }  // namespace
 
 OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& identity,
@@ -71,6 +51,8 @@ OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& i
       parts_(parts),
       is_on_(wiring.bodies != nullptr && !wiring.scene.network.interop && has_bodies(wiring.scene)),
       protocol_(config_of(wiring, identity), *this),
+      hand_overs_(wiring.bodies, protocol_, {parts.bodies, parts.owned, parts.remote},
+                  identity.epoch),
       counted_(wiring.counters),
       watch_(parts.notices) {
   if (is_on_) parts_.assured.set_user(this);
@@ -117,7 +99,8 @@ void OwnershipStage::note_state(const Inbound& update, const Arrival& arrival) n
 void OwnershipStage::note_claim(std::size_t body, const Tenure& stated,
                                 const pdu::OwnershipRecord& record,
                                 const Arrival& arrival) noexcept {
-  const bool is_of_ours = !protocol_.acts().exists() || record.world == world_number();
+  const bool is_of_ours =
+      !protocol_.acts().exists() || record.world == number_of(protocol_.world());
   const aoim::Presence& presence = parts_.aoim.presence();
   if (!is_of_ours || presence.standing(arrival.epoch, &arrival.from) != aoim::Standing::member)
     return;
@@ -137,7 +120,7 @@ void OwnershipStage::note_claim(std::size_t body, const Tenure& stated,
 // Questions of the protocol
 
 bool OwnershipStage::may_take(std::size_t object, std::uint32_t epoch) {
-  if (epoch == epoch_) return parts_.bodies.is_body(object) && world_->can_own(object);
+  if (epoch == epoch_) return hand_overs_.can_own(object);
   const auto id = parts_.aoim.presence().id_of(epoch);
   const auto source = parts_.aoim.presence().source_of(epoch);
   return id && source && parts_.remote.touch().admits(*id, true, *source);
@@ -179,130 +162,9 @@ std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
 void OwnershipStage::take_events() noexcept {
   for (const OwnershipEvent& event : protocol_.events()) {
     watch_.note(event);
-    if (event.kind == OwnershipEvent::Kind::gained) {
-      if (event.cause == OwnerChange::granted) granted_ |= event.objects;
-    } else if (event.kind == OwnershipEvent::Kind::lost) {
-      granted_ &= ~event.objects;
-    } else if (event.kind == OwnershipEvent::Kind::yield) {
-      const auto free = std::ranges::find(yields_, 0U, &Yield::transaction);
-      // The protocol has no more transactions than there are places.
-      if (free != yields_.end()) *free = {event.transaction, 0, event.objects};
-    }
+    hand_overs_.note(event);
   }
   protocol_.clear_events();
-}
-
-// A body that this peer does not simulate, because it has no lease, is given as it stands.
-void OwnershipStage::send_yields() noexcept {
-  std::array<haptics::BodyOrder, haptics::BodyExchange::kMostOrders> orders{};
-  for (Yield& yield : yields_) {
-    if (yield.transaction == 0 || yield.serial != 0) continue;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < yield.objects.size() && count < orders.size(); ++i) {
-      if (!yield.objects[i]) continue;
-      const haptics::ObjectMotion motion = parts_.bodies.motion_now(i, parts_.remote, pass_.now);
-      protocol_.set_state(i, state_of(motion, pass_.utc));
-      orders[count++] = {haptics::BodyAct::disown, static_cast<std::uint32_t>(i)};
-    }
-    yield.serial = world_->exchange().send(std::span(orders).first(count));
-    if (yield.serial == 0) return;
-    for (std::size_t i = 0; i < yield.objects.size(); ++i) {
-      if (yield.objects[i]) sent_[i] = yield.serial;
-    }
-  }
-}
-
-void OwnershipStage::take_ends() noexcept {
-  haptics::BodyEnd end;
-  while (world_->exchange().take_end(end)) {
-    const auto yield = std::ranges::find(yields_, end.serial, &Yield::serial);
-    if (yield == yields_.end()) continue;
-    yield->objects.reset(end.body);
-    if (!end.was_owned) continue;
-    const nanoseconds utc = pass_.utc - (pass_.now - end.time);
-    ObjectState state = state_of(end.state, utc);
-    const Eigen::Vector3d& acceleration = parts_.bodies.acceleration_of(end.body);
-    std::ranges::copy(acceleration, state.acceleration.begin());
-    protocol_.set_state(end.body, state);
-    parts_.bodies.leave(end, pass_, own_record(end.body), parts_.owned, parts_.remote);
-    left_at_[end.body] = pass_.now;
-  }
-}
-
-void OwnershipStage::finish_yields() noexcept {
-  for (Yield& yield : yields_) {
-    if (yield.transaction == 0 || yield.serial == 0 || yield.objects.any()) continue;
-    protocol_.yielded(yield.transaction, pass_.now);
-    yield = {};
-  }
-}
-
-// The state of a grant, moved on by the time since. A body that is shown a little elsewhere goes on
-// from there, so that nobody sees it jump.
-haptics::ObjectMotion OwnershipStage::granted_motion(std::size_t object) const noexcept {
-  const ObjectState& state = protocol_.granted_state(object);
-  haptics::ObjectMotion motion;
-  motion.position = {state.position[0], state.position[1], state.position[2]};
-  motion.orientation = Eigen::Quaterniond(state.orientation[0], state.orientation[1],
-                                          state.orientation[2], state.orientation[3]);
-  motion.velocity = {state.velocity[0], state.velocity[1], state.velocity[2]};
-  motion.turn_rate = {state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]};
-  const double age = std::clamp(pdu::to_seconds(pass_.utc - state.utc), 0.0, kLongestTransit);
-  const Eigen::Vector3d acceleration(state.acceleration[0], state.acceleration[1],
-                                     state.acceleration[2]);
-  motion.position += age * motion.velocity + 0.5 * age * age * acceleration;
-  motion.velocity += age * acceleration;
-  const double angle = age * motion.turn_rate.norm();
-  if (angle > 0.0) {
-    const Eigen::AngleAxisd turn(angle, motion.turn_rate.normalized());
-    motion.orientation = (turn * motion.orientation).normalized();
-  }
-  const RemoteEntity* row = parts_.remote.find(body_id(object));
-  if (row == nullptr) return motion;
-  const haptics::ObjectMotion shown = peer::motion_of(row->shown(pass_.now));
-  const double off = (shown.position - motion.position).norm();
-  // What dead reckoning without acceleration misses until the grant arrives, also after a lost
-  // update, and some thresholds.
-  const double usual = kUsualOff + 0.5 * acceleration.norm() * 9 * age * age;
-  if (off > kSeenJump && off < usual) motion.position = shown.position;
-  return motion;
-}
-
-haptics::BodyOrder OwnershipStage::order_for(std::size_t body, bool owns) noexcept {
-  haptics::BodyOrder order;
-  order.body = static_cast<std::uint32_t>(body);
-  order.act = owns ? haptics::BodyAct::own : haptics::BodyAct::disown;
-  if (owns) {
-    order.state = granted_[body] ? granted_motion(body)
-                                 : parts_.bodies.motion_now(body, parts_.remote, pass_.now);
-  }
-  granted_.reset(body);
-  return order;
-}
-
-// The world simulates what this peer may move now, and nothing else.
-void OwnershipStage::send_orders() noexcept {
-  const haptics::BodyStates* all = parts_.bodies.states();
-  if (all == nullptr) return;
-  std::array<haptics::BodyOrder, haptics::BodyExchange::kMostOrders> orders{};
-  std::size_t count = 0;
-  const auto flush = [&] {
-    const std::uint64_t serial = world_->exchange().send(std::span(orders).first(count));
-    for (const haptics::BodyOrder& order : std::span(orders).first(count))
-      sent_[order.body] = serial;
-    count = 0;
-    return serial != 0;
-  };
-  const std::size_t size = std::min(protocol_.table().size(), all->bodies.size());
-  for (std::size_t i = 0; i < size; ++i) {
-    const bool owns = protocol_.owns(i, pass_.now);
-    const bool is_done = owns != all->bodies[i].carried;
-    const bool is_on_its_way = sent_[i] > all->serial;
-    if (is_done || is_on_its_way || (owns && !may_take(i, epoch_))) continue;
-    orders[count++] = order_for(i, owns);
-    if (count == orders.size() && !flush()) return;
-  }
-  if (count > 0) flush();
 }
 
 // Out
@@ -318,20 +180,6 @@ aoim::PeerId OwnershipStage::owner_id_of(std::size_t body) const noexcept {
   return owner == epoch_ ? presence.id() : presence.id_of(owner).value_or(aoim::PeerId{});
 }
 
-std::uint32_t OwnershipStage::world_number() const noexcept {
-  const WorldId& world = protocol_.world();
-  const std::uint64_t both = std::uint64_t{world.founded} << 32 | world.founder;
-  return static_cast<std::uint32_t>(pdu::split_mix(both) >> 32 | 1U);
-}
-
-pdu::OwnershipRecord OwnershipStage::own_record(std::size_t body) const noexcept {
-  pdu::OwnershipRecord record;
-  record.owner = epoch_;
-  record.version = protocol_.tenure(body).version;
-  record.world = world_number();
-  return record;
-}
-
 void OwnershipStage::name_owners() noexcept {
   for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
     const Tenure& owner = owner_of(i);
@@ -339,11 +187,11 @@ void OwnershipStage::name_owners() noexcept {
     note_owner(i, owner);
     if (i >= states().size()) continue;
     const bool is_ours = protocol_.owns(i, pass_.now) && !states()[i].carried;
-    pdu::OwnershipRecord record = own_record(i);
+    pdu::OwnershipRecord record = hand_overs_.own_record(i);
     if (!is_ours) record.owner = 0;
     if (!parts_.bodies.set_own(i, record, parts_.owned)) continue;
     parts_.remote.forget(body_id(i));
-    left_at_[i] = nanoseconds(0);
+    hand_overs_.begin_own(i);
   }
 }
 
@@ -365,16 +213,6 @@ void OwnershipStage::show(PeerView& view) const noexcept {
     BodyOwnerView& row = view.body_owners[i] = shown_[i];
     row.is_ours = row.epoch == epoch_;
     row.owner = owner_id_of(i);
-  }
-}
-
-// Only our last state shows a body whose new owner failed at once.
-void OwnershipStage::doubt_left() noexcept {
-  for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
-    if (left_at_[i] == nanoseconds(0) || pass_.now - left_at_[i] < kSilence) continue;
-    left_at_[i] = nanoseconds(0);
-    const RemoteEntity* row = parts_.remote.find(body_id(i));
-    if (row != nullptr && row->epoch == epoch_) parts_.remote.doubt(body_id(i), pass_.now);
   }
 }
 
@@ -441,14 +279,12 @@ void OwnershipStage::go_alone() noexcept {
 void OwnershipStage::step(const Pass& pass) noexcept {
   pass_ = pass;
   if (!is_on_) return;
-  take_ends();
-  finish_yields();
+  hand_overs_.take_answers(pass);
   protocol_.step(pass.now);
   take_events();
-  send_yields();
-  send_orders();
+  hand_overs_.send_orders(pass);
   name_owners();
-  doubt_left();
+  hand_overs_.doubt_left(pass.now);
   send_messages();
   watch_.look(protocol_, pass.now);
   counted_.publish(protocol_.counts());

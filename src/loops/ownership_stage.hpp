@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs the protocol of ownership for the bodies of the scene: takes and sends its messages, lets the
-// world simulate the bodies that this peer owns, and names the owner of each body.
+// Runs the protocol of ownership for the bodies of the scene: takes and sends its messages, lets
+// the world simulate the bodies that this peer owns, and names the owner of each body.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/peer/loops/assured_stage.hpp"
+#include "reckon/peer/loops/body_hand_overs.hpp"
 #include "reckon/peer/loops/body_stage.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/ownership_counters.hpp"
@@ -62,8 +63,8 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   void divest(std::size_t body);
   /// Simulation address of the peer that waits longest for a body that this peer keeps; 0:0: none.
   [[nodiscard]] aoim::PeerId asker_of(std::size_t body) const noexcept;
-  /// Sends an order of the program to the world; it has an effect if this peer owns the body. False:
-  /// too many orders wait.
+  /// Sends an order of the program to the world; it has an effect if this peer owns the body.
+  /// False: too many orders wait.
   bool order(const haptics::BodyOrder& order) noexcept { return this->order(std::span(&order, 1)); }
   /// The same for at most kMostOrders orders, which take effect together.
   bool order(std::span<const haptics::BodyOrder> orders) noexcept;
@@ -95,12 +96,6 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  // Bodies that this peer stops simulating in order to give them away.
-  struct Yield {
-    std::uint32_t transaction = 0;  // 0: none
-    std::uint64_t serial = 0;       // of the orders; 0: not sent yet
-    ObjectSet objects;              // without an answer
-  };
 
   [[nodiscard]] bool may_take(std::size_t object, std::uint32_t epoch) override;
   [[nodiscard]] bool is_busy(std::size_t object) override;
@@ -112,20 +107,11 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
                   const Arrival& arrival) noexcept;
   void take_events() noexcept;
-  void take_ends() noexcept;
-  void send_yields() noexcept;
-  void finish_yields() noexcept;
-  void send_orders() noexcept;
-  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) noexcept;
-  [[nodiscard]] haptics::ObjectMotion granted_motion(std::size_t object) const noexcept;
-  [[nodiscard]] pdu::OwnershipRecord own_record(std::size_t body) const noexcept;
   void name_owners() noexcept;
   void note_owner(std::size_t body, const Tenure& owner) noexcept;
-  void doubt_left() noexcept;
   void send(const OutgoingMessage& message) noexcept;
   void send_messages() noexcept;
   [[nodiscard]] TransferNames names_for(std::uint32_t to) const noexcept;
-  [[nodiscard]] std::uint32_t world_number() const noexcept;
 
   const SceneFile& scene_;
   const Link& link_;  // for its address
@@ -134,15 +120,12 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   Parts parts_;
   bool is_on_;
   Ownership protocol_;
+  BodyHandOvers hand_overs_;
   OwnershipCounters counted_;
   OwnershipWatch watch_;
   Pass pass_;
-  ObjectSet granted_;  // gained in the state of a grant
-  ObjectSet kept_;     // by the program
+  ObjectSet kept_;  // by the program
   std::array<BodyOwnerView, kMostOwnable> shown_{};
-  std::array<std::uint64_t, kMostOwnable> sent_{};  // serial of the last order to a body
-  std::array<Nanoseconds, kMostOwnable> left_at_{};  // shown by its last state here; 0: not
-  std::array<Yield, 16> yields_{};
   std::array<Tenure, kMostOwnable> claims_{};  // by states, for bodies that the table lacks
   std::uint32_t half_ = 0;
   Nanoseconds next_{0};

@@ -19,9 +19,9 @@ void OwnershipWatch::note(const OwnershipEvent& event) noexcept {
         "peers that were separated own the bodies again together: the older group's bodies stand "
         "where it has them")));
   } else if (event.kind == OwnershipEvent::Kind::gained && event.cause == OwnerChange::adopted) {
-    static_cast<void>(out_.push(make_notice(NoticeKind::bodies_adopted,
-                                            "this peer owns {} bodies now: their owner failed or left",
-                                            event.objects.count())));
+    static_cast<void>(out_.push(make_notice(
+        NoticeKind::bodies_adopted, "this peer owns {} bodies now: their owner failed or left",
+        event.objects.count())));
   }
 }
 

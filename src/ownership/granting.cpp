@@ -107,8 +107,8 @@ void Granting::push_all(nanoseconds now) {
     if (voter.epoch == core_.config.epoch || !is_here) continue;
     ObjectSet batch;
     for (std::size_t i = 0; i < core_.table.size() && batch.count() < kMostHoldings; ++i) {
-      batch[i] = rows_[i].hold == Hold::owned && rows_[i].confirmed &&
-                 core_.user.may_take(i, voter.epoch);
+      batch[i] =
+          rows_[i].hold == Hold::owned && rows_[i].confirmed && core_.user.may_take(i, voter.epoch);
     }
     if (batch.any()) begin_grant(batch, voter.epoch);
   }

@@ -58,9 +58,8 @@ EncodedMessage encode(const Round& round, std::uint32_t half, RecordWriter& out)
   const bool leaves = round.yields_to == kAnyAct;
   head.flags = static_cast<std::uint8_t>(
       (round.is_decided ? pdu::kRoundDecided : 0) | (round.is_active ? pdu::kRoundActive : 0) |
-      (round.has_lease ? pdu::kRoundLease : 0) |
-      (round.follows ? pdu::kRoundFollows : 0) | (leaves ? pdu::kRoundLeaves : 0) |
-      (round.yields_to != 0 && !leaves ? pdu::kRoundYields : 0));
+      (round.has_lease ? pdu::kRoundLease : 0) | (round.follows ? pdu::kRoundFollows : 0) |
+      (leaves ? pdu::kRoundLeaves : 0) | (round.yields_to != 0 && !leaves ? pdu::kRoundYields : 0));
   const auto last = std::find_if(round.heard.rbegin(), round.heard.rend(),
                                  [](std::uint8_t heard) { return heard != 0; });
   const auto voters = static_cast<std::size_t>(round.heard.rend() - last);

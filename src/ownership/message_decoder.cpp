@@ -124,8 +124,8 @@ bool is_sane(const pdu::TransferState& state) noexcept {
   };
   const double norm = state.w * state.w + state.x * state.x + state.y * state.y + state.z * state.z;
   return finite(state.position) && finite(state.velocity) && finite(state.turn_rate) &&
-         finite(state.acceleration) &&
-         std::abs(norm - 1.0) < 1e-6 && state.holding.object < kMostOwnable;
+         finite(state.acceleration) && std::abs(norm - 1.0) < 1e-6 &&
+         state.holding.object < kMostOwnable;
 }
 
 ObjectState plain(const pdu::TransferState& state) noexcept {

@@ -84,7 +84,8 @@ void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
 }
 
 void RemoteEntities::forget(const pdu::EntityId& body) noexcept {
-  if (const RemoteEntity* row = table_.find(body)) drop(table_.place_of(*row), Removal::owner_changed);
+  if (const RemoteEntity* row = table_.find(body))
+    drop(table_.place_of(*row), Removal::owner_changed);
   outside_.forget_if([&](const OutsideEntity& entity) { return entity.id() == body; });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Only its owner states a body of the scene: forged states, and those of other members, move nothing
-// and press no hand.
+// Only its owner states a body of the scene: forged states, and those of other members, move
+// nothing and press no hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -107,8 +107,8 @@ class Exercise : public OwnersExercise {
 };
 
 TEST(BodyOwner, AMemberThatClaimsItMovesNothing) {
-  const std::uint64_t versions[]{0, 1, 1ULL << 32, 2ULL << 32, (2ULL << 32) + 1, (2ULL << 32) + 999,
-                                 900ULL << 32, ~0ULL};
+  const std::uint64_t versions[]{
+      0, 1, 1ULL << 32, 2ULL << 32, (2ULL << 32) + 1, (2ULL << 32) + 999, 900ULL << 32, ~0ULL};
   for (const std::uint64_t version : versions) {
     Exercise exercise;
     exercise.start_first();

@@ -65,8 +65,8 @@ TEST(HandlessPeer, HandsAFallingBodyOver) {
   ASSERT_TRUE(exercise.owners(0).order(place));
   exercise.run(150);
   exercise.owners(1).acquire(0);
-  const double steps = static_cast<double>(
-      exercise.run_until([&] { return exercise.simulates(1, 0); }, 100));
+  const double steps =
+      static_cast<double>(exercise.run_until([&] { return exercise.simulates(1, 0); }, 100));
   EXPECT_LT(steps, 20);
   EXPECT_FALSE(exercise.simulates(0, 0));
   const double fallen = 0.5 * 9.81 * 0.001 * 0.001 * (150 + steps) * (150 + steps);

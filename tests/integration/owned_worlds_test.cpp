@@ -103,8 +103,8 @@ TEST(OwnedBodies, AreKnownToALateJoiner) {
     exercise.run(2000);
     exercise.start(2, number);
     const auto knows = [&] {
-      const bool names = exercise.owner(2, 0) == exercise.epoch(0) &&
-                         exercise.owner(2, 1) == exercise.epoch(1);
+      const bool names =
+          exercise.owner(2, 0) == exercise.epoch(0) && exercise.owner(2, 1) == exercise.epoch(1);
       return names && apart(exercise, 2, 1, 1) < 1e-3 && apart(exercise, 2, 0, 2) < 1e-3;
     };
     EXPECT_LE(exercise.run_until(knows, 3000), 200u + 40u) << int{number};

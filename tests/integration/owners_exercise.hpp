@@ -40,8 +40,8 @@ operator = 1
   text += "[network]\n" + std::string(network) + "\n";
   for (std::size_t i = 0; i < count; ++i) {
     text += "[[object]]\nname = \"cube" + std::to_string(i) +
-            "\"\nbox = \"40 40 40 mm\"\nposition = [" + std::to_string(0.1 * static_cast<double>(i)) +
-            ", 0, " + std::to_string(height) +
+            "\"\nbox = \"40 40 40 mm\"\nposition = [" +
+            std::to_string(0.1 * static_cast<double>(i)) + ", 0, " + std::to_string(height) +
             "]\nmass = \"50 g\"\nbody_friction = 0.4\nsurface = {stiffness = \"400 N/m\"}\n";
   }
   return text;
@@ -59,7 +59,9 @@ class OwnersExercise {
         stopped_(links, false) {}
 
   /// @param scene_peer its number in the scene; 0: it owns no body
-  peer::Peer& start(std::size_t link, std::uint8_t scene_peer) { return start(link, scene_peer, {}); }
+  peer::Peer& start(std::size_t link, std::uint8_t scene_peer) {
+    return start(link, scene_peer, {});
+  }
   peer::Peer& start_with_hand(std::size_t link, std::uint8_t scene_peer, haptics::HandScript law) {
     haptics::SimulatedDeviceConfig config;
     config.hand_stiffness = 300;
@@ -116,7 +118,8 @@ class OwnersExercise {
   /// Peers whose world simulates the body now.
   [[nodiscard]] std::size_t simulating(std::size_t body) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < peers_.size(); ++i) count += peers_[i] && simulates(i, body) ? 1 : 0;
+    for (std::size_t i = 0; i < peers_.size(); ++i)
+      count += peers_[i] && simulates(i, body) ? 1 : 0;
     return count;
   }
   [[nodiscard]] const haptics::BodyState& body(std::size_t link, std::size_t body) {
@@ -153,8 +156,8 @@ class OwnersExercise {
     peer::PeerOptions own;
     own.application = static_cast<std::uint16_t>(link + 1);
     own.epoch = epochs_[link] = ++lives_;
-    own.started = static_cast<std::uint32_t>(
-        std::chrono::duration_cast<seconds>(clock_.utc_now()).count());
+    own.started =
+        static_cast<std::uint32_t>(std::chrono::duration_cast<seconds>(clock_.utc_now()).count());
     own.scene_peer = scene_peer;
     peers_[link] = std::make_unique<peer::Peer>(scene_, own, network_.link(link), devices);
     peers_[link]->start(clock_.now());

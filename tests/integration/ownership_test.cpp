@@ -217,7 +217,8 @@ TEST(Ownership, OfATowerPassesTogether) {
   for (std::size_t body = 0; body < 6; ++body) EXPECT_TRUE(exercise.simulates(1, body)) << body;
   exercise.run(2000);
   for (std::size_t body = 0; body < 6; ++body)
-    EXPECT_NEAR(exercise.shown(1, body).position.z(), 0.02 + 0.04 * static_cast<double>(body), 1e-3);
+    EXPECT_NEAR(exercise.shown(1, body).position.z(), 0.02 + 0.04 * static_cast<double>(body),
+                1e-3);
 }
 
 TEST(Ownership, OfManyBodiesChangesAtLoss) {
