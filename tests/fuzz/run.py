@@ -17,7 +17,7 @@ from search import plant  # noqa: E402
 
 # Greatest input size of each target [octets]; a time limit would fail on a busy machine, so it is large.
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 1 << 20,
-               "capture": 8192, "fragments": 600, "envelope": 600, "key_file": 1024, "compression": 1400, "assured": 2048,
+               "capture": 8192, "fragments": 600, "envelope": 600, "key_file": 1024, "compression": 1400, "assured": 2048, "ownership": 2048,
                "presence": 2048, "tracker": 2048, "membership": 8192, "leading": 4096, "unicast": 2048,
                "viewer": 16384, "image": 4096, "mesh": 4096, "track": 4096, "density": 4096, "descriptor": 65536, "falcon": 512, "polhem": 512, "serial": 1024, "hid": 1024}
 SECONDS_FOR_ONE_INPUT = 60

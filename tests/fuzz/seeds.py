@@ -58,6 +58,13 @@ def samples():
         yield path.stem, bytes.fromhex("".join(digits.split()))
 
 
+def transfer(kind, content):
+    """A Transfer Ownership with the record set of a hand-over."""
+    head = struct.pack(">BBBBIHH", 7, 1, 35, 7, 0, 56 + len(content), 0)
+    names = struct.pack(">6HIBB3HI", 1, 1, 0, 1, 2, 0, 1, 0, kind, 65534, 1, 1, 1)
+    return head + names + struct.pack(">IIIHH", 0x48415005, 0, 0, 64, len(content) // 8) + content
+
+
 def frame_of(payload):
     """The payload in UDP, IPv4 and Ethernet."""
     udp = struct.pack(">4H", 3000, 3000, 8 + len(payload), 0) + payload
@@ -292,6 +299,15 @@ def main(folder):
     record = own["assured_record"]
     write(seeds / "assured", [record, touch + record, own["fire"] + record, bytes([0, 0, 1, 0]) * 300,
                               b"".join(bytes([i % 4, i % 3, i % 256, i % 7]) for i in range(500))])
+    world = struct.pack(">II", 1, 1)
+    messages = [(1, struct.pack(">IIIIIBBBB", 1, 2, 0, 0, 0, 1, 6, 0, 0)), (1, world + struct.pack(">IIIBBBB", 1, 7, 9, 5, 5, 0, 0)),
+                (2, world + struct.pack(">IIIIIIIBBBB", 2, 1, 1, 2, 0, 0, 0, 2, 1, 0, 0) + bytes(32) + struct.pack(">II", 1, 0)),
+                (3, world + struct.pack(">III", 2, 1, 1)), (4, world + struct.pack(">IIHHHHIQ", 3, 1, 1, 1, 2, 0, 2, 1 << 32 | 1)),
+                (5, world + struct.pack(">I", 1) + b"\xff" * 32), (0, own["acknowledge"]), (0, transfer(2, world + b"\xff" * 32)),
+                (0, transfer(1, world + struct.pack(">IIBBHI", 1, 2000, 1, 1, 1, 0) + b"\1" + bytes(31) +
+                             struct.pack(">HHIQQ16d", 0, 0, 1, 1 << 32 | 1, 0, 0, 0, 0, 1, *[0.0] * 12)))]
+    messages = [bytes([kind, 0, 50, (len(octets) + 3) // 4]) + octets + bytes(-len(octets) % 4) for kind, octets in messages]
+    write(seeds / "ownership", [*messages, b"".join(messages), b"".join(messages[:2] * 20)])
     write(seeds / "unicast", [own["unicast_frame"][:12] + bytes([0, group, 0, 0]) + touch for group in (0, 1, 2, 7)] +
           [touch, own["unicast_frame"], b"10.0.0.7, host-b:3001", b"2001:db8::7,[2001:db8::8]:3002"])
     digits = b"5a" * 32

@@ -163,6 +163,67 @@ TEST(OwnedBodies, StayWithTheirOwnerFarAway) {
   EXPECT_GT(exercise.body(heir, 1).position.x(), 1.9);
 }
 
+// A listener without Reckon's rules sees one entity that goes on, now from another sender.
+TEST(OwnedBodies, ArriveAtPlainDisWithoutAGap) {
+  OwnersExercise exercise(3, cubes_scene(1));
+  exercise.network().impair(line_of(milliseconds(20), {}, 0.0));
+  exercise.start(0, 1);
+  exercise.start(1, 2);
+  peer::Link& listener = exercise.network().link(2);
+  const peer::GroupPool pool = peer::pool_of(exercise.scene());
+  static_cast<void>(listener.join(pool.base()));
+  for (std::size_t i = 0; i < pool.size(); ++i) static_cast<void>(listener.join(pool.address(i)));
+  exercise.run(3000);
+  ASSERT_TRUE(exercise.owners(0).order(placed(0, {0, 0, 0.1}, {0.3, 0, 6.0})));
+  exercise.run(100);
+  exercise.owners(1).acquire(0);
+  std::size_t senders = 0;
+  nanoseconds last = exercise.now(), gap{0};
+  peer::IpEndpoint sender{};
+  std::array<peer::Datagram, 64> datagrams;
+  for (int t = 0; t < 500; ++t) {
+    exercise.step();
+    for (const auto& datagram : std::span(datagrams).first(listener.receive(datagrams))) {
+      for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram.bytes)) {
+        pdu::EntityState state;
+        const bool is_cube = pdu::decode(pdu.bytes, state) == pdu::DecodeError::none &&
+                             state.entity_id == peer::body_id(0);
+        if (!is_cube) continue;
+        senders += datagram.sender == sender ? 0 : 1;
+        sender = datagram.sender;
+        gap = std::max(gap, exercise.now() - last);
+        last = exercise.now();
+      }
+    }
+  }
+  EXPECT_TRUE(exercise.simulates(1, 0));
+  EXPECT_EQ(senders, 2u) << "the first owner, then the second one";
+  EXPECT_LE(gap, milliseconds(210)) << "a repetition of an unchanged motion";
+}
+
+TEST(OwnedBodies, ExcludeWhatATimeFunctionMoves) {
+  const std::string scene = cubes_scene(1) + R"(
+[[node]]
+name = "table"
+turn_rate = "1 rad/s"
+[[object]]
+name = "lever"
+node = "table"
+box = "40 40 40 mm"
+position = "0.5 0 0.5"
+surface = {stiffness = "400 N/m"}
+)";
+  OwnersExercise exercise(2, scene);
+  exercise.start_all();
+  exercise.run(3000);
+  EXPECT_TRUE(exercise.simulates(0, 0));
+  exercise.owners(1).acquire(1);
+  exercise.run(2000);
+  EXPECT_EQ(exercise.simulating(1), 0u);
+  EXPECT_FALSE(exercise.owners(1).owns(1));
+  EXPECT_EQ(exercise.peer(1).model().remote().find(peer::body_id(1)), nullptr) << "it is not sent";
+}
+
 TEST(OwnedBodies, ChangeOwnerWhileFrozen) {
   OwnersExercise exercise(2, cubes_scene(1, 0.5, "allow_management = \"anyone\""));
   exercise.start_all();

@@ -58,6 +58,18 @@ TEST(Ownership, WaitsUntilTheOwnerDivests) {
   EXPECT_TRUE(exercise.simulates(1, 0));
 }
 
+TEST(Ownership, IsRefusedToWhomTouchDoesNotName) {
+  OwnersExercise exercise(3, cubes_scene(1, 0.02, "touch = [\"1:1\", \"1:2\"]"));
+  exercise.start_all();
+  exercise.run(3000);
+  exercise.owners(2).acquire(0);
+  exercise.run(3000);
+  EXPECT_TRUE(exercise.simulates(0, 0));
+  exercise.owners(1).acquire(0);
+  exercise.run(100);
+  EXPECT_TRUE(exercise.simulates(1, 0));
+}
+
 // Three hand-overs a second of a falling, sliding cube: at each peer the shown motion has no jump.
 TEST(Ownership, PassesWithoutAJump) {
   for (const auto& law : {line_of(milliseconds(1), {}, 0.0), line_of(milliseconds(30), {}, 0.0),
