@@ -56,8 +56,9 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   // A peer without a vote has no lease of its own: that of a voter counts.
   if (!is_voter() && round != nullptr && round->has_lease && core_.world == world) leased_ = now;
   if (core_.world == world) return true;
-  // A world whose voters have lost their majority admits nobody.
-  if (round == nullptr || !round->has_lease) return false;
+  if (round == nullptr) return false;
+  // A world that could not admit us is joined again only if its voters have a majority.
+  if (!round->has_lease && (core_.world.exists() || world == left_)) return false;
   if (core_.world.exists()) {
     // An older world has precedence, and any that has a majority if ours has none for long.
     const bool is_older = world < core_.world || now - leased_ > LeaseBook::kDead;
@@ -83,7 +84,7 @@ void Ownership::leave_world() {
   core_.acts.clear();
   core_.table.clear();
   chair_.end();
-  rounds_.follow_act();
+  rounds_.follow_act(stepped_);
   voting_.follow_act();
   core_.world = {};
 }
@@ -94,6 +95,7 @@ void Ownership::found_if_due(nanoseconds now) {
   const nanoseconds since = waits ? std::max(joined_, leased_) : joined_;
   const bool is_outside = waits || !core_.acts.exists();
   if (core_.config.votes && is_outside && core_.world.exists() && now - since > LeaseBook::kDead) {
+    left_ = core_.world;
     leave_world();
     core_.config.founds_at_once = false;
     started_ = now;
@@ -210,7 +212,7 @@ void Ownership::decide(const Act& act, nanoseconds now) {
     core_.forget_gifts();
   }
   chair_.end();
-  rounds_.follow_act();
+  rounds_.follow_act(now);
   voting_.follow_act();
   if (ours.any()) {
     core_.counts.adopted += is_first ? 0 : ours.count();

@@ -121,6 +121,7 @@ class Ownership {
   Chair chair_{core_};
   Rounds rounds_{core_, rows_, granting_, chair_};
   Voting voting_{core_, rows_, rounds_, chair_};
+  WorldId left_;  // the last world that could not admit us
   bool is_founding_ = false;
   Nanoseconds started_ = kNever, stepped_ = kNever;
   Nanoseconds joined_ = kNever;     // when we began to follow a world

@@ -119,10 +119,11 @@ void Rounds::follow(nanoseconds now) {
 }
 
 void Rounds::step(std::uint32_t complied, nanoseconds now) {
-  if (!core_.config.votes) return follow(now);
+  const bool is_voter = core_.acts.decided().roll.contains(core_.config.epoch);
+  const bool has_left = core_.is_closing && core_.acts.exists() && !is_voter;
+  if (!core_.config.votes || has_left) return follow(now);
   const bool is_active_here = is_active(now);
-  const bool is_fast = is_active_here || now - active_at_ < kActive ||
-                       !core_.acts.decided().roll.contains(core_.config.epoch);
+  const bool is_fast = is_active_here || now - active_at_ < kActive || !is_voter;
   if (now - round_at_ < (is_fast ? LeaseBook::kRound : kSlowRound)) return;
   round_at_ = now;
   const Act& act = core_.acts.newest();

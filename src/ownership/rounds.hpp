@@ -34,8 +34,9 @@ class Rounds {
   void send_decided(std::uint32_t to, Nanoseconds now);
   /// Whether a voter of the decided act knows it too.
   [[nodiscard]] bool is_act_known() const noexcept { return is_act_known_; }
-  /// An act was decided.
-  void follow_act() noexcept {
+  /// An act was decided. Rounds are fast for a while, so that all know it soon.
+  void follow_act(Nanoseconds now) noexcept {
+    active_at_ = now;
     tables_.fill(0);
     is_act_known_ = false;
     decided_sent_ = kNever;

@@ -35,7 +35,11 @@ bool SceneBodies::admits(const Inbound& update, const Arrival& arrival) noexcept
   }
   const std::uint64_t version = update.ownership->version;
   aoim::BodyOwnership& last = recorded_[update.entity.entity - 1u];
-  const bool is_older = last.epoch == arrival.epoch && version < last.version;
+  const bool is_new = last.epoch != arrival.epoch;
+  // The table may lag behind the last owner, unless it names this very version.
+  const bool counts = is_new && version != owner.version &&
+                      presence_.standing(last.epoch) == aoim::Standing::member;
+  const bool is_older = is_new ? counts && version <= last.version : version < last.version;
   if (version < owner.version || is_older) return counts_.bodies_stale.add(), false;
   last = {arrival.epoch, version};
   return true;

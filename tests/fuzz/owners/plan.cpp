@@ -27,14 +27,18 @@ Line line_of(Dice& dice) {
 }
 
 void add_touches(Plan& plan, Dice& dice) {
+  // In some, hand-overs are under way at each moment, so also at each fault.
+  const bool is_dense = dice.chance(0.3);
+  const Nanoseconds touch = is_dense ? milliseconds(300) : Nanoseconds(seconds(2));
+  const Nanoseconds pause = is_dense ? milliseconds(300) : Nanoseconds(seconds(3));
   for (std::size_t peer = 0; peer < plan.peers; ++peer) {
     for (std::size_t object = 0; object < plan.objects; ++object) {
       if (plan.objects > 4 && dice.chance(0.6)) continue;
       Nanoseconds at = kWarmUp + dice.between({}, seconds(3));
       while (at < kHealed) {
-        const Nanoseconds to = at + dice.between(milliseconds(100), seconds(2));
+        const Nanoseconds to = at + dice.between(milliseconds(100), touch);
         plan.touches.push_back({at, to, peer, object});
-        at = to + dice.between(milliseconds(200), seconds(3));
+        at = to + dice.between(milliseconds(200), pause);
       }
     }
   }

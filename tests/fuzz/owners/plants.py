@@ -53,7 +53,7 @@ PLANTS = [
     ("no compliance", "voting.cpp",
      "  if (!is_open || now - threat_.since < kThreat || now - leased < kThreat) return;\n", "  return;\n"),
     ("world without a majority joined", "ownership.cpp",
-     "  if (round == nullptr || !round->has_lease) return false;\n", "  if (round == nullptr) return false;\n"),
+     "  if (!round->has_lease && (core_", "  if (false && (core_"),
     ("leaver gives nothing away", "granting.cpp", "    if (batch.any()) begin_grant(batch, voter.epoch);\n", ""),
     ("newcomer waits in a dead world", "ownership.cpp", "    leave_world();\n    core_", "    core_"),
 ]

@@ -110,7 +110,11 @@ TEST_F(BodyRows, OnlyTheOwnerChangesABody) {
   hear(2, 1.5, 0, 6);                              // plain DIS
   EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
   EXPECT_EQ(row()->epoch, kOwner);
-  EXPECT_EQ(count("bodies_disputed"), 5U);
+  EXPECT_EQ(count("bodies_disputed"), 3U);
+  EXPECT_EQ(count("bodies_early"), 2U) << "the table may name it soon";
+  for (int i = 0; i < 20; ++i) hear(2, 2.0 + 0.1 * i, kThief, 6);
+  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
+  EXPECT_GT(count("bodies_disputed"), 10U) << "it does not";
 }
 
 TEST_F(BodyRows, NobodySendsABodyWithoutKnownOwner) {
