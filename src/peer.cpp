@@ -152,7 +152,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       force_stop_(options.force_stop != nullptr ? options.force_stop : &own_stop_),
-      owns_(owns_first(options, devices)),
+      owns_(owns_first(options, devices) && (options.founds || scene.network.interop)),
       felt_(felt_by(scene, owns_)),
       mover_(mover_of(felt_, scene.nodes, devices)),
       bodies_(bodies_of(felt_, devices, mover_)),
@@ -193,7 +193,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               sends_bodies() ? std::uint8_t{1} : options.scene_peer,
               options.chain_secret,
               !devices.empty() || options.scene_peer > 0,
-              owns_ && options.founds}) {
+              owns_}) {
   add_hands(options, devices);
   const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
   if (sends_bodies() || (bodies_ != nullptr && !scene.network.interop)) model_.add_bodies(next);

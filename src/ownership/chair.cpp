@@ -12,6 +12,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRepeat = milliseconds(30), kSlowRepeat = milliseconds(200);
 constexpr nanoseconds kAttempt = milliseconds(600);   // then a new ballot
+constexpr int kMostTries = 3;                         // each longer than the one before
 constexpr nanoseconds kStagger = milliseconds(150);   // between voters that repeat a proposal
 constexpr nanoseconds kSettled = milliseconds(300);   // of a newcomer, so that more come in one act
 constexpr nanoseconds kGone = milliseconds(1500);     // without a round
@@ -137,51 +138,61 @@ void Chair::begin(const Act& wish, nanoseconds now) {
   proposal_.ballot = {core_.acts.promised().attempt + 1, core_.config.epoch};
   wish_ = wish;
   best_ = {};
-  if (const Act* pending = core_.acts.pending()) {
-    wish_ = *pending;
-    best_ = core_.acts.accepted();
-  }
+  const Act* pending = core_.acts.pending();
+  if (pending != nullptr) wish_ = *pending, best_ = core_.acts.accepted();
+  accepted_ = wish_;
   core_.acts.promise(proposal_.ballot);
   vote_count_ = 0;
   is_open_ = true;
   tried_ = now;
   next_ = now;
-  restart_ = now + kAttempt + rank(now) * kStagger;
-  add_vote(core_.config.epoch);
-  propose_if_promised();
+  restart_ = now + kAttempt * (1 + tries_) + rank(now) * kStagger;
+  tries_ = std::min(tries_ + 1, kMostTries);
+  begun_ = now;
+  add_vote(core_.config.epoch, pending == nullptr);
+  propose_if_promised(now);
 }
 
-void Chair::add_vote(std::uint32_t from) noexcept {
+// @param is_free whether it has accepted no act of this number
+void Chair::add_vote(std::uint32_t from, bool is_free) noexcept {
   const auto votes = std::span(votes_).first(vote_count_);
-  if (std::ranges::find(votes, from) == votes.end() && vote_count_ < votes_.size())
-    votes_[vote_count_++] = from;
+  const bool is_known = std::ranges::find(votes, from, &PeerVote::voter) != votes.end();
+  if (!is_known && vote_count_ < votes_.size()) votes_[vote_count_++] = {from, is_free};
 }
 
-bool Chair::has_majority(const Roll& roll) const noexcept {
+bool Chair::has_majority(const Roll& roll, bool of_free) const noexcept {
   const auto votes = std::span(votes_).first(vote_count_);
-  return roll.is_majority(
-      [&](const Voter& voter) { return std::ranges::find(votes, voter.epoch) != votes.end(); });
+  return roll.is_majority([&](const Voter& voter) {
+    const auto vote = std::ranges::find(votes, voter.epoch, &PeerVote::voter);
+    return vote != votes.end() && (vote->is_free || !of_free);
+  });
 }
 
-void Chair::propose_if_promised() noexcept {
-  if (!has_majority(core_.acts.decided().roll)) return;
-  proposal_.act = wish_;
+// If a majority has accepted nothing, no act was decided, and any may be proposed. Else it must be
+// the accepted one, which the others may refuse for ever; so we wait some time for that majority.
+void Chair::propose_if_promised(nanoseconds now) noexcept {
+  const Roll& roll = core_.acts.decided().roll;
+  const bool is_free = has_majority(roll, true);
+  const bool waits =
+      best_.proposer != 0 && wish_.hash() != accepted_.hash() && now - begun_ < kAttempt / 2;
+  if (!is_free && (waits || !has_majority(roll))) return;
+  proposal_.act = is_free ? wish_ : accepted_;
   proposal_.phase = DecisionPhase::propose;
   vote_count_ = 0;
   next_ = {};
 }
 
-void Chair::count_promise(const Proposal& promise, std::uint32_t from) noexcept {
+void Chair::count_promise(const Proposal& promise, std::uint32_t from, nanoseconds now) noexcept {
   const bool is_for_us = is_open_ && proposal_.phase == DecisionPhase::prepare &&
                          promise.act.number == proposal_.act.number;
   if (!is_for_us) return;
   if (promise.ballot != proposal_.ballot) return core_.acts.promise(promise.ballot);
-  add_vote(from);
+  add_vote(from, promise.accepted.proposer == 0);
   if (promise.accepted.proposer != 0 && promise.accepted > best_) {
     best_ = promise.accepted;
-    wish_ = promise.act;
+    accepted_ = promise.act;
   }
-  propose_if_promised();
+  propose_if_promised(now);
 }
 
 // The number of more senior voters that seem to live.
@@ -224,6 +235,7 @@ const Proposal* Chair::step(nanoseconds now) {
     if (!begins) return is_open_ = false, nullptr;
     begin(wish, now);
   }
+  if (proposal_.phase == DecisionPhase::prepare) propose_if_promised(now);
   if (now < next_) return nullptr;
   next_ = now + (restart_ - now > kAttempt - 4 * kRepeat ? kRepeat : kSlowRepeat);
   proposal_.digest = core_.table.digest(proposal_.act.given);
@@ -244,12 +256,13 @@ bool Chair::count(const Vote& vote, std::uint32_t from) noexcept {
   const bool is_for_us = is_open_ && proposal_.phase == DecisionPhase::propose &&
                          vote.act == proposal_.act.number && vote.ballot == proposal_.ballot;
   if (!is_for_us) return false;
-  add_vote(from);
+  add_vote(from, true);
   return has_majority(core_.acts.decided().roll) && has_majority(proposal_.act.roll);
 }
 
 void Chair::end() noexcept {
   is_open_ = false;
+  tries_ = 0;
   blocked_ = 0;
 }
 

@@ -40,7 +40,7 @@ class Chair {
   /// A vote for our proposal. True if it decides the act.
   [[nodiscard]] bool count(const Vote& vote, std::uint32_t from) noexcept;
   /// A promise for our proposal, or a refusal.
-  void count_promise(const Proposal& promise, std::uint32_t from) noexcept;
+  void count_promise(const Proposal& promise, std::uint32_t from, Nanoseconds now) noexcept;
   /// Another voter proposes an act of this number.
   void note_other(const Proposal& other, Nanoseconds now) noexcept;
   /// Our proposal, if it is due; null if none is.
@@ -50,6 +50,10 @@ class Chair {
   void end() noexcept;
 
  private:
+  struct PeerVote {
+    std::uint32_t voter = 0;  // epoch
+    bool is_free = false;     // it has accepted no act of this number
+  };
   struct Leaving {
     std::uint32_t epoch = 0;
     std::uint32_t act = 0;
@@ -64,9 +68,9 @@ class Chair {
   void give_objects(Act& act) const;
   [[nodiscard]] std::uint8_t host_number(const Act& act, std::uint32_t epoch) const;
   void begin(const Act& wish, Nanoseconds now);
-  void add_vote(std::uint32_t from) noexcept;
-  [[nodiscard]] bool has_majority(const Roll& roll) const noexcept;
-  void propose_if_promised() noexcept;
+  void add_vote(std::uint32_t from, bool is_free) noexcept;
+  [[nodiscard]] bool has_majority(const Roll& roll, bool of_free = false) const noexcept;
+  void propose_if_promised(Nanoseconds now) noexcept;
   [[nodiscard]] int rank(Nanoseconds now) const noexcept;
   [[nodiscard]] bool is_my_turn(Nanoseconds now) const noexcept;
 
@@ -74,12 +78,14 @@ class Chair {
   std::array<Newcomer, Roll::kMost> newcomers_{};
   std::array<Leaving, Roll::kMost> leaving_{};
   Proposal proposal_;
-  Act wish_;     // to be proposed
-  Ballot best_;  // in which it was accepted; proposer 0: our own
+  Act wish_;      // to be proposed, unless another may be decided
+  Act accepted_;  // that other one ..
+  Ballot best_;   // .. and its ballot; proposer 0: none
   bool is_open_ = false;
-  Nanoseconds next_{0}, restart_{0};
-  Nanoseconds tried_{0};                                // last ballot, of any voter
-  std::array<std::uint32_t, 2 * Roll::kMost> votes_{};  // epochs
+  Nanoseconds next_{0}, restart_{0}, begun_{0};
+  int tries_ = 0;         // of this act
+  Nanoseconds tried_{0};  // last ballot, of any voter
+  std::array<PeerVote, 2 * Roll::kMost> votes_{};
   std::size_t vote_count_ = 0;
   std::uint32_t blocked_ = 0;  // number of an act that another voter proposes ..
   Nanoseconds blocked_since_{0};

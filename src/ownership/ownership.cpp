@@ -142,7 +142,7 @@ void Ownership::receive(const Proposal& proposal, std::uint32_t from, nanosecond
   const bool is_sane = proposal.ballot.attempt <= core_.acts.promised().attempt + kMostAttempts;
   const bool is_voter = last.roll.contains(from) || proposal.act.roll.contains(from);
   if (!is_next || !is_sane || !is_voter) return;
-  if (proposal.phase == DecisionPhase::promise) return chair_.count_promise(proposal, from);
+  if (proposal.phase == DecisionPhase::promise) return chair_.count_promise(proposal, from, now);
   if (proposal.ballot.proposer != from) return;
   chair_.note_other(proposal, now);
   if (proposal.phase == DecisionPhase::prepare) return promise(proposal, from);

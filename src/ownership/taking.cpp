@@ -201,12 +201,16 @@ void Taking::receive(const TableExtract& extract, std::uint32_t from, nanosecond
                         core_.acts.decided().roll.contains(from) && core_.acts.exists();
   for (const Holding& holding : extract.holdings.list()) {
     if (holding.object >= core_.table.size()) continue;
+    // After an act that this peer missed, there may be no witness but its chair.
+    const bool is_missed =
+        is_whole && core_.unknown[holding.object] &&
+        act_of(holding.tenure.version) > act_of(core_.table[holding.object].version);
     if (is_whole) core_.unknown.reset(holding.object);
     const std::uint32_t owner = core_.table[holding.object].owner;
     const bool is_silent =
         owner != core_.config.epoch && now - core_.leases.silent_since(owner) >= LeaseBook::kDead;
     const Offer offer =
-        core_.table.offer(holding.object, holding.tenure, from, core_.acts, is_silent);
+        core_.table.offer(holding.object, holding.tenure, from, core_.acts, is_silent || is_missed);
     if (offer == Offer::taken) rows_.note_table(holding.object, from);
     if (offer == Offer::taken || offer == Offer::known) {
       if (may_agree(holding, from)) agreement.objects.set(holding.object);

@@ -93,25 +93,27 @@ Eigen::Quaterniond read_orientation(TomlReader& table) {
 
 namespace {
 
-// Bodies move under the hands of the first peer.
+// Any peer may own the bodies and move them by its hands.
 void check_bodies(TomlReader& file, const SceneFile& scene) {
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
   const auto body = std::ranges::find_if(scene.scene.objects, moves);
   if (body == scene.scene.objects.end()) return;
-  const auto first = [](const DeviceConfig& device) { return device.peer == 1; };
-  const auto one = std::ranges::find_if(scene.devices, first);
-  if (one == scene.devices.end()) {
+  if (std::ranges::find(scene.devices, 1, &DeviceConfig::peer) == scene.devices.end()) {
     file.problem_at(fmt::format("object[{}].mass", body - scene.scene.objects.begin()),
-                    "the first peer moves the bodies (mass) of a scene with a device that the "
-                    "scene lists: add a [[device]] of peer 1");
+                    "a scene with bodies (mass) needs a hand that moves them: add a [[device]] of "
+                    "peer 1");
     return;
   }
-  const auto same = [&](const DeviceConfig& device) {
-    return !first(device) || device.period == one->period;
+  const auto differs = [](const DeviceConfig& one, const DeviceConfig& other) {
+    return one.peer == other.peer && one.period != other.period;
   };
-  if (!std::ranges::all_of(scene.devices, same)) {
+  for (const DeviceConfig& device : scene.devices) {
+    const auto same = [&](const DeviceConfig& other) { return !differs(device, other); };
+    if (std::ranges::all_of(scene.devices, same)) continue;
     file.problem("device",
-                 "devices of different rates cannot push the same bodies: give them the same rate");
+                 "devices of different rates cannot push the same bodies: give all devices of a "
+                 "peer the same rate");
+    return;
   }
 }
 

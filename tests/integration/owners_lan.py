@@ -132,7 +132,7 @@ def short(setup):
     """Some hundred hand-overs."""
     with Owners(setup, 12) as owners:
         time.sleep(12 + QUIET)
-        verdict_of(owners.finish(), 300)
+        verdict_of(owners.finish(), 250)
 
 
 def soak(setup):
@@ -160,7 +160,7 @@ def stopped(setup):
         print(f"  it owned {held} bodies; slept {[round((b - a) / 1e9, 2) for a, b in judge.logs[1].slept]} s")
         check(held > 0, "it owned nothing: this shows nothing")
         check(judge.logs[1].slept, "it did not sleep")
-        verdict_of(judge, 300)
+        verdict_of(judge, 250)
 
 
 def killed(setup):
