@@ -80,7 +80,7 @@ TEST(BodyKeys, NeedDevicesOfPeerOneAtOneRate) {
               HasSubstr("add a [[device]] of peer 1"));
   EXPECT_EQ(refusal(body + kHand + "[[device]]\npeer = 2\noperator = 1\nrate = \"2 kHz\"\n"), "");
   EXPECT_THAT(refusal(body + kHand + "[[device]]\npeer = 1\noperator = 1\nrate = \"2 kHz\"\n"),
-              HasSubstr("give them the same rate"));
+              HasSubstr("give all devices of a peer the same rate"));
   EXPECT_EQ(refusal(body + kHand), "");
 }
 

@@ -69,7 +69,8 @@ TEST(SceneCheck, PointsAtABodyWithoutADevice) {
       "mass = \"60 g\"\n");
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.out, StartsWith(scene.path() + ":8:8: a scene with bodies (mass) needs a hand"));
+  EXPECT_THAT(result.out,
+              StartsWith(scene.path() + ":8:8: a scene with bodies (mass) needs a hand"));
 }
 
 TEST(SceneCheck, ChecksEveryFileAndReturnsTheWorst) {
