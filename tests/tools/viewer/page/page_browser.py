@@ -103,7 +103,7 @@ def saved(reckon, scenes):
         file = Path(folder) / "run.html"
         with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started, browser() as page:
             page.open(started.address)
-            page.wait("window.reckon?.pictures > 90", "pictures of some seconds")
+            page.wait("window.reckon?.pictures > 40", "pictures of some seconds")
             page.driver.set_script_timeout(PATIENCE)
             text = page.driver.execute_async_script("window.reckon.minute().then(arguments[0], (error) => arguments[0](String(error)))")
             expect(text.startswith("<!doctype html>"), f"a saved page, not {text[:200]}")
