@@ -140,7 +140,7 @@ haptics::ObjectMotion BodyHandOvers::granted_motion(std::size_t object) const no
   return motion;
 }
 
-haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, bool owns) noexcept {
+haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, bool owns) const noexcept {
   haptics::BodyOrder order;
   order.body = static_cast<std::uint32_t>(body);
   order.act = owns ? haptics::BodyAct::own : haptics::BodyAct::disown;
@@ -148,7 +148,6 @@ haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, bool owns) noexcep
     order.state = granted_[body] ? granted_motion(body)
                                  : stages_.bodies.motion_now(body, stages_.remote, pass_.now);
   }
-  granted_.reset(body);
   return order;
 }
 
@@ -160,8 +159,10 @@ void BodyHandOvers::send_changes() noexcept {
   std::size_t count = 0;
   const auto flush = [&] {
     const std::uint64_t serial = world_->exchange().send(std::span(orders).first(count));
-    for (const haptics::BodyOrder& order : std::span(orders).first(count))
+    for (const haptics::BodyOrder& order : std::span(orders).first(count)) {
       sent_[order.body] = serial;
+      if (serial != 0) granted_.reset(order.body);
+    }
     count = 0;
     return serial != 0;
   };

@@ -63,7 +63,7 @@ class BodyHandOvers {
   void finish_yields() noexcept;
   void send_yields() noexcept;
   void send_changes() noexcept;
-  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) noexcept;
+  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) const noexcept;
   [[nodiscard]] haptics::ObjectMotion granted_motion(std::size_t object) const noexcept;
 
   haptics::BodyWorld* world_;

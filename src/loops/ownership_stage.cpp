@@ -17,6 +17,7 @@ using std::chrono::nanoseconds;
 
 // Between two steps of the protocol while nothing arrives.
 constexpr nanoseconds kStep = milliseconds(20);
+
 std::size_t moving_in(const SceneFile& scene) {
   const auto moving = std::ranges::count_if(scene.scene.objects, [](const auto& object) {
     return object.carried || object.matter.mass > 0;

@@ -123,6 +123,8 @@ bool is_sane(const pdu::TransferState& state) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
   const double norm = state.w * state.w + state.x * state.x + state.y * state.y + state.z * state.z;
+  // Later times overflow a difference.
+  if (state.utc >> 62 != 0) return false;
   return finite(state.position) && finite(state.velocity) && finite(state.turn_rate) &&
          finite(state.acceleration) && std::abs(norm - 1.0) < 1e-6 &&
          state.holding.object < kMostOwnable;

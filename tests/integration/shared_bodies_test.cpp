@@ -16,6 +16,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/tests/integration/owners_exercise.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -23,32 +24,6 @@ namespace reckon::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr const char* kCubes = R"(
-[[object]]
-name = "floor"
-plane = [0, 0, 1]
-surface = {stiffness = "400 N/m"}
-
-[[object]]
-name = "cube"
-box = "40 40 40 mm"
-position = "0 0 20 mm"
-mass = "50 g"
-body_friction = 0.4
-surface = {stiffness = "400 N/m"}
-
-[[operator]]
-passive = true
-
-[[device]]
-peer = 1
-operator = 1
-
-[[device]]
-peer = 2
-operator = 1
-)";
 
 haptics::HandTarget at(double x, double height) {
   haptics::HandTarget target;
@@ -61,7 +36,9 @@ haptics::HandTarget at(double x, double height) {
 class Table {
  public:
   Table(const peer::ImpairmentLaw& law, const Vector3d& second)
-      : clock_(seconds(1), std::chrono::hours(1)), network_({}, clock_), scene_(scene_of(kCubes)) {
+      : clock_(seconds(1), std::chrono::hours(1)),
+        network_({}, clock_),
+        scene_(scene_of(cubes_scene(1))) {
     network_.impair(law);
     const auto push = [](double t) {
       const double slow = std::min(t, 4.0);
@@ -131,17 +108,10 @@ class Table {
   std::array<std::unique_ptr<peer::Peer>, 2> peers_;
 };
 
-peer::ImpairmentLaw line(nanoseconds delay, nanoseconds jitter, double loss) {
-  peer::ImpairmentLaw law;
-  law.delay = delay;
-  law.jitter = jitter;
-  law.loss = loss;
-  return law;
-}
-
 TEST(SharedBody, IsWhereItsOwnerHasIt) {
-  for (const auto& law : {line(nanoseconds(100'000), {}, 0.0), line(milliseconds(20), {}, 0.0),
-                          line(milliseconds(50), milliseconds(20), 0.3)}) {
+  for (const auto& law :
+       {line_of(nanoseconds(100'000), {}, 0.0), line_of(milliseconds(20), {}, 0.0),
+        line_of(milliseconds(50), milliseconds(20), 0.3)}) {
     Table table(law, {0.3, 0, 0.2});
     double moved = 0.0, apart = 0.0;
     for (int i = 0; i < 7000; ++i) {
@@ -160,7 +130,7 @@ TEST(SharedBody, IsWhereItsOwnerHasIt) {
 // The cube is pushed against a hand of the other peer: it does not yield, and gives no more energy
 // than the port may receive.
 TEST(SharedBody, IsFeltByAHandInItsWay) {
-  Table table(line(milliseconds(5), {}, 0.0), {0.05, 0, 0.02});
+  Table table(line_of(milliseconds(5), {}, 0.0), {0.05, 0, 0.02});
   double felt = 0.0;
   for (int i = 0; i < 6000; ++i) {
     table.step();
@@ -174,7 +144,7 @@ TEST(SharedBody, IsFeltByAHandInItsWay) {
 }
 
 TEST(SharedBody, StaysWhereItWasWhenItsOwnerLeaves) {
-  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  Table table(line_of(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
   for (int i = 0; i < 1500; ++i) table.step();
   ASSERT_GT(table.cube(1).position.x(), 0.01);
   table.first_leaves();
@@ -187,7 +157,7 @@ TEST(SharedBody, StaysWhereItWasWhenItsOwnerLeaves) {
 }
 
 TEST(SharedBody, HasAnIdOfTheScene) {
-  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  Table table(line_of(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
   for (int i = 0; i < 1500; ++i) table.step();
   const std::span<const peer::RemoteEntity> rows = table.rows(1);
   ASSERT_EQ(rows.size(), 2u) << "hand and cube";
@@ -199,7 +169,7 @@ TEST(SharedBody, HasAnIdOfTheScene) {
 }
 
 TEST(SharedBody, NextOwnerMovesItWithoutAJump) {
-  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  Table table(line_of(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
   for (int i = 0; i < 1500; ++i) table.step();
   table.first_leaves();
   for (int i = 0; i < 1000; ++i) table.step();
@@ -219,7 +189,7 @@ TEST(SharedBody, NextOwnerMovesItWithoutAJump) {
 }
 
 TEST(SharedBody, CostsNoAllocation) {
-  Table table(line(milliseconds(5), {}, 0.1), {0.05, 0, 0.02});
+  Table table(line_of(milliseconds(5), {}, 0.1), {0.05, 0, 0.02});
   for (int i = 0; i < 1000; ++i) table.step();
   const AllocationGuard guard;
   for (int i = 0; i < 3000; ++i) table.step();

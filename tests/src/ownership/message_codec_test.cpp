@@ -143,7 +143,7 @@ TEST(OwnershipCodec, TwoRoundsNameAllVotersOfLargeRolls) {
   EXPECT_EQ(heard, round_of(63).heard);
 }
 
-TEST(OwnershipCodec, RefusesStatesThatAreNotFinite) {
+TEST(OwnershipCodec, RefusesImpossibleStates) {
   Grant grant = grant_of(1);
   grant.states[0].velocity[1] = std::numeric_limits<double>::quiet_NaN();
   EncodedMessage encoded;
@@ -152,6 +152,13 @@ TEST(OwnershipCodec, RefusesStatesThatAreNotFinite) {
   grant.states[0].orientation = {0.5, 0.0, 0.0, 0.0};
   EXPECT_FALSE(decode_message(pdu::AssuredKind::record, octets_of(grant, encoded)).has_value())
       << "no unit quaternion";
+  for (const auto utc : {std::chrono::nanoseconds::min(), std::chrono::nanoseconds(-1),
+                         std::chrono::nanoseconds::max()}) {
+    grant = grant_of(1);
+    grant.states[0].utc = utc;
+    EXPECT_FALSE(decode_message(pdu::AssuredKind::record, octets_of(grant, encoded)).has_value())
+        << utc.count();
+  }
 }
 
 TEST(OwnershipCodec, RefusesOctetsThatAreCutShort) {
