@@ -132,9 +132,9 @@ class Page:
         self.wait(f"(window.reckon?.frames ?? 0) >= {seen + count}", f"{count} pictures")
 
     def settled(self, expression):
-        """Its value after the page has shown the same in four of its updates."""
+        """Its value after it stays the same for 1 s and three of the page's longest pictures."""
         before, since = self.ask(expression), time.monotonic()
-        while time.monotonic() - since < 1:
+        while time.monotonic() - since < 1 + self.ask("window.reckon.longest") * 3e-3:
             now = self.ask(expression)
             if now != before:
                 before, since = now, time.monotonic()
