@@ -15,6 +15,7 @@ The compiler cannot tell: one include path serves all folders. The rules:
   sign       each folder has a README.md of a title and one sentence: what lives there
   listed     each source stands in the CMakeLists.txt of its top folder, or of one below
   mirror     a room of tests/<folder> has the name of a room of <folder>, or is `support`
+  top        the project has no other top folders, but those that git ignores
 """
 import re
 import sys
@@ -35,6 +36,7 @@ MAY_KNOW = {
     "tests": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
     "bench": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
 }
+WITHOUT_CODE = [".ci", ".git", "cmake", "devices", "docs", "scenes"]
 PRODUCT = ["pdu", "aoim", "deadreckon", "haptics", "src", "tools"]
 ROOMED = [*PRODUCT, "python", "bench"]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"][^>"]*[>"])', re.M)
@@ -45,7 +47,8 @@ FOREIGN = "tests/consumer/"
 
 def read(root):
     """Path -> text of every file that the rules look at."""
-    files = {}
+    ignored = (root / ".gitignore").read_text(encoding="utf-8").split()
+    files = {f"{path.name}/": "" for path in root.iterdir() if path.is_dir() and f"{path.name}/" not in ignored}
     for top in MAY_KNOW:
         for path in sorted((root / top).rglob("*")):
             if path.suffix in (".cpp", ".hpp", ".h") or path.name in ("CMakeLists.txt", "README.md"):
@@ -155,6 +158,12 @@ def names(text, name):
     return re.search(rf"(?<![\w/]){re.escape(name)}(?!\w)", text) is not None
 
 
+def check_top(files):
+    for path in files:
+        if path.endswith("/") and path.count("/") == 1 and path[:-1] not in (*MAY_KNOW, *WITHOUT_CODE):
+            yield "top", f"{path}: delete it, or name it here and in docs/architecture.md"
+
+
 def is_listed(path, files):
     """Headers of tests and benches need no line."""
     if path.endswith(".hpp") and path.split("/")[0] not in PRODUCT:
@@ -170,7 +179,7 @@ def is_listed(path, files):
 
 
 def faults(files):
-    return [*check_lines(files), *check_loops(files), *check_folders(files)]
+    return [*check_lines(files), *check_loops(files), *check_folders(files), *check_top(files)]
 
 
 # Rule, file, and what is planted in it: an include line at its end, or another text where it starts with "=".
@@ -198,6 +207,7 @@ PLANTED = [
     ("listed", "tests/pdu/codec/forgotten_test.cpp", "=\n"),
     ("mirror", "tests/haptics/nowhere/some.hpp", "=\n"),
     ("mirror", "tests/bench/nowhere/some.hpp", "=\n"),
+    ("top", "page_pictures/", "="),
 ]
 
 
