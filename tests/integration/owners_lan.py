@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Processes of one host that own the cubes of a scene, and take and give them at random while each loses a tenth of
 what it receives: never two owners, no version back, no jump. One case per call:
-  owners_lan.py CASE --process PROGRAM [--hand-overs N] [--rate R] [--keep FOLDER]
+  owners_lan.py CASE --process PROGRAM [--reckon PROGRAM] [--hand-overs N] [--rate R] [--keep FOLDER]
   judge    the judge finds planted faults
   short    some hundred hand-overs
   soak     until N hand-overs, 10000 (default)
   stopped  SIGSTOP of an owner for 8 s
-  killed   kill -9 of an owner: its bodies are adopted within 5 s"""
+  killed   kill -9 of an owner: its bodies are adopted within 5 s
+  recorded a recording has the owners, and so has its replay"""
 import argparse
+import json
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -179,13 +182,48 @@ def killed(setup):
         verdict_of(judge, 200)
 
 
-CASES = {case.__name__: case for case in (judge, short, soak, stopped, killed)}
+def changes_in(lines):
+    """[(body, version, address of its new owner)] of `inspect owners --json`."""
+    rows = map(json.loads, lines)
+    return [(row["body"], row["version"], row["to"]) for row in rows if "version" in row]
+
+
+def recorded(setup):
+    """A recording of the exercise has each owner, and its replay has the same."""
+    capture = setup.folder / "owners.pcapng"
+    recorder = Program([setup.reckon, "record", str(capture), "--iface", "lo"])
+    with Owners(setup, 6) as owners:
+        time.sleep(6 + QUIET)
+        judge = owners.finish()
+    recorder.interrupt()
+    check(recorder.wait() == 0, f"record: {recorder.error_text()}")
+    told = subprocess.run([setup.reckon, "inspect", "owners", str(capture), "--json"], capture_output=True, text=True, check=True)
+    changes = changes_in(told.stdout.splitlines())
+    last = {body: (version, to) for body, version, to in changes}
+    listener = Program([setup.reckon, "inspect", "owners", "--iface", "lo", "--json"])
+    time.sleep(0.5)
+    subprocess.run([setup.reckon, "replay", str(capture), "--rate", "4"], capture_output=True, check=True)
+    time.sleep(0.5)
+    listener.interrupt()
+    check(listener.wait() == 0, f"inspect: {listener.error_text()}")
+    replayed = changes_in(text for _, text in listener.lines)
+    begun = sum(len(rows) for rows in judge.simulated.values()) - CUBES
+    print(f"  {begun} hand-overs; {len(changes)} changes in the recording, {len(replayed)} in its replay")
+    check(len(last) == CUBES, f"the recording has {len(last)} bodies")
+    # An owner that keeps a body for less than some ms sends no state of it.
+    check(0.9 * begun <= len(changes) - CUBES <= begun, "the recording has other hand-overs")
+    check(len({to for _, _, to in changes}) == PROCESSES, "not each process owned a body")
+    check(replayed == changes, "the replay has other changes")
+
+
+CASES = {case.__name__: case for case in (judge, short, soak, stopped, killed, recorded)}
 
 
 def run(case):
     parser = argparse.ArgumentParser()
     parser.add_argument("case")
     parser.add_argument("--process", default="")
+    parser.add_argument("--reckon", default="")
     parser.add_argument("--hand-overs", type=int, default=10_000)
     parser.add_argument("--rate", type=float, default=8.0)
     parser.add_argument("--keep", type=pathlib.Path, help="where the logs stay")
