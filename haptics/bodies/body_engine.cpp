@@ -18,11 +18,13 @@ constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestSubstep = 5e-4;  // [s], of a prediction
 constexpr double kLongestGap = 0.1;       // [s]
 constexpr double kJitter = 5e-5;          // [s], lateness of a punctual servo
-constexpr double kMostTime = 3e-4;        // [s] of a period to predict and step touched islands
-constexpr double kBodyTime = 3.5e-6;      // [s], cost of a step for each body
-constexpr double kMetAhead = 2.0;         // periods in which a moving body may reach a sleeping one
-constexpr double kRight = 0.15;           // greatest dt sqrt(K / m)
-constexpr double kLeverage = 0.4;         // least effective mass of a rotating body, over its mass
+constexpr double kBefore = 0.17;    // greatest counted work before the forces, over the period
+constexpr double kAfter = 0.4;      // the same after them
+constexpr double kMetAhead = 2.0;   // periods in which a moving body may reach a sleeping one
+constexpr double kRight = 0.15;     // greatest dt sqrt(K / m)
+constexpr double kLeverage = 0.4;   // least effective mass of a rotating body, over its mass
+constexpr int kCoarsePeriods = 16;  // after a prediction that needed too much work
+constexpr double kOver = 1.5;       // greatest work of a prediction, over its share
 
 }  // namespace
 
@@ -33,7 +35,8 @@ BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
       ordered_(solver_.slots(), carried_),
       book_(solver_, carried_),
       near_(radii_of_moving(plan)) {
-  for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(BodyWorld::kMostPushes);
+  for (std::vector<BodyPush>* pushes : {&pushes_, &last_, &kept_})
+    pushes->reserve(BodyWorld::kMostPushes);
   works_.reserve(BodyWorld::kMostPushes);
   forces_.reserve(2 * BodyWorld::kMostPushes);
 }
@@ -63,35 +66,33 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     read_states(BodySolver::all(), 0.0);
     return true;
   }
-  works_.assign(pushes_.size(), 0.0);
-  if (!(ahead_ > 0)) take_in_met();
+  const bool is_ahead = ahead_ > 0;
+  if (!is_ahead) {
+    take_in_met();
+    works_.assign(pushes_.size(), 0.0);
+  }
   const double whole = std::min(gap, kLongestGap);
-  BodySet foreseen = ahead_ > 0 ? rest_ : 0;
-  const BodySet rest = ahead_ > 0 ? rest_ : apart();
+  BodySet foreseen = is_ahead ? rest_ : 0;
+  const BodySet rest = is_ahead ? rest_ : apart();
   double length = kLongestStep;
-  if (rest != 0) {
-    // Pushed islands move in small steps, all other bodies in usual ones.
+  if (rest != BodySolver::all()) {
+    // Islands that hands push move in small steps, all other bodies in usual ones.
     const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps(pushes_)));
-    if (rest != BodySolver::all()) {
-      carried_.drive(solver_.slots(), gap);
-      solver_.only(~rest);
-      length = push_for(whole, dt);
-    }
-    lead_ = ahead_ - whole;
-    if (lead_ < -kJitter) {
-      carried_.drive(solver_.slots(), gap);
-      solver_.only(rest);
-      go_on(-lead_);
-      lead_ = 0.0;
-      foreseen = 0;
-    }
-    solver_.only(BodySolver::all());
-  } else {
+    const double steps = std::ceil(whole / dt - 1e-9);
+    length = whole / steps;
     carried_.drive(solver_.slots(), gap);
-    length = push_for(whole, kLongestStep);
+    solver_.allow({});
+    move(~rest, 0.0, whole, steps);
+  }
+  lead_ = ahead_ - whole;
+  if (lead_ < -kJitter) {
+    carried_.drive(solver_.slots(), gap);
+    move_rest(rest, ahead_, whole);
+    lead_ = 0.0;
+    foreseen = 0;
   }
   carried_.put(solver_.slots());
-  read_states(~foreseen, length, rest != 0 ? ~rest : BodySolver::all());
+  read_states(~foreseen, length, ~rest);
   for (BodyPush& push : pushes_) push.renew();
   std::swap(pushes_, last_);
   pushes_.clear();
@@ -126,8 +127,9 @@ void BodyEngine::go_ahead() noexcept {
   carried_.put(solver_.slots());
   solver_.only(rest_);
   solver_.keep();
-  go_on(period_ - lead_);
-  solver_.only(BodySolver::all());
+  kept_ = pushes_;
+  works_.assign(pushes_.size(), 0.0);
+  move_rest(rest_, lead_, period_);
   book_.read_ahead(rest_, kLongestStep);
   near_.foresee(about(book_.next()), period_);
 }
@@ -164,22 +166,36 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   if (book_.is_frozen() || std::ranges::none_of(pushes_, own)) return;
   const BodySet pushed = slots_of(pushes_, solver_.slots()) | still_pushed();
   const std::size_t steps = steps_for(period);
-  BodySet island = solver_.island(pushed);
-  if (!is_small(island, steps)) {
-    island = pushed;
-    ++coarse_;
+  if (!is_coarse_) {
+    const BodySet island = solver_.island(pushed);
+    is_coarse_ = !is_small(island, steps);
+    if (!is_coarse_ && foresee_island(hand, {island, steps, kOver * time_before()})) return;
+    if (!is_coarse_) coarse_left_ = kCoarsePeriods;
+    is_coarse_ = true;
   }
+  ++coarse_;
+  static_cast<void>(foresee_island(hand, {pushed, steps}));
+}
+
+// Predicts the pushes of a hand. @return false, without a prediction: it needs too much work
+bool BodyEngine::foresee_island(std::size_t hand, const Prediction& of) noexcept {
   for (BodyPush& push : pushes_)
-    if (own(push)) push.begin(period, steps);
-  solver_.only(island);
+    if (push.hand() == hand) push.begin(period_, of.steps);
+  solver_.only(of.bodies);
   solver_.keep();
-  const double dt = period / static_cast<double>(steps);
-  for (std::size_t i = 0; i < steps; ++i) foresee_step(hand, dt * static_cast<double>(i), dt);
+  solver_.allow({.has_impacts = !is_coarse_});
+  const double dt = period_ / static_cast<double>(of.steps), before = solver_.work();
+  bool is_done = true;
+  for (std::size_t i = 0; i < of.steps && is_done; ++i) {
+    foresee_step(hand, dt * static_cast<double>(i), dt);
+    is_done = solver_.work() - before <= of.most;
+  }
   solver_.restore();
   solver_.only(BodySolver::all());
   for (BodyPush& push : pushes_)
-    if (own(push)) push.rewind();
+    if (push.hand() == hand) push.rewind();
   for (BodyPush& push : last_) push.rewind();
+  return is_done;
 }
 
 bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
@@ -284,28 +300,33 @@ void BodyEngine::go_back() noexcept {
   solver_.only(rest_);
   solver_.restore();
   solver_.only(BodySolver::all());
+  pushes_ = kept_;
 }
 
 void BodyEngine::begin_period() noexcept {
+  is_coarse_ = coarse_left_ > 0;
+  coarse_left_ -= is_coarse_ ? 1 : 0;
   stepped_ = written_ = 0;
   book_.woken().begin_period();
   ahead_ = 0.0;
 }
 
-// The bodies outside the islands that hands push. None if these islands take one step.
+// The bodies outside the islands that take small steps.
 BodySet BodyEngine::apart() const noexcept {
-  if (pushes_.empty()) return BodySolver::all();
   const std::size_t steps = most_steps(pushes_);
-  const BodySet pushed = steps > 1 ? solver_.island(slots_of(pushes_, solver_.slots())) : 0;
-  return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
+  if (is_coarse_ || steps < 2) return BodySolver::all();
+  const BodySet pushed = solver_.island(slots_of(pushes_, solver_.slots()));
+  return is_small(pushed, steps) ? ~pushed : BodySolver::all();
 }
 
 // Whether an island can be stepped in time: once for each hand and once more.
 bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
-  double bodies = 0.0;
-  solver_.slots().each(island, [&](std::size_t slot) { bodies += solver_.effort(slot); });
-  const double times = static_cast<double>(steps * (near_.hands() + 1));
-  return kBodyTime * bodies * times <= kMostTime;
+  return solver_.work_of(island) * static_cast<double>(steps) <= time_before();
+}
+
+// For the prediction of one hand, or for the steps of the islands [s].
+double BodyEngine::time_before() const noexcept {
+  return kBefore * period_ / static_cast<double>(near_.hands() + 1);
 }
 
 // A hand that has not stepped yet in this period keeps its push of the last one.
@@ -361,26 +382,35 @@ void BodyEngine::follow(BodyPush& push, double dt) noexcept {
   push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
 }
 
-// Moves all acting bodies by `whole` [s], in steps of dt [s] or less. @return their length [s]
-double BodyEngine::push_for(double whole, double dt) noexcept {
-  const double steps = std::ceil(whole / dt - 1e-9);
-  const double length = whole / steps;
+// Moves some bodies from one time of the period to another [s], by the pushes on them.
+void BodyEngine::move(BodySet some, double from, double to, double steps) noexcept {
+  const auto acts = [&](const BodyPush& push) {
+    return (some >> solver_.slots().slot_of(push.body()) & 1) != 0;
+  };
+  const double length = (to - from) / steps;
+  solver_.only(some);
   for (double i = 0; i < steps; ++i) {
-    const double time = i * length, next = time + length;
+    const double time = from + i * length, next = time + length;
     forces_.clear();
-    for (BodyPush& push : pushes_) add_force(push, push.mean(time, next), push.share());
+    for (BodyPush& push : pushes_)
+      if (acts(push)) add_force(push, push.mean(time, next), push.share());
     solver_.step(length, forces_);
+    solver_.note_contacts();
+    std::size_t force = 0;
     for (std::size_t k = 0; k < pushes_.size(); ++k) {
-      works_[k] += forces_[k].work;
+      if (!acts(pushes_[k])) continue;
+      works_[k] += forces_[force++].work;
       follow(pushes_[k], length);
     }
   }
-  return length;
+  solver_.only(BodySolver::all());
 }
 
-void BodyEngine::go_on(double whole) noexcept {
-  const double steps = std::max(1.0, std::ceil((whole - kJitter) / kLongestStep - 1e-9));
-  for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
+// Moves bodies in usual steps, within the time after the forces.
+void BodyEngine::move_rest(BodySet rest, double from, double to) noexcept {
+  const double steps = std::max(1.0, std::ceil((to - from - kJitter) / kLongestStep - 1e-9));
+  solver_.allow({kAfter * (to - from) / steps, slots_of(pushes_, solver_.slots())});
+  move(rest, from, to, steps);
 }
 
 void BodyEngine::read_states(BodySet some, double step, BodySet fine) noexcept {

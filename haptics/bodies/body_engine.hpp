@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -111,18 +112,25 @@ class BodyEngine {
   [[nodiscard]] BodySet apart() const noexcept;
 
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept;
+  [[nodiscard]] double time_before() const noexcept;
   [[nodiscard]] bool is_due(const BodyPush& push) const noexcept;
   [[nodiscard]] BodySet still_pushed() const noexcept;
 
   [[nodiscard]] std::size_t steps_for(double period) const noexcept;
 
+  struct Prediction {
+    BodySet bodies = 0;
+    std::size_t steps = 0;
+    double most = std::numeric_limits<double>::infinity();  // [s], of counted work
+  };
+  bool foresee_island(std::size_t hand, const Prediction& of) noexcept;
   void foresee_step(std::size_t hand, double time, double dt) noexcept;
 
   void add_force(BodyPush& push, const Eigen::Vector3d& force, double share) noexcept;
   void follow(BodyPush& push, double dt) noexcept;
 
-  double push_for(double whole, double dt) noexcept;
-  void go_on(double whole) noexcept;
+  void move_rest(BodySet rest, double from, double to) noexcept;
+  void move(BodySet some, double from, double to, double steps) noexcept;
 
   void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept;
 
@@ -135,13 +143,16 @@ class BodyEngine {
   NearBodies near_;
   std::vector<BodyPush> pushes_;   // pushes of this period
   std::vector<BodyPush> last_;     // pushes of the last period
+  std::vector<BodyPush> kept_;     // pushes_ before rest_ was moved ahead
   std::vector<BodyForce> forces_;  // forces of a step
   std::vector<double> works_;
   std::uint64_t stepped_ = 0, written_ = 0;  // hands with a step, and with a write, in this period
   BodySet rest_ = 0;                         // bodies moved to the end of the period
-  double ahead_ = 0.0;                       // [s], from now to the states of these bodies
-  double lead_ = 0.0;     // [s], the same for pushed bodies, if a servo step came early
-  double period_ = 1e-3;  // [s]
+  bool is_coarse_ = false;  // the islands of hands need too much work before their forces
+  int coarse_left_ = 0;     // further periods in which they do
+  double ahead_ = 0.0;      // [s], from now to the states of these bodies
+  double lead_ = 0.0;       // [s], the same for pushed bodies, if a servo step came early
+  double period_ = 1e-3;    // [s]
   bool started_ = false;
   std::chrono::nanoseconds time_{0};
   std::uint64_t coarse_ = 0;

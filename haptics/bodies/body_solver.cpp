@@ -11,14 +11,13 @@
 
 #include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_sleep.hpp"
+#include "reckon/haptics/bodies/counted_work.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
 
-// Iterations times contacts of the iterative solver, which bounds the time of a step.
-constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
 // Rest depth of contacts [m], so that they persist from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;  // [m/s], greatest separation speed of penetrating bodies
@@ -167,7 +166,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   each_acting([&](std::size_t i) {
     body_at(i).flies = vector_of(dBodyGetForce(body_at(i).id)).isZero(0.0);
   });
-  joints_->clear();
+  joints_->begin();
   dSpaceCollide(geoms_->space(), &*joints_, [](void* joints, dGeomID a, dGeomID b) {
     static_cast<ContactJoints*>(joints)->meet(a, b);
   });
@@ -175,7 +174,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   time_speeds(dt);
   for (BodyForce& force : forces)
     force.work = 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
-  const BodySet alone = impacts_->find(only_, dt);
+  const BodySet alone = impacts_->find(budget_.has_impacts ? only_ : 0, dt);
   solve(alone, dt);
   joints_->book_driven(dt);
   book_lifted_ahead(dt);
@@ -184,6 +183,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   motion_->catch_fast(solved);
   impacts_->pass(dt, [&](BodySet bodies) { strike(bodies); });
   take_out(dt, forces);
+  count_bodies();
   put_to_sleep(*slots_, only_, *joints_, dt);
   joints_->clear();
 }
@@ -243,23 +243,22 @@ void BodySolver::book_lifted_ahead(double dt) noexcept {
   });
 }
 
-// If the exact solver would take too long or fails, the iterative solver steps that island, and
-// only that one; it always ends near the solution.
+// If the plan of the step has no exact solution for an island, or the exact solver fails, the
+// iterative solver steps that island, and only that one; it always ends near the solution.
 void BodySolver::solve(BodySet but, double dt) noexcept {
   each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
   BodySet bodies = 0;
   each_acting([&](std::size_t i) { bodies |= BodySet{1} << i; });
   bodies &= ~(slots_->carried() | but);
-  const BodySet crowded = joints_->crowded(bodies, *slots_);
-  if (!joints_->is_joined() && solve_exactly(bodies & ~crowded, dt) && crowded == 0) return;
-  const BodySet undone = lost || joints_->is_joined() ? bodies : crowded;
+  plan_.make(bodies, joints_->islands(), budget_.pushed, budget_.seconds);
+  work_ += plan_.seconds();
+  const BodySet iterated = plan_.iterated();
+  if (!joints_->is_joined() && solve_exactly(bodies & ~iterated, dt) && iterated == 0) return;
+  const bool is_all_undone = lost || joints_->is_joined();
   bool any = false;
-  for (BodySet left = undone; left != 0;) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(left));
-    const BodySet island = island_in_touch(first, left);
-    left &= ~island;
-    if ((crowded & island) == 0 && solve_exactly(island, dt)) continue;
-    iterate(island, first, dt);
+  for (const PlannedIsland& island : plan_.islands()) {
+    if (island.is_exact && (!is_all_undone || solve_exactly(island.bodies, dt))) continue;
+    iterate(island, dt);
     any = true;
   }
   tally_.lost += any ? 1 : 0;
@@ -283,22 +282,11 @@ void BodySolver::strike(BodySet bodies) noexcept {
   step_alone(bodies, [&] { host_.quick_step(world_, Impacts::kInstant); });
 }
 
-void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {
-  const int contacts = std::max(1, joints_->islands().contacts_of(one));
-  dWorldSetQuickStepNumIterations(world_,
-                                  std::clamp(kIterations / contacts, kFewest, kMostIterations));
+void BodySolver::iterate(const PlannedIsland& island, double dt) noexcept {
+  dWorldSetQuickStepNumIterations(world_, IslandPlan::iterations_of(island));
   dRandSetSeed(1);  // for reproducible results
-  put_back(island | slots_->carried());
-  step_alone(island | slots_->carried(), [&] { host_.quick_step(world_, dt); });
-}
-
-BodySet BodySolver::island_in_touch(std::size_t one, BodySet among) noexcept {
-  IslandEnergy::Islands& islands = joints_->islands();
-  BodySet out = 0;
-  slots_->each(among, [&](std::size_t i) {
-    if (islands.island_of(i) == islands.island_of(one)) out |= BodySet{1} << i;
-  });
-  return out;
+  put_back(island.bodies | slots_->carried());
+  step_alone(island.bodies | slots_->carried(), [&] { host_.quick_step(world_, dt); });
 }
 
 void BodySolver::put_back(BodySet some) noexcept {
@@ -323,6 +311,26 @@ void BodySolver::step_alone(BodySet some, auto&& step) noexcept {
   step();
   slots_->each(off, [&](std::size_t i) { dBodyEnable(body_at(i).id); });
   turn_joints(dJointEnable);
+}
+
+void BodySolver::count_bodies() noexcept {
+  work_ += CountedWork::kStep + CountedWork::kDistance * impacts_->measured();
+  each_acting([&](std::size_t i) {
+    if (body_at(i).is_awake()) work_ += CountedWork::kBody * body_at(i).effort;
+  });
+}
+
+void BodySolver::note_contacts() noexcept {
+  each_acting([&](std::size_t i) { body_at(i).contacts = joints_->contacts_of(i); });
+}
+
+double BodySolver::work_of(BodySet some) const noexcept {
+  double seconds = CountedWork::kStep, contacts = 0.0;
+  slots_->each(some, [&](std::size_t i) {
+    if (body_at(i).is_awake()) seconds += CountedWork::kBody * body_at(i).effort;
+    contacts += body_at(i).contacts;
+  });
+  return seconds + IslandPlan::work_of(contacts);
 }
 
 void BodySolver::apply(std::span<BodyForce> forces) noexcept {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -16,6 +17,7 @@
 #include "reckon/haptics/bodies/free_motion.hpp"
 #include "reckon/haptics/bodies/impacts.hpp"
 #include "reckon/haptics/bodies/island_energy.hpp"
+#include "reckon/haptics/bodies/island_plan.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/bodies/rigid_body.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -32,6 +34,13 @@ struct BodyForce {
   double work = 0.0;  ///< [J], work of the force, set by the step
   double made =
       0.0;  // [J], part of it from the final velocity, before the solver's energy is taken out
+};
+
+/// Bounds of the work of a step.
+struct StepBudget {
+  double seconds = std::numeric_limits<double>::infinity();  ///< for solutions, see CountedWork
+  BodySet pushed = 0;                                        ///< bodies whose islands come first
+  bool has_impacts = true;  ///< false: bodies meet at the end of the step
 };
 
 /// ODE's world of the bodies with a slot, and of static objects. It allocates nothing after some
@@ -53,8 +62,8 @@ class BodySolver {
   [[nodiscard]] std::size_t size() const noexcept { return slots_->size(); }
   [[nodiscard]] std::size_t body(std::size_t slot) const noexcept { return body_at(slot).number; }
   [[nodiscard]] double mass(std::size_t slot) const noexcept { return body_at(slot).mass; }
-  /// See BodyKind.
-  [[nodiscard]] double effort(std::size_t slot) const noexcept { return body_at(slot).effort; }
+  /// Counted work of a step of these bodies with their last noted contacts [s].
+  [[nodiscard]] double work_of(BodySet some) const noexcept;
   /// Only carry() moves it.
   [[nodiscard]] bool is_carried(std::size_t slot) const noexcept {
     return body_at(slot).is_carried;
@@ -88,6 +97,12 @@ class BodySolver {
   /// Advances by dt [s]. Energy that the solver adds beyond the work of the forces is taken out of
   /// the bodies' velocities in the same step.
   void step(double dt, std::span<BodyForce> forces) noexcept;
+  /// Bounds each further step.
+  void allow(const StepBudget& budget) noexcept { budget_ = budget; }
+  /// Counted work of all steps [s].
+  [[nodiscard]] double work() const noexcept { return work_; }
+  /// Notes the contacts of the last step, for work_of().
+  void note_contacts() noexcept;
 
   /// Slows a body. @param energy [J] > 0 @return the energy taken [J], at most its kinetic energy
   double take_back(std::size_t slot, double energy) noexcept;
@@ -121,12 +136,12 @@ class BodySolver {
   void solve(BodySet but, double dt) noexcept;
   void strike(BodySet bodies) noexcept;
   [[nodiscard]] bool solve_exactly(BodySet some, double dt) noexcept;
-  void iterate(BodySet island, std::size_t one, double dt) noexcept;
-  [[nodiscard]] BodySet island_in_touch(std::size_t one, BodySet among) noexcept;
+  void iterate(const PlannedIsland& island, double dt) noexcept;
   void put_back(BodySet some) noexcept;
   void step_alone(BodySet some, auto&& step) noexcept;
   void book_lifted_ahead(double dt) noexcept;
   void meet_sleeping() noexcept;
+  void count_bodies() noexcept;
   void take_out(double dt, std::span<BodyForce> forces) noexcept;
 
   StepHost host_;  // outlives the world
@@ -140,6 +155,9 @@ class BodySolver {
   std::optional<Impacts> impacts_;
   BodySet only_ = all();
   BodySet parked_awake_ = 0;  // awake bodies outside only()
+  IslandPlan plan_;
+  StepBudget budget_;
+  double work_ = 0.0;  // [s]
   Tally tally_, kept_;
 };
 

@@ -120,10 +120,13 @@ void ContactJoints::note(dGeomID a, dGeomID b, std::span<const dContactGeom> pla
   const int count = static_cast<int>(places.size());
   double depth = 0.0;
   for (const dContactGeom& place : places) depth = std::max(depth, place.depth);
-  for (const dBodyID body : {first, second})
-    if (!stands(body)) energy_.sink(slot_of(body), depth);
-  if (!stands(first) && !stands(second))
-    return islands_.join(slot_of(first), slot_of(second), count);
+  const bool are_two = !stands(first) && !stands(second);
+  for (const dBodyID body : {first, second}) {
+    if (stands(body)) continue;
+    energy_.sink(slot_of(body), depth);
+    counts_[slot_of(body)] += are_two ? 0.5 * count : count;
+  }
+  if (are_two) return islands_.join(slot_of(first), slot_of(second), count);
   const bool is_first = !stands(first);
   const std::size_t slot = slot_of(is_first ? first : second);
   islands_.add(slot, count);
@@ -151,15 +154,6 @@ void ContactJoints::book_driven(double dt) noexcept {
     const Vector3d force = vector_of(one.is_second ? one.force.f2 : one.force.f1);
     energy_.give(one.slot, dt * force.dot(one.velocity));
   }
-}
-
-BodySet ContactJoints::crowded(BodySet some, const BodySlots& slots) noexcept {
-  if (islands_.largest() <= kMostExact) return 0;
-  BodySet out = 0;
-  slots.each(some, [&](std::size_t i) {
-    if (islands_.contacts_of(i) > kMostExact) out |= BodySet{1} << i;
-  });
-  return out;
 }
 
 }  // namespace reckon::haptics

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,7 @@
 #include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/bodies/body_slots.hpp"
 #include "reckon/haptics/bodies/island_energy.hpp"
+#include "reckon/haptics/bodies/island_plan.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 
 namespace reckon::haptics {
@@ -20,16 +22,17 @@ namespace reckon::haptics {
 /// A body's data in ODE is its slot number. It allocates nothing after some steps. One thread.
 class ContactJoints {
  public:
-  /// Greatest number of contacts of an island for which the exact solver is faster. Its cost is
-  /// cubic, and with more contacts it mostly finds no solution.
-  static constexpr int kMostExact = 24;
-
   /// @param world, energy outlive this
   ContactJoints(dWorldID world, IslandEnergy& energy);
   ~ContactJoints() { dJointGroupDestroy(joints_); }
   ContactJoints(const ContactJoints&) = delete;
   ContactJoints& operator=(const ContactJoints&) = delete;
 
+  /// Begins a step without contacts.
+  void begin() noexcept {
+    clear();
+    counts_.fill(0.0);
+  }
   /// Removes all.
   void clear() noexcept;
   /// Finds and adds the contacts of two geoms, if one belongs to an awake body that is not carried.
@@ -51,12 +54,12 @@ class ContactJoints {
   [[nodiscard]] std::span<const std::pair<std::size_t, std::size_t>> met_carried() const noexcept {
     return met_carried_;
   }
-  /// Bodies of `some` whose island has more than kMostExact contacts.
-  [[nodiscard]] BodySet crowded(BodySet some, const BodySlots& slots) noexcept;
-  /// Whether more than kMostExact contacts are with carried objects. ODE treats all bodies that
+  /// Contacts of a body in the last step, half of those with other moving bodies.
+  [[nodiscard]] double contacts_of(std::size_t slot) const noexcept { return counts_[slot]; }
+  /// Whether too many contacts are with carried objects. ODE treats all bodies that
   /// touch one carried object as one island, which would then be too large for the exact solver.
   [[nodiscard]] bool is_joined() const noexcept {
-    return driven_.size() > static_cast<std::size_t>(kMostExact);
+    return driven_.size() > static_cast<std::size_t>(IslandPlan::kMostExact);
   }
   /// Books the work that carried objects did in a step of dt [s].
   void book_driven(double dt) noexcept;
@@ -77,6 +80,7 @@ class ContactJoints {
   IslandEnergy& energy_;
   dJointGroupID joints_;
   IslandEnergy::Islands islands_;
+  std::array<double, BodySlots::kMost> counts_{};
   std::vector<Driven> driven_;
   std::vector<std::pair<dGeomID, dGeomID>> met_;
   std::vector<std::pair<std::size_t, std::size_t>> met_carried_;

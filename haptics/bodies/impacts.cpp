@@ -18,6 +18,7 @@ constexpr double kTolerance = 1e-6;    // [m], error of the distance at the impa
 constexpr double kTouch = 2e-6;        // [m], further motion of both, so that they touch
 constexpr double kLeastSpeed = 1e-3;   // [m/s], least assumed closing speed
 constexpr std::size_t kMostPlaces = 8;
+constexpr int kAdvances = 32;  // a pair that slides closely needs more: it meets at the step's end
 
 bool moves(dGeomID geom) noexcept {
   const dBodyID body = dGeomGetBody(geom);
@@ -61,8 +62,16 @@ double way_of(dGeomID geom, double dt) noexcept {
 BodySet Impacts::find(BodySet acting, double dt) noexcept {
   found_.clear();
   alone_.clear();
+  measured_ = 0;
+  BodySet awake = 0;
   slots_.each(acting & ~slots_.carried(), [&](std::size_t i) {
-    if (slots_[i].is_awake() && slots_[i].geom != nullptr) find_of(i, dt);
+    if (slots_[i].is_awake() && slots_[i].geom != nullptr) awake |= BodySet{1} << i;
+  });
+  if (awake == 0) return 0;
+  list_movers(dt);
+  slots_.each(awake, [&](std::size_t i) {
+    const auto one = std::ranges::find(movers_, BodySet{1} << i, &Mover::body);
+    if (one != movers_.end() && BodyGeoms::matter_of(one->geom).swept) find_of(*one, dt);
   });
   std::ranges::sort(found_, {}, &Meeting::time);
   BodySet taken = 0, out = 0;
@@ -79,34 +88,36 @@ BodySet Impacts::find(BodySet acting, double dt) noexcept {
   return out;
 }
 
-void Impacts::find_of(std::size_t slot, double dt) noexcept {
-  const dGeomID geom = slots_[slot].geom;
-  if (!BodyGeoms::matter_of(geom).swept) return;
-  const double way = way_of(geom, dt);
-  const Eigen::AlignedBox3d box = box_of(geom);
+void Impacts::list_movers(double dt) noexcept {
+  movers_.clear();
   const int count = dSpaceGetNumGeoms(geoms_.space());
   for (int k = 0; k < count; ++k) {
-    const dGeomID other = dSpaceGetGeom(geoms_.space(), k);
-    const dBodyID body = dGeomGetBody(other);
+    const dGeomID geom = dSpaceGetGeom(geoms_.space(), k);
+    if (!dGeomIsEnabled(geom)) continue;
+    const dBodyID body = dGeomGetBody(geom);
     const bool is_moved = body != nullptr && !dBodyIsKinematic(body);
-    if (other == geom || !dGeomIsEnabled(other)) continue;
+    movers_.push_back({geom, box_of(geom), way_of(geom, dt),
+                       is_moved ? BodySet{1} << slot_of(body) : BodySet{0}});
+  }
+}
+
+void Impacts::find_of(const Mover& one, double dt) noexcept {
+  for (const Mover& other : movers_) {
+    const double both = one.way + other.way;
+    if (!(both > kLeastWay) || other.geom == one.geom) continue;
     // Of two moving bodies, only one finds the meeting.
-    if (is_moved && dBodyIsEnabled(body) && slot_of(body) < slot) continue;
-    const double both = way + way_of(other, dt);
-    if (!(both > kLeastWay)) continue;
-    const Eigen::AlignedBox3d there = box_of(other);
-    if (!(box.squaredExteriorDistance(there) < both * both)) continue;
-    const BodySet bodies =
-        BodySet{1} << slot | (is_moved ? BodySet{1} << slot_of(body) : BodySet{0});
-    test(geom, other, bodies, both, dt);
+    if (other.body != 0 && other.body < one.body && moves(other.geom)) continue;
+    if (!(one.box.squaredExteriorDistance(other.box) < both * both)) continue;
+    test(one.geom, other.geom, one.body | other.body, both, dt);
   }
 }
 
 void Impacts::test(dGeomID a, dGeomID b, BodySet bodies, double way, double dt) noexcept {
   const GeomMatter &one = BodyGeoms::matter_of(a), &other = BodyGeoms::matter_of(b);
   if (!other.swept || joints_.have_met(a, b)) return;
-  const ImpactTime found =
-      time_of_impact(*one.swept, motion_of(a), *other.swept, motion_of(b), dt, kTolerance);
+  const ImpactTime found = time_of_impact(*one.swept, motion_of(a), *other.swept, motion_of(b), dt,
+                                          kTolerance, kAdvances);
+  measured_ += found.advances;
   if (found.outcome == Impact::hit && found.time < dt)
     found_.push_back({found.time, way, a, b, bodies});
 }

@@ -4,6 +4,7 @@
 // of the step.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -28,11 +29,17 @@ class Impacts {
 
   /// @param geoms, slots, joints, motion outlive this
   Impacts(const BodyGeoms& geoms, BodySlots& slots, ContactJoints& joints, FreeMotion& motion)
-      : geoms_(geoms), slots_(slots), joints_(joints), motion_(motion) {}
+      : geoms_(geoms), slots_(slots), joints_(joints), motion_(motion) {
+    found_.reserve(4 * BodySlots::kMost);
+    alone_.reserve(BodySlots::kMost);
+    movers_.reserve(2 * BodySlots::kMost);
+  }
 
   /// Finds the impacts of a step of dt [s], after the contacts of the step. @param acting bodies
   /// @return bodies that pass() will move; the solver of the step must not move them
   [[nodiscard]] BodySet find(BodySet acting, double dt) noexcept;
+  /// Distances that the last find() measured.
+  [[nodiscard]] int measured() const noexcept { return measured_; }
   /// Moves the bodies that find() returned by dt [s]. Removes the contacts of the step.
   /// @param solve called with one or two touching bodies, to step them by kInstant
   void pass(double dt, auto&& solve) noexcept {
@@ -55,7 +62,15 @@ class Impacts {
     dGeomID a = nullptr, b = nullptr;
     BodySet bodies = 0;  // moving bodies: one or two
   };
-  void find_of(std::size_t slot, double dt) noexcept;
+  // An enabled geom at the start of the step.
+  struct Mover {
+    dGeomID geom = nullptr;
+    Eigen::AlignedBox3d box;
+    double way = 0.0;  // [m], greatest motion of a point in the step
+    BodySet body = 0;  // its slot, if forces move it
+  };
+  void list_movers(double dt) noexcept;
+  void find_of(const Mover& one, double dt) noexcept;
   void test(dGeomID a, dGeomID b, BodySet bodies, double way, double dt) noexcept;
   [[nodiscard]] bool is_alone(const Meeting& meeting) const noexcept;
   void hand_over(const Meeting& meeting) noexcept;
@@ -68,6 +83,8 @@ class Impacts {
   ContactJoints& joints_;
   FreeMotion& motion_;
   std::vector<Meeting> found_, alone_;
+  std::vector<Mover> movers_;
+  int measured_ = 0;
 };
 
 }  // namespace reckon::haptics

@@ -69,6 +69,7 @@ struct RigidBody : BodyKind {
   bool flies = true;              ///< only its weight acts on it in this step
   double lag = 0.0;               ///< [s], time by which its velocity lags its position
   std::size_t island = 0;         ///< a slot of its contact island in the last step; its own: none
+  double contacts = 0.0;          ///< of its last step, see ContactJoints::contacts_of()
   State before, kept;             ///< before the step; of BodySolver::keep()
   Eigen::AlignedBox3d clear;      ///< [m], S: box without inactive bodies, see BodySlots
   std::uint64_t clear_since = 0;  ///< number of additions at which `clear` was valid; 0: unknown

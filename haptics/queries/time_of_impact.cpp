@@ -71,7 +71,8 @@ Placement Motion::at(double time) const noexcept {
 }
 
 ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves, const QueryShape& b,
-                          const Motion& b_moves, double horizon, double tolerance) noexcept {
+                          const Motion& b_moves, double horizon, double tolerance,
+                          int most) noexcept {
   ImpactTime found;
   if (!is_finite(a_moves) || !is_finite(b_moves)) return found;
   // An origin near the shapes, so that the error scales with their distance.
@@ -80,7 +81,8 @@ ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves, const Quer
   const Motion other = from(b_moves, origin);
   const ClosingSpeed speed(a, a_moves, b, b_moves);
   PairMemory memory;
-  for (int i = 0; i < kMostAdvances; ++i) {
+  while (found.advances < most) {
+    ++found.advances;
     found.measure = measure_pair(a, one.at(found.time), b, other.at(found.time), memory);
     const double free = found.measure.distance.least;
     if (!(free > tolerance)) {

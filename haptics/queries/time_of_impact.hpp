@@ -31,6 +31,7 @@ struct ImpactTime {
   Impact outcome = Impact::unknown;
   double time = 0.0;    ///< [s]; the shapes are surely apart until then. Never after the contact
   PairMeasure measure;  ///< at the last evaluated time; for a hit at `time`
+  int advances = 0;     ///< distance evaluations
 };
 
 /// Greatest number of distance evaluations in one query.
@@ -46,9 +47,10 @@ inline constexpr int kMostAdvances = 256;
 /// motion.
 ///
 /// @param tolerance [m] > 0; a larger value makes hits earlier and cheaper. At least 1e-12 of the
-/// sizes. noexcept, no allocation; cost: advances x measure_pair().
+/// sizes. @param most advances, at most kMostAdvances; more: `unknown`. noexcept, no allocation;
+/// cost: advances x measure_pair().
 [[nodiscard]] ImpactTime time_of_impact(const QueryShape& a, const Motion& a_moves,
                                         const QueryShape& b, const Motion& b_moves, double horizon,
-                                        double tolerance = 1e-6) noexcept;
+                                        double tolerance = 1e-6, int most = kMostAdvances) noexcept;
 
 }  // namespace reckon::haptics
