@@ -41,7 +41,6 @@ LARGE = {
     "aoim/LeaderRole": (363, 26),
     "aoim/Presence": (360, 18),
     "bench/ScaleWords": (0, 27),
-    "haptics/BodyEngine": (348, 17),
     "haptics/BoundingVolumeTree": (319, 6),
     "haptics/ContactSolver": (321, 24),
     "haptics/DeviceMeasurement": (193, 26),

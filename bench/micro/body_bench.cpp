@@ -17,15 +17,19 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/bench/studies/scale/thread_cpu.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/queries/pair_query.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/haptics/support/hands_in_a_pile.hpp"
 
 namespace {
 
 using Eigen::Vector3d;
 using namespace reckon::haptics;
+using reckon::bench::thread_cpu;
+namespace test = reckon::test;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kPeriod{1'000'000};
@@ -92,15 +96,15 @@ BENCHMARK(servo_step_at_bodies)
     ->Args({6, 50, 1})
     ->Args({27, 50, 0});
 
-/// Stores the time at which its force is written.
+/// Stores the CPU time at which its force is written.
 class StampedDevice : public SimulatedDevice {
  public:
   using SimulatedDevice::SimulatedDevice;
   void write(const Vector3d& force, nanoseconds now) noexcept override {
-    written = std::chrono::steady_clock::now();
+    written = thread_cpu();
     SimulatedDevice::write(force, now);
   }
-  std::chrono::steady_clock::time_point written;
+  double written = 0.0;  // [s], see thread_cpu()
 };
 
 /// A hand that presses a wall, and balls that bounce for ever out of its reach.
@@ -121,13 +125,12 @@ struct Bouncing {
     plan = std::make_shared<const EffectPlan>(scene);
     servo.emplace(*device, plan, ServoConfig{}, make_bodies(*plan, scene));
   }
-  /// Time until the force is written, and time of the whole step [us].
+  /// CPU time until the force is written, and of the whole step [us].
   std::pair<double, double> step() {
-    using Micros = std::chrono::duration<double, std::micro>;
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = thread_cpu();
     servo->step(now += kPeriod);
-    const auto end = std::chrono::steady_clock::now();
-    return {Micros(device->written - begin).count(), Micros(end - begin).count()};
+    const double end = thread_cpu();
+    return {1e6 * (device->written - begin), 1e6 * (end - begin)};
   }
 
   std::shared_ptr<const EffectPlan> plan;
@@ -187,11 +190,9 @@ void pile_falls(benchmark::State& state) {
     world->advance_to(now);
     const auto is_awake = [&] { return std::ranges::any_of(world->states(), &BodyState::awake); };
     for (int i = 0; i < 10'000 && is_awake(); ++i) {
-      const auto begin = std::chrono::steady_clock::now();
+      const double begin = thread_cpu();
       world->advance_to(now += kPeriod);
-      times.push_back(
-          std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-              .count());
+      times.push_back(1e6 * (thread_cpu() - begin));
     }
     asleep = std::chrono::duration<double>(now).count();
     const auto at = [](const BodyState& body) {
@@ -207,6 +208,51 @@ void pile_falls(benchmark::State& state) {
   state.counters["asleep_after_s"] = asleep;
   state.counters["deepest_um"] = 1e6 * deepest;
 }
+
+/// CPU time of a step until the last force is written, and of all of it [us].
+std::pair<double, double> time_step(test::HandsInAPile<StampedDevice>& pile) {
+  const double begin = thread_cpu();
+  pile.step();
+  const double end = thread_cpu();
+  return {1e6 * (pile.devices.back()->written - begin), 1e6 * (end - begin)};
+}
+
+// Ten seconds of hands in a pile. Arguments: number of boxes and of hands.
+void hands_in_a_pile(benchmark::State& state) {
+  std::vector<double> written, whole;
+  double awake = 0.0, late = 0.0, counted = 0.0, spent = 0.0;
+  for (auto _ : state) {
+    test::HandsInAPile<StampedDevice> pile(static_cast<int>(state.range(0)),
+                                           static_cast<int>(state.range(1)));
+    for (int i = 0; i < 1000; ++i) time_step(pile);
+    const double before = pile.world->work();
+    for (int i = 0; i < 10'000; ++i) {
+      const auto [force, step] = time_step(pile);
+      written.push_back(force);
+      whole.push_back(step);
+      spent += 1e-6 * step;
+      late += step > 1e6 * std::chrono::duration<double>(kPeriod).count() ? 1.0 : 0.0;
+      awake += static_cast<double>(std::ranges::count_if(pile.world->states(), &BodyState::awake));
+    }
+    counted += pile.world->work() - before;
+  }
+  state.counters["awake"] = awake / static_cast<double>(whole.size());
+  state.counters["force_median_us"] = share_of(written, 0.5);
+  state.counters["force_p999_us"] = share_of(written, 0.999);
+  state.counters["step_median_us"] = share_of(whole, 0.5);
+  state.counters["step_p999_us"] = share_of(whole, 0.999);
+  state.counters["late_steps"] = late;
+  state.counters["counted_ratio"] = counted / spent;
+}
+BENCHMARK(hands_in_a_pile)
+    ->ArgNames({"boxes", "hands"})
+    ->Args({1, 1})
+    ->Args({8, 1})
+    ->Args({27, 1})
+    ->Args({64, 1})
+    ->Args({64, 2})
+    ->Args({27, 4})
+    ->Iterations(1);
 
 /// A hand that presses a cube, or the floor beside it, and cubes that sleep out of its reach.
 struct Sleeping {
@@ -232,10 +278,9 @@ struct Sleeping {
     for (int i = 0; i < 3000; ++i) step();
   }
   double step() {  // [us]
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = thread_cpu();
     servo->step(now += kPeriod);
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-        .count();
+    return 1e6 * (thread_cpu() - begin);
   }
   double force() {
     (void)servo->snapshots().update();

@@ -14,17 +14,14 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kLongestStep = 1e-3;     // [s]
-constexpr double kLongestSubstep = 5e-4;  // [s], of a prediction
-constexpr double kLongestGap = 0.1;       // [s]
-constexpr double kJitter = 5e-5;          // [s], lateness of a punctual servo
-constexpr double kBefore = 0.17;    // greatest counted work before the forces, over the period
-constexpr double kAfter = 0.4;      // the same after them
-constexpr double kMetAhead = 2.0;   // periods in which a moving body may reach a sleeping one
-constexpr double kRight = 0.15;     // greatest dt sqrt(K / m)
-constexpr double kLeverage = 0.4;   // least effective mass of a rotating body, over its mass
-constexpr int kCoarsePeriods = 16;  // after a prediction that needed too much work
-constexpr double kOver = 1.5;       // greatest work of a prediction, over its share
+constexpr double kLongestStep = 1e-3;  // [s]
+constexpr double kLongestGap = 0.1;    // [s]
+constexpr double kJitter = 5e-5;       // [s], lateness of a punctual servo
+constexpr double kBefore = 0.17;       // greatest counted work before the forces, over the period
+constexpr double kAfter = 0.4;         // the same after them
+constexpr double kMetAhead = 2.0;      // periods in which a moving body may reach a sleeping one
+constexpr int kCoarsePeriods = 16;     // after a prediction that needed too much work
+constexpr double kOver = 1.5;          // greatest work of a prediction, over its share
 
 }  // namespace
 
@@ -34,12 +31,8 @@ BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
       carried_(plan, solver_.slots(), std::move(mover)),
       ordered_(solver_.slots(), carried_),
       book_(solver_, carried_),
-      near_(radii_of_moving(plan)) {
-  for (std::vector<BodyPush>* pushes : {&pushes_, &last_, &kept_})
-    pushes->reserve(BodyWorld::kMostPushes);
-  works_.reserve(BodyWorld::kMostPushes);
-  forces_.reserve(2 * BodyWorld::kMostPushes);
-}
+      near_(radii_of_moving(plan)),
+      pushes_(solver_) {}
 
 bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   const bool is_first = !std::exchange(started_, true);
@@ -57,8 +50,6 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   book_.freeze(frozen);
   if (is_first || frozen) {
     go_back();
-    works_.assign(pushes_.size(), 0.0);
-    last_.clear();
     pushes_.clear();
     begin_period();
     lead_ = 0.0;
@@ -69,7 +60,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   const bool is_ahead = ahead_ > 0;
   if (!is_ahead) {
     take_in_met();
-    works_.assign(pushes_.size(), 0.0);
+    pushes_.begin_works();
   }
   const double whole = std::min(gap, kLongestGap);
   BodySet foreseen = is_ahead ? rest_ : 0;
@@ -77,12 +68,12 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   double length = kLongestStep;
   if (rest != BodySolver::all()) {
     // Islands that hands push move in small steps, all other bodies in usual ones.
-    const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps(pushes_)));
+    const double dt = std::min(kLongestStep, period_ / static_cast<double>(pushes_.steps()));
     const double steps = std::ceil(whole / dt - 1e-9);
     length = whole / steps;
     carried_.drive(solver_.slots(), gap);
     solver_.allow({});
-    move(~rest, 0.0, whole, steps);
+    pushes_.move(~rest, 0.0, whole, steps);
   }
   lead_ = ahead_ - whole;
   if (lead_ < -kJitter) {
@@ -93,9 +84,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   }
   carried_.put(solver_.slots());
   read_states(~foreseen, length, ~rest);
-  for (BodyPush& push : pushes_) push.renew();
-  std::swap(pushes_, last_);
-  pushes_.clear();
+  pushes_.end_period();
   begin_period();
   return true;
 }
@@ -127,8 +116,8 @@ void BodyEngine::go_ahead() noexcept {
   carried_.put(solver_.slots());
   solver_.only(rest_);
   solver_.keep();
-  kept_ = pushes_;
-  works_.assign(pushes_.size(), 0.0);
+  pushes_.keep();
+  pushes_.begin_works();
   move_rest(rest_, lead_, period_);
   book_.read_ahead(rest_, kLongestStep);
   near_.foresee(about(book_.next()), period_);
@@ -142,8 +131,7 @@ std::size_t BodyEngine::push(std::size_t body, const Vector3d& point,
   const std::size_t slot = slot_for(body);
   if (slot == BodySlots::kNone) return BodyWorld::kNoPush;
   const ObjectMotion at = solver_.motion(slot);
-  pushes_.emplace_back(body, at.orientation.conjugate() * (point - at.position), force);
-  return pushes_.size() - 1;
+  return pushes_.add({body, at.orientation.conjugate() * (point - at.position), force});
 }
 
 std::size_t BodyEngine::press(std::size_t hand, const BodySpring& spring) noexcept {
@@ -153,49 +141,27 @@ std::size_t BodyEngine::press(std::size_t hand, const BodySpring& spring) noexce
   const std::size_t slot = slot_for(spring.body);
   if (slot == BodySlots::kNone) return BodyWorld::kNoPush;
   const ObjectMotion at = solver_.motion(slot);
-  BodyPush& push = pushes_.emplace_back(hand, spring, at.position, at.orientation);
-  for (const BodyPush& before : last_) push.take_twist(before);
-  return pushes_.size() - 1;
+  return pushes_.add({hand, spring, at.position, at.orientation});
 }
 
 void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   period_ = period;
-  stepped_ |= std::uint64_t{1} << hand % 64;
-  const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
+  pushes_.note_step(hand);
   // Frozen bodies do not give way.
-  if (book_.is_frozen() || std::ranges::none_of(pushes_, own)) return;
-  const BodySet pushed = slots_of(pushes_, solver_.slots()) | still_pushed();
-  const std::size_t steps = steps_for(period);
+  if (book_.is_frozen() || !pushes_.has_any_of(hand)) return;
+  const BodySet pushed = pushes_.present();
+  const std::size_t steps = pushes_.steps_for(period);
   if (!is_coarse_) {
     const BodySet island = solver_.island(pushed);
     is_coarse_ = !is_small(island, steps);
-    if (!is_coarse_ && foresee_island(hand, {island, steps, kOver * time_before()})) return;
+    if (!is_coarse_ && pushes_.foresee(hand, period, {island, steps, kOver * time_before()}))
+      return;
     if (!is_coarse_) coarse_left_ = kCoarsePeriods;
     is_coarse_ = true;
   }
   ++coarse_;
-  static_cast<void>(foresee_island(hand, {pushed, steps}));
-}
-
-// Predicts the pushes of a hand. @return false, without a prediction: it needs too much work
-bool BodyEngine::foresee_island(std::size_t hand, const Prediction& of) noexcept {
-  for (BodyPush& push : pushes_)
-    if (push.hand() == hand) push.begin(period_, of.steps);
-  solver_.only(of.bodies);
-  solver_.keep();
-  solver_.allow({.has_impacts = !is_coarse_});
-  const double dt = period_ / static_cast<double>(of.steps), before = solver_.work();
-  bool is_done = true;
-  for (std::size_t i = 0; i < of.steps && is_done; ++i) {
-    foresee_step(hand, dt * static_cast<double>(i), dt);
-    is_done = solver_.work() - before <= of.most;
-  }
-  solver_.restore();
-  solver_.only(BodySolver::all());
-  for (BodyPush& push : pushes_)
-    if (push.hand() == hand) push.rewind();
-  for (BodyPush& push : last_) push.rewind();
-  return is_done;
+  static_cast<void>(
+      pushes_.foresee(hand, period, {.bodies = pushed, .steps = steps, .has_impacts = false}));
 }
 
 bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
@@ -209,9 +175,7 @@ bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
   const bool is_left = order.act == BodyAct::disown;
   ordered_.carry_out(order, is_left ? slots.slot_of(order.body) : slot_for(order.body));
   // The springs of hands end where the body was.
-  for (BodyPush& push : pushes_)
-    if ((is_put || is_left) && push.body() == order.body)
-      push = BodyPush(order.body, push.place(), Vector3d::Zero());
+  if (is_put || is_left) pushes_.end(order.body);
   book_.show(order.body);
   near_.forget();
   return true;
@@ -257,10 +221,6 @@ void BodyEngine::follow_carried(nanoseconds now, double gap) noexcept {
   }
 }
 
-void BodyEngine::hold(std::size_t push, double share, const Vector3d& rest) noexcept {
-  if (push < pushes_.size()) pushes_[push].hold(share, rest);
-}
-
 double BodyEngine::take_back(std::size_t body, double energy) noexcept {
   const std::size_t slot = solver_.slots().slot_of(body);
   if (slot == BodySlots::kNone || solver_.is_carried(slot) || !(energy > 0)) return 0.0;
@@ -281,8 +241,7 @@ std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
   const std::size_t had = solver_.slots().slot_of(body);
   if (had != BodySlots::kNone) return had;
   go_back();
-  const std::size_t slot =
-      book_.take_in(body, slots_of(pushes_, solver_.slots()) | slots_of(last_, solver_.slots()));
+  const std::size_t slot = book_.take_in(body, pushes_.pinned());
   if (slot == BodySlots::kNone) return slot;
   near_.forget();
   return slot;
@@ -300,22 +259,23 @@ void BodyEngine::go_back() noexcept {
   solver_.only(rest_);
   solver_.restore();
   solver_.only(BodySolver::all());
-  pushes_ = kept_;
+  pushes_.restore();
 }
 
 void BodyEngine::begin_period() noexcept {
   is_coarse_ = coarse_left_ > 0;
   coarse_left_ -= is_coarse_ ? 1 : 0;
-  stepped_ = written_ = 0;
+  written_ = 0;
+  pushes_.begin_period();
   book_.woken().begin_period();
   ahead_ = 0.0;
 }
 
 // The bodies outside the islands that take small steps.
 BodySet BodyEngine::apart() const noexcept {
-  const std::size_t steps = most_steps(pushes_);
+  const std::size_t steps = pushes_.steps();
   if (is_coarse_ || steps < 2) return BodySolver::all();
-  const BodySet pushed = solver_.island(slots_of(pushes_, solver_.slots()));
+  const BodySet pushed = solver_.island(pushes_.pushed());
   return is_small(pushed, steps) ? ~pushed : BodySolver::all();
 }
 
@@ -326,91 +286,14 @@ bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
 
 // For the prediction of one hand, or for the steps of the islands [s].
 double BodyEngine::time_before() const noexcept {
-  return kBefore * period_ / static_cast<double>(near_.hands() + 1);
-}
-
-// A hand that has not stepped yet in this period keeps its push of the last one.
-bool BodyEngine::is_due(const BodyPush& push) const noexcept {
-  return push.stiffness() > 0 && (stepped_ >> push.hand() % 64 & 1) == 0;
-}
-
-BodySet BodyEngine::still_pushed() const noexcept {
-  BodySet out = 0;
-  for (const BodyPush& push : last_)
-    if (is_due(push)) out |= BodySet{1} << solver_.slots().slot_of(push.body());
-  return out;
-}
-
-// Number of steps that is accurate for the lightest pushed body.
-std::size_t BodyEngine::steps_for(double period) const noexcept {
-  std::array<double, BodySlots::kMost> stiffness{};
-  for (const BodyPush& push : pushes_)
-    stiffness[solver_.slots().slot_of(push.body())] += push.stiffness();
-  for (const BodyPush& push : last_)
-    if (is_due(push)) stiffness[solver_.slots().slot_of(push.body())] += push.stiffness();
-  double most = 0.0;
-  for (std::size_t i = 0; i < solver_.size(); ++i)
-    if (!solver_.is_carried(i)) most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
-  const double wanted = std::ceil(period * std::sqrt(most) / kRight);
-  return static_cast<std::size_t>(std::clamp(std::max(wanted, std::ceil(period / kLongestSubstep)),
-                                             2.0, double{kMostSubsteps}));
-}
-
-void BodyEngine::foresee_step(std::size_t hand, double time, double dt) noexcept {
-  forces_.clear();
-  for (BodyPush& push : pushes_)
-    add_force(push, push.hand() == hand ? push.next() : push.mean(time, time + dt), 1.0);
-  for (BodyPush& push : last_)
-    if (is_due(push)) add_force(push, push.next(), 1.0);
-  solver_.step(dt, forces_);
-  for (BodyPush& push : pushes_)
-    if (push.hand() == hand) follow(push, dt);
-  for (BodyPush& push : last_)
-    if (is_due(push)) follow(push, dt);
-}
-
-void BodyEngine::add_force(BodyPush& push, const Vector3d& force, double share) noexcept {
-  const std::size_t slot = solver_.slots().slot_of(push.body());
-  const Vector3d torque =
-      push.torque(solver_.motion(slot).turn_rate, solver_.least_inertia(slot), share);
-  forces_.push_back({slot, push.place(), force, torque});
-}
-
-void BodyEngine::follow(BodyPush& push, double dt) noexcept {
-  const std::size_t slot = solver_.slots().slot_of(push.body());
-  const ObjectMotion at = solver_.motion(slot);
-  push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
-}
-
-// Moves some bodies from one time of the period to another [s], by the pushes on them.
-void BodyEngine::move(BodySet some, double from, double to, double steps) noexcept {
-  const auto acts = [&](const BodyPush& push) {
-    return (some >> solver_.slots().slot_of(push.body()) & 1) != 0;
-  };
-  const double length = (to - from) / steps;
-  solver_.only(some);
-  for (double i = 0; i < steps; ++i) {
-    const double time = from + i * length, next = time + length;
-    forces_.clear();
-    for (BodyPush& push : pushes_)
-      if (acts(push)) add_force(push, push.mean(time, next), push.share());
-    solver_.step(length, forces_);
-    solver_.note_contacts();
-    std::size_t force = 0;
-    for (std::size_t k = 0; k < pushes_.size(); ++k) {
-      if (!acts(pushes_[k])) continue;
-      works_[k] += forces_[force++].work;
-      follow(pushes_[k], length);
-    }
-  }
-  solver_.only(BodySolver::all());
+  return kBefore * period_ / (pace_ * static_cast<double>(near_.hands() + 1));
 }
 
 // Moves bodies in usual steps, within the time after the forces.
 void BodyEngine::move_rest(BodySet rest, double from, double to) noexcept {
   const double steps = std::max(1.0, std::ceil((to - from - kJitter) / kLongestStep - 1e-9));
-  solver_.allow({kAfter * (to - from) / steps, slots_of(pushes_, solver_.slots())});
-  move(rest, from, to, steps);
+  solver_.allow({kAfter * (to - from) / (pace_ * steps), pushes_.pushed()});
+  pushes_.move(rest, from, to, steps);
 }
 
 void BodyEngine::read_states(BodySet some, double step, BodySet fine) noexcept {

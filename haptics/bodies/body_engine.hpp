@@ -6,20 +6,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "reckon/haptics/bodies/body_book.hpp"
 #include "reckon/haptics/bodies/body_exchange.hpp"
-#include "reckon/haptics/bodies/body_push.hpp"
 #include "reckon/haptics/bodies/body_solver.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/carried_objects.hpp"
+#include "reckon/haptics/bodies/hand_pushes.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/bodies/ordered_bodies.hpp"
@@ -78,17 +77,22 @@ class BodyEngine {
   void foresee(std::size_t hand, double period) noexcept;
 
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept {
-    return push < pushes_.size() ? pushes_[push].change() : Eigen::Vector3d::Zero();
+    return pushes_.change(push);
   }
-  void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
-  [[nodiscard]] double work(std::size_t push) const noexcept {
-    return push < works_.size() ? works_[push] : 0.0;
+  void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept {
+    pushes_.hold(push, share, rest);
   }
+  [[nodiscard]] double work(std::size_t push) const noexcept { return pushes_.work(push); }
   double take_back(std::size_t body, double energy) noexcept;
   [[nodiscard]] std::span<const BodyState> states() const noexcept { return book_.now(); }
   [[nodiscard]] std::chrono::nanoseconds time() const noexcept { return time_; }
   [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
+  void set_pace(double pace) noexcept {
+    pace_ = pace >= BodyWorld::kLeastPace ? std::min(pace, BodyWorld::kMostPace)
+                                          : BodyWorld::kLeastPace;
+  }
+  [[nodiscard]] double pace() const noexcept { return pace_; }
   /// Bodies with a slot.
   [[nodiscard]] std::span<const std::uint32_t> with_slot() const noexcept {
     return woken().with_slot();
@@ -99,7 +103,7 @@ class BodyEngine {
 
  private:
   [[nodiscard]] bool is_quiet() const noexcept {
-    return book_.is_quiet() && pushes_.empty() && last_.empty() && carried_.empty();
+    return book_.is_quiet() && pushes_.is_quiet() && carried_.empty();
   }
   [[nodiscard]] BodiesAbout about(std::span<const BodyState> states) const noexcept;
   [[nodiscard]] std::size_t slot_for(std::size_t body) noexcept;
@@ -113,25 +117,7 @@ class BodyEngine {
 
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept;
   [[nodiscard]] double time_before() const noexcept;
-  [[nodiscard]] bool is_due(const BodyPush& push) const noexcept;
-  [[nodiscard]] BodySet still_pushed() const noexcept;
-
-  [[nodiscard]] std::size_t steps_for(double period) const noexcept;
-
-  struct Prediction {
-    BodySet bodies = 0;
-    std::size_t steps = 0;
-    double most = std::numeric_limits<double>::infinity();  // [s], of counted work
-  };
-  bool foresee_island(std::size_t hand, const Prediction& of) noexcept;
-  void foresee_step(std::size_t hand, double time, double dt) noexcept;
-
-  void add_force(BodyPush& push, const Eigen::Vector3d& force, double share) noexcept;
-  void follow(BodyPush& push, double dt) noexcept;
-
   void move_rest(BodySet rest, double from, double to) noexcept;
-  void move(BodySet some, double from, double to, double steps) noexcept;
-
   void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept;
 
   static constexpr double kSoon = 0.1;  // [s] in which a carried body may reach an owned one
@@ -141,18 +127,15 @@ class BodyEngine {
   OrderedBodies ordered_;
   BodyBook book_;
   NearBodies near_;
-  std::vector<BodyPush> pushes_;   // pushes of this period
-  std::vector<BodyPush> last_;     // pushes of the last period
-  std::vector<BodyPush> kept_;     // pushes_ before rest_ was moved ahead
-  std::vector<BodyForce> forces_;  // forces of a step
-  std::vector<double> works_;
-  std::uint64_t stepped_ = 0, written_ = 0;  // hands with a step, and with a write, in this period
-  BodySet rest_ = 0;                         // bodies moved to the end of the period
-  bool is_coarse_ = false;  // the islands of hands need too much work before their forces
-  int coarse_left_ = 0;     // further periods in which they do
-  double ahead_ = 0.0;      // [s], from now to the states of these bodies
-  double lead_ = 0.0;       // [s], the same for pushed bodies, if a servo step came early
-  double period_ = 1e-3;    // [s]
+  HandPushes pushes_;
+  std::uint64_t written_ = 0;  // hands with a write in this period
+  BodySet rest_ = 0;           // bodies moved to the end of the period
+  bool is_coarse_ = false;     // the islands of hands need too much work before their forces
+  int coarse_left_ = 0;        // further periods in which they do
+  double ahead_ = 0.0;         // [s], from now to the states of these bodies
+  double lead_ = 0.0;          // [s], what is left of that after a servo step that came early
+  double period_ = 1e-3;       // [s]
+  double pace_ = 1.0;          // see BodyWorld
   bool started_ = false;
   std::chrono::nanoseconds time_{0};
   std::uint64_t coarse_ = 0;

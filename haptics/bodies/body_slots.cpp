@@ -3,6 +3,7 @@
 #include "reckon/haptics/bodies/body_slots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
@@ -172,6 +173,33 @@ void BodySlots::lie_down(const BodyKind& kind) noexcept {
   asleep_.place(static_cast<std::uint32_t>(kind.number), box_of(kind.geom));
   asleep_energy_ += kind.height_energy(kind.at, gravity_);
   ++lain_down_;
+}
+
+BodySet BodySlots::near(BodySet some, double distance) const noexcept {
+  // Carried objects join no island: no load changes their motion.
+  some &= ~carried();
+  std::array<std::array<dReal, 6>, kMost> boxes;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!bodies_[i].is_carried) dGeomGetAABB(bodies_[i].geom, boxes[i].data());
+  const auto are_near = [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = 0; k < 6; k += 2) {
+      if (boxes[a][k] > boxes[b][k + 1] + distance || boxes[b][k] > boxes[a][k + 1] + distance)
+        return false;
+    }
+    return true;
+  };
+  BodySet found = some, fresh = some;
+  while (fresh != 0) {
+    const auto from = static_cast<std::size_t>(std::countr_zero(fresh));
+    fresh &= fresh - 1;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const BodySet one = BodySet{1} << i;
+      if ((found & one) != 0 || bodies_[i].is_carried || !are_near(from, i)) continue;
+      found |= one;
+      fresh |= one;
+    }
+  }
+  return found;
 }
 
 }  // namespace reckon::haptics

@@ -92,33 +92,6 @@ double BodySolver::energy() const noexcept {
   return sum;
 }
 
-BodySet BodySolver::island(BodySet some) const noexcept {
-  // Carried objects join no island: no load changes their motion.
-  some &= ~slots_->carried();
-  std::array<std::array<dReal, 6>, BodySlots::kMost> boxes;
-  for (std::size_t i = 0; i < size(); ++i)
-    if (!is_carried(i)) dGeomGetAABB(body_at(i).geom, boxes[i].data());
-  const auto near = [&](std::size_t a, std::size_t b) {
-    for (std::size_t k = 0; k < 6; k += 2) {
-      if (boxes[a][k] > boxes[b][k + 1] + kNear || boxes[b][k] > boxes[a][k + 1] + kNear)
-        return false;
-    }
-    return true;
-  };
-  BodySet found = some, fresh = some;
-  while (fresh != 0) {
-    const auto from = static_cast<std::size_t>(std::countr_zero(fresh));
-    fresh &= fresh - 1;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const BodySet one = BodySet{1} << i;
-      if ((found & one) != 0 || is_carried(i) || !near(from, i)) continue;
-      found |= one;
-      fresh |= one;
-    }
-  }
-  return found;
-}
-
 void BodySolver::only(BodySet some) noexcept {
   some |= slots_->carried();
   if (some == only_) return;

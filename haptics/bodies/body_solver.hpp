@@ -89,7 +89,7 @@ class BodySolver {
   }
 
   /// `some` and all bodies in contact with them, directly or through others.
-  [[nodiscard]] BodySet island(BodySet some) const noexcept;
+  [[nodiscard]] BodySet island(BodySet some) const noexcept { return slots_->near(some, kNear); }
   /// The next steps neither move bodies outside `some` nor collide with them.
   void only(BodySet some) noexcept;
   [[nodiscard]] static constexpr BodySet all() noexcept { return ~BodySet{0}; }

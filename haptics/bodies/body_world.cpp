@@ -145,6 +145,9 @@ double BodyWorld::take_back(std::size_t body, double energy) noexcept {
   return engine_->take_back(body, energy);
 }
 std::span<const BodyState> BodyWorld::states() const noexcept { return engine_->states(); }
+double BodyWorld::work() const noexcept { return engine_->solver().work(); }
+void BodyWorld::set_pace(double pace) noexcept { engine_->set_pace(pace); }
+double BodyWorld::pace() const noexcept { return engine_->pace(); }
 double BodyWorld::energy() const noexcept { return engine_->solver().energy(); }
 double BodyWorld::taken_out() const noexcept { return engine_->solver().taken_out(); }
 std::uint64_t BodyWorld::approximated() const noexcept { return engine_->solver().approximated(); }

@@ -81,6 +81,7 @@ using BodyRing = SpscRing<BodyStep>;
 class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};
+  static constexpr double kLeastPace = 0.25, kMostPace = 8.0;
   /// Limits of speed [m/s] and turn rate [rad/s] of a body.
   static constexpr double kFastest = 200.0;
   static constexpr double kFastestTurn = 200.0;
@@ -176,6 +177,13 @@ class BodyWorld {
   void trace(BodyRing* ring) noexcept { trace_ = ring; }
   /// Kinetic and potential energy, relative to the initial positions [J].
   [[nodiscard]] double energy() const noexcept;
+  /// Counted work of all steps so far: seconds that they take on the reference host. The same on
+  /// each host.
+  [[nodiscard]] double work() const noexcept;
+  /// Sets the time of this host for a second of counted work [s], from kLeastPace to kMostPace; 1
+  /// at construction. A greater one leaves less work for a period. Call before the first step.
+  void set_pace(double pace) noexcept;
+  [[nodiscard]] double pace() const noexcept;
   /// Energy added by the solver and taken out again [J], since the start.
   [[nodiscard]] double taken_out() const noexcept;
   /// Steps in which the iterative solver replaced the exact one, which failed or would have taken
