@@ -157,8 +157,12 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
 void JoinedPeer::check_step_cost() {
   if (!peer_->has_devices()) return;
   const SceneFile& scene = *options_.scene;
-  const auto slow = find_step_too_dear(scene.scene, *peer_->plan(), scene.hand.contact_radius,
-                                       peer_->servo_period());
+  auto slow = find_step_too_dear(scene.scene, *peer_->plan(), scene.hand.contact_radius,
+                                 peer_->servo_period());
+  if (haptics::BodyWorld* bodies = peer_->bodies()) {
+    bodies->set_pace(measure_body_pace());
+    if (!slow) slow = find_bodies_too_dear(scene, peer_->devices(), peer_->servo_period());
+  }
   if (!slow) return;
   if (!options_.even_if_slow) throw *slow;
   static_cast<void>(

@@ -125,6 +125,7 @@ class Peer {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return model_.next_step(); }
   /// Whether there is a device, so that servo_step() has to be called.
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
+  [[nodiscard]] std::size_t devices() const noexcept { return servos_.size(); }
   /// The plan of the servos; null without devices.
   [[nodiscard]] const haptics::EffectPlan* plan() const noexcept;
   /// Whether more datagrams are pending for model_step().

@@ -3,15 +3,19 @@
 #include "reckon/peer/step_cost/stage_costs.hpp"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "reckon/haptics/contact/static_contact.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/peer/step_cost/thread_time.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -24,31 +28,77 @@ using haptics::PlannedRegion;
 constexpr double kPeriod = 0.001;  // [s]
 constexpr double kDamping = 1.0;   // [N s/m], of the device
 constexpr double kDepth = 0.001;   // [m]
-constexpr int kSteps = 1000, kRuns = 5;
+constexpr int kSteps = 400, kRuns = 7;
+constexpr std::size_t kPairs = 11;   // alternated runs
 constexpr double kMostRun = 0.02;    // [s], after which a run ends with fewer steps
 constexpr double kMostSearch = 0.5;  // [s], of measure_dearest_step()
 constexpr int kBatch = 10;           // steps between two looks at the clock
 constexpr int kFewSteps = 50;
+constexpr double kApproach = 0.5;   // [m/s], on the way to an object
+constexpr double kWorkspace = 1e6;  // [m], from the origin
 
-double thread_seconds() {
-  timespec spent{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
-}
-
-/// One device on a plan, moved around a place.
-class Stroke {
+/// A probe in a plan, without a servo.
+class Probe {
  public:
-  Stroke(const EffectPlan& plan, double radius)
-      : contact_(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod, radius) {}
+  Probe(const EffectPlan& plan, double radius) : contact_(plan, kStiffest, radius) {}
 
-  [[nodiscard]] bool touches(const Vector3d& device) {
-    step(device);
+  void begin(const Vector3d& at) {
+    tool_.reset({at});
+    contact_.reset(tool_);
+  }
+  [[nodiscard]] bool touches(const Vector3d& at) {
+    const Vector3d dx = at - last_;
+    last_ = at;
+    tool_.move({at});
+    tool_.set_velocity(dx / kPeriod);
+    port_.settle(dx, kPeriod);
+    contact_.settle(tool_, kPeriod, port_);
+    haptics::PortLoad load;
+    contact_.load(tool_, kPeriod, load);
+    contact_.shown(port_.hold(load, kPeriod).extra);
     return contact_.result().in_contact;
   }
-  void begin(const Vector3d& device) {
-    tool_.reset({device});
-    contact_.reset(tool_);
+
+ private:
+  static constexpr double kStiffest = 0.75 * 0.95 * 2.0 * kDamping / kPeriod;  // [N/m]
+  haptics::StaticContact contact_;
+  haptics::PointTool tool_;
+  haptics::EnergyPort port_{kDamping};
+  Vector3d last_ = Vector3d::Zero();
+};
+
+/// A handle that is where it is put.
+class PlacedDevice final : public haptics::HapticDevice {
+ public:
+  [[nodiscard]] haptics::DeviceLimits limits() const noexcept override {
+    haptics::DeviceLimits limits;
+    limits.max_force = 10.0;
+    limits.damping = kDamping;
+    limits.workspace_min = Vector3d::Constant(-kWorkspace);
+    limits.workspace_max = Vector3d::Constant(kWorkspace);
+    return limits;
+  }
+  [[nodiscard]] haptics::DeviceSample read(std::chrono::nanoseconds /*now*/) noexcept override {
+    haptics::DeviceSample sample;
+    sample.position = place;
+    sample.ok = true;
+    return sample;
+  }
+  void write(const Vector3d& /*force*/, std::chrono::nanoseconds /*now*/) noexcept override {}
+
+  Vector3d place = Vector3d::Zero();
+};
+
+/// A servo in a plan, whose handle moves around a place.
+class Stroke {
+ public:
+  Stroke(EffectPlan plan, double radius)
+      : servo_(device_, std::make_shared<const EffectPlan>(std::move(plan)), config_of(radius)) {}
+
+  /// Moves the handle at a hand's speed.
+  void go(const Vector3d& from, const Vector3d& to) {
+    const int steps = 1 + static_cast<int>((to - from).norm() / (kApproach * kPeriod));
+    for (int i = 0; i <= steps; ++i) step(from + (to - from) * i / steps);
   }
   /// CPU of a step [s], the least of some runs.
   double time_round(const Vector3d& place) {
@@ -69,32 +119,32 @@ class Stroke {
   }
 
  private:
+  static haptics::ServoConfig config_of(double radius) {
+    haptics::ServoConfig config;
+    config.contact_radius = radius;
+    return config;
+  }
   void go_round(const Vector3d& place, int i) {
     const double turn = 0.02 * i;
     step(place + 5e-4 * Vector3d(std::cos(turn), std::sin(turn), std::sin(1.3 * turn)));
   }
-  void step(const Vector3d& device) {
-    const Vector3d dx = device - last_;
-    last_ = device;
-    tool_.move({device});
-    tool_.set_velocity(dx / kPeriod);
-    port_.settle(dx, kPeriod);
-    contact_.settle(tool_, kPeriod, port_);
-    haptics::PortLoad load;
-    contact_.load(tool_, kPeriod, load);
-    const haptics::PortHold held = port_.hold(load, kPeriod);
-    if (held.walls < 1.0) contact_.attenuate(held.walls, port_);
-    contact_.shown(held.extra);
+  void step(const Vector3d& place) {
+    device_.place = place;
+    servo_.step(now_ += std::chrono::milliseconds(1));
   }
 
-  haptics::StaticContact contact_;
-  haptics::PointTool tool_;
-  haptics::EnergyPort port_{kDamping};
-  Vector3d last_ = Vector3d::Zero();
+  PlacedDevice device_;
+  haptics::ServoLoop servo_;
+  std::chrono::nanoseconds now_{1'000'000'000};
 };
 
-/// A place kDepth inside an object, from outside it; none if none is found.
-std::optional<Vector3d> place_inside(const PlannedObject& object, double radius) {
+/// Where a handle enters an object.
+struct Entry {
+  Vector3d outside, inside;  // [m]
+};
+
+/// A place kDepth inside an object, and one outside it; none if none is found.
+std::optional<Entry> entry_of(const PlannedObject& object, double radius) {
   const EffectPlan plan({object}, {});
   const bool bounded = object.bounds.sizes().allFinite() && object.bounds.sizes().norm() < 1e6;
   const Vector3d centre = bounded ? Vector3d(object.bounds.center()) : object.position;
@@ -102,21 +152,34 @@ std::optional<Vector3d> place_inside(const PlannedObject& object, double radius)
   for (int way = 0; way < 27; ++way) {
     const Vector3d from = Vector3d(way % 3 - 1, way / 3 % 3 - 1, 1 - way / 9).stableNormalized();
     if (from.isZero()) continue;
-    Stroke stroke(plan, radius);
-    stroke.begin(centre + reach * from);
-    if (stroke.touches(centre + reach * from)) continue;
+    Probe probe(plan, radius);
+    const Vector3d outside = centre + reach * from;
+    probe.begin(outside);
+    if (probe.touches(outside)) continue;
     const double stride = std::max(reach / 500, 2e-5);
     for (double left = reach; left > -reach; left -= stride)
-      if (stroke.touches(centre + left * from)) return centre + (left - kDepth) * from;
+      if (probe.touches(centre + left * from))
+        return Entry{outside, centre + (left - kDepth) * from};
   }
   return std::nullopt;
 }
 
-double time_plan(const EffectPlan& plan, const Vector3d& outside, const Vector3d& place,
-                 double radius) {
-  Stroke stroke(plan, radius);
-  stroke.begin(outside);
-  return stroke.time_round(place);
+double time_plan(EffectPlan plan, const Entry& entry, double radius) {
+  Stroke stroke(std::move(plan), radius);
+  stroke.go(entry.outside, entry.inside);
+  return stroke.time_round(entry.inside);
+}
+
+/// What the first of two plans adds to a step [s]: the median of alternated runs.
+double time_addition(EffectPlan plan, EffectPlan without, const Entry& entry, double radius) {
+  Stroke stroke(std::move(plan), radius), other(std::move(without), radius);
+  stroke.go(entry.outside, entry.inside);
+  other.go(entry.outside, entry.inside);
+  std::array<double, kPairs> added;
+  for (double& one : added)
+    one = stroke.time_run(entry.inside, kSteps) - other.time_run(entry.inside, kSteps);
+  std::ranges::nth_element(added, added.begin() + kPairs / 2);
+  return std::max(added[kPairs / 2], 0.0);
 }
 
 /// An object's or region's effects, of which only some are declared.
@@ -138,22 +201,21 @@ class Measurement {
  public:
   Measurement(const haptics::Scene& scene, const EffectPlan& plan, double radius)
       : scene_(scene), plan_(plan), radius_(radius) {
-    costs_.empty = time_plan(EffectPlan(), Vector3d::Zero(), Vector3d::Zero(), radius_);
+    costs_.empty = time_plan(EffectPlan(), {Vector3d::Zero(), Vector3d::Zero()}, radius_);
   }
 
   void add_object(std::size_t index) {
     const PlannedObject& planned = plan_.objects()[index];
     const haptics::DeclaredEffects& declared = scene_.objects[index].effects;
-    const auto place =
-        index < kMostMeasured ? place_inside(planned, radius_) : std::optional<Vector3d>();
-    const auto time = [&](const haptics::DeclaredEffects& effects) {
+    const auto place = index < kMostMeasured ? entry_of(planned, radius_) : std::optional<Entry>();
+    const auto plan_with = [&](const haptics::DeclaredEffects& effects) {
       PlannedObject copy = planned;
       copy.effects = haptics::PlannedEffects(effects);
-      const EffectPlan plan({std::move(copy)}, {});
-      return time_plan(plan, *place + 10.0 * (*place - planned.position), *place, radius_);
+      return EffectPlan({std::move(copy)}, {});
     };
-    const double contact = place ? time(only<haptics::EffectTypes>(declared)) : kUnknown;
-    add(place ? contact - costs_.empty : kUnknown);
+    const auto bare = only<haptics::EffectTypes>(declared);
+    const double contact = place ? time_plan(plan_with(bare), *place, radius_) : kUnknown;
+    add(place ? std::max(contact - costs_.empty, 0.0) : kUnknown);
     const std::size_t patches = planned.patches ? planned.patches->patches.size() - 1 : 0;
     for (std::size_t i = 0; i < patches; ++i) add(kUnknown);
     double sum = contact;
@@ -163,9 +225,10 @@ class Measurement {
         if (planned.effects.find<Effect>() == nullptr) return;
         if (!place || haptics::AlwaysThere<Effect> || declared.find<Effect>() == nullptr)
           return add(kUnknown);
-        const double cost = time(only<haptics::EffectTypes, Effect>(declared)) - contact;
-        add(std::max(cost, 0.0));
-        sum += std::max(cost, 0.0);
+        const double cost = time_addition(plan_with(only<haptics::EffectTypes, Effect>(declared)),
+                                          plan_with(bare), *place, radius_);
+        add(cost);
+        sum += cost;
       });
     }
     if (place && sum > costs_.dearest) {
@@ -177,18 +240,18 @@ class Measurement {
   void add_region(std::size_t index) {
     const PlannedRegion& planned = plan_.regions()[index];
     const haptics::DeclaredRegionEffects& declared = scene_.regions[index].effects;
-    const auto time = [&](const haptics::DeclaredRegionEffects& effects) {
+    const auto plan_with = [&](const haptics::DeclaredRegionEffects& effects) {
       PlannedRegion copy = planned;
       copy.effects = haptics::PlannedRegionEffects(effects);
-      return time_plan(EffectPlan({}, {std::move(copy)}), planned.position, planned.position,
-                       radius_);
+      return EffectPlan({}, {std::move(copy)});
     };
-    const double bare = time({});
-    add(std::max(bare - costs_.empty, 0.0));
+    const Entry middle{planned.position, planned.position};
+    add(time_addition(plan_with({}), EffectPlan(), middle, radius_));
     regions_ += costs_.stages.back();
     haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
       if (declared.find<Effect>() == nullptr) return;
-      add(std::max(time(only<haptics::RegionTypes, Effect>(declared)) - bare, 0.0));
+      add(time_addition(plan_with(only<haptics::RegionTypes, Effect>(declared)), plan_with({}),
+                        middle, radius_));
       regions_ += costs_.stages.back();
     });
   }
@@ -232,16 +295,14 @@ DearestStep measure_dearest_step(const haptics::Scene& scene, const EffectPlan& 
     const bool bounded = std::holds_alternative<haptics::HalfSpace>(object.shape) ||
                          std::holds_alternative<haptics::Ball>(object.shape) ||
                          std::holds_alternative<haptics::Block>(object.shape);
-    const auto place = bounded ? std::optional<Vector3d>() : place_inside(object, radius);
+    const auto place = bounded ? std::optional<Entry>() : entry_of(object, radius);
     if (!place) continue;
     object.effects = haptics::PlannedEffects(scene.objects[i].effects);
     const std::string name = object.name;
-    const Vector3d outside = *place + 10.0 * (*place - object.position);
-    const EffectPlan alone({std::move(object)}, regions);
-    Stroke stroke(alone, radius);
-    stroke.begin(outside);
-    double seconds = stroke.time_run(*place, kFewSteps);
-    if (seconds >= enough) seconds = stroke.time_round(*place);
+    Stroke stroke(EffectPlan({std::move(object)}, regions), radius);
+    stroke.go(place->outside, place->inside);
+    double seconds = stroke.time_run(place->inside, kFewSteps);
+    if (seconds >= enough) seconds = stroke.time_round(place->inside);
     if (seconds > dearest.seconds) dearest = {seconds, name};
   }
   return dearest;

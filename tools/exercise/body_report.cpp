@@ -69,6 +69,11 @@ void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
                "                             {} steps by the iterative solver; {} periods of a "
                "hand at more bodies than can be predicted\n",
                bodies->approximated(), bodies->coarse());
+  if (bodies->pace() != 1.0)
+    fmt::print(out,
+               "                             a pace of {:.2f}: the time of counted work on this "
+               "host, over the reference host\n",
+               bodies->pace());
   if (bodies->crowded() > 0)
     fmt::print(out,
                "                             in {} steps a body stayed at rest, because 64 (the "
@@ -79,9 +84,9 @@ void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
 std::string bodies_json(const haptics::BodyWorld* bodies) {
   if (bodies == nullptr) return R"(,"bodies":null)";
   return fmt::format(
-      R"(,"bodies":{{"moving":{},"awake":{},"taken_out_j":{:.6g},"approximated_steps":{},"coarse_periods":{},"not_woken":{}}})",
+      R"(,"bodies":{{"moving":{},"awake":{},"taken_out_j":{:.6g},"approximated_steps":{},"coarse_periods":{},"not_woken":{},"counted_work_s":{:.6g},"pace":{:.4g}}})",
       bodies->states().size(), awake_of(*bodies), bodies->taken_out(), bodies->approximated(),
-      bodies->coarse(), bodies->crowded());
+      bodies->coarse(), bodies->crowded(), bodies->work(), bodies->pace());
 }
 
 }  // namespace reckon::tools

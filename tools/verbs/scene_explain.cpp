@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +19,8 @@
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/regions/region_types.hpp"
 #include "reckon/peer/notation/units.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/step_cost/body_costs.hpp"
 #include "reckon/peer/step_cost/stage_costs.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -148,6 +153,24 @@ std::string step_text(const peer::StageCosts& costs) {
          (costs.dearest < kStep ? "" : ". demo and peer refuse the scene here");
 }
 
+/// The hands of the peer that owns the bodies, and their period.
+std::optional<peer::BodyCosts> body_costs_of(const LoadedScene& scene,
+                                             const std::vector<SceneDevice>& devices) {
+  using std::chrono::nanoseconds;
+  nanoseconds period{1'000'000};
+  if (!devices.empty()) period = nanoseconds(std::llround(1e9 * devices.front().period));
+  const auto hands = peer::devices_of(scene.file, 1).size();
+  return peer::measure_bodies(scene.file, std::max<std::size_t>(hands, 1), period);
+}
+
+std::string body_text(const peer::BodyCosts& costs) {
+  return fmt::format(
+      "with {} awake and hands among them, a step takes {:.3g} us in the median and {:.3g} us at "
+      "p99, of which {:.3g} us until the force is written; {} of {} steps are late",
+      costs.bodies == 1 ? "1 body" : fmt::format("{} bodies", costs.bodies), 1e6 * costs.median,
+      1e6 * costs.p99, 1e6 * costs.p99_until_force, costs.late, costs.steps);
+}
+
 }  // namespace
 
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
@@ -168,6 +191,8 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
     run.print(out);
     fmt::print(out, "\n{}\n", step_text(costs));
   }
+  if (const auto bodies = body_costs_of(scene, devices))
+    fmt::print(out, "{}\n", body_text(*bodies));
 
   TextTable absent({{"LEFT OUT: NO COST"}, {"OBJECT"}, {"TO HAVE IT, WRITE"}});
   for (const LeftOut& row : left_out(scene.file.scene)) {
@@ -226,6 +251,17 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
         .text("parameters", stages[i].parameters)
         .text("cost", stages[i].cost)
         .number("takes_s", known ? std::optional(costs.stages[i]) : std::nullopt)
+        .end("\n");
+  }
+  if (const auto bodies = body_costs_of(scene, devices)) {
+    JsonObject(text)
+        .text("kind", "bodies")
+        .value("awake", bodies->bodies)
+        .number("median_s", bodies->median)
+        .number("p99_s", bodies->p99)
+        .number("p99_until_force_s", bodies->p99_until_force)
+        .value("steps", bodies->steps)
+        .value("late", bodies->late)
         .end("\n");
   }
   for (const LeftOut& row : left_out(scene.file.scene)) {

@@ -94,5 +94,51 @@ TEST_F(SlowScene, IsRefusedOnALanUnlessForced) {
   EXPECT_NO_THROW(JoinedPeer{options});
 }
 
+constexpr const char* kTwoCubes = R"(
+[[object]]
+name = "floor"
+plane = [0, 0, 1]
+[[object]]
+name = "low"
+box = "40 40 40 mm"
+position = "0 0 20 mm"
+mass = "50 g"
+[[object]]
+name = "high"
+box = "40 40 40 mm"
+position = "0 0 60.5 mm"
+mass = "50 g"
+[[operator]]
+passive = true
+[[device]]
+peer = 1
+operator = 1
+)";
+
+TEST(BodyCosts, AreOfMovingBodiesWithHandsAmongThem) {
+  const SceneFile scene = parse_scene_file(kTwoCubes, "x.toml", {});
+  const auto costs = measure_bodies(scene, 2, 1ms, {1, 10.0});
+  ASSERT_TRUE(costs);
+  EXPECT_EQ(costs->bodies, 2u);
+  EXPECT_EQ(costs->steps, 700u);
+  EXPECT_GT(costs->p99_until_force, 0.0);
+  EXPECT_GE(costs->p99, costs->p99_until_force);
+  EXPECT_GE(costs->p99, costs->median);
+  EXPECT_FALSE(measure_bodies(parse_scene_file("", "x.toml", {}), 1, 1ms));
+}
+
+TEST(BodyCosts, NameTheStepThatIsTooDear) {
+  EXPECT_FALSE(find_bodies_too_dear(parse_scene_file("", "x.toml", {}), 1, 100us));
+  EXPECT_EQ(bodies_too_dear_sentence({64, 4e-4, 1.34e-3, 3e-4, 700, 85}, 1ms),
+            "a servo step among 64 moving bodies takes 1.3 ms at p99 on this host, and its period "
+            "is 1 ms (85 of 700 steps are late; costliest: bodies)");
+}
+
+TEST(BodyCosts, GiveThePaceOfThisHost) {
+  const double pace = measure_body_pace();
+  EXPECT_GT(pace, 0.05);
+  EXPECT_LT(pace, 50.0);
+}
+
 }  // namespace
 }  // namespace reckon::peer

@@ -57,6 +57,21 @@ TEST(SceneExplain, NamesTheRecipientsOfAnUpdate) {
   EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches the radius of 90 m"));
 }
 
+TEST(SceneExplain, MeasuresMovingBodies) {
+  const TemporaryScene scene(
+      "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\n[[object]]\nname = \"cube\"\n"
+      "box = \"40 40 40 mm\"\nposition = \"0 0 20 mm\"\nmass = \"50 g\"\n" +
+      std::string(kOperator) + "[[device]]\npeer = 1\noperator = 1\n");
+  const auto text = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, ::testing::ContainsRegex(
+                            "with 1 body awake and hands among them, a step takes .* us in the "
+                            "median and .* us at p99, of which .* us until the force is written; "
+                            "[0-9]+ of 700 steps are late"));
+  const auto lines = run_reckon({"scene", "explain", scene.path(), "--json"});
+  EXPECT_THAT(lines.out, HasSubstr("{\"kind\":\"bodies\",\"awake\":1,\"median_s\":"));
+}
+
 TEST(SceneExplain, PrintsTheTreeOfNodes) {
   const TemporaryScene scene(
       "[[node]]\nname = \"table\"\n"
