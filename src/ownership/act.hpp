@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // An act changes the voters of a scene and gives away the objects of failed owners. Acts have
-// numbers, and a majority decides each.
+// numbers. A majority of the voters before and after an act decides it.
 #pragma once
 
 #include <array>

@@ -79,8 +79,6 @@ void ObjectRows::follow_act(nanoseconds lease_end) {
       lose(i, OwnerChange::adopted, core_.table[i].owner);
     } else if (!act.roll.contains(core_.config.epoch)) {
       lose(i, OwnerChange::adopted, 0);
-    } else if (row.hold == Hold::granting && !act.roll.contains(row.to)) {
-      take_back(i);
     }
     if (row.hold == Hold::none || act_of(core_.table[i].version) == act.number) continue;
     const nanoseconds until = lease_end + LeaseBook::kGrace;

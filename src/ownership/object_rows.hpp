@@ -52,8 +52,8 @@ class ObjectRows {
 
   /// Owns these objects from now on, by an act.
   void gain(const ObjectSet& objects, OwnerChange cause);
-  /// An act was decided: drops what it gave to others, takes back what was granted to a removed
-  /// peer. The new voters must note the owners again.
+  /// An act was decided: drops what it gave to others. The new voters must note the owners again.
+  /// An object that was granted to a removed peer stays granted: that peer may have passed it on.
   /// @param lease_end of the lease that the former voters gave
   void follow_act(Nanoseconds lease_end);
   /// The table has changed by a message of this peer: drops the object if another one owns it.

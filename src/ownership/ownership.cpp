@@ -67,7 +67,24 @@ bool Ownership::is_of_world(const WorldId& world, const Round* round, std::uint3
   }
   core_.world = world;
   joined_ = now;
+  recall_world();
   return true;
+}
+
+// A voter that returns to a world still has its vote there, so it must keep its promises.
+void Ownership::remember_world() {
+  if (!is_voter()) return;
+  const auto known = std::ranges::find(former_, core_.world, &FormerWorld::world);
+  FormerWorld& former = known != former_.end() ? *known : former_[formers_++ % former_.size()];
+  former = {core_.world, core_.acts, core_.table};
+}
+
+void Ownership::recall_world() {
+  const auto known = std::ranges::find(former_, core_.world, &FormerWorld::world);
+  if (known == former_.end() || core_.acts.exists()) return;
+  core_.acts = known->acts;
+  core_.table = known->table;
+  core_.forget_gifts();
 }
 
 void Ownership::merge(const WorldId& older) {
@@ -78,6 +95,7 @@ void Ownership::merge(const WorldId& older) {
 }
 
 void Ownership::leave_world() {
+  remember_world();
   rows_.drop_all(OwnerChange::merged);
   granting_.clear();
   taking_.clear();
@@ -122,6 +140,7 @@ void Ownership::found(std::uint32_t number, nanoseconds now) {
 
 void Ownership::go_alone(std::uint32_t utc, nanoseconds now) {
   const std::uint32_t number = core_.acts.newest().number + 1;
+  remember_world();
   core_.acts.clear();
   core_.world = {utc, core_.config.epoch};
   chair_.forget_newcomers();

@@ -4,6 +4,7 @@
 // messages and events come out.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -105,6 +106,8 @@ class Ownership {
                                  Nanoseconds now);
   void merge(const WorldId& older);
   void leave_world();
+  void remember_world();
+  void recall_world();
   void found_if_due(Nanoseconds now);
   void found(std::uint32_t number, Nanoseconds now);
   void decide(const Act& act, Nanoseconds now);
@@ -114,6 +117,12 @@ class Ownership {
 
   static constexpr Nanoseconds kNever = Nanoseconds::min() / 4;
 
+  struct FormerWorld {
+    WorldId world;
+    ActBook acts;
+    TenureTable table{0};
+  };
+
   OwnershipCore core_;
   ObjectRows rows_{core_};
   Granting granting_{core_, rows_};
@@ -122,6 +131,8 @@ class Ownership {
   Rounds rounds_{core_, rows_, granting_, chair_};
   Voting voting_{core_, rows_, rounds_, chair_};
   WorldId left_;  // the last world that could not admit us
+  std::array<FormerWorld, 4> former_;
+  std::size_t formers_ = 0;
   bool is_founding_ = false;
   Nanoseconds started_ = kNever, stepped_ = kNever;
   Nanoseconds joined_ = kNever;     // when we began to follow a world

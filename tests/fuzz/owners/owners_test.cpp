@@ -53,18 +53,20 @@ TEST(Owners, RunTheSameFromTheSameSeed) {
 
 TEST(OwnersPlan, DrawsEveryKindOfFault) {
   std::array<std::size_t, kFaultKinds> drawn{};
-  std::size_t contested = 0, moving = 0, large = 0;
+  std::size_t contested = 0, moving = 0, large = 0, leaving = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     const Plan plan = plan_of(seed);
     contested += plan.is_contested || plan.moves;
     moving += plan.moves;
     large += plan.island >= 20;
+    leaving += plan.leaves_only;
     for (const Fault& fault : plan.faults) ++drawn[static_cast<std::size_t>(fault.kind)];
   }
-  EXPECT_GT(*std::min_element(drawn.begin(), drawn.end()), 100U);
+  EXPECT_GT(*std::min_element(drawn.begin(), drawn.end()), 50U);
   EXPECT_EQ(contested, 1000U);
   EXPECT_GT(moving, 300U);
   EXPECT_GT(large, 3U);
+  EXPECT_GT(leaving, 20U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/owners/episodes.hpp"
 #include "reckon/tests/fuzz/search/dice.hpp"
 
 namespace reckon::fuzz::owners {
@@ -84,6 +85,7 @@ Plan plan_of(std::uint64_t seed) {
   plan.line = line_of(dice);
   add_touches(plan, dice);
   add_faults(plan, dice);
+  add_episode(plan, dice);
   return plan;
 }
 
@@ -103,8 +105,8 @@ std::string text_of(const Plan& plan) {
 }
 
 std::string text_of(const Fault& fault) {
-  static constexpr const char* kNames[] = {"crash",       "restart", "pause", "partition",
-                                           "one-way cut", "leave",   "deaf",  "choke"};
+  static constexpr const char* kNames[] = {"crash", "restart", "pause", "partition", "one-way cut",
+                                           "leave", "deaf",    "choke", "mute",      "bridge"};
   return fmt::format("{} at {:.2f} s until {:.2f} s: peer {}, other {}, side {:b}",
                      kNames[static_cast<std::size_t>(fault.kind)], pdu::to_seconds(fault.at),
                      pdu::to_seconds(fault.until), fault.peer, fault.other, fault.side);

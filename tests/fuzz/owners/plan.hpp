@@ -33,10 +33,12 @@ enum class FaultKind : std::uint8_t {
   partition,
   one_way,  ///< from `peer` to `other`
   leave,
-  deaf,   ///< nothing arrives at the peer
-  choke,  ///< only rounds pass between the peer and others, as through a path with a small MTU
+  deaf,    ///< nothing arrives at the peer
+  choke,   ///< only rounds pass between the peer and others, as through a path with a small MTU
+  mute,    ///< nothing arrives from the peer
+  bridge,  ///< a partition with `peer` on both sides
 };
-inline constexpr std::size_t kFaultKinds = 8;
+inline constexpr std::size_t kFaultKinds = 10;
 
 struct Fault {
   FaultKind kind = FaultKind::crash;
@@ -58,6 +60,7 @@ struct Plan {
   std::vector<std::size_t> hosts;  ///< of each peer
   bool moves = false;              ///< objects are always in motion
   bool is_contested = false;       ///< two peers ask within 100 ms
+  bool leaves_only = false;        ///< no other fault
   Nanoseconds step{};              ///< between two steps of a peer
   Line line;
   std::vector<Touch> touches;

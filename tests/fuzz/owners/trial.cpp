@@ -67,7 +67,7 @@ class Trial {
   }
 
   Outcome run() {
-    Watch watch(plan_, owners_, outcome_);
+    Watch watch(plan_, owners_, outcome_, audit_);
     watch_ = &watch;
     for (std::size_t i = 0; i < owners_.size(); ++i)
       agenda_.add(dice_.between({}, milliseconds(200)), Step{i});
@@ -115,17 +115,21 @@ class Trial {
   }
   void happen(const Arrive& arrival) {
     SimulatedOwner& owner = owners_[arrival.peer];
-    const peer::OwnershipMessage& message = store_[arrival.message];
+    const auto& [message, sent] = store_[arrival.message];
     if (!owner.runs() || owner.epoch() != arrival.to) return;
     if (arrival.record != kNoRecord) {
       Record& record = records_[arrival.record];
       if (const auto delay = transit(record.to, record.from, false))
         agenda_.add(now_ + *delay, Acknowledged{arrival.record});
-      if (std::exchange(record.is_taken, true)) return;
+      // A copy is rarely taken twice: the protocol must stand it.
+      const bool is_again = std::exchange(record.is_taken, true);
+      if (is_again && !dice_.chance(plan_.line.doubled)) return;
     }
     ++outcome_.received;
     outcome_.hash = mixed(outcome_.hash, arrival.from, message.index() + now_.count());
     owner.protocol().receive(arrival.from, message, now_);
+    if (std::holds_alternative<peer::Round>(message))
+      audit_.note_round(arrival.to, arrival.from, sent);
     has_changed_ = true;
     flush(arrival.peer);
   }
@@ -184,8 +188,12 @@ class Trial {
       case FaultKind::one_way:
       case FaultKind::deaf:
       case FaultKind::choke:
+      case FaultKind::mute:
+      case FaultKind::bridge:
         if (change.begins) return cuts_.push_back(fault);
-        std::erase_if(cuts_, [&](const Fault& cut) { return cut.at == fault.at; });
+        std::erase_if(cuts_, [&](const Fault& cut) {
+          return cut.at == fault.at && cut.kind == fault.kind && cut.peer == fault.peer;
+        });
     }
   }
   void happen(const Heal&) {
@@ -223,6 +231,7 @@ class Trial {
   }
   void restart(std::size_t peer) {
     owners_[peer].begin(static_cast<std::uint32_t>(10 + pdu::to_seconds(now_)));
+    audit_.note_start(peer);
     for (std::size_t i = 0; i < plan_.objects; ++i) {
       if (owners_[peer].is_busy(i)) owners_[peer].touch(i, true);
     }
@@ -232,6 +241,8 @@ class Trial {
     return std::ranges::any_of(cuts_, [&](const Fault& cut) {
       if (cut.kind == FaultKind::one_way) return cut.peer == from && cut.other == to;
       if (cut.kind == FaultKind::deaf) return cut.peer == to;
+      if (cut.kind == FaultKind::mute) return cut.peer == from;
+      if (cut.kind == FaultKind::bridge && (cut.peer == from || cut.peer == to)) return false;
       if (cut.kind == FaultKind::choke) return !is_round && (cut.peer == from || cut.peer == to);
       return ((cut.side >> from ^ cut.side >> to) & 1U) != 0;
     });
@@ -239,6 +250,7 @@ class Trial {
 
   void flush(std::size_t peer) {
     SimulatedOwner& owner = owners_[peer];
+    audit_.note(peer, now_);
     for (const peer::OwnershipEvent& event : owner.protocol().events()) {
       has_changed_ = true;
       if (keep_log_) note(text_of_event(peer, event));
@@ -248,7 +260,7 @@ class Trial {
     }
     owner.protocol().clear_events();
     for (const peer::OutgoingMessage& out : owner.protocol().outgoing()) {
-      store_.push_back(out.message);
+      store_.push_back({out.message, now_});
       for (std::size_t to = 0; to < owners_.size(); ++to) {
         if (to == peer || (out.to != 0 && out.to != owners_[to].epoch())) continue;
         if (out.is_assured) {
@@ -271,7 +283,7 @@ class Trial {
     return delay;
   }
   void carry(std::size_t from, std::size_t to, std::size_t message, std::size_t record) {
-    const bool is_round = std::holds_alternative<peer::Round>(store_[message]);
+    const bool is_round = std::holds_alternative<peer::Round>(store_[message].message);
     const int copies = dice_.chance(plan_.line.doubled) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (const auto delay = transit(from, to, is_round))
@@ -314,10 +326,16 @@ class Trial {
   const Plan& plan_;
   Dice dice_;
   bool keep_log_;
+  Outcome outcome_;
   std::vector<SimulatedOwner> owners_;
+  Audit audit_{plan_, owners_, outcome_};
   Watch* watch_ = nullptr;
   Agenda<Event> agenda_;
-  std::deque<peer::OwnershipMessage> store_;
+  struct Stored {
+    peer::OwnershipMessage message;
+    Nanoseconds sent;
+  };
+  std::deque<Stored> store_;
   struct Record {
     std::size_t from, to;
     std::uint32_t from_epoch, to_epoch;
@@ -330,7 +348,6 @@ class Trial {
   double loss_ = 0.0;
   bool has_changed_ = false;
   Nanoseconds now_{0};
-  Outcome outcome_;
 };
 
 }  // namespace

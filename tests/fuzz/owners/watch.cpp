@@ -12,10 +12,13 @@
 namespace reckon::fuzz::owners {
 namespace {
 
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // The bar of a hand that nothing opposes, without faults: five round trips, and what loss takes.
 constexpr Nanoseconds kMostWait = seconds(2);
+// The bar if the owner has not changed lately, and no withdrawal of the hand is on its way.
+constexpr Nanoseconds kFreshWait = milliseconds(900), kFresh = milliseconds(500);
 
 }  // namespace
 
@@ -28,6 +31,7 @@ void Watch::look_at(std::size_t object, Nanoseconds now) {
   std::size_t first = owners_.size();
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     if (!owners_[i].runs() || !owners_[i].protocol().owns(object, now)) continue;
+    audit_.note_owner(i, object, now);
     const auto& world = owners_[i].protocol().world();
     if (first < owners_.size() && owners_[first].protocol().world() == world) {
       const auto& one = owners_[first].protocol().tenure(object);
@@ -43,6 +47,7 @@ void Watch::look_at(std::size_t object, Nanoseconds now) {
       find(2, now,
            fmt::format("object {} falls from version {:x} to {:x} at peer {}", object, newest,
                        version, i));
+    if (version > newest) objects_[object].changed_at = now;
     newest = std::max(newest, version);
   }
   ObjectRecord& record = objects_[object];
@@ -75,8 +80,10 @@ void Watch::look_closely(Nanoseconds now) {
       waiting = waiting_.erase(waiting);
       continue;
     }
+    const bool is_fresh =
+        waiting->is_fresh && waiting->since - objects_[waiting->object].changed_at > kFresh;
     if (is_calm() && plan_.island == 1 && plan_.line.loss <= 0.3 &&
-        now - waiting->alone > kMostWait)
+        now - waiting->alone > (is_fresh ? kFreshWait : kMostWait))
       find(6, now,
            fmt::format("peer {} waits for object {} that no other hand touches", waiting->peer,
                        waiting->object));
@@ -88,8 +95,11 @@ void Watch::note_touch(const Touch& touch, bool begins, Nanoseconds now) {
   const std::uint32_t bit = 1U << touch.peer;
   hands_[touch.object] = begins ? hands_[touch.object] | bit : hands_[touch.object] & ~bit;
   if (begins) {
-    waiting_.push_back({touch.peer, touch.object, now, now});
+    const auto lifted = lifted_.find({touch.peer, touch.object});
+    const bool is_fresh = lifted == lifted_.end() || now - lifted->second > kFresh;
+    waiting_.push_back({touch.peer, touch.object, now, now, is_fresh});
   } else {
+    lifted_[{touch.peer, touch.object}] = now;
     std::erase_if(waiting_, [&](const Waiting& waiting) {
       return waiting.peer == touch.peer && waiting.object == touch.object;
     });

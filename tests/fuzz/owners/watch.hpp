@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/tests/fuzz/owners/audit.hpp"
 #include "reckon/tests/fuzz/owners/plan.hpp"
 #include "reckon/tests/fuzz/owners/simulated_owner.hpp"
 #include "reckon/tests/fuzz/search/seeded_simulation.hpp"
@@ -28,8 +29,8 @@ struct Outcome : SeededOutcome<> {
 
 class Watch {
  public:
-  Watch(const Plan& plan, std::span<const SimulatedOwner> owners, Outcome& outcome)
-      : plan_(plan), owners_(owners), outcome_(outcome) {}
+  Watch(const Plan& plan, std::span<const SimulatedOwner> owners, Outcome& outcome, Audit& audit)
+      : plan_(plan), owners_(owners), outcome_(outcome), audit_(audit) {}
 
   /// I1 one owner, I2 no version falls. After each event.
   void look(Nanoseconds now);
@@ -42,12 +43,13 @@ class Watch {
 
  private:
   struct ObjectRecord {
-    Nanoseconds owned_at{0};
+    Nanoseconds owned_at{0}, changed_at{0};
     bool has_owner = false, was_owned = false;
   };
   struct Waiting {
     std::size_t peer = 0, object = 0;
     Nanoseconds since{}, alone{};  ///< since when no other hand is at it
+    bool is_fresh = true;          ///< the peer has not withdrawn its request lately
   };
   void find(int invariant, Nanoseconds now, std::string sentence);
   void look_at(std::size_t object, Nanoseconds now);
@@ -56,9 +58,11 @@ class Watch {
   const Plan& plan_;
   std::span<const SimulatedOwner> owners_;
   Outcome& outcome_;
+  Audit& audit_;
   std::map<std::pair<peer::WorldId, std::size_t>, std::uint64_t> versions_;
   std::vector<ObjectRecord> objects_ = std::vector<ObjectRecord>(plan_.objects);
   std::vector<Waiting> waiting_;
+  std::map<std::pair<std::size_t, std::size_t>, Nanoseconds> lifted_;  // by peer and object
   std::vector<std::uint32_t> hands_ = std::vector<std::uint32_t>(plan_.objects);  // bits of peers
 };
 

@@ -132,6 +132,35 @@ TEST(Ownership, PassesAtOnceWhenTheOwnerLeaves) {
   EXPECT_TRUE(owners.owns(2, 0));
 }
 
+// Peer 3 grants to 2, which passes the object on to 1 and leaves. Peer 3 learns only of the act.
+TEST(Ownership, StaysWithNextOwnerWhenTakerLeaves) {
+  LocalOwners owners(3);
+  owners.begin();
+  owners[3].protocol.ask(0);
+  owners.run(milliseconds(200));
+  ASSERT_TRUE(owners.owns(3, 0));
+  owners[3].protocol.withdraw(0);
+  owners.loses = [](std::uint32_t, std::uint32_t to, const OwnershipMessage& message) {
+    return to == 3 && std::holds_alternative<TableExtract>(message);
+  };
+  owners[2].protocol.ask(0);
+  owners.run(milliseconds(100));
+  owners[2].protocol.withdraw(0);
+  owners[1].protocol.ask(0);
+  owners.run(milliseconds(100));
+  ASSERT_TRUE(owners.owns(1, 0));
+  owners[2].protocol.leave();
+  for (int i = 0; i < 100; ++i) {
+    owners.run(milliseconds(10));
+    ASSERT_FALSE(owners.owns(3, 0)) << "while peer 1 owns it";
+  }
+  EXPECT_FALSE(owners[3].protocol.acts().decided().roll.contains(2));
+  owners.loses = [](auto, auto, const auto&) { return false; };
+  owners.run(seconds(1));
+  EXPECT_TRUE(owners.owns(1, 0));
+  EXPECT_EQ(owners[3].protocol.tenure(0).owner, 1U);
+}
+
 TEST(Ownership, IsOldAtAPeerThatSlept) {
   LocalOwners owners(3);
   owners.begin();
