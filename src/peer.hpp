@@ -147,6 +147,11 @@ class Peer {
   /// hand or a moving body of this peer; model thread.
   [[nodiscard]] bool has_near() const noexcept { return model_.has_near(); }
 
+  /// Whether peers wait for answers of this one; model thread.
+  [[nodiscard]] bool is_prompt(std::chrono::nanoseconds now) const noexcept {
+    return model_.is_prompt(now);
+  }
+
   /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and
   /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;

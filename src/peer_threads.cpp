@@ -34,8 +34,10 @@ constexpr nanoseconds kLeastSleep = microseconds(100);
 // rest is at most kLongestRest.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
-// If the model loop reads the link, it takes all arrivals within this time together.
-constexpr nanoseconds kTogether = std::chrono::milliseconds(1);
+// If the model loop reads the link, it takes all arrivals within this time together; while peers
+// wait for answers, within kPrompt.
+constexpr nanoseconds kTogether = std::chrono::milliseconds(5);
+constexpr nanoseconds kPrompt = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams
 // If notifications of the model loop come at least this often, they come from the servo of a moving
 // hand. Arrivals then wait for the next of them.
@@ -223,7 +225,8 @@ void PeerThreads::choose_reader(nanoseconds now) noexcept {
 void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   const nanoseconds now = clock_.now();
   const nanoseconds until = std::max(peer_.next_step(), now + kLeastSleep);
-  const nanoseconds together = std::min(std::max(begun + kTogether, now + kLeastSleep), until);
+  const nanoseconds collects = begun + (peer_.is_prompt(now) ? kPrompt : kTogether);
+  const nanoseconds together = std::min(std::max(collects, now + kLeastSleep), until);
   const bool paced = paced_.load(std::memory_order_relaxed);
   const nanoseconds of_servo = paced ? std::min(until, now + kPace) : until;
   if (!reads_in_model_loop()) {

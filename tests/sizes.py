@@ -28,11 +28,11 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 39500,
-    "src": 51500,
+    "src": 52000,
     "tools": 40000,
     "python": 2500,
-    "bench": 36500,
-    "tests": 140500,
+    "bench": 37000,
+    "tests": 141000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -47,9 +47,9 @@ LARGE = {
     "haptics/RemoteContact": (348, 30),
     "haptics/SerialSession": (178, 27),
     "haptics/ServoSnapshot": (1, 35),
-    "src/ModelLoop": (307, 25),
+    "src/ModelLoop": (310, 25),
     "src/NetworkReadLoop": (102, 31),
-    "src/PeerThreads": (190, 27),
+    "src/PeerThreads": (191, 27),
     "src/RemoteEntities": (450, 21),
     "src/RemoteEntity": (22, 31),
     "tools/Exercise": (304, 17),

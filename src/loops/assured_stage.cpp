@@ -242,6 +242,7 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   const bool is_good = pdu::decode(update.record, record) == pdu::DecodeError::none &&
                        is_from_member(record, arrival);
   if (!is_good) return counted_.refused.add(), false;
+  active_until_ = arrival.now + kActive;
   if (record.kind == pdu::AssuredKind::acknowledgement) return take_receipt(record), false;
 
   const bool is_pdu = update.kind != Inbound::Kind::assured;

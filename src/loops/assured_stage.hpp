@@ -96,12 +96,17 @@ class AssuredStage final : private AssuredReports {
 
   /// Queues what is due: first transmissions, repeats, acknowledgements.
   void step(const Pass& pass) noexcept;
+  /// Whether a record is in flight, or one of others came within kActive.
+  [[nodiscard]] bool is_active(std::chrono::nanoseconds now) const noexcept {
+    return next_step() != Nanoseconds::max() || now < active_until_;
+  }
   /// Time of the next step(); nanoseconds::max() if nothing is in flight.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return sent_.next_step(); }
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
   static constexpr std::size_t kMostOctets = 1352;  ///< of a PDU
+  static constexpr Nanoseconds kActive = std::chrono::seconds(1);
 
   void find_joined() noexcept;
   void settle(const AssuredReport& report) noexcept override;
@@ -129,6 +134,7 @@ class AssuredStage final : private AssuredReports {
   DatagramOutlet& outlet_;
   haptics::SpscRing<Notice>& notices_;
   AssuredCounters counted_;
+  Nanoseconds active_until_{0};
   AcknowledgedSet sent_;
   ReceivedSet received_;
   Pass pass_;

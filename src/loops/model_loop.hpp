@@ -116,6 +116,10 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.
   [[nodiscard]] bool has_near() const noexcept { return touch_.has_near(); }
+  /// Whether peers wait for answers: assured records are under way, or bodies can change owners.
+  [[nodiscard]] bool is_prompt(std::chrono::nanoseconds now) const noexcept {
+    return ownership_.is_on() || assured_.is_active(now);
+  }
   /// Queues final Entity States (deactivated), as far as the writer has room, and then the leaving
   /// announcement. True once all are queued; until then call it again when the writer has room.
   bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;

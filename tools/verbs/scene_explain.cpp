@@ -171,6 +171,19 @@ std::string body_text(const peer::BodyCosts& costs) {
       1e6 * costs.p99, 1e6 * costs.p99_until_force, costs.late, costs.steps);
 }
 
+void append_bodies(std::string& text, const std::optional<peer::BodyCosts>& bodies) {
+  if (!bodies) return;
+  JsonObject(text)
+      .text("kind", "bodies")
+      .value("awake", bodies->bodies)
+      .number("median_s", bodies->median)
+      .number("p99_s", bodies->p99)
+      .number("p99_until_force_s", bodies->p99_until_force)
+      .value("steps", bodies->steps)
+      .value("late", bodies->late)
+      .end("\n");
+}
+
 }  // namespace
 
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
@@ -243,27 +256,16 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
   const peer::StageCosts costs =
       peer::measure_stages(scene.file.scene, scene.plan, scene.file.hand.contact_radius);
   for (std::size_t i = 0; i < stages.size(); ++i) {
-    const bool known = costs.stages[i] >= 0;
     JsonObject(text)
         .text("kind", "stage")
         .text("stage", stages[i].name)
         .text("object", stages[i].object)
         .text("parameters", stages[i].parameters)
         .text("cost", stages[i].cost)
-        .number("takes_s", known ? std::optional(costs.stages[i]) : std::nullopt)
+        .number("takes_s", costs.stages[i] >= 0 ? std::optional(costs.stages[i]) : std::nullopt)
         .end("\n");
   }
-  if (const auto bodies = body_costs_of(scene, devices)) {
-    JsonObject(text)
-        .text("kind", "bodies")
-        .value("awake", bodies->bodies)
-        .number("median_s", bodies->median)
-        .number("p99_s", bodies->p99)
-        .number("p99_until_force_s", bodies->p99_until_force)
-        .value("steps", bodies->steps)
-        .value("late", bodies->late)
-        .end("\n");
-  }
+  append_bodies(text, body_costs_of(scene, devices));
   for (const LeftOut& row : left_out(scene.file.scene)) {
     JsonObject(text)
         .text("kind", "left_out")
