@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Time integration of the bodies. An island of touching bodies that hands push is integrated in
-// small steps, whose result is predicted for the hands' forces. The other bodies are integrated
+// small steps; the hands' forces use their predicted result. The other bodies are integrated
 // after these forces are written to the devices, so that no force waits for them.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cost of a step of bodies by counted work. No clock is read, so a scene takes the same steps on
-// each host and under each load.
+// Cost of a step of bodies by counted work. No clock is read during the run: with equal pace
+// (BodyWorld::set_pace) a scene takes the same steps on each host and under each load.
 #pragma once
 
 namespace reckon::haptics {

@@ -32,12 +32,13 @@ class HandPushes {
   /// Whether no hand pushes in this period or has pushed in the last.
   [[nodiscard]] bool is_quiet() const noexcept { return pushes_.empty() && last_.empty(); }
   [[nodiscard]] bool has_any_of(std::size_t hand) const noexcept;
-  /// Slots of the bodies pushed in this period; in this or the last; in this, or in the last by a
-  /// hand that has not stepped yet.
+  /// Slots of the bodies pushed in this period.
   [[nodiscard]] BodySet pushed() const noexcept { return slots_of(pushes_, solver_.slots()); }
+  /// In this period or the last.
   [[nodiscard]] BodySet pinned() const noexcept {
     return pushed() | slots_of(last_, solver_.slots());
   }
+  /// In this period, or in the last by a hand that has not stepped yet.
   [[nodiscard]] BodySet present() const noexcept;
   /// Substeps of the predictions of this period, at least 1.
   [[nodiscard]] std::size_t steps() const noexcept { return most_steps(pushes_); }
@@ -63,7 +64,7 @@ class HandPushes {
 
   /// Moves some bodies from one time of the period to another [s], by the held pushes on them.
   void move(BodySet some, double from, double to, double steps) noexcept;
-  /// Work of the pushes so far in this period is 0 from here on.
+  /// Sets the work of all pushes to 0.
   void begin_works() noexcept { works_.assign(pushes_.size(), 0.0); }
   /// Work of a push on its body [J], until the next begin_works().
   [[nodiscard]] double work(std::size_t push) const noexcept {

@@ -20,7 +20,7 @@ class LoopSide;
 struct News;
 struct SceneFile;
 
-/// Ownership of bodies in HLA's words. A federate with a hand or a number in the scene
+/// Ownership of bodies in HLA's words. A federate with a device or a number in the scene
 /// (FederateOptions::scene_peer) may own bodies, all others follow. In an `interop` scene owners
 /// are fixed, and no order has an effect.
 ///
@@ -49,15 +49,15 @@ class FederateBodies {
 
   // Ownership -------------------------------------------------------------------------------------
 
-  /// Wants a body, and keeps it, until divest(). Its owner gives it away when neither its program
-  /// nor a hand of its keeps it; bodies in contact with it come too. (HLA: attribute ownership
+  /// Wants a body, and keeps it, until divest(). Its owner gives it away when its program does not
+  /// keep it and none of its hands touches it; bodies in contact with it come too. (HLA: attribute ownership
   /// acquisition.) @throws std::logic_error if this federate may own no body
   void acquire(BodyHandle body);
   /// Ends acquire(): the body goes to the federate that asks next. Until then this one owns it.
   /// (HLA: attribute ownership divestiture if wanted, cancel attribute ownership acquisition.)
   void divest(BodyHandle body);
-  /// Whether this federate moves the body now. False while it gives the body away, and while it
-  /// receives too few of the federates that own bodies.
+  /// Whether this federate moves the body now. False while it gives the body away, and while no
+  /// majority of the voters receives this federate.
   [[nodiscard]] bool owns(BodyHandle body) const { return known(body).is_ours; }
   /// The owner by the knowledge of this peer, which may be itself while owns() is false; 0:0: not
   /// known.
@@ -67,8 +67,8 @@ class FederateBodies {
   void on_acquired(std::function<void(BodyHandle)> callback) { acquired_ = std::move(callback); }
   /// owns() has become false. (HLA 1.3: attribute ownership divestiture notification.)
   void on_lost(std::function<void(BodyHandle)> callback) { lost_ = std::move(callback); }
-  /// Another federate asks for a body that this one keeps. Called once for each that is the first
-  /// in the line. (HLA: request attribute ownership release.)
+  /// Another federate asks for a body that this one keeps. Called once for each that becomes the
+  /// first in the queue. (HLA: request attribute ownership release.)
   void on_release_requested(std::function<void(BodyHandle, const aoim::PeerId&)> callback) {
     requested_ = std::move(callback);
   }

@@ -46,9 +46,9 @@ class BodyHandOvers {
   void note(const OwnershipEvent& event) noexcept;
   /// After the events of a pass.
   void send_orders(const Pass& pass) noexcept;
-  /// This peer states the body from now on.
+  /// This peer sends the body's states from now on.
   void begin_own(std::size_t body) noexcept { left_at_[body] = Nanoseconds(0); }
-  /// Brings bodies to rest whose new owner has not stated them.
+  /// Brings bodies to rest whose new owner has sent no state yet.
   void doubt_left(Nanoseconds now) noexcept;
 
  private:

@@ -56,7 +56,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
     return is_on_ ? next_ : std::chrono::nanoseconds::max();
   }
 
-  /// Wants a body, and keeps it as the owner, until withdraw(). Its owner gives it to the peers in
+  /// Wants a body, and keeps it as the owner, until divest(). Its owner gives it to the peers in
   /// the order of their requests, while none of its hands touches it.
   void acquire(std::size_t body) noexcept;
   /// Gives a body to the next peer that asks.
@@ -68,7 +68,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   bool order(const haptics::BodyOrder& order) noexcept { return this->order(std::span(&order, 1)); }
   /// The same for at most kMostOrders orders, which take effect together.
   bool order(std::span<const haptics::BodyOrder> orders) noexcept;
-  /// Gives all bodies to other peers. Call step() until has_left(), at most for a second.
+  /// Gives all bodies to other peers. Call step() until has_left(), at most for 1.5 s.
   void leave() noexcept { protocol_.leave(); }
   [[nodiscard]] bool has_left() const noexcept { return !is_on_ || protocol_.has_left(); }
   /// See Ownership::go_alone().

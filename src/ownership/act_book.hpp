@@ -11,8 +11,8 @@
 namespace reckon::peer {
 
 /// A voter's part in the decision on the next act, as in Paxos. A proposer asks a majority for
-/// promises, and proposes what the promise with the highest accepted ballot names, else its own
-/// wish. So two acts of one number that a majority accepts are the same. One thread; no allocation.
+/// promises. If some name an accepted act, it proposes the one of the highest ballot, else its own.
+/// So at most one act of each number is decided. One thread; no allocation.
 class ActBook {
  public:
   [[nodiscard]] bool exists() const noexcept { return decided_.number > 0; }

@@ -17,8 +17,8 @@ namespace reckon::peer {
 class Granting {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// A grant without an answer is given up after this time. By then the new owner has taken it and
-  /// a majority knows that, or it does not act.
+  /// A grant that is not answered within this time is released. By then the new owner has it and a
+  /// majority knows that, or it may not act.
   static constexpr Nanoseconds kGiveUp = LeaseBook::kDead + std::chrono::milliseconds(300);
   /// A leaver gives objects away for this time at most.
   static constexpr Nanoseconds kPush = std::chrono::milliseconds(700);
@@ -36,7 +36,7 @@ class Granting {
   [[nodiscard]] bool has_granted(Nanoseconds now) const noexcept;
   /// Whether a leaver still has objects, and time to give them away.
   [[nodiscard]] bool gives_away(Nanoseconds now) const noexcept;
-  /// Whether it gives nothing away any more.
+  /// Stops giving objects away, or goes on.
   void close(bool closed) noexcept { is_closed_ = closed; }
 
  private:

@@ -24,7 +24,7 @@ class LeaseBook {
   using Nanoseconds = std::chrono::nanoseconds;
   static constexpr Nanoseconds kLease = std::chrono::seconds(2);
   static constexpr Nanoseconds kDead = std::chrono::seconds(3);
-  /// After the end of a lease no majority removes its owner for this time. A tenth of a second is
+  /// For this time after a lease ends, no majority removes the peer that held it. A tenth of a second is
   /// left for clocks of different rates.
   static constexpr Nanoseconds kGrace = kDead - kLease - std::chrono::milliseconds(100);
   /// An older round is not returned: its number could be taken for a new one.

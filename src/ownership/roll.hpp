@@ -31,10 +31,10 @@ class Roll {
   }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-  /// False if it is full, or the epoch is 0 or in it.
+  /// False if it is full, or the epoch is 0 or already listed.
   bool add(const Voter& voter) noexcept;
   void remove(std::uint32_t epoch) noexcept;
-  /// kNone if it is not in it.
+  /// kNone if it is not listed.
   [[nodiscard]] std::size_t index_of(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool contains(std::uint32_t epoch) const noexcept {
     return index_of(epoch) != kNone;
@@ -49,7 +49,7 @@ class Roll {
     for (std::size_t i = 0; i < count_; ++i) in[i] = has(voters_[i]);
     return is_majority_of(in);
   }
-  /// The voter whose time is the latest such that the voters with this time or a later one are a
+  /// Index of the voter with the latest time t such that the voters with times >= t are a
   /// majority; kNone for an empty roll.  @param times of the voters, in order
   [[nodiscard]] std::size_t last_of_majority(
       std::span<const std::chrono::nanoseconds> times) const noexcept;

@@ -17,7 +17,7 @@ namespace reckon::peer {
 class Taking {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// A grant is taken within this time after the round that it returns was sent.
+  /// Greatest age at which a grant is taken, from the time of our round that it returns.
   static constexpr Nanoseconds kTake = std::chrono::milliseconds(1500);
 
   Taking(OwnershipCore& core, ObjectRows& rows) : core_(core), rows_(rows) {}

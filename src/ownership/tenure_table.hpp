@@ -40,7 +40,7 @@ class TenureTable {
               bool is_silent) noexcept;
   /// Whether this peer may grant the object, as far as is known here.
   [[nodiscard]] bool may_grant(std::size_t object, std::uint32_t epoch) const noexcept;
-  /// Notes a witness for a tenure that has not begun yet.
+  /// Notes that a peer other than the owner names this owner, before the tenure begins.
   void name(std::size_t object, const Tenure& tenure) noexcept;
   void clear() noexcept;
 

@@ -145,9 +145,9 @@ std::string step_text(const peer::StageCosts& costs) {
   const std::string what = costs.dearest_object.empty()
                                ? std::string("a step")
                                : fmt::format("a step that touches {}", costs.dearest_object);
-  const std::string text =
-      fmt::format("measured here: {} takes {:.2g} us of 1,000 ({:.0f} ns without any stage)", what,
-                  1e6 * costs.dearest, 1e9 * costs.empty);
+  const std::string text = fmt::format(
+      "measured here: {} takes {:.2g} us of the 1,000 us of a period ({:.0f} ns without any stage)",
+      what, 1e6 * costs.dearest, 1e9 * costs.empty);
   if (costs.dearest < kMost * kStep) return text;
   return text + "; this host is too slow for 1 kHz: remove the costliest stages above" +
          (costs.dearest < kStep ? "" : ". demo and peer refuse the scene here");
@@ -165,8 +165,9 @@ std::optional<peer::BodyCosts> body_costs_of(const LoadedScene& scene,
 
 std::string body_text(const peer::BodyCosts& costs) {
   return fmt::format(
-      "with {} awake and hands among them, a step takes {:.3g} us in the median and {:.3g} us at "
-      "p99, of which {:.3g} us until the force is written; {} of {} steps are late",
+      "with {} awake and hands among them, the steps of all hands take {:.3g} us in the median and "
+      "{:.3g} us at p99; until the last force is written {:.3g} us at p99; {} of {} periods are "
+      "late",
       costs.bodies == 1 ? "1 body" : fmt::format("{} bodies", costs.bodies), 1e6 * costs.median,
       1e6 * costs.p99, 1e6 * costs.p99_until_force, costs.late, costs.steps);
 }

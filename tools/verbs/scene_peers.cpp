@@ -300,8 +300,7 @@ std::vector<PeerFact> body_facts(const haptics::EffectPlan& plan) {
                                : peer::format_quantity(most, "kg");
   rows.push_back({1, fmt::format("bodies {}", count), "mass", mass});
   rows.push_back({1, fmt::format("bodies {}", count), "step",
-                  "within the servo step of its hands, about 2 us for each awake body, 10 us and "
-                  "more for one at a hand"});
+                  "within the servo steps of its hands; measured above"});
   if (!passed.empty()) rows.push_back({1, fmt::format("bodies {}", count), "go through", passed});
   return rows;
 }

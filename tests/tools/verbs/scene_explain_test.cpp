@@ -65,9 +65,9 @@ TEST(SceneExplain, MeasuresMovingBodies) {
   const auto text = run_reckon({"scene", "explain", scene.path()});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, ::testing::ContainsRegex(
-                            "with 1 body awake and hands among them, a step takes .* us in the "
-                            "median and .* us at p99, of which .* us until the force is written; "
-                            "[0-9]+ of 700 steps are late"));
+                            "with 1 body awake and hands among them, the steps of all hands "
+                            "take .* us in the median and .* us at p99; until the last force is "
+                            "written .* us at p99; [0-9]+ of 700 periods are late"));
   const auto lines = run_reckon({"scene", "explain", scene.path(), "--json"});
   EXPECT_THAT(lines.out, HasSubstr("{\"kind\":\"bodies\",\"awake\":1,\"median_s\":"));
 }
