@@ -150,7 +150,6 @@ SceneFile pile_of_boxes() {
     object.name = "object " + std::to_string(file.scene.objects.size());
     object.shape = shape;
     object.pose.position = at;
-    object.effects.of<haptics::SpringDamper>() = {400.0, 0.0};
     object.matter.mass = mass;
     object.matter.friction = 0.5;
   };
