@@ -177,7 +177,7 @@ TEST(OwnershipCodec, RefusesOctetsThatAreCutShort) {
 TEST(OwnershipCodec, ReadsAnyOctetsWithoutFault) {
   std::mt19937 draw(3);
   const std::array<OwnershipMessage, 4> messages{round_of(40), proposal_of(9, 4), TableExtract{},
-                                                 OwnershipMessage(grant_of(8))};
+                                                 OwnershipMessage(grant_of(kMostGranted))};
   for (int i = 0; i < 20'000; ++i) {
     EncodedMessage encoded;
     std::vector<std::byte> octets = octets_of(messages[draw() % messages.size()], encoded);
