@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace reckon::pdu {
 namespace {
@@ -118,9 +120,32 @@ constexpr auto kFields = std::to_array<Row>({
     values("warhead", T::warhead),
 });
 
-constexpr bool before(const Row& row, std::string_view field) { return row.field < field; }
 static_assert(std::is_sorted(kFields.begin(), kFields.end(),
                              [](const Row& a, const Row& b) { return a.field < b.field; }));
+
+constexpr std::size_t kSlots = 512;
+constexpr std::uint8_t kFree = 0xFF;
+
+// Where a row of this name is, or a row after it, or else a free slot: most names have no row, and
+// are not compared with any. A name has at least one character.
+constexpr std::size_t slot_of(std::string_view field) {
+  const auto letter = [&](std::size_t i) { return static_cast<unsigned char>(field[i]); };
+  const std::size_t n = field.size();
+  return (n + 5U * letter(0) + 31U * letter(n / 2) + 131U * letter(n - 1)) % kSlots;
+}
+
+// Rows by name: open addressing.
+constexpr auto kRows = [] {
+  std::array<std::uint8_t, kSlots> rows{};
+  rows.fill(kFree);
+  static_assert(kFields.size() < kFree);
+  for (std::size_t i = 0; i < kFields.size(); ++i) {
+    std::size_t slot = slot_of(kFields[i].field);
+    while (rows[slot] != kFree) slot = (slot + 1) % kSlots;
+    rows[slot] = static_cast<std::uint8_t>(i);
+  }
+  return rows;
+}();
 
 FieldMeaning value_of(SisoTable table) { return {table, B::none}; }
 FieldMeaning bits_of(SisoBits set) { return {T::none, set}; }
@@ -165,8 +190,10 @@ constexpr std::array kModulationDetails{T::none,
 }  // namespace
 
 FieldMeaning field_meaning(std::string_view field) noexcept {
-  const auto* row = std::lower_bound(kFields.begin(), kFields.end(), field, before);
-  return row != kFields.end() && row->field == field ? row->meaning : FieldMeaning{};
+  if (field.empty()) return {};
+  for (std::size_t slot = slot_of(field); kRows[slot] != kFree; slot = (slot + 1) % kSlots)
+    if (const Row& row = kFields[kRows[slot]]; row.field == field) return row.meaning;
+  return {};
 }
 
 FieldMeaning meaning_in(const PduHeader& record, std::string_view field) noexcept {

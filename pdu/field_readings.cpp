@@ -18,6 +18,9 @@ using std::chrono::microseconds;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kPlaceDecimals = 7;  // of a degree: 1 cm
+// Half of the last digit, by the count of decimals.
+constexpr std::array<double, 8> kHalves{0.5,    0.5e-1, 0.5e-2, 0.5e-3,
+                                        0.5e-4, 0.5e-5, 0.5e-6, 0.5e-7};
 
 /// `value` with at least `digits` digits.
 void put_digits(TextSink& sink, std::uint64_t value, unsigned digits) {
@@ -100,7 +103,8 @@ void FieldReadings::number(std::string_view key, std::string_view unit, double v
                            int decimals) noexcept {
   FieldReading& part = add(key);
   part.unit = unit;
-  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;  // never "-0.000"
+  const double half = kHalves[static_cast<std::size_t>(decimals)];
+  if (std::abs(value) < half) value = 0.0;  // never "-0.000"
   char* begin = part.text.data();
   // A number too long for the text is written with an exponent.
   auto end =

@@ -29,7 +29,7 @@ struct FieldReading {
 /// The parts of one field's reading. No heap.
 class FieldReadings {
  public:
-  /// Adds a finite number with `decimals` decimals.
+  /// Adds a finite number with `decimals` decimals, 0 .. 7.
   void number(std::string_view key, std::string_view unit, double value, int decimals) noexcept;
   void text(std::string_view key, std::string_view value) noexcept;
   void clear() noexcept { size_ = 0; }

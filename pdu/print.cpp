@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/print.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +15,9 @@ void put_hex_octet(TextSink& sink, unsigned octet) {
   sink.text(kHexDigits[octet >> 4]);
   sink.text(kHexDigits[octet & 15U]);
 }
+
+// Whether a character stands for itself in a JSON string.
+bool is_unescaped(char c) { return c >= 0x20 && c <= 0x7E && c != '"' && c != '\\'; }
 
 // The octets of a PDU without a field table, or of a damaged one: header and the rest.
 struct RawPdu {
@@ -141,14 +145,19 @@ void put_type_in_words(TextSink& sink, const EntityType& type) {
 
 void put_json_string(TextSink& sink, std::string_view text) {
   sink.text('"');
-  for (const char c : text) {
-    const auto octet = static_cast<unsigned char>(c);
-    if (octet < 0x20 || octet > 0x7E) {
-      sink.text("\\u00");
-      put_hex_octet(sink, octet);
-    } else {
-      if (c == '"' || c == '\\') sink.text('\\');
+  while (!text.empty()) {
+    const auto plain =
+        static_cast<std::size_t>(std::ranges::find_if_not(text, is_unescaped) - text.begin());
+    sink.text(text.substr(0, plain));
+    if (plain == text.size()) break;
+    const char c = text[plain];
+    text.remove_prefix(plain + 1);
+    if (c == '"' || c == '\\') {
+      sink.text('\\');
       sink.text(c);
+    } else {
+      sink.text("\\u00");
+      put_hex_octet(sink, static_cast<unsigned char>(c));
     }
   }
   sink.text('"');
@@ -182,7 +191,8 @@ void JsonFields::readings(std::string_view field, const FieldReadings& of_value)
   sink_.text(field);
   sink_.text("_read\":{");
   for (const FieldReading& part : parts) {
-    sink_.text(&part == parts.data() ? "\"" : ",\"");
+    if (&part != parts.data()) sink_.text(',');
+    sink_.text('"');
     sink_.text(part.key);
     if (!part.unit.empty()) sink_.text('_');
     sink_.text(part.unit);

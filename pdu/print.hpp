@@ -126,9 +126,7 @@ class JsonFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
-  void walked(std::string_view name, const OctetView auto& view) {
-    hex(name, view.value());
-  }
+  void walked(std::string_view name, const OctetView auto& view) { hex(name, view.value()); }
   void walked(std::string_view name, const SizedView auto& view) {
     key(name);
     list(view.records(), [this](const auto& item) { sized(item); });
@@ -188,8 +186,9 @@ class JsonFields {
   void key(std::string_view name) {
     if (!first_) sink_.text(',');
     first_ = false;
-    put_json_string(sink_, name);
-    sink_.text(':');
+    sink_.text('"');
+    sink_.text(name);
+    sink_.text("\":");
   }
   void record(std::span<const std::byte> octets, auto typed) {
     if (load_record(octets, typed)) object(typed);
@@ -217,9 +216,7 @@ class FlatCheck {
   constexpr void records(std::string_view, const View&, R) {
     flat_ = false;
   }
-  constexpr void walked(std::string_view, const auto&) {
-    flat_ = false;
-  }
+  constexpr void walked(std::string_view, const auto&) { flat_ = false; }
   [[nodiscard]] constexpr bool flat() const { return flat_; }
 
  private:
@@ -270,9 +267,7 @@ class TreeFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
-  void walked(std::string_view name, const OctetView auto& view) {
-    hex(name, view.value());
-  }
+  void walked(std::string_view name, const OctetView auto& view) { hex(name, view.value()); }
   void walked(std::string_view name, const SizedView auto& view) {
     for (const auto& item : view.records()) sized(name, item);
   }
@@ -329,9 +324,7 @@ class TreeFields {
 
 /// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard, all
 /// enumerations as numbers.
-void print_json(const auto& value, TextSink& sink) {
-  JsonFields(sink).object(value);
-}
+void print_json(const auto& value, TextSink& sink) { JsonFields(sink).object(value); }
 
 /// The same with names. Each value with a name is followed by the name,
 /// `"country":225,"country_name":"United States"`. The bit fields of a word follow the word,

@@ -136,10 +136,10 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity, 
   if (!are_records(records)) return refuse(AddResult::refused_kind);
   const Found found = find(group, entity);
   if (found.item != nullptr) return replace(group, *found.item, place, state, records, terms);
-  return append_item(group, {entity.key(), entity, place}, state, records, terms, found.entry);
+  return append_item(group, {entity.key(), entity, place}, state, records, terms, found.ordinal);
 }
 
-// The pending update of this entity, or the index entry for it. A short queue is searched. For a
+// The pending update of this entity, or its ordinal in the index. A short queue is searched. For a
 // long one the index has each item, and some that have been sent: such an ordinal is before the
 // first one, or belongs to another entity by now.
 Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
@@ -150,22 +150,22 @@ Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity
       if (item.key == key) return {&item, nullptr};
     return {};
   }
-  WaitingIndex::Entry& entry = waiting_.entry(group, entity);
-  const std::uint32_t at = entry.ordinal - lane.first;
-  const bool waits = entry.used && at < lane.items.size() && lane.items[at].key == key;
-  return {waits ? &lane.items[at] : nullptr, &entry};
+  std::uint32_t* ordinal = waiting_.find(group, entity);
+  if (ordinal == nullptr) return {};
+  const std::uint32_t at = *ordinal - lane.first;
+  const bool waits = at < lane.items.size() && lane.items[at].key == key;
+  return {waits ? &lane.items[at] : nullptr, ordinal};
 }
 
-// Indexes the last item, whose entry is known if it has one, or all items of a queue that has just
+// Indexes the last item, at `ordinal` if its row is there, or all items of a queue that has just
 // become long.
-void Aggregator::index_added(GroupIndex group, WaitingIndex::Entry* entry) {
+void Aggregator::index_added(GroupIndex group, std::uint32_t* ordinal) {
   const Lane& lane = lanes_[group.value];
-  const auto last = static_cast<std::uint32_t>(lane.items.size() - 1);
-  if (last == kScanned) {
-    if (!index_from(group, 0)) rebuild_index();
-  } else if (entry != nullptr) {
-    if (!waiting_.has_room()) return rebuild_index();
-    waiting_.put(*entry, group, lane.items[last].entity, lane.first + last);
+  const std::size_t last = lane.items.size() - 1;
+  if (ordinal != nullptr) {
+    *ordinal = lane.first + static_cast<std::uint32_t>(last);
+  } else if (!index_from(group, last == kScanned ? 0 : last)) {
+    rebuild_index();
   }
 }
 
@@ -173,24 +173,25 @@ void Aggregator::index_added(GroupIndex group, WaitingIndex::Entry* entry) {
 bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
   const Lane& lane = lanes_[group.value];
   for (std::size_t i = first; i < lane.items.size(); ++i) {
-    const Item& item = lane.items[i];
-    if (item.key == kNoEntity) continue;
-    if (!waiting_.has_room()) return false;
-    waiting_.put(waiting_.entry(group, item.entity), group, item.entity,
-                 lane.first + static_cast<std::uint32_t>(i));
+    if (lane.items[i].key == kNoEntity) continue;
+    std::uint32_t* ordinal = waiting_.take(group, lane.items[i].entity);
+    if (ordinal == nullptr) return false;
+    *ordinal = lane.first + static_cast<std::uint32_t>(i);
   }
   return true;
 }
 
-// Removes items that have been sent. At least a quarter of the index is free then, which pays for
+bool Aggregator::index_all() noexcept {
+  return std::ranges::all_of(active_, [this](std::uint16_t index) {
+    return lanes_[index].items.size() <= kScanned || index_from({index}, 0);
+  });
+}
+
+// Removes entities without pending updates. At least half of the rows are free then, which pays for
 // this.
 void Aggregator::rebuild_index() {
-  std::size_t live = 0;
-  for (const std::uint16_t index : active_) live += lanes_[index].items.size();
-  waiting_.reset(live);
-  for (const std::uint16_t index : active_) {
-    if (lanes_[index].items.size() > kScanned) static_cast<void>(index_from({index}, 0));
-  }
+  waiting_.clear();
+  while (!index_all() || !waiting_.is_roomy()) waiting_.grow();
 }
 
 // A PDU that is longer than the payload limit is sent alone; no other bundle is as long.
@@ -202,7 +203,7 @@ void Aggregator::make_datagram_room(std::size_t octets) {
 AddResult Aggregator::append_item(GroupIndex group, const Named& named,
                                   std::span<const std::byte> bytes,
                                   std::span<const std::byte> behind, const BundleTerms& terms,
-                                  WaitingIndex::Entry* entry) {
+                                  std::uint32_t* ordinal) {
   Lane& lane = lanes_[group.value];
   const std::size_t size = bytes.size() + behind.size();
   if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
@@ -223,7 +224,7 @@ AddResult Aggregator::append_item(GroupIndex group, const Named& named,
   hasten(item, terms);
   count_in(lane, item);
   list(group);
-  if (lane.items.size() > kScanned) index_added(group, entry);
+  if (lane.items.size() > kScanned) index_added(group, ordinal);
   ++counts_.updates;
   return AddResult::queued;
 }

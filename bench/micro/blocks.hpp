@@ -1,32 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Times alternatives in short blocks in turn, so that other load on the machine affects all of them
-// equally. Results are medians of blocks, or of the ratios of neighbouring blocks.
+// Times alternatives in short blocks in turn, by the CPU time of their thread, so that other load
+// on the machine affects all of them little and equally. Results are medians of blocks, or of the
+// ratios of neighbouring blocks.
 #pragma once
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 
 namespace reckon::bench {
 
-/// Nanoseconds of one call, averaged over a block that is short enough to be rarely interrupted.
+/// CPU time of one call [ns], averaged over a block.
 template <typename Call>
 double nanoseconds_of(Call&& call) {
   constexpr int kCalls = 500;
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  for (int i = 0; i < kCalls; ++i) {
-    call();
-    benchmark::ClobberMemory();
-  }
-  return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / kCalls;
+  return cpu_ns_of([&] {
+           for (int i = 0; i < kCalls; ++i) {
+             call();
+             benchmark::ClobberMemory();
+           }
+         }) /
+         kCalls;
 }
 
 /// One number for each block; reported as median, 10th and 90th percentile.

@@ -11,22 +11,18 @@
 
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <exception>
 #include <string>
 #include <thread>
 
 #include "reckon/bench/micro/blocks.hpp"
 #include "reckon/bench/micro/transport_updates.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 
 namespace reckon::peer {
 namespace {
 
-double process_cpu_ns() {
-  timespec spent{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) * 1e9 + static_cast<double>(spent.tv_nsec);
-}
+double process_cpu_ns() { return static_cast<double>(process_cpu_time().count()); }
 
 // Two domains of one process that are one domain on the wire.
 std::string configuration() {

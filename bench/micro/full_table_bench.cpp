@@ -17,6 +17,7 @@
 
 #include "reckon/bench/micro/blocks.hpp"
 #include "reckon/bench/micro/resident.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -35,13 +36,15 @@ constexpr nanoseconds kMidnight = std::chrono::hours(500'000);  // UTC
 constexpr std::size_t kStates = 9, kBlock = 64;  // states in a datagram; datagrams in a block
 constexpr std::size_t kStateSize = pdu::kFixedSize<pdu::EntityState>;
 constexpr double kSpacing = 20;  // [m]
+constexpr const char* kScene =
+    "[network]\ntouch = \"all\"\n[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n";
 
 class FullTable {
  public:
   explicit FullTable(std::uint32_t entities)
       : entities_(entities),
         side_(static_cast<std::uint32_t>(std::ceil(std::sqrt(entities)))),
-        scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n", "bench")),
+        scene_(parse_scene_file(kScene, "bench")),
         frame_(0.8, 0.1, 400),
         pool_(scene_.network.group, scene_.aoim.pool),
         aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
@@ -56,34 +59,35 @@ class FullTable {
   /// Memory of each entity [octets].
   [[nodiscard]] double memory() const { return memory_; }
 
-  /// Time of an update from its octets on [ns], over a block of updates for moving entities.
+  /// CPU time of an update from its octets on [ns], over a block of updates for moving entities.
   double take_block() {
     now_ += milliseconds(2);
     for (std::vector<std::byte>& datagram : block_) write(datagram);
-    const auto begin = std::chrono::steady_clock::now();
     std::size_t taken = 0;
-    for (const std::vector<std::byte>& datagram : block_) {
-      const std::span<const Inbound> updates = decoder_.decode(datagram, {1, 1});
-      remote_.prefetch(updates);
-      for (const Inbound& update : updates) taken += remote_.take(update, arrival(), {}) ? 1 : 0;
-    }
-    const nanoseconds spent = std::chrono::steady_clock::now() - begin;
+    const double spent = bench::cpu_ns_of([&] {
+      for (const std::vector<std::byte>& datagram : block_) {
+        const std::span<const Inbound> updates = decoder_.decode(datagram, {1, 1});
+        remote_.prefetch(updates);
+        for (const Inbound& update : updates)
+          taken += remote_.take(update, arrival(), servo_) ? 1 : 0;
+      }
+    });
     if (taken != kBlock * kStates) throw std::runtime_error("an update was refused");
-    return static_cast<double>(spent.count()) / (kBlock * kStates);
+    return spent / (kBlock * kStates);
   }
 
-  /// Time of a pass without updates, with a hand [ns].
+  /// CPU time of a pass without updates, with a hand [ns].
   double idle_pass() {
-    const auto begin = std::chrono::steady_clock::now();
     constexpr int kPasses = 10;
-    for (int i = 0; i < kPasses; ++i) {
-      now_ += milliseconds(2);
-      hand_[0].position.z() += ++pass_ % 100 < 50 ? 0.002 : -0.002;
-      remote_.expire(now_);
-      remote_.find_near(hand_, now_, near_);
-    }
-    const nanoseconds spent = std::chrono::steady_clock::now() - begin;
-    return static_cast<double>(spent.count()) / kPasses;
+    return bench::cpu_ns_of([this] {
+             for (int i = 0; i < kPasses; ++i) {
+               now_ += milliseconds(2);
+               hand_[0].position.z() += ++pass_ % 100 < 50 ? 0.002 : -0.002;
+               remote_.expire(now_);
+               remote_.find_near(hand_, now_, near_);
+             }
+           }) /
+           kPasses;
   }
 
  private:
@@ -108,8 +112,10 @@ class FullTable {
       update.state = state_of(i);
       update.entity = update.state.entity_id;
       update.has_model = i % 10 == 1;
-      if (!remote_.take(update, arrival(), {})) throw std::runtime_error("no room");
+      if (!remote_.take(update, arrival(), servo_)) throw std::runtime_error("no room");
     }
+    const auto felt = std::ranges::count_if(remote_.rows(), &RemoteEntity::haptic);
+    if (felt != entities_ / 10) throw std::runtime_error("not every tenth entity can be felt");
     memory_ = (bench::resident() - before_) / entities_;
     // The first passes check all entities at once, the later ones in turn.
     for (int i = 0; i < 400; ++i) static_cast<void>(idle_pass());
@@ -151,6 +157,7 @@ class FullTable {
   aoim::AreaOfInterestManager aoim_;
   double before_, memory_ = 0;
   RemoteEntities remote_;
+  const haptics::ServoSnapshot servo_;  // of no hand
   DatagramDecoder decoder_{1, counters_};
   std::vector<std::vector<std::byte>> block_;
   std::array<deadreckon::ProbeState, 1> hand_;

@@ -11,6 +11,7 @@
 
 #include "reckon/bench/micro/blocks.hpp"
 #include "reckon/bench/micro/transport_ways.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -27,23 +28,23 @@ class Groups {
   }
   /// CPU of a datagram [ns], over 64 datagrams sent to `spread` groups.
   double round(std::size_t spread) {
-    const double begin = cpu_ns();
+    const double begin = bench::cpu_ns();
     for (std::size_t i = 0; i < kDatagrams; ++i) sender_.send(pool_.address(i % spread), octets_);
     for (std::size_t got = 0; got < kDatagrams;) {
       const std::size_t count = receiver_.receive(batch_);
       check(count > 0, "a datagram was lost");
       got += count;
     }
-    return (cpu_ns() - begin) / kDatagrams;
+    return (bench::cpu_ns() - begin) / kDatagrams;
   }
   /// CPU of leaving and of joining one of them again [ns].
   std::pair<double, double> change(std::size_t index) {
     const GroupAddress group = pool_.address(index);
-    const double begin = cpu_ns();
+    const double begin = bench::cpu_ns();
     receiver_.leave(group);
-    const double left = cpu_ns();
+    const double left = bench::cpu_ns();
     check(!receiver_.join(group), "join");
-    return {left - begin, cpu_ns() - left};
+    return {left - begin, bench::cpu_ns() - left};
   }
 
  private:

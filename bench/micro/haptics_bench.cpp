@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
@@ -87,10 +87,7 @@ Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
   std::vector<double> times;
   Quality quality;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const auto before = std::chrono::steady_clock::now();
-    point.update(shape, devices[i], friction);
-    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - before;
-    times.push_back(took.count());
+    times.push_back(reckon::bench::cpu_ns_of([&] { point.update(shape, devices[i], friction); }));
     SurfaceContactPoint again = point;
     again.update(shape, devices[i], friction);
     quality.lag_um = std::max(quality.lag_um, 1e6 * (again.scp() - point.scp()).norm());

@@ -7,13 +7,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/implicit_solids.hpp"
 
@@ -129,11 +129,9 @@ void contact_tick(benchmark::State& state, std::size_t subject, bool rough) {
   double lag = 0.0;
   for (auto _ : state) {
     const Vector3d device = stroke.next();
-    const auto before = std::chrono::steady_clock::now();
-    stroke.point().update(stroke.shape(), device, used);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
-    state.SetIterationTime(took.count());
-    times.push_back(1e9 * took.count());
+    times.push_back(
+        reckon::bench::cpu_ns_of([&] { stroke.point().update(stroke.shape(), device, used); }));
+    state.SetIterationTime(1e-9 * times.back());
     if (!stroke.point().in_contact()) continue;
     const double f = std::abs(stroke.solid().sample(stroke.point().scp()).value);
     worst = std::max(worst, f);

@@ -137,6 +137,7 @@ void add(const std::vector<std::string>& words) {
     if (kind.takes_csv) add({view, "--csv"});
   }
   add({"tail", "--full"});
+  add({"tail", "--json", "--full"});
   add({"stats", "--where", "id == 100:*:* and kind == platform and speed < 10"});
   return true;
 }();

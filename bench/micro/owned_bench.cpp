@@ -16,6 +16,7 @@
 
 #include "reckon/bench/micro/blocks.hpp"
 #include "reckon/bench/micro/resident.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
@@ -206,13 +207,12 @@ void owned_traffic(benchmark::State& state) {
     const double time = pdu::to_seconds(owner.now() + kFrame - begun);
     for (std::size_t i = 0; i < count; ++i)
       truths[i] = truth_of(tracks[i].at(time), owner.now() + kFrame);
-    const auto clock = std::chrono::steady_clock::now();
-    owner.advance(kFrame);
-    for (std::size_t i = 0; i < count; ++i)
-      owner.peer().model().move(static_cast<EntityNumber>(i + 1), truths[i]);
-    owner.step();
-    const double spent =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    const double spent = 1e-9 * bench::cpu_ns_of([&] {
+                           owner.advance(kFrame);
+                           for (std::size_t i = 0; i < count; ++i)
+                             owner.peer().model().move(static_cast<EntityNumber>(i + 1), truths[i]);
+                           owner.step();
+                         });
     state.SetIterationTime(spent);
     listener.pass();
     if (++frame == kSettled) sent = owner.count("updates_out");

@@ -114,6 +114,7 @@ BENCHMARK(cell_grid)
     ->Args({1'000, 1})
     ->Args({10'000, 1})
     ->Args({20'000, 1})
+    ->Args({40'000, 1})
     ->Args({10'000, 1'000})
     ->Unit(benchmark::kMicrosecond);
 

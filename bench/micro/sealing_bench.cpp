@@ -4,7 +4,6 @@
 // and the refusal of forged datagrams. Rows with forgeries and restarts count events that must be
 // 0. Numbers: docs/security.md.
 #include <benchmark/benchmark.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "reckon/bench/micro/blocks.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
@@ -29,12 +29,6 @@ using peer::EnvelopeSealer;
 using peer::SealedVerdict;
 
 constexpr std::size_t kUpdates = 9;  // Entity States of a full bundle
-
-double thread_ns() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
 
 peer::UdpMulticastOptions on_loopback() {
   peer::UdpMulticastOptions options;
@@ -119,9 +113,9 @@ class Ends {
 /// CPU time of one update, over a block that is short enough to be rarely interrupted.
 double update_ns(Ends& ends, bool& whole) {
   constexpr int kExchanges = 200;
-  const double begin = thread_ns();
+  const double begin = bench::cpu_ns();
   for (int i = 0; i < kExchanges; ++i) whole = ends.exchange() && whole;
-  return (thread_ns() - begin) / (2.0 * kExchanges * kUpdates);
+  return (bench::cpu_ns() - begin) / (2.0 * kExchanges * kUpdates);
 }
 
 // CPU of sender, kernel and receiver for one update at 9 in a datagram, in alternation.

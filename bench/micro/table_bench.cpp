@@ -13,6 +13,7 @@
 
 #include "reckon/bench/micro/blocks.hpp"
 #include "reckon/bench/micro/resident.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
@@ -35,7 +36,10 @@ class World {
   World(std::uint32_t entities, pdu::DeadReckoningAlgorithm algorithm, double spacing,
         const char* sections = "")
       : scene_(parse_scene_file(
-            std::string("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n") + sections, "bench")),
+            std::string(
+                "[network]\ntouch = \"all\"\n[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n") +
+                sections,
+            "bench")),
         frame_(0.8, 0.1, 400),
         pool_(scene_.network.group, scene_.aoim.pool),
         aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
@@ -64,7 +68,7 @@ class World {
     if (next_ == updates_.size()) next_ = 0, now_ += milliseconds(200);
     Inbound& update = updates_[next_++];
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
-    remote_.take(update, {now_, kUtc + now_, now_, 0, {}}, {});
+    remote_.take(update, {now_, kUtc + now_, now_, 0, {}}, servo_);
   }
   // The next eight updates, of one datagram.
   void hear_bundle() {
@@ -103,6 +107,7 @@ class World {
   Counters counters_;
   aoim::AreaOfInterestManager aoim_;
   RemoteEntities remote_;
+  const haptics::ServoSnapshot servo_;  // of no hand
   std::vector<Inbound> updates_;
   std::size_t next_ = 0;
   nanoseconds now_ = seconds(1);
@@ -186,14 +191,13 @@ void search_near(benchmark::State& state) {
   bench::Blocks near, all;
   for (auto _ : state) {
     near.add(bench::nanoseconds_of(search));
-    const auto begin = std::chrono::steady_clock::now();
-    look_at_all();
-    const nanoseconds taken = std::chrono::steady_clock::now() - begin;
-    all.add(static_cast<double>(taken.count()));
+    all.add(bench::cpu_ns_of(look_at_all));
   }
   near.report(state, "near_ns");
   all.report(state, "plain_ns");
   if (within + plain != 0) state.SkipWithError("something was near");
+  if (!std::ranges::all_of(world.remote().rows(), &RemoteEntity::haptic))
+    state.SkipWithError("an entity cannot be felt");
 }
 BENCHMARK(search_near)->Arg(1'000)->Arg(10'000)->Arg(100'000);
 
@@ -210,10 +214,7 @@ void look_shown(benchmark::State& state) {
     now += milliseconds(100);
     const std::array<aoim::Focus, 1> here{{{{x, 0, 0}, 0.0, 100e3}}};
     static_cast<void>(world.aoim().listen(aoim::kCellTier, here, now));
-    const auto begin = std::chrono::steady_clock::now();
-    world.remote().look_shown(now);
-    const nanoseconds taken = std::chrono::steady_clock::now() - begin;
-    return static_cast<double>(taken.count());
+    return bench::cpu_ns_of([&] { world.remote().look_shown(now); });
   };
   const auto at_rest = look(x);
   benchmark::DoNotOptimize(at_rest);

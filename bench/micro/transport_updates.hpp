@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/bench/micro/transport_ways.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
@@ -103,14 +104,14 @@ class Updates {
   }
 
   void send_round(Stages& taken, std::chrono::nanoseconds period = std::chrono::milliseconds(200)) {
-    const double begin = cpu_ns();
+    const double begin = bench::cpu_ns();
     for (std::size_t i = 0; i < updates(); ++i) add_next(period);
     aggregator_.flush_due(now_, [this](aoim::GroupIndex, std::span<const std::byte> octets) {
       check(ring_.push(group_, {}, octets), "ring");
     });
-    const double bundled = cpu_ns();
+    const double bundled = bench::cpu_ns();
     check(write_.step() == kDatagrams, "other datagrams than asked for");
-    const double sent = cpu_ns();
+    const double sent = bench::cpu_ns();
     taken.bundle += bundled - begin;
     taken.send += sent - bundled;
   }
@@ -137,9 +138,9 @@ class Updates {
   }
   void take(Stages& taken) {
     for (std::size_t left = updates(); left > 0;) {
-      const double begin = cpu_ns();
+      const double begin = bench::cpu_ns();
       const std::size_t count = receiver_->receive(batch_);
-      const double received = cpu_ns();
+      const double received = bench::cpu_ns();
       check(count > 0, "a datagram was lost");
       for (std::size_t i = 0; i < count; ++i) {
         const std::span<const Inbound> updates = decoder_.decode(batch_[i].bytes, {1, 1});
@@ -151,13 +152,13 @@ class Updates {
         }
       }
       taken.receive += received - begin;
-      taken.table += cpu_ns() - received;
+      taken.table += bench::cpu_ns() - received;
     }
   }
 
   // Through the ring between the loops, as in a peer.
   void take_newest(Stages& taken) {
-    const double begin = cpu_ns();
+    const double begin = bench::cpu_ns();
     for (std::size_t left = kRoundsBehind * kDatagrams; left > 0;) {
       const std::size_t count = receiver_->receive(batch_);
       check(count > 0, "a datagram was lost");
@@ -166,7 +167,7 @@ class Updates {
       }
       left -= count;
     }
-    const double received = cpu_ns();
+    const double received = bench::cpu_ns();
     while (const std::size_t count = inbound_.front(queued_)) {
       for (std::size_t i = 0; i < count; ++i) {
         waiting_[i] = {queued_[i].octets, {now_, kUtc + now_, now_, 0, {}, {}}};
@@ -188,7 +189,7 @@ class Updates {
       inbound_.pop();
     }
     taken.receive += received - begin;
-    taken.table += cpu_ns() - received;
+    taken.table += bench::cpu_ns() - received;
   }
 
   SteadyClock clock_;

@@ -13,12 +13,12 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 
@@ -29,13 +29,6 @@ inline constexpr std::size_t kRounds = 8;         // in a turn, so that caches h
 inline constexpr std::size_t kRoundsBehind = 22;  // as many as the ring of a peer holds
 inline constexpr std::uint16_t kEntities = 1000;
 inline constexpr std::size_t kBuffer = std::size_t{8} << 20;  // has room for a round
-
-/// CPU time of this thread [ns].
-inline double cpu_ns() {
-  timespec spent{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) * 1e9 + static_cast<double>(spent.tv_nsec);
-}
 
 /// @throws std::runtime_error
 inline void check(bool good, const char* what) {
@@ -123,9 +116,9 @@ class BareLoop {
 
   /// CPU for each datagram [ns], over a turn.
   double turn() {
-    const double begin = cpu_ns();
+    const double begin = bench::cpu_ns();
     for (std::size_t i = 0; i < kRounds; ++i) round();
-    return (cpu_ns() - begin) / (kRounds * kDatagrams);
+    return (bench::cpu_ns() - begin) / (kRounds * kDatagrams);
   }
 
  private:

@@ -47,19 +47,18 @@ CellGrid::Cell CellGrid::cell_of(const AlignedBox3d& box) noexcept {
           static_cast<std::int64_t>(at.z()), level};
 }
 
-std::size_t CellGrid::place_of(const Cell& cell) const noexcept {
+CellGrid::Spot CellGrid::spot_of(const Cell& cell) const noexcept {
   const auto part = [](std::int64_t x) { return static_cast<std::uint64_t>(x); };
   const std::uint64_t hash =
       mixed(part(cell.x) * 73856093u + part(cell.y) * 19349663u + part(cell.z) * 83492791u +
             static_cast<std::uint64_t>(cell.level) * 2654435761u);
-  return hash & (buckets_.size() - 1);
+  return {hash & (buckets_.size() - 1), static_cast<std::uint32_t>(hash >> 32)};
 }
-
-std::uint32_t& CellGrid::bucket_of(const Cell& cell) noexcept { return buckets_[place_of(cell)]; }
 
 void CellGrid::grow_to(std::size_t numbers) {
   if (numbers <= entries_.size()) return;
   entries_.resize(std::max(numbers, entries_.size() + entries_.size() / 2));
+  links_.resize(entries_.size());
   const std::size_t buckets = std::bit_ceil(2 * entries_.size());
   if (buckets <= buckets_.size()) return;
   buckets_.assign(buckets, kNone);
@@ -68,18 +67,18 @@ void CellGrid::grow_to(std::size_t numbers) {
 }
 
 void CellGrid::link(std::uint32_t number) noexcept {
-  Entry& entry = entries_[number];
-  std::uint32_t& first = bucket_of(entry.cell);
-  entry.before = kNone;
-  entry.after = first;
-  if (first != kNone) entries_[first].before = number;
+  const Spot spot = spot_of(entries_[number].cell);
+  std::uint32_t& first = buckets_[spot.bucket];
+  links_[number] = {spot.tag, kNone, first};
+  if (first != kNone) links_[first].before = number;
   first = number;
 }
 
 void CellGrid::unlink(std::uint32_t number) noexcept {
-  const Entry& entry = entries_[number];
-  (entry.before == kNone ? bucket_of(entry.cell) : entries_[entry.before].after) = entry.after;
-  if (entry.after != kNone) entries_[entry.after].before = entry.before;
+  const Link& link = links_[number];
+  (link.before == kNone ? buckets_[spot_of(entries_[number].cell).bucket]
+                        : links_[link.before].after) = link.after;
+  if (link.after != kNone) links_[link.after].before = link.before;
 }
 
 void CellGrid::place(std::uint32_t number, const AlignedBox3d& box) {
@@ -160,10 +159,10 @@ void CellGrid::find_in_level(std::uint32_t number, int level) {
 void CellGrid::find_in_cell(std::uint32_t number, const Cell& cell) {
   const Entry& entry = entries_[number];
   const bool own = cell == entry.cell;
-  for (std::uint32_t i = bucket_of(cell); i != kNone; i = entries_[i].after) {
-    const Entry& other = entries_[i];
-    if (other.cell == cell && (!own || i > number) && meet(entry.box, other.box)) note(number, i);
-  }
+  const Spot spot = spot_of(cell);
+  for (std::uint32_t i = buckets_[spot.bucket]; i != kNone; i = links_[i].after)
+    if (is_in(i, cell, spot) && (!own || i > number) && meet(entry.box, entries_[i].box))
+      note(number, i);
 }
 
 void CellGrid::note(std::uint32_t one, std::uint32_t other) {

@@ -70,7 +70,17 @@ class CellGrid {
   struct Entry {
     Eigen::AlignedBox3d box;
     Cell cell;
+  };
+  /// What a search reads of each box of a bucket, most of which are in other cells: the caches hold
+  /// these of many more boxes than entries.
+  struct Link {
+    std::uint32_t tag = 0;                        // of its cell
     std::uint32_t before = kNone, after = kNone;  // neighbours in its bucket
+  };
+  /// Where a cell's boxes are.
+  struct Spot {
+    std::size_t bucket;
+    std::uint32_t tag;
   };
 
   /// Cells of a level with possible overlaps.
@@ -85,8 +95,9 @@ class CellGrid {
   }
   void visit_level(const Eigen::AlignedBox3d& box, int level, auto&& visit) const {
     const auto visit_cell = [&](const Cell& cell) {
-      for (std::uint32_t i = buckets_[place_of(cell)]; i != kNone; i = entries_[i].after)
-        if (entries_[i].cell == cell && meet(box, entries_[i].box)) visit(i);
+      const Spot spot = spot_of(cell);
+      for (std::uint32_t i = buckets_[spot.bucket]; i != kNone; i = links_[i].after)
+        if (is_in(i, cell, spot) && meet(box, entries_[i].box)) visit(i);
     };
     if (level == kEverywhere) return visit_cell({0, 0, 0, kEverywhere});
     const CellRange range = range_of(box, level);
@@ -103,9 +114,12 @@ class CellGrid {
         for (cell.z = index(range.low.z()); cell.z <= index(range.high.z()); ++cell.z)
           visit_cell(cell);
   }
-  [[nodiscard]] std::size_t place_of(const Cell& cell) const noexcept;
+  [[nodiscard]] Spot spot_of(const Cell& cell) const noexcept;
+  [[nodiscard]] bool is_in(std::uint32_t number, const Cell& cell,
+                           const Spot& spot) const noexcept {
+    return links_[number].tag == spot.tag && entries_[number].cell == cell;
+  }
   [[nodiscard]] static Cell cell_of(const Eigen::AlignedBox3d& box) noexcept;
-  [[nodiscard]] std::uint32_t& bucket_of(const Cell& cell) noexcept;
   void grow_to(std::size_t numbers);
   void link(std::uint32_t number) noexcept;
   void unlink(std::uint32_t number) noexcept;
@@ -115,6 +129,7 @@ class CellGrid {
   void note(std::uint32_t one, std::uint32_t other);
 
   std::vector<Entry> entries_;
+  std::vector<Link> links_;             // of the entries
   std::vector<std::uint32_t> buckets_;  // heads of the lists; their number is a power of two
   std::vector<BoxPair> pairs_;
   std::array<std::uint32_t, kLevels + 1> in_level_{};

@@ -19,21 +19,29 @@ class TextSink {
   explicit TextSink(std::string& text) noexcept : string_(&text) {}
 
   void text(std::string_view value) {
-    if (string_ != nullptr) {
-      string_->append(value);
-      return;
-    }
-    const std::size_t taken = std::min(value.size(), buffer_.size() - size_);
-    std::copy_n(value.begin(), taken, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
-    size_ += taken;
-    truncated_ = truncated_ || taken < value.size();
+    if (!has_room(value.size())) return append_or_cut(value);
+    std::copy_n(value.data(), value.size(), buffer_.data() + size_);
+    size_ += value.size();
   }
-  void text(char value) { text(std::string_view(&value, 1)); }
+  void text(char value) {
+    if (string_ != nullptr) {
+      string_->push_back(value);
+    } else if (size_ < buffer_.size()) {
+      buffer_[size_++] = value;
+    } else {
+      truncated_ = true;
+    }
+  }
   /// Shortest text that converts back to the same number.
   void number(auto value) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    text(std::string_view(digits, static_cast<std::size_t>(end - digits)));
+    char digits[kMostDigits];
+    char* const begin = has_room(kMostDigits) ? &buffer_[size_] : digits;
+    const char* end = std::to_chars(begin, begin + kMostDigits, value).ptr;
+    const auto length = static_cast<std::size_t>(end - begin);
+    if (begin == digits)
+      text(std::string_view(digits, length));
+    else
+      size_ += length;
   }
 
   /// Content of the buffer; empty for a string sink.
@@ -42,7 +50,23 @@ class TextSink {
   [[nodiscard]] bool truncated() const noexcept { return truncated_; }
 
  private:
-  std::span<char> buffer_;
+  static constexpr std::size_t kMostDigits = 40;
+  [[nodiscard]] bool has_room(std::size_t length) const noexcept {
+    return buffer_.size() - size_ >= length;
+  }
+
+  void append_or_cut(std::string_view value) {
+    if (string_ != nullptr) {
+      string_->append(value);
+      return;
+    }
+    const std::size_t taken = buffer_.size() - size_;
+    std::copy_n(value.data(), taken, buffer_.data() + size_);
+    size_ += taken;
+    truncated_ = true;
+  }
+
+  std::span<char> buffer_;  // empty with a string
   std::string* string_ = nullptr;
   std::size_t size_ = 0;
   bool truncated_ = false;

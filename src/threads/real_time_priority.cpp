@@ -5,8 +5,7 @@
 #include <pthread.h>
 #include <sched.h>
 
-#include <ctime>
-
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
@@ -18,12 +17,6 @@ bool schedule(int policy, int priority) noexcept {
   sched_param parameters{};
   parameters.sched_priority = priority;
   return pthread_setschedparam(pthread_self(), policy, &parameters) == 0;
-}
-
-nanoseconds processor_time() noexcept {
-  timespec spent{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
-  return std::chrono::seconds(spent.tv_sec) + nanoseconds(spent.tv_nsec);
 }
 
 }  // namespace
@@ -48,14 +41,14 @@ OrdinaryPulse::~OrdinaryPulse() {
 }
 
 void OrdinaryPulse::beat() noexcept {
-  processor_time_.store(processor_time(), std::memory_order_relaxed);
+  processor_time_.store(process_cpu_time(), std::memory_order_relaxed);
   last_.store(clock_.now(), std::memory_order_release);
 }
 
 bool OrdinaryPulse::starves(nanoseconds now) const noexcept {
   const nanoseconds silent = now - last_.load(std::memory_order_acquire);
   if (silent < silence_) return false;
-  const nanoseconds spent = processor_time() - processor_time_.load(std::memory_order_relaxed);
+  const nanoseconds spent = process_cpu_time() - processor_time_.load(std::memory_order_relaxed);
   return starves_ordinary_threads(silent, spent, silence_);
 }
 

@@ -21,7 +21,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -33,7 +32,9 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/random/split_mix.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 
 namespace {
 
@@ -180,11 +181,7 @@ std::uint64_t send_each(int out, std::array<mmsghdr, kBatch>& messages) {
   return took > 0 ? static_cast<std::uint64_t>(took) : 0;
 }
 
-double cpu_seconds() {
-  timespec used{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-}
+double cpu_seconds() { return pdu::to_seconds(peer::thread_cpu_time()); }
 
 int run(char** words) {
   const bool hosts = std::string_view(words[6]) == "hosts";

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/studies/accuracy/query_cost.hpp"
 
-#include <chrono>
 #include <vector>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 
@@ -43,16 +43,16 @@ deadreckon::PoseConvergence converging(deadreckon::ConvergenceCurve curve) {
   return convergence;
 }
 
-/// Nanoseconds a query in one block; `predict` returns the pose at a time after the update.
+/// CPU time of a query [ns] in one block; `predict` returns the pose at a time after the update.
 template <typename Predict>
 double block(const deadreckon::PoseConvergence& convergence, Predict&& predict, double& sum) {
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < kQueries; ++i) {
-    const double now = 1e-4 * i;
-    sum += convergence.shown(predict(now), now).position.x();
-  }
-  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-  return took.count() / kQueries;
+  return cpu_ns_of([&] {
+           for (int i = 0; i < kQueries; ++i) {
+             const double now = 1e-4 * i;
+             sum += convergence.shown(predict(now), now).position.x();
+           }
+         }) /
+         kQueries;
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <thread>
@@ -23,6 +22,7 @@
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/sealing/key_file.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 
@@ -148,10 +148,10 @@ class Measurement {
     start();
     pass(kSettle, nullptr);
     Samples samples;
-    const double cpu = cpu_seconds();
+    const nanoseconds cpu = peer::process_cpu_time();
     const nanoseconds begun = a_.joined.clock().now();
     pass(kTouches, &samples);
-    found_.cpu_seconds += cpu_seconds() - cpu;
+    found_.cpu_seconds += pdu::to_seconds(peer::process_cpu_time() - cpu);
     found_.peer_seconds += pdu::to_seconds(a_.joined.clock().now() - begun);
     stop();
     const TouchTimes times = match_touches(samples.changes, samples.forces);
@@ -206,11 +206,6 @@ class Measurement {
 
   nanoseconds some(nanoseconds most) {
     return nanoseconds(std::uniform_int_distribution<std::int64_t>(0, most.count())(random_));
-  }
-  static double cpu_seconds() {
-    timespec used{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
   }
 
   const tools::Console& console_;

@@ -13,7 +13,8 @@
 #include <system_error>
 #include <thread>
 
-#include "reckon/bench/studies/scale/thread_cpu.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -71,9 +72,9 @@ double one_run() {
     }
   });
   int count = 0;
-  const double begin = thread_cpu();
+  const nanoseconds begin = peer::thread_cpu_time();
   while (count < kDatagrams && to.receive()) ++count;
-  return (thread_cpu() - begin) / std::max(count, 1);
+  return pdu::to_seconds(peer::thread_cpu_time() - begin) / std::max(count, 1);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 #include <limits>
 #include <set>
 
-#include "reckon/bench/studies/scale/thread_cpu.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/peer/world/tracked_entities.hpp"
 
 namespace reckon::bench {
@@ -261,20 +261,20 @@ WholePeer::~WholePeer() = default;
 
 void WholePeer::step(double time, Crowd& crowd) {
   MeasuredFederate& s = *measured_;
-  const double begun = thread_cpu();
+  const nanoseconds begun = peer::thread_cpu_time();
   if (s.handles.empty()) s.register_all(time, crowd);
   for (std::size_t i = 0; i < s.handles.size(); ++i)
     s.federate.update_attributes(
         s.handles[i], s.truth(s.owned.first + static_cast<std::uint32_t>(i), time, crowd));
   s.pass();
-  s.cpu += thread_cpu() - begun;
+  s.cpu += pdu::to_seconds(peer::thread_cpu_time() - begun);
 }
 
 void WholePeer::serve() {
   MeasuredFederate& s = *measured_;
-  const double begun = thread_cpu();
+  const nanoseconds begun = peer::thread_cpu_time();
   s.pass();
-  s.cpu += thread_cpu() - begun;
+  s.cpu += pdu::to_seconds(peer::thread_cpu_time() - begun);
 }
 
 void WholePeer::look(double time, Crowd& crowd) {

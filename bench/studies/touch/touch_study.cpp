@@ -3,7 +3,6 @@
 #include "reckon/bench/studies/touch/touch_study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/pdu/random/split_mix.hpp"
 
 namespace reckon::bench {
@@ -44,12 +44,9 @@ constexpr std::array kLeftOut{
     LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
 };
 
-/// Nanoseconds for each step of one block.
+/// CPU time [ns] for each step of one block.
 double block(const TouchSetting& setting, std::size_t steps, double& sum) {
-  const auto begin = std::chrono::steady_clock::now();
-  sum += setting.run(steps);
-  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-  return took.count() / static_cast<double>(steps);
+  return cpu_ns_of([&] { sum += setting.run(steps); }) / static_cast<double>(steps);
 }
 
 /// Errors that are too small to matter count as 0.

@@ -97,6 +97,24 @@ TEST(AggregatorOfMany, ReplacesOnlyPendingUpdatesOfTheSameEntity) {
   for (const auto& [group, waiting] : model.waiting) EXPECT_TRUE(waiting.empty());
 }
 
+TEST(AggregatorOfMany, DistinguishesEntitiesByAllThreeNumbers) {
+  Aggregator aggregator{AggregatorConfig{}};
+  constexpr std::uint16_t kMany = 700;
+  const auto add_all = [&](AddResult expected) {
+    pdu::EntityState state = entity_state(0);
+    for (std::uint16_t i = 0; i < kMany; ++i) {
+      for (const pdu::EntityId& id :
+           {pdu::EntityId{1, i, 1}, pdu::EntityId{static_cast<std::uint16_t>(i + 2), 1, 1},
+            pdu::EntityId{1, 0xFFFF, static_cast<std::uint16_t>(90 * i)}}) {
+        state.entity_id = id;
+        ASSERT_EQ(aggregator.add(kGroup, state, {}, seconds(1)), expected) << i;
+      }
+    }
+  };
+  add_all(AddResult::queued);
+  add_all(AddResult::replaced);
+}
+
 /// Removes the entities of an emitted datagram from the set of entities with pending records.
 void take_sets(std::span<const std::byte> datagram, std::set<pdu::EntityId>& waiting) {
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {

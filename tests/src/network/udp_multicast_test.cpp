@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/src/support/udp_on_loopback.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
@@ -334,11 +335,7 @@ TEST(UdpMulticast, KeepsAWakeAcrossAReceive) {
 }
 
 // CPU time of this thread; on loopback it includes the kernel's work on the receiving side.
-double cpu_ns() {
-  timespec spent{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) * 1e9 + static_cast<double>(spent.tv_nsec);
-}
+double cpu_ns() { return static_cast<double>(thread_cpu_time().count()); }
 
 // Figures for docs/transport.md, not a criterion.
 TEST(UdpMulticast, MeasuredCostOfADatagram) {

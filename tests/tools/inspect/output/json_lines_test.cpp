@@ -7,7 +7,9 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "reckon/pdu/management/comment.hpp"
 #include "reckon/pdu/warfare/fire.hpp"
@@ -24,7 +26,7 @@ using test::Octets;
 /// The line of the only PDU of a datagram.
 template <typename Pdu>
 std::string line_of(const Pdu& pdu, std::uint64_t frame, nanoseconds time,
-                    std::size_t* allocations = nullptr) {
+                    std::size_t* allocations = nullptr, bool full = false) {
   Octets octets;
   append_pdu(octets, pdu);
   peer::SourceDatagram datagram;
@@ -36,7 +38,7 @@ std::string line_of(const Pdu& pdu, std::uint64_t frame, nanoseconds time,
   DatagramInspector inspector;
   const test::AllocationGuard guard;
   (void)inspector.inspect(datagram, [&](const PduRow& row) {
-    append_json_line(line, row, false);
+    append_json_line(line, row, full);
     return true;
   });
   if (allocations != nullptr) *allocations = guard.count();
@@ -81,6 +83,22 @@ TEST(InspectJson, GivesThePositionOfAnyPdu) {
   EXPECT_FALSE(row.contains("heading"));
   const auto nowhere = nlohmann::json::parse(line_of(pdu::Comment{}, 1, {}));
   EXPECT_FALSE(nowhere.contains("location") || nowhere.contains("latitude"));
+}
+
+// Half of the line is the datum in hexadecimal, half its text.
+TEST(InspectJson, WritesAllFieldsOfPdusOfAnyLength) {
+  for (const std::size_t length : {8U, 8'000U, 16'000U, 60'000U}) {
+    const std::string text(length, 'A');
+    std::vector<std::byte> room(length + 64);
+    pdu::VariableDatumWriter writer(room);
+    ASSERT_TRUE(writer.add(7, std::as_bytes(std::span(text))));
+    pdu::Comment pdu;
+    pdu.variable_datums = writer.datums();
+    const auto row = nlohmann::json::parse(line_of(pdu, 1, {}, nullptr, true));
+    const auto& datum = row["fields"]["variable_datum_records"][0];
+    EXPECT_EQ(datum["variable_datum_value"].get<std::string>().size(), 2 * length);
+    EXPECT_EQ(datum["variable_datum_text"], text);
+  }
 }
 
 // The maximum of an Entity State without a finding: numbers at their longest, a marking that is no
