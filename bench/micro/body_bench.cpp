@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/bench/studies/scale/thread_cpu.hpp"
+#include "reckon/bench/timing/cpu_ns.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/queries/pair_query.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 using Eigen::Vector3d;
 using namespace reckon::haptics;
-using reckon::bench::thread_cpu;
+using reckon::bench::cpu_ns;
 namespace test = reckon::test;
 using std::chrono::nanoseconds;
 
@@ -101,10 +101,10 @@ class StampedDevice : public SimulatedDevice {
  public:
   using SimulatedDevice::SimulatedDevice;
   void write(const Vector3d& force, nanoseconds now) noexcept override {
-    written = thread_cpu();
+    written = cpu_ns();
     SimulatedDevice::write(force, now);
   }
-  double written = 0.0;  // [s], see thread_cpu()
+  double written = 0.0;  // [ns], see cpu_ns()
 };
 
 /// A hand that presses a wall, and balls that bounce for ever out of its reach.
@@ -127,10 +127,10 @@ struct Bouncing {
   }
   /// CPU time until the force is written, and of the whole step [us].
   std::pair<double, double> step() {
-    const double begin = thread_cpu();
+    const double begin = cpu_ns();
     servo->step(now += kPeriod);
-    const double end = thread_cpu();
-    return {1e6 * (device->written - begin), 1e6 * (end - begin)};
+    const double end = cpu_ns();
+    return {1e-3 * (device->written - begin), 1e-3 * (end - begin)};
   }
 
   std::shared_ptr<const EffectPlan> plan;
@@ -190,9 +190,9 @@ void pile_falls(benchmark::State& state) {
     world->advance_to(now);
     const auto is_awake = [&] { return std::ranges::any_of(world->states(), &BodyState::awake); };
     for (int i = 0; i < 10'000 && is_awake(); ++i) {
-      const double begin = thread_cpu();
+      const double begin = cpu_ns();
       world->advance_to(now += kPeriod);
-      times.push_back(1e6 * (thread_cpu() - begin));
+      times.push_back(1e-3 * (cpu_ns() - begin));
     }
     asleep = std::chrono::duration<double>(now).count();
     const auto at = [](const BodyState& body) {
@@ -211,10 +211,10 @@ void pile_falls(benchmark::State& state) {
 
 /// CPU time of a step until the last force is written, and of all of it [us].
 std::pair<double, double> time_step(test::HandsInAPile<StampedDevice>& pile) {
-  const double begin = thread_cpu();
+  const double begin = cpu_ns();
   pile.step();
-  const double end = thread_cpu();
-  return {1e6 * (pile.devices.back()->written - begin), 1e6 * (end - begin)};
+  const double end = cpu_ns();
+  return {1e-3 * (pile.devices.back()->written - begin), 1e-3 * (end - begin)};
 }
 
 // Ten seconds of hands in a pile. Arguments: number of boxes and of hands.
@@ -278,9 +278,9 @@ struct Sleeping {
     for (int i = 0; i < 3000; ++i) step();
   }
   double step() {  // [us]
-    const double begin = thread_cpu();
+    const double begin = cpu_ns();
     servo->step(now += kPeriod);
-    return 1e6 * (thread_cpu() - begin);
+    return 1e-3 * (cpu_ns() - begin);
   }
   double force() {
     (void)servo->snapshots().update();

@@ -16,7 +16,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/step_cost/thread_time.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
 
 namespace reckon::peer {
@@ -36,7 +36,7 @@ class StampedDevice : public haptics::SimulatedDevice {
  public:
   using SimulatedDevice::SimulatedDevice;
   void write(const Vector3d& force, nanoseconds now) noexcept override {
-    written = thread_seconds();
+    written = pdu::to_seconds(thread_cpu_time());
     SimulatedDevice::write(force, now);
   }
   double written = 0.0;
@@ -115,9 +115,9 @@ class Run {
         static_cast<void>(world_->order({haptics::BodyAct::wake, body}));
     }
     now_ += period_;
-    const double begin = thread_seconds();
+    const double begin = pdu::to_seconds(thread_cpu_time());
     for (const auto& servo : servos_) servo->step(now_);
-    const double end = thread_seconds();
+    const double end = pdu::to_seconds(thread_cpu_time());
     return {devices_.back()->written - begin, end - begin};
   }
 
@@ -172,9 +172,9 @@ std::optional<BodyCosts> measure_bodies(const SceneFile& scene, std::size_t hand
   std::vector<double> written, whole, awake;
   for (int run = 0; run < runs.runs; ++run) {
     Run bodies(scene, plan, sweep, hands, period);
-    const double begin = thread_seconds();
+    const double begin = pdu::to_seconds(thread_cpu_time());
     const auto is_over = [&](double share) {
-      return thread_seconds() - begin > share * runs.longest;
+      return pdu::to_seconds(thread_cpu_time()) - begin > share * runs.longest;
     };
     for (double time = 0.0; time < settled && !is_over(0.5); time += step) bodies.step();
     const std::size_t most = run == 0 ? kMeasured : whole.size();
@@ -209,9 +209,9 @@ double measure_body_pace() {
   for (int run = 0; run < 3; ++run) {
     const auto world = haptics::make_bodies(plan, scene.scene);
     nanoseconds now{0};
-    const double begin = thread_seconds();
+    const double begin = pdu::to_seconds(thread_cpu_time());
     for (int i = 0; i < 80; ++i) world->advance_to(now += std::chrono::milliseconds(1));
-    least = std::min(least, (thread_seconds() - begin) / world->work());
+    least = std::min(least, (pdu::to_seconds(thread_cpu_time()) - begin) / world->work());
   }
   return least / kReference;
 }

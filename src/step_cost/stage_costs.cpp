@@ -15,7 +15,8 @@
 
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
-#include "reckon/peer/step_cost/thread_time.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -108,12 +109,12 @@ class Stroke {
   }
   /// CPU of a step [s], the mean of one run.
   double time_run(const Vector3d& place, int most_steps) {
-    const double begin = thread_seconds();
+    const double begin = pdu::to_seconds(thread_cpu_time());
     double spent = 0.0;
     int steps = 0;
     while (steps < most_steps && spent < kMostRun) {
       for (int i = 0; i < kBatch; ++i) go_round(place, steps++);
-      spent = thread_seconds() - begin;
+      spent = pdu::to_seconds(thread_cpu_time()) - begin;
     }
     return spent / steps;
   }
@@ -288,9 +289,9 @@ DearestStep measure_dearest_step(const haptics::Scene& scene, const EffectPlan& 
   for (std::size_t i = 0; i < regions.size(); ++i)
     regions[i].effects = haptics::PlannedRegionEffects(scene.regions[i].effects);
   DearestStep dearest;
-  const double begin = thread_seconds();
+  const double begin = pdu::to_seconds(thread_cpu_time());
   for (std::size_t i = 0; i < plan.objects().size(); ++i) {
-    if (thread_seconds() - begin > kMostSearch) break;
+    if (pdu::to_seconds(thread_cpu_time()) - begin > kMostSearch) break;
     PlannedObject object = plan.objects()[i];
     const bool bounded = std::holds_alternative<haptics::HalfSpace>(object.shape) ||
                          std::holds_alternative<haptics::Ball>(object.shape) ||
