@@ -9,6 +9,7 @@ import sys
 
 JUMP = 1.0       # [mm], greatest at a hand-over, beyond the error that the pose had before, and a knock
 ADOPTED = 5.0    # [s] after a kill
+GIVEN = 7.0      # [s] after it, of a body that was being given to the killed process
 UNOWNED = 1.0    # [s] without an owner, while nobody fails
 NEAR = (20, 100) # [ms] before and after a hand-over
 KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock: delay, and the passes of both loops
@@ -163,6 +164,14 @@ class Judge:
         """Whether a process failed in this time, to which a hand-over may have been under way."""
         return any(end >= failed >= begin - SECOND for failed in self.failures)
 
+    def longest_allowed(self, one, until):
+        """Time without an owner after an interval of ownership [s]."""
+        if not self.has_failure(one.end, until):
+            return UNOWNED
+        log = self.logs[one.owner]
+        own = [asleep for asleep, _ in log.slept] + ([log.killed] if log.killed else [])
+        return ADOPTED if one.end in own else GIVEN
+
     def gaps(self):
         for body, rows in self.simulated.items():
             for one, two in zip(rows, rows[1:]):
@@ -170,11 +179,11 @@ class Judge:
                 fails = self.has_failure(one.end, two.begin)
                 if not fails:
                     self.longest_gap = max(self.longest_gap, gap)
-                if gap > (ADOPTED if fails else UNOWNED):
+                if gap > self.longest_allowed(one, two.begin):
                     self.fault(two.begin, body, f"without an owner for {gap:.2f} s after {one.owner}")
             last = rows[-1]
             until = min(self.until, max(log.last for log in self.logs.values()))
-            if last.end < until - (ADOPTED if self.has_failure(last.end, until) else UNOWNED) * SECOND:
+            if last.end < until - self.longest_allowed(last, until) * SECOND:
                 self.fault(last.end, body, f"{last.owner} ends, and nobody owns it any more")
 
     def old_places(self):
