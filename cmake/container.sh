@@ -14,7 +14,8 @@ chmod 1777 "$stage/tmp"
 DESTDIR=$stage cmake --install "$build" --prefix /usr --component program >"$folder/install.log" ||
   fail "CMake could not install; see $folder/install.log"
 
-# The packages of the libraries, as dpkg-shlibdeps finds them for the Debian package. The terminals are for the live tables.
+# The packages of the libraries, as dpkg-shlibdeps finds them for the Debian package. The programs load libarchive when they need
+# it. The terminals are for the live tables.
 printf 'Source: reckon\n\nPackage: reckon\nArchitecture: any\nDescription: reckon\n' >"$folder/debian/control"
 programs=("$stage"/usr/bin/*)
 needs=$(cd "$folder" && dpkg-shlibdeps -O --ignore-missing-info "${programs[@]/#/-e}" 2>"$folder/libraries.log" |
@@ -24,7 +25,7 @@ needs=$(cd "$folder" && dpkg-shlibdeps -O --ignore-missing-info "${programs[@]/#
 suite=$(. /etc/os-release && printf %s "${VERSION_CODENAME-}")
 [[ -n $suite ]] || fail "/etc/os-release names no Debian release (VERSION_CODENAME)"
 rm -f -- "$folder/root.tar" "$folder/reckon.tar"
-mmdebstrap --quiet --variant=extract --include="$needs,ncurses-base" "$suite" "$folder/root.tar" 2>"$folder/root.log" ||
+mmdebstrap --quiet --variant=extract --include="$needs,libarchive13,ncurses-base" "$suite" "$folder/root.tar" 2>"$folder/root.log" ||
   { tail -n 5 "$folder/root.log" >&2; fail "mmdebstrap could not make the root; see $folder/root.log"; }
 
 printf 'FROM scratch\nADD root.tar /\nCOPY stage /\nENTRYPOINT ["/usr/bin/reckon"]\nCMD ["help"]\n' >"$folder/Containerfile"

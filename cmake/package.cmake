@@ -30,9 +30,13 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 
+# Libraries that are loaded when they are needed, which dpkg-shlibdeps does not see: cmake/container.sh and cmake/sbom.py have them too.
+set(RECKON_LOADED_PACKAGES "libarchive13")
+
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME reckon)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${RECKON_LOADED_PACKAGES}")
 # The unit of a recorder that was enabled goes with the package.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/debian/program/prerm ${PROJECT_SOURCE_DIR}/cmake/debian/program/postrm)
@@ -47,7 +51,7 @@ The program runs peers and demonstrations, inspects, records and replays DIS
 traffic, shows an exercise in a browser, and measures accuracy and cost.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME reckon-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libopenmesh-dev, libpng-dev, zlib1g-dev, libode-dev, libusb-1.0-0-dev, libfmt-dev, libtomlplusplus-dev, libpcap-dev, libzstd-dev, libarchive-dev, libsodium-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libopenmesh-dev, libpng-dev, zlib1g-dev, libode-dev, libusb-1.0-0-dev, libfmt-dev, libtomlplusplus-dev, libpcap-dev, libzstd-dev, libsodium-dev, ${RECKON_LOADED_PACKAGES}")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Static libraries, headers, CMake package and pkg-config files: PDU codec, dead
 reckoning, area of interest, haptics and the peer, each by itself.")
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME reckon-doc)
@@ -69,7 +73,7 @@ and joins exercises as a federate.")
 if(TARGET reckon_python)
   get_target_property(minor reckon_python MINOR_VERSION)
   math(EXPR next "${minor} + 1")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}~), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}~), python3 (<< 3.${next}), python3-numpy, ${RECKON_LOADED_PACKAGES}")
 endif()
 
 # Debian wants a change log and a copyright file of each package.

@@ -30,6 +30,10 @@ def output(*command):
     return result.stdout
 
 
+# Debian packages of libraries that the programs load when they need them.
+LOADED = ("libarchive13",)
+
+
 def spdx_id(kind, name):
     return f"SPDXRef-{kind}-" + re.sub(r"[^A-Za-z0-9.-]", "-", name)
 
@@ -100,18 +104,19 @@ def document(source, build, out, build_packages):
     ours = package_entry("reckon", version, "project", f"pkg:generic/reckon@{version}", "Apache-2.0",
                          supplier="Organization: The Reckon authors", primaryPackagePurpose="APPLICATION")
     linked = sorted({package for program in programs(build) for package in linked_packages(program)})
-    needed = sorted({name for name in build_packages if name not in linked})
+    needed = sorted({name for name in build_packages if name not in {*linked, *LOADED}})
     third_party = source / "tools/viewer/page/third_party"
     page = list(page_entries(third_party))
     libraries = file_entry(third_party / "libraries.js", "tools/viewer/page/third_party/libraries.js", "MIT")
     debs = [file_entry(path, path.name, "Apache-2.0") for path in sorted(out.parent.glob("*.deb"))]
     triples = [("SPDXRef-DOCUMENT", "DESCRIBES", ours["SPDXID"]), (ours["SPDXID"], "DEPENDS_ON", libraries["SPDXID"])]
     triples += [(ours["SPDXID"], "DYNAMIC_LINK", spdx_id("deb", name)) for name in linked]
+    triples += [(spdx_id("deb", name), "RUNTIME_DEPENDENCY_OF", ours["SPDXID"]) for name in LOADED]
     triples += [(spdx_id("deb", name), "BUILD_DEPENDENCY_OF", ours["SPDXID"]) for name in needed]
     triples += [(entry["SPDXID"], "BUILD_TOOL_OF", libraries["SPDXID"]) if entry["name"] == "esbuild" else
                 (libraries["SPDXID"], "GENERATED_FROM", entry["SPDXID"]) for entry in page]
     triples += [(entry["SPDXID"], "GENERATED_FROM", ours["SPDXID"]) for entry in debs]
-    body = {"packages": [ours, *map(debian_entry, [*linked, *needed]), *page], "files": [libraries, *debs],
+    body = {"packages": [ours, *map(debian_entry, [*linked, *LOADED, *needed]), *page], "files": [libraries, *debs],
             "relationships": [{"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other} for one, kind, other in triples]}
     seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
     content = uuid.uuid5(uuid.NAMESPACE_URL, json.dumps(body))

@@ -43,6 +43,8 @@ def problems_of(package, path):
     if package == "reckon":
         depends = subprocess.run(["dpkg-deb", "-f", path, "Depends"], capture_output=True, text=True, check=True).stdout
         yield from (f"reckon depends on a development package: {name}" for name in re.findall(r"\S+-dev\b", depends))
+        if "libarchive13" not in depends:
+            yield f"reckon does not depend on the library that it loads for compressed captures: {depends}"
         if "libc6" not in depends:
             yield f"reckon does not say what it depends on: {depends}"
     if shutil.which("lintian"):

@@ -34,6 +34,9 @@ def form_problems(bill):
 def library_problems(bill, program):
     ids = {entry["relatedSpdxElement"] for entry in bill["relationships"] if entry["relationshipType"] == "DYNAMIC_LINK"}
     linked = {package["name"] for package in bill["packages"] if package["SPDXID"] in ids}
+    loaded = {entry["spdxElementId"] for entry in bill["relationships"] if entry["relationshipType"] == "RUNTIME_DEPENDENCY_OF"}
+    if "libarchive13" not in {package["name"] for package in bill["packages"] if package["SPDXID"] in loaded}:
+        yield "libarchive13, which the programs load for compressed captures, is not in the bill"
     shown = subprocess.run(["readelf", "-dW", program], capture_output=True, text=True, check=True).stdout
     for library in re.findall(r"\(NEEDED\).*\[(.+)\]", shown):
         owners = subprocess.run(["dpkg-query", "-S", f"*/{library}"], capture_output=True, text=True).stdout

@@ -3,9 +3,9 @@
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace reckon::haptics {
 
@@ -16,100 +16,177 @@ constexpr double kRoundingPad = 2e-6;
 constexpr int kBins = 16;
 // Below this level a split halves the items, so that the depth is bounded for any input.
 constexpr int kSurfaceAreaLevels = 20;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double half_area(const Eigen::AlignedBox3d& box) {
-  if (box.isEmpty()) return 0.0;
-  const Eigen::Vector3d s = box.sizes();
-  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+using Eigen::Vector3d;
+using Double2 = double __attribute__((vector_size(16)));
+
+Double2 greater(Double2 a, Double2 b) { return a > b ? a : b; }
+
+/// A box in tree units, as its greatest extents along -x, -y; -z, z; x, y: a union takes three
+/// instructions.
+struct Extents {
+  std::array<Double2, 3> far{Double2{-kInfinity, -kInfinity}, Double2{-kInfinity, -kInfinity},
+                             Double2{-kInfinity, -kInfinity}};
+
+  void extend(const Extents& other) {
+    for (std::size_t i = 0; i < far.size(); ++i) far[i] = greater(far[i], other.far[i]);
+  }
+  [[nodiscard]] Vector3d low() const { return {-far[0][0], -far[0][1], -far[1][0]}; }
+  [[nodiscard]] Vector3d high() const { return {far[2][0], far[2][1], far[1][1]}; }
+  [[nodiscard]] Vector3d sizes() const { return high() - low(); }
+  [[nodiscard]] double half_area() const {
+    const Vector3d s = sizes();
+    return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+  }
+};
+
+/// A box and where its item is.
+struct Item {
+  std::array<double, 6> far;  // as Extents, padded
+  std::uint32_t number;
+  std::uint32_t bin;  // of the split in progress
+
+  Item(const Vector3d& low, const Vector3d& high, std::uint32_t item)
+      : far{-low.x(), -low.y(), -low.z(), high.z(), high.x(), high.y()}, number(item), bin(0) {}
+  [[nodiscard]] Extents box() const { return std::bit_cast<Extents>(far); }
+  [[nodiscard]] double centre(int axis) const {
+    constexpr std::array<std::size_t, 3> kLow{0, 1, 2}, kHigh{4, 5, 3};
+    const auto i = static_cast<std::size_t>(axis);
+    return 0.5 * (far[kHigh[i]] - far[kLow[i]]);
+  }
+};
+
+/// Bounds of items and of their centres.
+struct Bounds {
+  Extents box, centres;
+  void add(const Item& item) {
+    const Extents extents = item.box();
+    const Double2 half{0.5, 0.5};
+    const Double2 across = half * (extents.far[2] - extents.far[0]);
+    const double up = 0.5 * (extents.far[1][1] - extents.far[1][0]);
+    box.extend(extents);
+    centres.extend({-across, Double2{-up, up}, across});
+  }
+  void add(const Bounds& other) {
+    box.extend(other.box);
+    centres.extend(other.centres);
+  }
+};
+
+struct Bin {
+  Bounds bounds;
+  std::uint32_t count = 0;
+};
+using Bins = std::array<Bin, kBins>;
+
+/// The numbers of the bins that have items, ascending.
+struct UsedBins {
+  std::array<std::uint8_t, kBins> numbers;
+  std::size_t count = 0;
+
+  explicit UsedBins(const Bins& bins) {
+    for (std::uint8_t bin = 0; bin < kBins; ++bin) {
+      if (bins[bin].count > 0) numbers[count++] = bin;
+    }
+  }
+};
+
+/// The last bin of the lower side, by the least sum of area x count of both sides. Two bins or
+/// more are used.
+std::size_t best_split(const Bins& bins, const UsedBins& used) {
+  std::array<double, kBins> upper_cost;
+  Extents upper, lower;
+  std::uint32_t items = 0;
+  for (std::size_t i = used.count - 1; i > 0; --i) {
+    const Bin& bin = bins[used.numbers[i]];
+    upper.extend(bin.bounds.box);
+    items += bin.count;
+    upper_cost[i] = upper.half_area() * items;
+  }
+  items = 0;
+  double best_cost = kInfinity;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + 1 < used.count; ++i) {
+    const Bin& bin = bins[used.numbers[i]];
+    lower.extend(bin.bounds.box);
+    items += bin.count;
+    const double cost = lower.half_area() * items + upper_cost[i + 1];
+    if (cost >= best_cost) continue;
+    best_cost = cost;
+    best = used.numbers[i];
+  }
+  return best;
 }
 
 }  // namespace
 
-/// Builds top-down: each node takes the four ranges that a surface-area heuristic splits off.
+/// Builds top-down: each node takes the four ranges that a surface-area heuristic splits off. The
+/// items of a range are next to each other, so that each split reads memory in order.
 struct BoundingVolumeTree::Builder {
   struct Range {
     std::uint32_t begin, end;
-    Eigen::AlignedBox3d box;  // tree units
+    Bounds bounds;
     [[nodiscard]] std::uint32_t count() const { return end - begin; }
   };
 
-  std::vector<Eigen::AlignedBox3d> boxes;  // padded, tree units
-  std::vector<std::uint32_t>& order;
+  std::vector<Item>& items;
   std::vector<Node>& nodes;
+  Bins bins{};  // of the split in progress, empty between splits
   int deepest = 0;
 
   [[nodiscard]] Range range(std::uint32_t begin, std::uint32_t end) const {
     Range r{begin, end, {}};
-    for (std::uint32_t i = begin; i < end; ++i) r.box.extend(boxes[order[i]]);
+    for (std::uint32_t i = begin; i < end; ++i) r.bounds.add(items[i]);
     return r;
   }
 
-  [[nodiscard]] double centre(std::uint32_t item, int axis) const {
-    return 0.5 * (boxes[item].min()[axis] + boxes[item].max()[axis]);
-  }
-
-  // Best of 15 planes along the widest axis of the centres, by area x count.
-  [[nodiscard]] std::uint32_t area_split(const Range& r) {
-    Eigen::AlignedBox3d centres;
-    for (std::uint32_t i = r.begin; i < r.end; ++i) centres.extend(boxes[order[i]].center());
+  // Best of 15 planes along the widest axis of the centres, by area x count. False if all centres
+  // are in one bin.
+  [[nodiscard]] bool area_split(const Range& r, std::array<Range, 2>& halves) {
     int axis = 0;
-    const double width = centres.sizes().maxCoeff(&axis);
-    if (!(width > 0.0)) return r.begin;
-    const double low = centres.min()[axis];
-    const auto bin_of = [&](std::uint32_t item) {
-      return std::min(kBins - 1, static_cast<int>((centre(item, axis) - low) / width * kBins));
-    };
-    std::array<Eigen::AlignedBox3d, kBins> bin_boxes;
-    std::array<std::uint32_t, kBins> counts{};
+    const double width = r.bounds.centres.sizes().maxCoeff(&axis);
+    if (!(width > 0.0)) return false;
+    const double low = r.bounds.centres.low()[axis];
     for (std::uint32_t i = r.begin; i < r.end; ++i) {
-      const auto bin = static_cast<std::size_t>(bin_of(order[i]));
-      bin_boxes[bin].extend(boxes[order[i]]);
-      ++counts[bin];
+      Item& item = items[i];
+      const auto place = static_cast<int>((item.centre(axis) - low) / width * kBins);
+      item.bin = static_cast<std::uint32_t>(std::min(kBins - 1, place));
+      bins[item.bin].bounds.add(item);
+      ++bins[item.bin].count;
     }
-    std::array<double, kBins> right_cost{};
-    Eigen::AlignedBox3d side;
-    std::uint32_t items = 0;
-    for (std::size_t bin = kBins - 1; bin > 0; --bin) {
-      side.extend(bin_boxes[bin]);
-      items += counts[bin];
-      right_cost[bin] = half_area(side) * items;
+    const UsedBins used(bins);
+    const std::size_t last = used.count > 1 ? best_split(bins, used) : kBins;
+    const auto first = items.begin();
+    const auto middle = std::partition(first + r.begin, first + r.end,
+                                       [&](const Item& item) { return item.bin <= last; });
+    const auto split = static_cast<std::uint32_t>(middle - first);
+    halves = {Range{r.begin, split, {}}, Range{split, r.end, {}}};
+    for (std::size_t i = 0; i < used.count; ++i) {
+      Bin& bin = bins[used.numbers[i]];
+      halves[used.numbers[i] <= last ? 0 : 1].bounds.add(bin.bounds);
+      bin = {};
     }
-    side.setEmpty();
-    items = 0;
-    double best_cost = std::numeric_limits<double>::infinity();
-    int best = 0;
-    for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
-      side.extend(bin_boxes[bin]);
-      items += counts[bin];
-      const double cost = half_area(side) * items + right_cost[bin + 1];
-      if (items == 0 || items == r.count() || cost >= best_cost) continue;
-      best_cost = cost;
-      best = static_cast<int>(bin) + 1;
-    }
-    const auto first = order.begin() + r.begin;
-    const auto middle = std::partition(first, order.begin() + r.end,
-                                       [&](std::uint32_t item) { return bin_of(item) < best; });
-    return static_cast<std::uint32_t>(middle - order.begin());
+    return used.count > 1;
   }
 
-  [[nodiscard]] std::uint32_t half_split(const Range& r) {
+  [[nodiscard]] std::array<Range, 2> half_split(const Range& r) {
     int axis = 0;
-    r.box.sizes().maxCoeff(&axis);
+    r.bounds.box.sizes().maxCoeff(&axis);
     const std::uint32_t middle = r.begin + r.count() / 2;
-    std::nth_element(order.begin() + r.begin, order.begin() + middle, order.begin() + r.end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       const double ca = centre(a, axis);
-                       const double cb = centre(b, axis);
-                       return ca != cb ? ca < cb : a < b;
+    const auto first = items.begin();
+    std::nth_element(first + r.begin, first + middle, first + r.end,
+                     [&](const Item& a, const Item& b) {
+                       const double ca = a.centre(axis), cb = b.centre(axis);
+                       return ca != cb ? ca < cb : a.number < b.number;
                      });
-    return middle;
+    return {range(r.begin, middle), range(middle, r.end)};
   }
 
   [[nodiscard]] std::array<Range, 2> split(const Range& r, int level) {
-    std::uint32_t middle = r.begin;
-    if (level < kSurfaceAreaLevels) middle = area_split(r);
-    if (middle == r.begin || middle == r.end) middle = half_split(r);
-    return {range(r.begin, middle), range(middle, r.end)};
+    std::array<Range, 2> halves;
+    if (level < kSurfaceAreaLevels && area_split(r, halves)) return halves;
+    return half_split(r);
   }
 
   std::uint32_t build(const Range& all, int level) {
@@ -121,7 +198,8 @@ struct BoundingVolumeTree::Builder {
       std::size_t largest = kWidth;
       for (std::size_t i = 0; i < count; ++i) {
         if (parts[i].count() <= kLeafItems) continue;
-        if (largest == kWidth || half_area(parts[i].box) > half_area(parts[largest].box))
+        if (largest == kWidth ||
+            parts[i].bounds.box.half_area() > parts[largest].bounds.box.half_area())
           largest = i;
       }
       if (largest == kWidth) break;
@@ -140,37 +218,48 @@ struct BoundingVolumeTree::Builder {
       Node& node = nodes[index];
       node.child[lane] = child;
       node.count[lane] = leaf ? parts[lane].count() : 0;
+      const Vector3d low = parts[lane].bounds.box.low(), high = parts[lane].bounds.box.high();
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<Eigen::Index>(axis);
         // An unused lane is NaN, so that every comparison of a query is false.
         constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-        node.lower[axis][lane] = used ? static_cast<float>(parts[lane].box.min()[i]) : kNone;
-        node.upper[axis][lane] = used ? static_cast<float>(parts[lane].box.max()[i]) : kNone;
+        node.lower[axis][lane] = used ? static_cast<float>(low[i]) : kNone;
+        node.upper[axis][lane] = used ? static_cast<float>(high[i]) : kNone;
       }
     }
     return index;
   }
 };
 
-BoundingVolumeTree::BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding) {
-  if (boxes.empty()) return;
-  for (const Eigen::AlignedBox3d& box : boxes) bounds_.extend(box);
+BoundingVolumeTree::BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding)
+    : BoundingVolumeTree(
+          boxes.size(), [&](std::size_t item) { return boxes[item]; }, padding) {}
+
+BoundingVolumeTree::BoundingVolumeTree(std::size_t count, const BoxOf& box_of, double padding) {
+  if (count == 0) return;
+  std::vector<Item> items;
+  items.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Eigen::AlignedBox3d box = box_of(i);
+    bounds_.extend(box);
+    items.emplace_back(box.min(), box.max(), i);
+  }
   centre_ = bounds_.center();
   const double diagonal = bounds_.sizes().norm();
   scale_ = diagonal > 0.0 ? 1.0 / diagonal : 1.0;
-
-  order_.resize(boxes.size());
-  std::iota(order_.begin(), order_.end(), 0u);
-  const Eigen::Vector3d pad = Eigen::Vector3d::Constant(padding * scale_ + kRoundingPad);
-  Builder builder{{}, order_, nodes_};
-  builder.boxes.reserve(boxes.size());
-  for (const Eigen::AlignedBox3d& box : boxes) {
-    builder.boxes.emplace_back((box.min() - centre_) * scale_ - pad,
-                               (box.max() - centre_) * scale_ + pad);
+  const Vector3d pad = Vector3d::Constant(padding * scale_ + kRoundingPad);
+  for (Item& item : items) {
+    const Extents box = item.box();
+    item = Item((box.low() - centre_) * scale_ - pad, (box.high() - centre_) * scale_ + pad,
+                item.number);
   }
-  builder.build(builder.range(0, static_cast<std::uint32_t>(boxes.size())), 0);
+  nodes_.reserve(count / 5 + 1);
+  Builder builder{items, nodes_};
+  builder.build(builder.range(0, static_cast<std::uint32_t>(count)), 0);
   depth_ = builder.deepest;
-  const Eigen::Vector3d grow = pad / scale_;
+  order_.reserve(count);
+  for (const Item& item : items) order_.push_back(item.number);
+  const Vector3d grow = pad / scale_;
   bounds_ = Eigen::AlignedBox3d(bounds_.min() - grow, bounds_.max() + grow);
 }
 

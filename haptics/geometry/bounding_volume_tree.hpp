@@ -11,7 +11,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace reckon::haptics {
@@ -30,8 +32,16 @@ class BoundingVolumeTree {
   /// @param padding [m] added on all sides, on top of the padding for rounding
   BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding);
 
+  /// The same for boxes that are made when needed: twice each. 0.2 us an item; 56 octets each until
+  /// it is built.
+  using BoxOf = std::function<Eigen::AlignedBox3d(std::size_t item)>;
+  BoundingVolumeTree(std::size_t count, const BoxOf& box_of, double padding);
+
   /// Items in the order of the leaves. Queries return places in this list.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept { return order_; }
+
+  /// Moves that list out of the tree, for an owner who stores the items in this order.
+  [[nodiscard]] std::vector<std::uint32_t> take_order() noexcept { return std::move(order_); }
 
   // The searches below call `soon(first, count)` for a run as it is found, before it is visited or
   // dropped: a time to prefetch the data of a visit from the cache's next level.

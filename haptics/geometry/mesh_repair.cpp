@@ -3,44 +3,34 @@
 #include "reckon/haptics/geometry/mesh_repair.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <tuple>
-#include <unordered_map>
+#include <compare>
+#include <span>
+#include <utility>
+
+#include "reckon/haptics/geometry/vertex_corners.hpp"
+#include "reckon/haptics/mesh_files/position_table.hpp"
 
 namespace reckon::haptics {
 
-namespace {
-
 using Eigen::Vector3d;
 
-struct PositionHash {
-  std::size_t operator()(const Vector3d& p) const noexcept {
-    std::uint64_t hash = 1469598103934665603ull;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const double value = p[i] + 0.0;  // -0 becomes 0
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
-      hash ^= hash >> 29;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
-
-}  // namespace
-
 void weld(TriangleSoup& soup, MeshReport& report) {
-  std::unordered_map<Vector3d, std::uint32_t, PositionHash> first;
-  first.reserve(soup.vertices.size());
-  std::vector<std::uint32_t> same(soup.vertices.size());
-  for (std::uint32_t i = 0; i < soup.vertices.size(); ++i) {
-    same[i] = first.emplace(soup.vertices[i], i).first->second;
+  std::vector<Vector3d> different;
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(soup.vertices.size());
+  PositionTable table(different, soup.vertices.size());
+  constexpr std::size_t kFetched = 12;  // vertices, for the memory to arrive
+  for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+    if (i + kFetched < soup.vertices.size()) table.fetch(soup.vertices[i + kFetched]);
+    numbers.push_back(table.number_of(soup.vertices[i]));
   }
+  report.vertices = different.size();
+  report.merged_vertices += soup.vertices.size() - different.size();
+  if (different.size() == soup.vertices.size()) return;
   for (SoupTriangle& triangle : soup.triangles) {
-    for (std::uint32_t& corner : triangle.corners) corner = same[corner];
+    for (std::uint32_t& corner : triangle.corners) corner = numbers[corner];
   }
-  report.vertices = first.size();
-  report.merged_vertices = soup.vertices.size() - first.size();
+  soup.vertices = std::move(different);
 }
 
 void drop_collapsed(TriangleSoup& soup, MeshReport& report) {
@@ -52,30 +42,48 @@ void drop_collapsed(TriangleSoup& soup, MeshReport& report) {
   });
 }
 
-void drop_duplicates(TriangleSoup& soup, MeshReport& report) {
-  struct Row {
-    std::array<std::uint32_t, 3> corners;  // ascending
-    std::uint32_t triangle;
-  };
+namespace {
+
+/// A triangle, by the two greater of its corners.
+struct Row {
+  std::uint32_t middle, last, triangle;
+  auto operator<=>(const Row&) const = default;
+};
+
+/// Those of a vertex's triangles of which it is the least corner.
+void list_rows(const TriangleSoup& soup, std::span<const std::uint32_t> corners,
+               std::uint32_t vertex, std::vector<Row>& rows) {
+  rows.clear();
+  for (const std::uint32_t corner : corners) {
+    const auto& t = soup.triangles[corner / 3].corners;
+    const std::uint32_t next = t[(corner + 1) % 3], before = t[(corner + 2) % 3];
+    if (vertex > next || vertex > before) continue;
+    rows.push_back({std::min(next, before), std::max(next, before), corner / 3});
+  }
+}
+
+}  // namespace
+
+bool drop_duplicates(TriangleSoup& soup, const VertexCorners& corners, MeshReport& report) {
+  std::vector<bool> twice(soup.triangles.size());
   std::vector<Row> rows;
-  rows.reserve(soup.triangles.size());
-  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
-    Row& row = rows.emplace_back(Row{soup.triangles[i].corners, i});
-    std::ranges::sort(row.corners);
-  }
-  std::ranges::sort(rows, {}, [](const Row& row) {
-    return std::tuple(row.corners[0], row.corners[1], row.corners[2], row.triangle);
+  bool any = false;
+  corners.visit_all(soup, [&](std::uint32_t vertex, std::span<const std::uint32_t> around) {
+    list_rows(soup, around, vertex, rows);
+    std::ranges::sort(rows);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (rows[i].middle != rows[i - 1].middle || rows[i].last != rows[i - 1].last) continue;
+      any = twice[rows[i].triangle] = true;
+    }
   });
-  std::vector<bool> twice(rows.size());
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    twice[rows[i].triangle] = rows[i].corners == rows[i - 1].corners;
-  }
+  if (!any) return false;
   std::size_t index = 0;
   std::erase_if(soup.triangles, [&](const SoupTriangle& triangle) {
     const bool drop = twice[index++];
     if (drop) report.dropped_duplicates.add(triangle.place);
     return drop;
   });
+  return true;
 }
 
 }  // namespace reckon::haptics

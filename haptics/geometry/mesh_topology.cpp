@@ -4,10 +4,12 @@
 // be turned.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <compare>
 #include <numeric>
 #include <span>
 
 #include "reckon/haptics/geometry/mesh_repair.hpp"
+#include "reckon/haptics/geometry/vertex_corners.hpp"
 
 namespace reckon::haptics {
 
@@ -15,12 +17,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// One side of one triangle.
-struct EdgeUse {
-  std::uint64_t edge;  // its two vertices, the smaller one in the upper half
-  std::uint32_t triangle;
-  std::uint32_t side;  // from corner `side` to the next
-  auto operator<=>(const EdgeUse&) const = default;
+/// An edge from a vertex, as one side of one triangle.
+struct Spoke {
+  std::uint32_t end;     // the other vertex
+  std::uint32_t side;    // 3 times its triangle plus its place, from this corner to the next
+  std::uint32_t corner;  // of the triangle at the vertex, by its place in the vertex's list
+  bool outgoing;         // the triangle runs from the vertex to the end
+  [[nodiscard]] std::uint32_t triangle() const { return side / 3; }
+  auto operator<=>(const Spoke&) const = default;
 };
 
 struct Piece {
@@ -37,6 +41,8 @@ struct Piece {
 // Number of the largest pieces whose boxes are searched for an enclosed piece.
 constexpr std::size_t kEnclosing = 256;
 
+constexpr std::uint32_t kFetched = 8;  // triangles, for the memory to arrive
+
 constexpr std::uint32_t kNone = 0xffffffffu;  // a boundary edge
 constexpr std::uint32_t kMany = kNone - 1;    // an edge of three or more
 
@@ -45,9 +51,19 @@ class Topology {
   Topology(TriangleSoup& soup, MeshReport& report)
       : soup_(soup), triangles_(soup.triangles), report_(report) {}
 
-  void run() {
-    join();
-    count_meeting_points();
+  /// Finds the neighbour over each side, whether it runs in the same direction, and the vertices
+  /// whose triangles are not connected over edges.
+  void join(const VertexCorners& corners) {
+    neighbour_.assign(3 * triangles_.size(), kNone);
+    same_way_.assign(neighbour_.size(), false);
+    corners.visit_all(soup_, [&](std::uint32_t vertex, std::span<const std::uint32_t> around) {
+      join_at(vertex, around);
+    });
+    report_.closed = report_.boundary_edges.count == 0 && report_.non_manifold_edges.count == 0;
+  }
+
+  /// Turns triangles and whole pieces. After join().
+  void settle() {
     grow_pieces();
     for (const Piece& piece : pieces_) settle_side(piece);
     turn();
@@ -55,89 +71,74 @@ class Topology {
   }
 
  private:
-  [[nodiscard]] std::size_t corner(const EdgeUse& use, bool next) const {
-    return 3 * std::size_t{use.triangle} + (use.side + (next ? 1 : 0)) % 3;
-  }
-  [[nodiscard]] bool runs_up(const EdgeUse& use) const {
-    return triangles_[use.triangle].corners[use.side] == use.edge >> 32;
-  }
   [[nodiscard]] const Vector3d& point(std::uint32_t triangle, std::size_t i) const {
     return soup_.vertices[triangles_[triangle].corners[i]];
   }
 
-  /// Finds the neighbour over each side, whether it runs in the same direction, and the corners
-  /// that share a vertex.
-  void join() {
-    const std::vector<EdgeUse> uses = sorted_uses();
-    neighbour_.assign(uses.size(), kNone);
-    same_way_.assign(uses.size(), false);
-    fan_.resize(uses.size());
+  /// Joins each edge to a later vertex, and counts the fans of connected triangles.
+  void join_at(std::uint32_t vertex, std::span<const std::uint32_t> corners) {
+    list_spokes(corners);
+    fan_.resize(corners.size());
     std::iota(fan_.begin(), fan_.end(), 0u);
-    for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
+    std::size_t fans = corners.size();
+    for (std::size_t i = 0, end = 0; i < spokes_.size(); i = end) {
       end = i + 1;
-      while (end < uses.size() && uses[end].edge == uses[i].edge) ++end;
-      join_edge(std::span(uses).subspan(i, end - i));
-    }
-    report_.closed = report_.boundary_edges.count == 0 && report_.non_manifold_edges.count == 0;
-  }
-
-  [[nodiscard]] std::vector<EdgeUse> sorted_uses() const {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * triangles_.size());
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      for (std::uint32_t side = 0; side < 3; ++side) {
-        const std::uint64_t from = triangles_[t].corners[side];
-        const std::uint64_t to = triangles_[t].corners[(side + 1) % 3];
-        uses.push_back({std::min(from, to) << 32 | std::max(from, to), t, side});
+      while (end < spokes_.size() && spokes_[end].end == spokes_[i].end) {
+        fans -= unite(spokes_[end].corner, spokes_[i].corner) ? 1 : 0;
+        ++end;
       }
+      if (vertex < spokes_[i].end) join_edge(std::span(spokes_).subspan(i, end - i));
     }
-    std::ranges::sort(uses);
-    return uses;
+    if (fans > 1) note_meeting_point(corners);
   }
 
-  void join_edge(std::span<const EdgeUse> uses) {
-    const std::uint32_t place = triangles_[uses[0].triangle].place;
-    for (const EdgeUse& use : uses.subspan(1)) {
-      const bool crossed = runs_up(use) != runs_up(uses[0]);
-      unite(corner(use, crossed), corner(uses[0], false));
-      unite(corner(use, !crossed), corner(uses[0], true));
+  void list_spokes(std::span<const std::uint32_t> corners) {
+    spokes_.clear();
+    for (std::uint32_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t triangle = corners[i] / 3, place = corners[i] % 3;
+      const std::uint32_t next = (place + 1) % 3, before = (place + 2) % 3;
+      const auto& t = triangles_[triangle].corners;
+      spokes_.push_back({t[next], corners[i], i, true});
+      spokes_.push_back({t[before], 3 * triangle + before, i, false});
     }
+    std::ranges::sort(spokes_);
+  }
+
+  void join_edge(std::span<const Spoke> uses) {
+    const std::uint32_t place = triangles_[uses[0].triangle()].place;
     if (uses.size() == 1) report_.boundary_edges.add(place);
     if (uses.size() > 2) {
       report_.non_manifold_edges.add(place);
-      for (const EdgeUse& use : uses) neighbour_[corner(use, false)] = kMany;
+      for (const Spoke& use : uses) neighbour_[use.side] = kMany;
     }
     if (uses.size() != 2) return;
-    const bool same = runs_up(uses[0]) == runs_up(uses[1]);
+    const bool same = uses[0].outgoing == uses[1].outgoing;
     if (same) report_.inconsistent_edges.add(place);
     for (const std::size_t i : {0u, 1u}) {
-      neighbour_[corner(uses[i], false)] = uses[1 - i].triangle;
-      same_way_[corner(uses[i], false)] = same;
+      neighbour_[uses[i].side] = uses[1 - i].triangle();
+      same_way_[uses[i].side] = same;
     }
   }
 
-  std::size_t fan_of(std::size_t corner) {
+  std::uint32_t fan_of(std::uint32_t corner) {
     while (fan_[corner] != corner) {
       fan_[corner] = fan_[fan_[corner]];
       corner = fan_[corner];
     }
     return corner;
   }
-  void unite(std::size_t a, std::size_t b) {
-    fan_[fan_of(a)] = static_cast<std::uint32_t>(fan_of(b));
+  /// @return false if they were united before
+  bool unite(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t fan = fan_of(a), other = fan_of(b);
+    fan_[fan] = other;
+    return fan != other;
   }
 
-  /// Counts vertices whose triangles are not connected over edges.
-  void count_meeting_points() {
-    std::vector<std::uint32_t> fan(soup_.vertices.size(), kNone);
-    for (std::size_t corner = 0; corner < fan_.size(); ++corner) {
-      const SoupTriangle& triangle = triangles_[corner / 3];
-      std::uint32_t& known = fan[triangle.corners[corner % 3]];
-      const auto own = static_cast<std::uint32_t>(fan_of(corner));
-      if (known == kMany || known == own) continue;
-      if (known != kNone) report_.non_manifold_vertices.add(triangle.place);
-      known = known == kNone ? own : kMany;
-    }
+  /// Reports the first triangle that is not connected with the first of all.
+  void note_meeting_point(std::span<const std::uint32_t> corners) {
+    std::uint32_t i = 1;
+    while (fan_of(i) == fan_of(0)) ++i;
+    report_.non_manifold_vertices.add(triangles_[corners[i] / 3].place);
   }
 
   void grow_pieces() {
@@ -157,6 +158,7 @@ class Topology {
     seen[seed] = true;
     for (std::size_t i = piece.begin; i < order_.size(); ++i) {
       const std::uint32_t t = order_[i];
+      if (i + kFetched < order_.size()) __builtin_prefetch(&neighbour_[3 * order_[i + kFetched]]);
       for (std::size_t side = 3 * std::size_t{t}; side < 3 * std::size_t{t} + 3; ++side) {
         const std::uint32_t other = neighbour_[side];
         piece.closed = piece.closed && other != kNone;
@@ -178,10 +180,19 @@ class Topology {
     return piece;
   }
 
+  /// Fetches later triangles of a piece from memory, and then their vertices.
+  void fetch(std::uint32_t i, std::uint32_t end) const {
+    if (i + 2 * kFetched >= end) return;
+    __builtin_prefetch(&triangles_[order_[i + 2 * kFetched]]);
+    for (const std::uint32_t corner : triangles_[order_[i + kFetched]].corners)
+      __builtin_prefetch(&soup_.vertices[corner]);
+  }
+
   void measure(Piece& piece) const {
     const Vector3d& origin = point(order_[piece.begin], 0);
     for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
       const std::uint32_t t = order_[i];
+      fetch(i, piece.end);
       for (std::size_t k = 0; k < 3; ++k) piece.box.extend(point(t, k));
       const Vector3d a = point(t, 0) - origin, b = point(t, 1) - origin, c = point(t, 2) - origin;
       const double area = 0.5 * (b - a).cross(c - a).norm();
@@ -264,7 +275,8 @@ class Topology {
   MeshReport& report_;
   std::vector<std::uint32_t> neighbour_;  // of each side, kNone or kMany
   std::vector<bool> same_way_;            // of each side: its neighbour has the same direction
-  std::vector<std::uint32_t> fan_;        // of each corner: another of the same fan, or itself
+  std::vector<Spoke> spokes_;             // of one vertex, by their ends
+  std::vector<std::uint32_t> fan_;        // of each of its corners: another of the fan, or itself
   std::vector<bool> turned_;              // of each triangle
   std::vector<std::uint32_t> order_;      // triangles, piece by piece
   std::vector<Piece> pieces_;
@@ -275,9 +287,12 @@ class Topology {
 
 }  // namespace
 
-void orient(TriangleSoup& soup, MeshReport& report) {
+void orient(TriangleSoup& soup, VertexCorners corners, MeshReport& report) {
   if (soup.triangles.empty()) return;
-  Topology(soup, report).run();
+  Topology topology(soup, report);
+  topology.join(corners);
+  corners = VertexCorners();
+  topology.settle();
   const bool plain =
       report.non_manifold_edges.count == 0 && report.non_manifold_vertices.count == 0;
   if (report.boundary_edges.count > 0 && plain && report.one_sided_edges == 0) {

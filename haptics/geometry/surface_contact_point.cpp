@@ -70,7 +70,7 @@ struct OneObstacle {
   [[nodiscard]] bool holds(const ConstraintPlane& plane, const Vector3d& p) const noexcept {
     if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
       if (!plane.on_face || !solid.over(plane.triangle, p)) return false;
-      const Triangle& t = solid.triangles()[plane.triangle];
+      const TriangleView t = solid.triangles().view(plane.triangle);
       return std::abs(t.normal.dot(p - t.a)) - radius <= kHeldHeight * solid.clearance();
     }
     return false;
@@ -86,7 +86,7 @@ struct OneObstacle {
 // other side.
 void add_held(const SurfaceMesh& mesh, std::uint32_t triangle, double radius,
               ContactWalk<OneObstacle<SurfaceMesh>>& walk) {
-  const Triangle& t = mesh.triangles()[triangle];
+  const TriangleView t = mesh.triangles().view(triangle);
   const Vector3d& p = walk.p;
   const double above = t.normal.dot(p - t.a);
   const double side = above < 0.0 ? -1.0 : 1.0;
@@ -206,7 +206,7 @@ bool lift(const SurfaceMesh& mesh, const Vector3d& foot, double radius, const Co
     if (clear_of(mesh, out, radius)) return true;
     ClosestPoint near;
     if (!mesh.closest(out, radius + 10.0 * mesh.clearance(), near)) return false;
-    const Triangle& t = mesh.triangles()[near.triangle];
+    const TriangleView t = mesh.triangles().view(near.triangle);
     next = {t.normal, t.normal.dot(t.a) + height, near.triangle, 0, true};
     if (next.normal.dot(out) >= next.level) return false;
   }
@@ -221,7 +221,7 @@ Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double r
   ClosestPoint nearest;
   if (!mesh.closest(device, std::numeric_limits<double>::infinity(), nearest)) return device;
   if (!was_inside && nearest.distance >= height) return device;
-  const Triangle& t = mesh.triangles()[nearest.triangle];
+  const TriangleView t = mesh.triangles().view(nearest.triangle);
   const double side = was_inside || t.normal.dot(device - nearest.point) >= 0.0 ? 1.0 : -1.0;
   const Vector3d normal = side * t.normal;
   Vector3d lifted;

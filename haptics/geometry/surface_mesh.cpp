@@ -10,6 +10,7 @@
 
 #include "reckon/haptics/geometry/mesh_repair.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
+#include "reckon/haptics/geometry/vertex_corners.hpp"
 #include "reckon/haptics/input_files/load_progress.hpp"
 
 namespace reckon::haptics {
@@ -26,6 +27,9 @@ constexpr double kRelativeThinnest = 1e-10;
 constexpr double kNearby = 4.0;
 // Distance of the list's centre ahead of the probe, in margins.
 constexpr double kAhead = 0.5;
+
+// Above the rounding of a square, so that most distances need no root.
+constexpr double kAbove = 1.0 + 1e-14;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
@@ -85,11 +89,12 @@ SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> ind
 
 SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
     : report_(std::move(report)), names_(std::move(soup.names)) {
-  if (soup.triangles.size() > 0x7fffffffu) throw std::runtime_error("more than 2^31 triangles");
+  if (soup.triangles.size() > kMostTriangles) throw std::runtime_error("more than 2^30 triangles");
   weld(soup, report_);
   drop_collapsed(soup, report_);
   LoadProgress::look_now();
-  drop_duplicates(soup, report_);
+  VertexCorners corners(soup);
+  if (drop_duplicates(soup, corners, report_)) corners = VertexCorners(soup);
   LoadProgress::look_now();
   for (const SoupTriangle& triangle : soup.triangles) {
     for (const std::uint32_t corner : triangle.corners) bounds_.extend(soup.vertices[corner]);
@@ -98,7 +103,7 @@ SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
   size_ = bounds_.sizes().norm();
   clearance_ = kRelativeClearance * size_;
   report_.extent = bounds_.sizes();
-  orient(soup, report_);
+  orient(soup, std::move(corners), report_);
   LoadProgress::look_now();
   drop_thin(soup, kRelativeThinnest * size_, report_);
   if (soup.triangles.empty()) throw no_triangle(report_);
@@ -106,22 +111,22 @@ SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
   plant(soup);
 }
 
-void SurfaceMesh::plant(const TriangleSoup& soup) {
-  std::vector<Eigen::AlignedBox3d> boxes(soup.triangles.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const std::uint32_t corner : soup.triangles[i].corners) {
-      boxes[i].extend(soup.vertices[corner]);
+void SurfaceMesh::plant(TriangleSoup& soup) {
+  const auto box_of = [&](std::size_t item) {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t corner : soup.triangles[item].corners) {
+      box.extend(soup.vertices[corner]);
     }
-  }
-  tree_ = BoundingVolumeTree(boxes, 2.0 * clearance_);
-  triangles_.reserve(boxes.size());
-  for (const std::uint32_t item : tree_.order()) {
-    const Index3& t = soup.triangles[item].corners;
-    const Vector3d& a = soup.vertices[t[0]];
-    const Vector3d& b = soup.vertices[t[1]];
-    const Vector3d& c = soup.vertices[t[2]];
-    triangles_.push_back({a, b, c, (b - a).cross(c - a).normalized()});
-    if (!names_.empty()) face_names_.push_back(soup.triangles[item].names);
+    return box;
+  };
+  tree_ = BoundingVolumeTree(soup.triangles.size(), box_of, 2.0 * clearance_);
+  {
+    const std::vector<std::uint32_t> order = tree_.take_order();
+    if (!names_.empty()) {
+      face_names_.reserve(order.size());
+      for (const std::uint32_t item : order) face_names_.push_back(soup.triangles[item].names);
+    }
+    triangles_ = TriangleList(soup, order);
   }
   triangle_bounds_ = TriangleBounds(triangles_, bounds_.center(), size_);
 }
@@ -130,7 +135,7 @@ namespace {
 
 // The distance from a triangle is a convex function of time and so stays above its tangent at the
 // start. That excludes most triangles near a ball by one point instead of seven features.
-bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
+bool stays_clear(const TriangleView& triangle, const Sweep& way, double limit) noexcept {
   const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
   const double distance = gap.norm();
   // More than rounding, so that the hit does not depend on earlier ones.
@@ -175,16 +180,14 @@ struct SurfaceMesh::FirstHit {
     }
   }
 
-  // Whether triangle i is the first so far.
-  bool meet(std::uint32_t i) noexcept {
-    const Triangle& triangle = mesh.triangles_[i];
-    if (ball) {
-      if (mesh.triangle_bounds_.beyond(i, from, reach) || stays_clear(triangle, way, limit)) {
-        return false;
-      }
-    } else if (mesh.triangle_bounds_.beside(i, segment)) {
+  // Whether triangle i is the first so far. The search calls it for each triangle.
+  [[gnu::always_inline]] bool meet(std::uint32_t i) noexcept {
+    if (ball ? mesh.triangle_bounds_.beyond(i, from, reach)
+             : mesh.triangle_bounds_.beside(i, segment)) {
       return false;
     }
+    const TriangleView triangle = mesh.triangles_.view(i);
+    if (ball && stays_clear(triangle, way, limit)) return false;
     TriangleHit one;
     if (!sweep_triangle(triangle, way, limit, one)) return false;
     if (found && (one.t > limit || (one.t == limit && i > hit.triangle))) return false;
@@ -288,7 +291,7 @@ bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out,
 
 bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint, ClosestPoint& out,
                                double precision) const noexcept {
-  const Vector3d candidate = closest_on_triangle(triangles_[hint], p);
+  const Vector3d candidate = closest_on_triangle(triangles_.view(hint), p);
   out = {candidate, (candidate - p).norm(), hint};
   return closest_below(p, out.distance, precision, true, out);
 }
@@ -303,8 +306,10 @@ bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precisio
       [&](std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t i = first; i < first + count; ++i) {
           if (triangle_bounds_.beyond(i, place, reach)) continue;
-          const Vector3d candidate = closest_on_triangle(triangles_[i], p);
-          const double distance = (candidate - p).norm();
+          const Vector3d candidate = closest_on_triangle(triangles_.view(i), p);
+          const double squared = (candidate - p).squaredNorm();
+          if (squared > kAbove * limit * limit) continue;
+          const double distance = std::sqrt(squared);
           if (!(distance < limit)) continue;
           out = {candidate, distance, i};
           limit = distance;
@@ -318,7 +323,7 @@ bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precisio
 
 bool SurfaceMesh::closest_near(const Vector3d& p, NearTriangles& near,
                                ClosestPoint& out) const noexcept {
-  const Vector3d candidate = closest_on_triangle(triangles_[near.nearest_], p);
+  const Vector3d candidate = closest_on_triangle(triangles_.view(near.nearest_), p);
   out = {candidate, (candidate - p).norm(), near.nearest_};
   if ((p - near.centre_).norm() < near.room(out.distance) || list_near(p, out.distance, near)) {
     const double moved = (p - near.centre_).norm();
@@ -326,8 +331,10 @@ bool SurfaceMesh::closest_near(const Vector3d& p, NearTriangles& near,
     for (std::size_t k = 0; k < near.count_ && near.away_[k] <= moved + out.distance; ++k) {
       const std::uint32_t i = near.triangles_[k];
       if (triangle_bounds_.beyond(i, place, out.distance)) continue;
-      const Vector3d on = closest_on_triangle(triangles_[i], p);
-      const double distance = (on - p).norm();
+      const Vector3d on = closest_on_triangle(triangles_.view(i), p);
+      const double squared = (on - p).squaredNorm();
+      if (squared > kAbove * out.distance * out.distance) continue;
+      const double distance = std::sqrt(squared);
       if (distance < out.distance) out = {on, distance, i};
     }
   } else {
@@ -338,7 +345,7 @@ bool SurfaceMesh::closest_near(const Vector3d& p, NearTriangles& near,
 }
 
 bool SurfaceMesh::over(std::uint32_t triangle, const Vector3d& p) const noexcept {
-  return is_over(triangles_[triangle], p);
+  return is_over(triangles_.view(triangle), p);
 }
 
 bool SurfaceMesh::odd_crossings(const Vector3d& p, const Vector3d& ray) const noexcept {
@@ -346,7 +353,8 @@ bool SurfaceMesh::odd_crossings(const Vector3d& p, const Vector3d& ray) const no
   const Vector3d way = 2.0 * size_ * ray;
   const double whole_way = 1.0;
   tree_.along_segment(p, way, 0.0, whole_way, [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) odd ^= ray_crosses(triangles_[i], p, way);
+    for (std::uint32_t i = first; i < first + count; ++i)
+      odd ^= ray_crosses(triangles_.view(i), p, way);
   });
   return odd;
 }

@@ -20,6 +20,7 @@
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"
 #include "reckon/haptics/geometry/triangle_bounds.hpp"
+#include "reckon/haptics/geometry/triangle_list.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
 
 namespace reckon::haptics {
@@ -50,7 +51,7 @@ class SurfaceMesh {
 
   /// Builds from indexed triangles [m]. Equal positions are welded, degenerate and repeated
   /// triangles dropped. Neighbours are turned to face the same side, and closed pieces outwards.
-  /// report() counts all changes. 1 us a triangle.
+  /// report() counts all changes. 0.5 us a triangle.
   /// @throws std::runtime_error without a usable triangle, or on a non-finite position or bad
   /// index.
   SurfaceMesh(std::vector<Eigen::Vector3d> vertices,
@@ -69,9 +70,9 @@ class SurfaceMesh {
   /// freely.
   [[nodiscard]] double sweep_radius() const noexcept { return kStopShare * clearance_; }
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
-  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  [[nodiscard]] const TriangleList& triangles() const noexcept { return triangles_; }
 
-  /// The tree that searches them.
+  /// The tree that searches them; without its order().
   [[nodiscard]] const BoundingVolumeTree& tree() const noexcept { return tree_; }
 
   /// Names of the file's materials and groups, in the order of their first appearance.
@@ -124,7 +125,7 @@ class SurfaceMesh {
  private:
   struct FirstHit;
   SurfaceMesh(TriangleSoup soup, MeshReport report);
-  void plant(const TriangleSoup& soup);
+  void plant(TriangleSoup& soup);
   [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, double precision,
                                    bool found, ClosestPoint& out) const noexcept;
   [[nodiscard]] bool list_near(const Eigen::Vector3d& p, double stop,
@@ -138,7 +139,7 @@ class SurfaceMesh {
   double size_ = 0.0;
   double clearance_ = 0.0;
   BoundingVolumeTree tree_;
-  std::vector<Triangle> triangles_;
+  TriangleList triangles_;
   TriangleBounds triangle_bounds_;
   std::vector<std::string> names_;
   std::vector<FaceNames> face_names_;

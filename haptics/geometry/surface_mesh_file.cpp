@@ -61,6 +61,7 @@ TriangleSoup cut_polygons(const MeshShape& shape, MeshFile file, MeshReport& rep
   report.place_word = file.place_word;
   report.faces = file.faces.size();
   report.octets_behind = file.octets_behind;
+  report.merged_vertices = file.merged_vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   soup.triangles.reserve(file.faces.size());
   for (const FileFace& face : file.faces) {

@@ -16,13 +16,6 @@ constexpr double kFlattest = 1e-7;
 
 }  // namespace
 
-TriangleBounds::TriangleBounds(std::span<const Triangle> triangles, const Vector3d& centre,
-                               double size)
-    : centre_(centre), scale_(size > 0.0 ? 1.0 / size : 1.0) {
-  ways_.reserve(triangles.size());
-  for (const Triangle& triangle : triangles) ways_.push_back(ways_of(triangle, centre_, scale_));
-}
-
 // The offsets hold for all three corners, whatever the rounding of the directions. The directions
 // across the sides are at right angles to the normal, so that the squares of both distances add up.
 TriangleBounds::Ways TriangleBounds::ways_of(const Triangle& triangle, const Vector3d& centre,

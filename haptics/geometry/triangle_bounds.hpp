@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "reckon/haptics/geometry/triangle_query.hpp"
@@ -33,9 +32,13 @@ class TriangleBounds {
 
   TriangleBounds() = default;
 
-  /// @param centre origin of the bounds  @param size [m], their unit. For single precision, both
-  /// belong to a box around all triangles
-  TriangleBounds(std::span<const Triangle> triangles, const Eigen::Vector3d& centre, double size);
+  /// @param triangles a list of Triangle  @param centre origin of the bounds  @param size [m],
+  /// their unit. For single precision, both belong to a box around all triangles
+  TriangleBounds(const auto& triangles, const Eigen::Vector3d& centre, double size)
+      : centre_(centre), scale_(size > 0.0 ? 1.0 / size : 1.0) {
+    ways_.reserve(triangles.size());
+    for (const Triangle& t : triangles) ways_.push_back(ways_of(t, centre_, scale_));
+  }
 
   /// Any finite p [m].
   [[nodiscard]] Place place(const Eigen::Vector3d& p) const noexcept;

@@ -68,13 +68,13 @@ void try_corner(const Vector3d& corner, const Sweep& sweep, double limit, Triang
 }
 
 // Whether both points are farther than `radius` beyond the same side of the triangle.
-bool beside(const Triangle& triangle, const Vector3d& p, const Vector3d& q, double radius) {
+bool beside(const TriangleView& triangle, const Vector3d& p, const Vector3d& q, double radius) {
   const std::array<const Vector3d*, 4> corners{&triangle.a, &triangle.b, &triangle.c, &triangle.a};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d edge = *corners[i + 1] - *corners[i];
     const Vector3d inner = triangle.normal.cross(edge);
-    const double reach = -radius * std::sqrt(inner.squaredNorm());
-    if (inner.dot(p - *corners[i]) < reach && inner.dot(q - *corners[i]) < reach) return true;
+    const double within = std::max(inner.dot(p - *corners[i]), inner.dot(q - *corners[i]));
+    if (within < 0.0 && within * within > radius * radius * inner.squaredNorm()) return true;
   }
   return false;
 }
@@ -90,7 +90,7 @@ bool sweep_corner(const Vector3d& corner, const Sweep& sweep, double limit,
   return true;
 }
 
-bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
+bool sweep_triangle(const TriangleView& triangle, const Sweep& sweep, double limit,
                     TriangleHit& hit) noexcept {
   const double r = sweep.radius;
   double begin = triangle.normal.dot(sweep.origin - triangle.a);
@@ -133,35 +133,37 @@ bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
 }
 
 // Region tests after C. Ericson, Real-Time Collision Detection, 5.1.5.
-Vector3d closest_on_triangle(const Triangle& triangle, const Vector3d& p) noexcept {
-  const Vector3d ab = triangle.b - triangle.a;
-  const Vector3d ac = triangle.c - triangle.a;
-  const Vector3d ap = p - triangle.a;
+Vector3d closest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                             const Vector3d& p) noexcept {
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  const Vector3d ap = p - a;
   const double d1 = ab.dot(ap);
   const double d2 = ac.dot(ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return triangle.a;
-  const Vector3d bp = p - triangle.b;
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  const Vector3d bp = p - b;
   const double d3 = ab.dot(bp);
   const double d4 = ac.dot(bp);
-  if (d3 >= 0.0 && d4 <= d3) return triangle.b;
+  if (d3 >= 0.0 && d4 <= d3) return b;
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return triangle.a + d1 / (d1 - d3) * ab;
-  const Vector3d cp = p - triangle.c;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+  const Vector3d cp = p - c;
   const double d5 = ab.dot(cp);
   const double d6 = ac.dot(cp);
-  if (d6 >= 0.0 && d5 <= d6) return triangle.c;
+  if (d6 >= 0.0 && d5 <= d6) return c;
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return triangle.a + d2 / (d2 - d6) * ac;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
-    return triangle.b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (triangle.c - triangle.b);
+    return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
   }
   const double sum = va + vb + vc;
-  return triangle.a + vb / sum * ab + vc / sum * ac;
+  return a + vb / sum * ab + vc / sum * ac;
 }
 
 // Moeller and Trumbore; scale-free: only exact parallelism is refused.
-bool ray_crosses(const Triangle& triangle, const Vector3d& p, const Vector3d& direction) noexcept {
+bool ray_crosses(const TriangleView& triangle, const Vector3d& p,
+                 const Vector3d& direction) noexcept {
   const Vector3d ab = triangle.b - triangle.a;
   const Vector3d ac = triangle.c - triangle.a;
   const Vector3d q = direction.cross(ac);

@@ -15,6 +15,16 @@ struct Triangle {
   Eigen::Vector3d normal;  ///< along (b - a) x (c - a)
 };
 
+/// Refers to a triangle, whose parts may be apart in memory. For a call, not to be kept.
+struct TriangleView {
+  const Eigen::Vector3d &a, &b, &c, &normal;
+
+  TriangleView(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+               const Eigen::Vector3d& third, const Eigen::Vector3d& up) noexcept
+      : a(first), b(second), c(third), normal(up) {}
+  TriangleView(const Triangle& t) noexcept : TriangleView(t.a, t.b, t.c, t.normal) {}
+};
+
 /// Path of a point, and the distances at which it stops.
 struct Sweep {
   Eigen::Vector3d origin;  ///< [m]
@@ -35,26 +45,32 @@ struct TriangleHit {
 
 /// First time, before `limit`, at which the swept point comes within the radius of the triangle. A
 /// point that starts within it is stopped (t = 0) only if the step leads nearer.
-[[nodiscard]] bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
+[[nodiscard]] bool sweep_triangle(const TriangleView& triangle, const Sweep& sweep, double limit,
                                   TriangleHit& hit) noexcept;
 
 /// The same for a single point, `corner` [m]; `hit` stays unchanged without a contact.
 [[nodiscard]] bool sweep_corner(const Eigen::Vector3d& corner, const Sweep& sweep, double limit,
                                 TriangleHit& hit) noexcept;
 
-/// The point of the triangle nearest to p.
-[[nodiscard]] Eigen::Vector3d closest_on_triangle(const Triangle& triangle,
+/// The point of the triangle a, b, c nearest to p.
+[[nodiscard]] Eigen::Vector3d closest_on_triangle(const Eigen::Vector3d& a,
+                                                  const Eigen::Vector3d& b,
+                                                  const Eigen::Vector3d& c,
                                                   const Eigen::Vector3d& p) noexcept;
+[[nodiscard]] inline Eigen::Vector3d closest_on_triangle(const TriangleView& triangle,
+                                                         const Eigen::Vector3d& p) noexcept {
+  return closest_on_triangle(triangle.a, triangle.b, triangle.c, p);
+}
 
 /// Whether the foot of p on the triangle's plane is in the triangle, border included.
-[[nodiscard]] inline bool is_over(const Triangle& t, const Eigen::Vector3d& p) noexcept {
+[[nodiscard]] inline bool is_over(const TriangleView& t, const Eigen::Vector3d& p) noexcept {
   return t.normal.dot((t.b - t.a).cross(p - t.a)) >= 0.0 &&
          t.normal.dot((t.c - t.b).cross(p - t.b)) >= 0.0 &&
          t.normal.dot((t.a - t.c).cross(p - t.c)) >= 0.0;
 }
 
 /// Whether the ray p + s direction, s > 0, crosses the triangle.
-[[nodiscard]] bool ray_crosses(const Triangle& triangle, const Eigen::Vector3d& p,
+[[nodiscard]] bool ray_crosses(const TriangleView& triangle, const Eigen::Vector3d& p,
                                const Eigen::Vector3d& direction) noexcept;
 
 }  // namespace reckon::haptics

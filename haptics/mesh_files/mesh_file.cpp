@@ -100,15 +100,19 @@ MeshFile read_mesh_file(const std::filesystem::path& file) {
   return mesh;
 }
 
-void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line) {
+void check_vertex(const Eigen::Vector3d& p, std::size_t number, std::size_t line) {
   if (!(p.cwiseAbs().maxCoeff() <= kFarthestVertex) || !p.allFinite()) {
     throw MeshFileError(line,
-                        "vertex " + std::to_string(file.vertices.size()) +
+                        "vertex " + std::to_string(number) +
                             ", counted from 0, is not finite; repair it or export the mesh again");
   }
-  if (file.vertices.size() >= std::numeric_limits<std::uint32_t>::max()) {
+  if (number >= std::numeric_limits<std::uint32_t>::max()) {
     throw MeshFileError(line, "more than 2^32 vertices; use a coarser mesh");
   }
+}
+
+void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line) {
+  check_vertex(p, file.vertices.size(), line);
   file.vertices.push_back(p);
 }
 

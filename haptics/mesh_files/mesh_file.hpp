@@ -38,6 +38,7 @@ struct MeshFile {
   /// `material_index`.
   std::vector<std::string> names;
   std::string_view place_word = "line";  ///< unit of FileFace::place: "line" or "face"
+  std::size_t merged_vertices = 0;       ///< of an STL: corners at the position of an earlier one
   std::size_t octets_behind = 0;         ///< of a binary STL, behind the faces that it counts
 
   [[nodiscard]] std::span<const std::uint32_t> corners_of(const FileFace& face) const noexcept {

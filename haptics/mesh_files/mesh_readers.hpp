@@ -32,7 +32,10 @@ void read_off(std::string_view bytes, MeshFile& file);
 void read_ply(std::string_view bytes, MeshFile& file);
 void read_stl(std::string_view bytes, MeshFile& file);
 
-/// @param line 0 if there is none. @throws MeshFileError for a vertex that is not finite.
+/// @param number of the vertex in the file, from 0  @param line 0 if there is none
+/// @throws MeshFileError for a vertex that is not finite, or has too high a number
+void check_vertex(const Eigen::Vector3d& p, std::size_t number, std::size_t line);
+/// Checks and appends it. @throws MeshFileError
 void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line);
 /// Assigns numbers to materials and groups.
 class FaceNamer {

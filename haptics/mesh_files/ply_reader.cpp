@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/haptics/mesh_files/mesh_readers.hpp"
 
 namespace reckon::haptics {
@@ -148,8 +148,9 @@ class Values {
 };
 
 long long whole(double value, std::size_t line) {
-  if (value >= -1e15 && value <= 1e15 && value == std::floor(value)) {
-    return static_cast<long long>(value);
+  if (value >= -1e15 && value <= 1e15) {
+    const auto number = static_cast<long long>(value);
+    if (static_cast<double>(number) == value) return number;
   }
   throw MeshFileError(line, "a number of corners or an index is not a whole number");
 }
@@ -220,6 +221,16 @@ void check_element(const Element& element) {
   }
 }
 
+/// Room for an element, whatever its header claims: a face or a vertex takes some octets.
+void reserve(const Element& element, std::size_t octets, MeshFile& file) {
+  const std::size_t count =
+      std::min({element.count, octets / 4, LoadBudget::limit(LoadWork::triangles)});
+  if (element.name == "vertex") file.vertices.reserve(count);
+  if (element.name != "face") return;
+  file.faces.reserve(count);
+  file.corners.reserve(3 * count);
+}
+
 }  // namespace
 
 void read_ply(std::string_view bytes, MeshFile& file) {
@@ -231,6 +242,7 @@ void read_ply(std::string_view bytes, MeshFile& file) {
   for (const Element& element : header.elements) {
     if (element.count == 0 || element.properties.empty()) continue;
     check_element(element);
+    reserve(element, bytes.size(), file);
     for (std::size_t i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
         read_vertex(element, values, file);

@@ -279,7 +279,7 @@ Hull Hull::of_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) 
 }
 
 Vector3d Hull::nearest(const Vector3d& p) const noexcept {
-  if (count == 3) return closest_on_triangle({corners[0], corners[1], corners[2], {}}, p);
+  if (count == 3) return closest_on_triangle(corners[0], corners[1], corners[2], p);
   const Vector3d from = p - corners[0];
   Vector3d on = corners[0];
   for (std::size_t bit = 1; bit < count; bit *= 2) {

@@ -56,7 +56,7 @@ bool beyond_plane(const Triangle& t, const Hull& hull, double limit) {
 HullGap mesh_box_gap(const SurfaceMesh& mesh, const OrientedBox& box,
                      std::uint32_t& triangle) noexcept {
   const Hull core = Hull::of_box(box.centre, box.axes, box.half);
-  const std::vector<Triangle>& triangles = mesh.triangles();
+  const TriangleList& triangles = mesh.triangles();
   HullGap best;
   best.distance = std::numeric_limits<double>::infinity();
   double limit = best.distance;

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/capture/archive_decompressor.hpp"
 
-#include <archive.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <new>
 #include <utility>
+
+#include "reckon/peer/capture/archive_library.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -17,13 +18,13 @@ namespace {
 struct Method {
   std::string_view name;
   std::string_view magic;
-  int (*allow)(archive*);
+  int (*ArchiveLibrary::*allow)(archive*);
 };
 constexpr std::array kMethods{
-    Method{"gzip", "\x1f\x8b", archive_read_support_filter_gzip},
-    Method{"bzip2", "BZh", archive_read_support_filter_bzip2},
-    Method{"xz", std::string_view("\xfd\x37\x7a\x58\x5a\x00", 6), archive_read_support_filter_xz},
-    Method{"lz4", "\x04\x22\x4d\x18", archive_read_support_filter_lz4}};
+    Method{"gzip", "\x1f\x8b", &ArchiveLibrary::allow_gzip},
+    Method{"bzip2", "BZh", &ArchiveLibrary::allow_bzip2},
+    Method{"xz", std::string_view("\xfd\x37\x7a\x58\x5a\x00", 6), &ArchiveLibrary::allow_xz},
+    Method{"lz4", "\x04\x22\x4d\x18", &ArchiveLibrary::allow_lz4}};
 
 }  // namespace
 
@@ -34,10 +35,19 @@ std::string_view archive_method(std::span<const std::byte> head) noexcept {
   return {};
 }
 
-ArchiveDecompressor::ArchiveDecompressor(std::string_view method, Read read)
-    : method_(method), read_(std::move(read)), archive_(archive_read_new(), archive_read_free) {
+ArchiveDecompressor::ArchiveDecompressor(std::string_view method, Read read,
+                                         const ArchiveLibrary& library)
+    : library_(library), method_(method), read_(std::move(read)), archive_(nullptr, nullptr) {
+  if (!library.problem.empty()) {
+    error_ = fmt::format("is compressed by {}, and {}", method, library.problem);
+    return;
+  }
+  archive_ = {library.read_new(), library.read_free};
   if (!archive_) throw std::bad_alloc();
 }
+
+ArchiveDecompressor::ArchiveDecompressor(std::string_view method, Read read)
+    : ArchiveDecompressor(method, std::move(read), archive_library()) {}
 
 ArchiveDecompressor::~ArchiveDecompressor() = default;
 
@@ -47,7 +57,7 @@ std::size_t ArchiveDecompressor::decompress(std::span<std::byte> out) {
     const void* block = nullptr;
     std::size_t size = 0;
     la_int64_t offset = 0;
-    const int result = archive_read_data_block(archive_.get(), &block, &size, &offset);
+    const int result = library_.data_block(archive_.get(), &block, &size, &offset);
     if (result == ARCHIVE_EOF) return 0;
     if (result != ARCHIVE_OK) {
       fail();
@@ -67,29 +77,29 @@ bool ArchiveDecompressor::open() {
   is_open_ = true;
   const auto method = std::find_if(kMethods.begin(), kMethods.end(),
                                    [&](const Method& m) { return m.name == method_; });
-  if (method->allow(archive_.get()) != ARCHIVE_OK) {
+  if ((library_.*method->allow)(archive_.get()) != ARCHIVE_OK) {
     error_ = fmt::format("the installed libarchive does not read {}; decompress it first", method_);
     return false;
   }
-  archive_read_support_format_raw(archive_.get());
-  archive_read_support_format_empty(archive_.get());
+  library_.allow_raw(archive_.get());
+  library_.allow_empty(archive_.get());
   archive_entry* entry = nullptr;
-  if (archive_read_open(archive_.get(), this, nullptr, read_callback, nullptr) != ARCHIVE_OK) {
+  if (library_.read_open(archive_.get(), this, nullptr, read_callback, nullptr) != ARCHIVE_OK) {
     fail();
     return false;
   }
-  if (archive_filter_count(archive_.get()) > 2) {  // the method, and the file
+  if (library_.filter_count(archive_.get()) > 2) {  // the method, and the file
     error_ = fmt::format("it is compressed more than once by {}; decompress it first", method_);
     return false;
   }
-  const int result = archive_read_next_header(archive_.get(), &entry);
+  const int result = library_.next_header(archive_.get(), &entry);
   if (result == ARCHIVE_EOF) return true;
   if (result != ARCHIVE_OK) fail();
   return result == ARCHIVE_OK;
 }
 
 void ArchiveDecompressor::fail() {
-  const char* reason = archive_error_string(archive_.get());
+  const char* reason = library_.error_string(archive_.get());
   error_ = fmt::format("its {} data is damaged: {}", method_,
                        reason != nullptr ? reason : "no reason is known");
 }

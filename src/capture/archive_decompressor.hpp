@@ -14,6 +14,8 @@ struct archive;
 
 namespace reckon::peer {
 
+struct ArchiveLibrary;
+
 /// The method of a file with these first octets: "gzip", "bzip2", "xz" or "lz4"; else empty.
 [[nodiscard]] std::string_view archive_method(std::span<const std::byte> head) noexcept;
 
@@ -26,6 +28,8 @@ class ArchiveDecompressor {
 
   /// @param method one of archive_method().
   ArchiveDecompressor(std::string_view method, Read read);
+  /// @param library that reads it, and outlives this object; without one, error() says so
+  ArchiveDecompressor(std::string_view method, Read read, const ArchiveLibrary& library);
   ~ArchiveDecompressor();
   ArchiveDecompressor(const ArchiveDecompressor&) = delete;
   ArchiveDecompressor& operator=(const ArchiveDecompressor&) = delete;
@@ -41,6 +45,7 @@ class ArchiveDecompressor {
   void fail();
   static std::ptrdiff_t read_callback(archive*, void* self, const void** buffer);
 
+  const ArchiveLibrary& library_;
   std::string_view method_;
   Read read_;
   std::unique_ptr<archive, int (*)(archive*)> archive_;

@@ -66,8 +66,9 @@ void CaptureStream::look_at_head() {
     throw std::runtime_error(name_ + " is empty; give a pcap or pcapng file with its header");
   if (begins_zstd(input_)) zstd_ = std::make_unique<ZstdDecompressor>();
   const std::string_view method = archive_method(input_);
-  if (!method.empty())
-    archive_ = std::make_unique<ArchiveDecompressor>(method, [this] { return read_buffer(); });
+  if (method.empty()) return;
+  archive_ = std::make_unique<ArchiveDecompressor>(method, [this] { return read_buffer(); });
+  if (!archive_->error().empty()) throw std::runtime_error(name_ + " " + archive_->error());
 }
 
 std::FILE* CaptureStream::open() {

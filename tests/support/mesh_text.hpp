@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -43,6 +44,23 @@ inline std::string obj_text(const MeshData& mesh, const Vector3d& offset = Vecto
     out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
   }
   return out.str();
+}
+
+/// As binary STL, in single precision.
+inline std::string stl_octets(const MeshData& mesh) {
+  std::string out(80, ' ');
+  const auto append = [&](const auto& value) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  append(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    out.append(12, '\0');  // the normal, which readers ignore
+    for (const std::uint32_t corner : triangle) {
+      for (const double value : mesh.vertices[corner]) append(static_cast<float>(value));
+    }
+    out.append(2, '\0');
+  }
+  return out;
 }
 
 }  // namespace reckon::test

@@ -9,11 +9,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "reckon/peer/capture/archive_decompressor.hpp"
+#include "reckon/peer/capture/archive_library.hpp"
 #include "reckon/tests/src/support/capture_samples.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
@@ -108,6 +113,19 @@ TEST(ArchivedCapture, IsRefusedWhereItHoldsNoCapture) {
     std::vector<char> octets = octets_of(folder.file("text"));
     std::ofstream(folder.file("head"), std::ios::binary).write(octets.data(), 7);
     EXPECT_THAT(refusal(folder.file("head")), HasSubstr("give a pcap or pcapng file"));
+  }
+}
+
+// The first library does not exist, and the second has no such functions.
+TEST(ArchivedCapture, MissingLibraryIsNamedWithItsPackage) {
+  for (const char* name : {"libarchive.so.none", "libc.so.6"}) {
+    const ArchiveLibrary library = load_archive_library(name);
+    ArchiveDecompressor gzip(
+        "gzip", [] { return std::span<const std::byte>(); }, library);
+    std::array<std::byte, 16> out{};
+    EXPECT_EQ(gzip.decompress(out), 0U);
+    EXPECT_THAT(gzip.error(), HasSubstr(std::string("is compressed by gzip, and ") + name));
+    EXPECT_THAT(gzip.error(), HasSubstr("; install the package libarchive13, or decompress"));
   }
 }
 
