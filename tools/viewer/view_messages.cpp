@@ -152,7 +152,7 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "hello")
-      .value("version", 3)
+      .value("version", 4)
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)

@@ -27,6 +27,12 @@ HistoryOptions history_options(const StageOptions& options) {
   return history;
 }
 
+/// As it is already, mostly: slots are numbered in the order of the table.
+void sort_by_slot(std::vector<EntityMark>& entities) {
+  if (!std::ranges::is_sorted(entities, {}, &EntityMark::slot))
+    std::ranges::sort(entities, {}, &EntityMark::slot);
+}
+
 /// Removes rows older than `span` before the last one.
 void forget_old(auto& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
@@ -157,7 +163,7 @@ void ViewStage::show_at(Watcher& watcher, Time time, PlayState state) const {
   watcher.time = std::clamp(time, history_.begin(), std::max(history_.begin(), live_end()));
   watcher.advanced = now_;
   watcher.knows_state = false;
-  watcher.needs_picture = true;
+  watcher.needs_picture = watcher.needs_whole = true;
 }
 
 /// The action of each kind of request.
@@ -221,6 +227,7 @@ struct ViewStage::Requests {
   void operator()(const GoAloneRequest&) const {
     stage.note("info", stage.options_.controls->go_alone());
   }
+  void operator()(const WholeRequest&) const { watcher.needs_picture = watcher.needs_whole = true; }
 };
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
@@ -258,6 +265,7 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   if (frame_) {
     world.add_marks(history_.peopled(time), history_.start(), history_.roster(), *frame_,
                     rows.entities);
+    sort_by_slot(rows.entities);
     if (cells_) cells_->place(rows.entities);
     add_contacts(world, time, rows);
   }
@@ -300,7 +308,9 @@ void ViewStage::add_hands(Time time, PictureRows& rows) const {
 }
 
 const PictureRows& ViewStage::live_rows() {
-  if (std::exchange(live_tick_, tick_) != tick_) fill(history_.live(), live_end(), live_);
+  if (std::exchange(live_tick_, tick_) == tick_) return live_;
+  fill(history_.live(), live_end(), live_);
+  steady_entities(live_, live_steady_);
   return live_;
 }
 
@@ -324,20 +334,32 @@ bool ViewStage::wants_picture(const Watcher& watcher) const {
   return moves || watcher.needs_picture;
 }
 
+ViewStage::Text ViewStage::encoded(Watcher& watcher, const PictureRows& rows,
+                                   std::span<const SteadyEntity> entities) {
+  const auto number = static_cast<std::uint32_t>(tick_);
+  auto octets = std::make_shared<std::string>();
+  if (watcher.stores) {
+    encode_picture(rows, number, *octets);
+    return octets;
+  }
+  const bool whole = std::exchange(watcher.needs_whole, false) || now_ >= watcher.next_whole;
+  if (whole) watcher.next_whole = now_ + kWholeEvery;
+  *octets = watcher.difference.encode(rows, entities, {number, watcher.hand, whole}, room_);
+  return octets;
+}
+
 ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
   const Time time = shown_time(watcher);
   PictureRows& rows = is_past(watcher) ? past_ : live_;
-  if (is_past(watcher))
+  if (is_past(watcher)) {
     fill(world_for(watcher, time), time, past_);
-  else
+    steady_entities(past_, past_steady_);
+  } else {
     (void)live_rows();
+  }
   rows.flags = flags_for(watcher, time);
-  auto octets = std::make_shared<std::string>();
-  encode_picture(rows, *octets);
-  if (watcher.hand) mark_own_hand(rows, *watcher.hand, *octets);
-  const auto number = static_cast<std::uint32_t>(tick_);
-  number_picture(*octets, number);
-  watcher.under_way.push_back(number);
+  Text octets = encoded(watcher, rows, is_past(watcher) ? past_steady_ : live_steady_);
+  watcher.under_way.push_back(static_cast<std::uint32_t>(tick_));
   watcher.tick = tick_;
   watcher.shown = time;
   watcher.gaps = gaps_;

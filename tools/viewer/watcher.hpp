@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/tools/viewer/history/history.hpp"
+#include "reckon/tools/viewer/protocol/picture_difference.hpp"
 
 namespace reckon::tools {
 
@@ -27,6 +28,7 @@ struct Watcher {
 
   std::uint64_t number = 0;  ///< unique
   bool may_push = false;
+  bool stores = false;  ///< gets each picture whole, for a saved file
 
   PlayState state = PlayState::live;
   double speed = 1;
@@ -35,6 +37,9 @@ struct Watcher {
   std::unique_ptr<History::Cursor> cursor;
   std::optional<std::chrono::nanoseconds> shown;  ///< instant of the last picture
   bool needs_picture = true;                      ///< even if time does not advance
+  PictureDifference difference;
+  bool needs_whole = true;               ///< the next picture does not depend on earlier ones
+  std::chrono::nanoseconds next_whole{};  ///< it does not from this time of the stage on
   std::uint64_t gaps = 0;                         ///< of the source, up to the last picture
   std::vector<std::uint32_t> under_way;           ///< numbers of pictures sent and not drawn
   std::size_t credit = kCredit;                   ///< limit of under_way

@@ -48,6 +48,8 @@ struct TakeHandRequest {};
 struct GiveHandRequest {};
 /// Lets the bodies go on without the peers that are missing.
 struct GoAloneRequest {};
+/// The page cannot use its last picture: sends a whole one.
+struct WholeRequest {};
 /// Selects the entity whose cells are lit.
 struct FollowRequest {
   std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: none
@@ -55,7 +57,8 @@ struct FollowRequest {
 
 using PageRequest =
     std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
-                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest, GoAloneRequest>;
+                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest, GoAloneRequest,
+                 WholeRequest>;
 
 /// The request in a message; none if it is no request, has another length, or a number in it is not
 /// finite or out of its range.
