@@ -29,10 +29,10 @@ TOTAL = {
     "deadreckon": 4500,
     "haptics": 39500,
     "src": 51500,
-    "tools": 40000,
+    "tools": 41000,
     "python": 2500,
-    "bench": 36500,
-    "tests": 140500,
+    "bench": 37000,
+    "tests": 141000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -55,7 +55,7 @@ LARGE = {
     "src/RemoteEntity": (22, 31),
     "tools/Exercise": (304, 17),
     "tools/Listener": (327, 12),
-    "tools/ViewStage": (437, 25),
+    "tools/ViewStage": (435, 25),
 }
 FOLDERS = [*TOTAL, "cmake", "docs", "scenes"]
 CPP = (".cpp", ".hpp", ".h")

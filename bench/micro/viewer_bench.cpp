@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the viewer: octets of a page and CPU time of a picture, as differences beside whole
-// pictures, in turn at each tick, of vehicles in circles with an update a second. Each picture of
+// pictures, in turn at each tick, of vehicles in circles with an update a second; `turning` ones
+// are dead reckoned with acceleration and rotation, so that each picture differs. Each picture of
 // the first 5 s is first read by a reader and compared with the whole one.
 #include <benchmark/benchmark.h>
 #include <time.h>
@@ -30,7 +31,8 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kStart = std::chrono::seconds(1'700'000'000);
 constexpr double kCircle = 200, kSpeed = 10, kHeartbeat = 4;  // [m], [m/s], [s]
 
-pdu::EntityState vehicle(std::uint16_t number, double t, bool moves) {
+/// @param turns it is dead reckoned with its acceleration and rotation (RVW), else uniformly (FPW)
+pdu::EntityState vehicle(std::uint16_t number, double t, bool moves, bool turns) {
   const double angle = (moves ? kSpeed / kCircle * t : 0.0) + 2.4 * number;
   const double speed = moves ? kSpeed : 0;
   pdu::EntityState pdu;
@@ -43,6 +45,13 @@ pdu::EntityState vehicle(std::uint16_t number, double t, bool moves) {
                   500.0 * (number / 100) + kCircle * std::sin(angle)};
   pdu.linear_velocity = {0, static_cast<float>(-speed * std::sin(angle)),
                          static_cast<float>(speed * std::cos(angle))};
+  if (moves && turns) {
+    const double pull = kSpeed * kSpeed / kCircle;
+    pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+    pdu.dead_reckoning.linear_acceleration = {0, static_cast<float>(-pull * std::cos(angle)),
+                                              static_cast<float>(-pull * std::sin(angle))};
+    pdu.dead_reckoning.angular_velocity = {static_cast<float>(kSpeed / kCircle), 0, 0};
+  }
   pdu.orientation = {0, -1.5707964F, static_cast<float>(std::remainder(angle, 6.283185307))};
   return pdu;
 }
@@ -50,8 +59,8 @@ pdu::EntityState vehicle(std::uint16_t number, double t, bool moves) {
 /// An exercise that is stepped by a tick of pages.
 class Exercise {
  public:
-  Exercise(std::uint16_t entities, double moving)
-      : entities_(entities), moving_(static_cast<std::uint16_t>(moving * entities)) {
+  Exercise(std::uint16_t entities, double moving, bool turns)
+      : entities_(entities), moving_(static_cast<std::uint16_t>(moving * entities)), turns_(turns) {
     options_.history.span = std::chrono::seconds(2);
     stage = std::make_unique<tools::ViewStage>(options_);
   }
@@ -72,7 +81,7 @@ class Exercise {
  private:
   void send(std::uint16_t number, bool moves) {
     octets_.clear();
-    test::append_pdu(octets_, vehicle(number, time_, moves));
+    test::append_pdu(octets_, vehicle(number, time_, moves, turns_));
     peer::SourceDatagram datagram;
     datagram.time = kStart + pdu::from_seconds(time_);
     datagram.bytes = octets_;
@@ -80,6 +89,7 @@ class Exercise {
   }
   tools::StageOptions options_;
   std::uint16_t entities_, moving_;
+  bool turns_;
   double time_ = 0;
   test::Octets octets_;
 };
@@ -93,7 +103,7 @@ double thread_seconds() {
 /// A page that draws each picture at once.
 struct Page {
   Page(tools::ViewStage& the_stage, bool stores) : stage(the_stage), watcher(stage.admit(false)) {
-    watcher->stores = stores;
+    if (stores) watcher->pictures.store();
   }
   ~Page() { stage.leave(*watcher); }
   void take() {
@@ -116,7 +126,8 @@ struct Page {
   }
   [[nodiscard]] double share(double part) {
     std::ranges::sort(microseconds);
-    return microseconds[static_cast<std::size_t>(part * static_cast<double>(microseconds.size() - 1))];
+    return microseconds[static_cast<std::size_t>(part *
+                                                 static_cast<double>(microseconds.size() - 1))];
   }
   tools::ViewStage& stage;
   std::unique_ptr<tools::Watcher> watcher;
@@ -148,7 +159,7 @@ double error_of(const std::string& whole, const std::string& read) {
 
 void Pictures(benchmark::State& state) {
   Exercise exercise(static_cast<std::uint16_t>(state.range(0)),
-                    static_cast<double>(state.range(1)) / 100);
+                    static_cast<double>(state.range(1)) / 100, state.range(2) != 0);
   Page first(*exercise.stage, true), whole(*exercise.stage, true), page(*exercise.stage, false);
   tools::reading::PictureReader reader;
   double error = 0;
@@ -181,8 +192,8 @@ void Pictures(benchmark::State& state) {
   state.counters["error_mm"] = 1e3 * error;
 }
 BENCHMARK(Pictures)
-    ->ArgsProduct({{100, 1000, 10000}, {10, 100}})
-    ->ArgNames({"entities", "moving"})
+    ->ArgsProduct({{100, 1000, 10000}, {10, 100}, {0, 1}})
+    ->ArgNames({"entities", "moving", "turning"})
     ->Iterations(600)
     ->Unit(benchmark::kMicrosecond);
 

@@ -92,14 +92,14 @@ struct CheckRequest {
 };
 
 /// RFC 7692 7.2.3.1. The first message allocates.
-bool inflates_hello(tools::MessageInflater& inflater) {
+bool inflates_hello(tools::MessageCompression& compression) {
   tools::ClientFrame frame;
   for (const unsigned octet : {0xF2U, 0x48U, 0xCDU, 0xC9U, 0xC9U, 0x07U, 0x00U})
     frame.octets[frame.size++] = static_cast<std::byte>(octet);
-  return inflater.inflate(frame) && frame.size == 5;
+  return compression.inflate(frame) && frame.size == 5;
 }
 
-void check_frames(std::span<const std::byte> octets, tools::MessageInflater& inflater) {
+void check_frames(std::span<const std::byte> octets, tools::MessageCompression& compression) {
   tools::ClientFrame frame;
   for (;;) {
     const FrameVerdict verdict = read_client_frame(octets, true, frame);
@@ -108,7 +108,7 @@ void check_frames(std::span<const std::byte> octets, tools::MessageInflater& inf
     require(frame.size <= tools::kLongestClientFrame && frame.length == frame.size + 6 &&
                 frame.length <= octets.size(),
             "a frame longer than it is");
-    if (frame.is_compressed && !inflater.inflate(frame)) return;
+    if (frame.is_compressed && !compression.inflate(frame)) return;
     require(frame.size <= tools::kLongestClientFrame, "a frame inflates beyond its limit");
     if (const auto request = tools::read_page_request(frame.payload()))
       std::visit(CheckRequest{}, *request);
@@ -120,12 +120,12 @@ void check_frames(std::span<const std::byte> octets, tools::MessageInflater& inf
 
 void check(std::span<const std::byte> input) {
   (void)access();
-  static tools::MessageInflater inflater;
-  static const bool inflates = inflates_hello(inflater);
+  static tools::MessageCompression compression({tools::MessageCompression::kWindowBits, true, {}});
+  static const bool inflates = inflates_hello(compression);
   require(inflates, "a message of RFC 7692 is refused");
   const HeapMeter heap;
   const std::size_t head = check_request(text_of(input));
-  check_frames(input.subspan(head), inflater);
+  check_frames(input.subspan(head), compression);
   (void)tools::read_page_request(input);
   require(heap.allocations() == 0, "the heap is used");
   if (const auto terms = tools::agree_on_deflate(text_of(input)))

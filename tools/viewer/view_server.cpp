@@ -101,7 +101,6 @@ class ViewServer::Connections {
   bool is_accepting_ = false;
   nanoseconds now_{};
   ViewServerCounts counts_;
-  MessageInflater inflater_;
 };
 
 /// A browser's connection: one request and its answer, or a tab until it closes.
@@ -173,13 +172,13 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     const auto octets = std::as_bytes(std::span(in_));
     ClientFrame frame;
     while (true) {
-      const FrameVerdict verdict = read_client_frame(octets.subspan(at), deflater_ != nullptr, frame);
+      const FrameVerdict verdict =
+          read_client_frame(octets.subspan(at), compression_ != nullptr, frame);
       if (verdict == FrameVerdict::incomplete) break;
       const std::size_t under_way = watcher_->under_way.size();
-      const bool is_good =
-          verdict == FrameVerdict::good &&
-          (!frame.is_compressed || all_.inflater_.inflate(frame)) &&
-          all_.stage_->answer(*watcher_, frame.payload());
+      const bool is_good = verdict == FrameVerdict::good &&
+                           (!frame.is_compressed || compression_->inflate(frame)) &&
+                           all_.stage_->answer(*watcher_, frame.payload());
       if (!is_good) {
         close();
         return false;
@@ -239,7 +238,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
       return end_with(upgrade_answer(request.key, {}).append(last_frames(bye_message(why))));
     }
     const auto terms = agree_on_deflate(request.extensions);
-    if (terms) deflater_ = std::make_unique<MessageDeflater>(*terms);
+    if (terms) compression_ = std::make_unique<MessageCompression>(*terms);
     std::string head = upgrade_answer(request.key, terms ? terms->answer : std::string());
     in_.erase(0, request.length);
     knows_word_ = knows_word;
@@ -294,7 +293,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (!message) return;
     if (message->opcode == WebSocketOpcode::binary) ++all_.counts_.pictures;
     PackedMessage packed =
-        pack_message(message->opcode, std::move(message->payload), deflater_.get());
+        pack_message(message->opcode, std::move(message->payload), compression_.get());
     head_ = packed.head;
     send(std::move(packed.payload), &head_);
   }
@@ -320,7 +319,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
   std::string in_;
   std::array<char, kReadSize> room_{};
   std::unique_ptr<Watcher> watcher_;
-  std::unique_ptr<MessageDeflater> deflater_;  // null: not agreed
+  std::unique_ptr<MessageCompression> compression_;  // null: not agreed
   bool knows_word_ = false, is_answered_ = false, is_writing_ = false;
   FrameHead head_;
   std::shared_ptr<const std::string> out_;

@@ -33,6 +33,11 @@ void sort_by_slot(std::vector<EntityMark>& entities) {
     std::ranges::sort(entities, {}, &EntityMark::slot);
 }
 
+void need_whole(Watcher& watcher) {
+  watcher.needs_picture = true;
+  watcher.pictures.need_whole();
+}
+
 /// Removes rows older than `span` before the last one.
 void forget_old(auto& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
@@ -163,7 +168,7 @@ void ViewStage::show_at(Watcher& watcher, Time time, PlayState state) const {
   watcher.time = std::clamp(time, history_.begin(), std::max(history_.begin(), live_end()));
   watcher.advanced = now_;
   watcher.knows_state = false;
-  watcher.needs_picture = watcher.needs_whole = true;
+  need_whole(watcher);
 }
 
 /// The action of each kind of request.
@@ -227,7 +232,7 @@ struct ViewStage::Requests {
   void operator()(const GoAloneRequest&) const {
     stage.note("info", stage.options_.controls->go_alone());
   }
-  void operator()(const WholeRequest&) const { watcher.needs_picture = watcher.needs_whole = true; }
+  void operator()(const WholeRequest&) const { need_whole(watcher); }
 };
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
@@ -254,7 +259,8 @@ const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   return watcher.cursor->world();
 }
 
-void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
+void ViewStage::fill(const ReceivedWorld& world, Time time, FilledPicture& picture) {
+  PictureRows& rows = picture.rows;
   rows.entities.clear();
   rows.hands.clear();
   rows.tools.clear();
@@ -271,6 +277,7 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   }
   add_hands(time, rows);
   place_received_bodies(solids_, history_.roster(), rows);
+  steady_entities(rows, picture.entities);
 }
 
 void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {
@@ -307,11 +314,12 @@ void ViewStage::add_hands(Time time, PictureRows& rows) const {
     rows.hands[i].slot = history_.roster().slot_of(frame->ids[i]);
 }
 
-const PictureRows& ViewStage::live_rows() {
-  if (std::exchange(live_tick_, tick_) == tick_) return live_;
-  fill(history_.live(), live_end(), live_);
-  steady_entities(live_, live_steady_);
-  return live_;
+FilledPicture& ViewStage::picture_for(Watcher& watcher, Time time) {
+  if (is_past(watcher))
+    fill(world_for(watcher, time), time, past_);
+  else if (std::exchange(live_.tick, tick_) != tick_)
+    fill(history_.live(), live_end(), live_);
+  return is_past(watcher) ? past_ : live_;
 }
 
 std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
@@ -334,32 +342,13 @@ bool ViewStage::wants_picture(const Watcher& watcher) const {
   return moves || watcher.needs_picture;
 }
 
-ViewStage::Text ViewStage::encoded(Watcher& watcher, const PictureRows& rows,
-                                   std::span<const SteadyEntity> entities) {
-  const auto number = static_cast<std::uint32_t>(tick_);
-  auto octets = std::make_shared<std::string>();
-  if (watcher.stores) {
-    encode_picture(rows, number, *octets);
-    return octets;
-  }
-  const bool whole = std::exchange(watcher.needs_whole, false) || now_ >= watcher.next_whole;
-  if (whole) watcher.next_whole = now_ + kWholeEvery;
-  *octets = watcher.difference.encode(rows, entities, {number, watcher.hand, whole}, room_);
-  return octets;
-}
-
 ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
   const Time time = shown_time(watcher);
-  PictureRows& rows = is_past(watcher) ? past_ : live_;
-  if (is_past(watcher)) {
-    fill(world_for(watcher, time), time, past_);
-    steady_entities(past_, past_steady_);
-  } else {
-    (void)live_rows();
-  }
-  rows.flags = flags_for(watcher, time);
-  Text octets = encoded(watcher, rows, is_past(watcher) ? past_steady_ : live_steady_);
-  watcher.under_way.push_back(static_cast<std::uint32_t>(tick_));
+  FilledPicture& picture = picture_for(watcher, time);
+  picture.rows.flags = flags_for(watcher, time);
+  const auto number = static_cast<std::uint32_t>(tick_);
+  Text octets = watcher.pictures.encode(picture, number, watcher.hand, now_, room_);
+  watcher.under_way.push_back(number);
   watcher.tick = tick_;
   watcher.shown = time;
   watcher.gaps = gaps_;

@@ -80,8 +80,6 @@ class ViewStage {
   };
   static constexpr std::chrono::nanoseconds kNumbersEvery = std::chrono::milliseconds(250);
   static constexpr std::chrono::nanoseconds kRosterEvery = std::chrono::milliseconds(500);
-  /// Each tab gets a picture that depends on no earlier one this often.
-  static constexpr std::chrono::nanoseconds kWholeEvery = std::chrono::seconds(2);
   /// Beyond this number of haptic entities, contacts are not computed, as the cost grows with the
   /// pairs.
   static constexpr std::size_t kMostHaptic = 512;
@@ -145,14 +143,12 @@ class ViewStage {
 
   [[nodiscard]] bool wants_picture(const Watcher& watcher) const;
   [[nodiscard]] Text next_picture(Watcher& watcher);
-  [[nodiscard]] Text encoded(Watcher& watcher, const PictureRows& rows,
-                             std::span<const SteadyEntity> entities);
   [[nodiscard]] std::uint16_t flags_for(const Watcher& watcher, Time time) const;
-  void fill(const ReceivedWorld& world, Time time, PictureRows& rows);
+  void fill(const ReceivedWorld& world, Time time, FilledPicture& picture);
   void add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows);
   [[nodiscard]] const HandFrame* hands_at(Time time) const;
   void add_hands(Time time, PictureRows& rows) const;
-  [[nodiscard]] const PictureRows& live_rows();
+  [[nodiscard]] FilledPicture& picture_for(Watcher& watcher, Time time);
 
   StageOptions options_;
   History history_;
@@ -169,10 +165,7 @@ class ViewStage {
   Time now_{};
   Time next_roster_{}, next_numbers_{};
   std::uint64_t tick_ = 0, numbers_tick_ = 0, cells_tick_ = 0;
-  PictureRows live_;
-  std::vector<SteadyEntity> live_steady_, past_steady_;
-  std::uint64_t live_tick_ = 0;
-  PictureRows past_;
+  FilledPicture live_, past_;
   std::string room_;  // for a picture that is being encoded
   std::deque<Text> notes_;
   std::uint64_t first_note_ = 0;

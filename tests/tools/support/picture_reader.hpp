@@ -97,7 +97,7 @@ class PictureReader {
   std::map<std::uint16_t, ReadEntity> entities;  ///< by slot
   double quantum = 0;                            ///< [m]
   bool was_whole = false;                        ///< the last picture
-  std::size_t all_records = 0;                       ///< of all pictures
+  std::size_t all_records = 0;                   ///< of all pictures
 
  private:
   void begin(const std::string& head, std::uint16_t flags, std::uint8_t exponent) {

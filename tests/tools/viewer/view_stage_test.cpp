@@ -56,7 +56,7 @@ TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   EXPECT_NEAR(static_cast<double>(numbers), 8, 1);
 }
 
-TEST(ViewStage, SendsWholePicturesEveryTwoSecondsAndOnDemand) {
+TEST(ViewStage, SendsWholePicturesPeriodicallyAndOnDemand) {
   LiveTrucks live;
   Tab tab(live.stage, false);
   const auto wholes = [&](int ticks) {

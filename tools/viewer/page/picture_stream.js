@@ -6,7 +6,7 @@ import { decodePicture, ENTITY, HEAD, MAGIC, octetsBesideEntities } from './pict
 
 const STREAM_MAGIC = 0x34564b52; // "RKV4"
 const STREAM_HEAD = HEAD + 4;
-const WHOLE = 16; // flag of a picture that begins with no entity
+const WHOLE_PICTURE = 16; // flag of a picture that begins with no entity
 const VELOCITY = 0.5; // quanta a second of a velocity unit
 const SLOTS = 0xffff;
 const PART = { left: 1, update: 2, place: 4, rate: 8 };
@@ -25,7 +25,7 @@ export class PictureStream {
     const view = new DataView(buffer);
     if (buffer.byteLength < STREAM_HEAD) throw new Error(`a picture of less than ${STREAM_HEAD} octets`);
     if (view.getUint32(0, true) !== STREAM_MAGIC) throw new Error('a picture of another version');
-    const isWhole = (view.getUint16(22, true) & WHOLE) !== 0;
+    const isWhole = (view.getUint16(22, true) & WHOLE_PICTURE) !== 0;
     if (!isWhole && !this.quantum) return null;
     const { quantum } = this;
     this.quantum = 0; // in case that it is broken
@@ -126,7 +126,7 @@ export class PictureStream {
     octets.set(beside, HEAD + ENTITY * this.slots.length);
     const head = new DataView(octets.buffer);
     head.setUint32(0, MAGIC, true);
-    head.setUint16(22, head.getUint16(22, true) & ~WHOLE, true);
+    head.setUint16(22, head.getUint16(22, true) & ~WHOLE_PICTURE, true);
     this.writeEntities(octets);
     return octets.buffer;
   }

@@ -55,10 +55,9 @@ struct FollowRequest {
   std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: none
 };
 
-using PageRequest =
-    std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
-                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest, GoAloneRequest,
-                 WholeRequest>;
+using PageRequest = std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest,
+                                 PointerRequest, NetworkRequest, TakeHandRequest, GiveHandRequest,
+                                 FollowRequest, GoAloneRequest, WholeRequest>;
 
 /// The request in a message; none if it is no request, has another length, or a number in it is not
 /// finite or out of its range.

@@ -222,8 +222,7 @@ void PictureDifference::begin(double time, std::span<const SteadyEntity> entitie
     known_.resize(entities.back().slot + std::size_t{1});
 }
 
-void PictureDifference::write_records(std::span<const SteadyEntity> entities,
-                                      OctetWriter& out) {
+void PictureDifference::write_records(std::span<const SteadyEntity> entities, OctetWriter& out) {
   std::uint32_t next = 0;  // slot after the one of the last record
   records_ = 0;
   const auto number = [&](std::uint16_t slot, bool has_rest) {

@@ -67,7 +67,7 @@ class PictureDifference {
   using Triple = std::array<double, 3>;
   /// An entity as the page has it.
   struct Known {
-    Triple position{};          // [m]
+    Triple position{};           // [m]
     Triple velocity{}, error{};  // whole numbers: of velocity units, and of quanta
     std::int64_t updated_ms = 0;
     std::array<std::int16_t, 4> turn{};

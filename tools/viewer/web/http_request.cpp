@@ -51,17 +51,18 @@ struct NamedField {
   std::string_view name;
   std::string_view HttpRequest::*value;
 };
-constexpr std::array<NamedField, 7> kFields{{{"host", &HttpRequest::host},
-                                             {"origin", &HttpRequest::origin},
-                                             {"upgrade", &HttpRequest::upgrade},
-                                             {"connection", &HttpRequest::connection},
-                                             {"sec-websocket-key", &HttpRequest::key},
-                                             {"sec-websocket-version", &HttpRequest::version},
-                                             {"sec-websocket-extensions",
-                                              &HttpRequest::extensions}}};
+constexpr std::array<NamedField, 7> kFields{
+    {{"host", &HttpRequest::host},
+     {"origin", &HttpRequest::origin},
+     {"upgrade", &HttpRequest::upgrade},
+     {"connection", &HttpRequest::connection},
+     {"sec-websocket-key", &HttpRequest::key},
+     {"sec-websocket-version", &HttpRequest::version},
+     {"sec-websocket-extensions", &HttpRequest::extensions}}};
 
 /// @return false for a line that is no field, and for a repeated field that we use
-bool read_field(std::string_view line, HttpRequest& out, std::array<bool, kFields.size()>& seen) noexcept {
+bool read_field(std::string_view line, HttpRequest& out,
+                std::array<bool, kFields.size()>& seen) noexcept {
   const std::size_t colon = line.find(':');
   if (colon == 0 || colon == std::string_view::npos || !is_graphic(line.substr(0, colon)))
     return false;

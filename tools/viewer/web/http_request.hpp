@@ -20,7 +20,7 @@ struct HttpRequest {
   std::string_view query;   ///< "word=1f2e", without the question mark
   std::string_view host, origin, upgrade, connection;
   std::string_view key, version, extensions;  ///< Sec-WebSocket-Key, -Version, -Extensions
-  std::size_t length = 0;         ///< of the head with its empty line [octets]
+  std::size_t length = 0;                     ///< of the head with its empty line [octets]
 };
 
 enum class RequestVerdict : std::uint8_t {

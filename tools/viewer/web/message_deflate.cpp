@@ -17,8 +17,8 @@ namespace {
 
 /// RFC 7692 7.2.1: the end of each message, which is not sent.
 constexpr std::array<unsigned char, 4> kMessageEnd{0x00, 0x00, 0xFF, 0xFF};
-constexpr int kLevel = 1;         // fastest
-constexpr int kMemoryLevel = 5;   // 16 kB
+constexpr int kLevel = 1;        // fastest
+constexpr int kMemoryLevel = 5;  // 16 kB
 constexpr int kLargestWindow = 15;
 
 /// RFC 7692 7.1.2: 8 .. 15, also in quotes; 0: something else.
@@ -61,8 +61,8 @@ std::optional<DeflateTerms> terms_of(std::string_view text) {
   DeflateTerms terms;
   terms.keeps_context = !offer.server_no_context;
   terms.window_bits = offer.server_window == 0
-                          ? MessageDeflater::kWindowBits
-                          : std::min(offer.server_window, MessageDeflater::kWindowBits);
+                          ? MessageCompression::kWindowBits
+                          : std::min(offer.server_window, MessageCompression::kWindowBits);
   terms.answer = "permessage-deflate; client_no_context_takeover";
   if (!terms.keeps_context) terms.answer += "; server_no_context_takeover";
   if (offer.server_window != 0)
@@ -78,22 +78,27 @@ std::optional<DeflateTerms> agree_on_deflate(std::string_view offers) {
   return std::nullopt;
 }
 
-struct MessageDeflater::Stream {
-  z_stream z{};
+struct MessageCompression::Streams {
+  z_stream out{}, in{};
+  ~Streams() {
+    deflateEnd(&out);
+    inflateEnd(&in);
+  }
 };
 
-MessageDeflater::MessageDeflater(const DeflateTerms& terms)
-    : stream_(std::make_unique<Stream>()), keeps_context_(terms.keeps_context) {
-  if (deflateInit2(&stream_->z, kLevel, Z_DEFLATED, -terms.window_bits, kMemoryLevel,
-                   Z_DEFAULT_STRATEGY) != Z_OK)
+MessageCompression::MessageCompression(const DeflateTerms& terms)
+    : streams_(std::make_unique<Streams>()), keeps_context_(terms.keeps_context) {
+  if (deflateInit2(&streams_->out, kLevel, Z_DEFLATED, -terms.window_bits, kMemoryLevel,
+                   Z_DEFAULT_STRATEGY) != Z_OK ||
+      inflateInit2(&streams_->in, -kLargestWindow) != Z_OK)
     throw std::bad_alloc();
 }
 
-MessageDeflater::~MessageDeflater() { deflateEnd(&stream_->z); }
+MessageCompression::~MessageCompression() = default;
 
-std::string MessageDeflater::deflate(std::string_view message) {
+std::string MessageCompression::deflate(std::string_view message) {
   constexpr std::size_t kRoom = 1024;
-  z_stream& z = stream_->z;
+  z_stream& z = streams_->out;
   if (!keeps_context_) deflateReset(&z);
   z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(message.data()));
   z.avail_in = static_cast<uInt>(message.size());
@@ -111,30 +116,19 @@ std::string MessageDeflater::deflate(std::string_view message) {
 }
 
 PackedMessage pack_message(WebSocketOpcode opcode, std::shared_ptr<const std::string> payload,
-                           MessageDeflater* deflater) {
-  const bool is_short = opcode == WebSocketOpcode::text || payload->size() <= kMostPacked;
-  const bool compresses = deflater != nullptr && is_short;
-  if (compresses) payload = std::make_shared<const std::string>(deflater->deflate(*payload));
+                           MessageCompression* compression) {
+  const bool compresses = compression != nullptr && opcode == WebSocketOpcode::text;
+  if (compresses) payload = std::make_shared<const std::string>(compression->deflate(*payload));
   return {frame_head(opcode, payload->size(), compresses), std::move(payload)};
 }
 
-struct MessageInflater::Stream {
-  z_stream z{};
-};
-
-MessageInflater::MessageInflater() : stream_(std::make_unique<Stream>()) {
-  if (inflateInit2(&stream_->z, -kLargestWindow) != Z_OK) throw std::bad_alloc();
-}
-
-MessageInflater::~MessageInflater() { inflateEnd(&stream_->z); }
-
-bool MessageInflater::inflate(ClientFrame& frame) noexcept {
+bool MessageCompression::inflate(ClientFrame& frame) noexcept {
   std::array<unsigned char, kLongestClientFrame + kMessageEnd.size()> in;
   std::array<unsigned char, kLongestClientFrame + 1> out;
   const auto* octets = reinterpret_cast<const unsigned char*>(frame.octets.data());
   std::copy_n(octets, frame.size, in.begin());
   std::ranges::copy(kMessageEnd, in.begin() + static_cast<std::ptrdiff_t>(frame.size));
-  z_stream& z = stream_->z;
+  z_stream& z = streams_->in;
   inflateReset(&z);
   z.next_in = in.data();
   z.avail_in = static_cast<uInt>(frame.size + kMessageEnd.size());

@@ -25,21 +25,24 @@ struct DeflateTerms {
 /// Sec-WebSocket-Extensions  @return none if there is no such offer
 [[nodiscard]] std::optional<DeflateTerms> agree_on_deflate(std::string_view offers);
 
-/// Compresses the messages of one connection, in the order in which they are sent. Holds 40 kB.
-/// Cost: 25 ns an octet, of JSON 2 ns.
-class MessageDeflater {
+/// Compression of one connection. Holds 80 kB.
+class MessageCompression {
  public:
   static constexpr int kWindowBits = 12;  ///< 4 kB: memory against size, 9 .. 15
 
   /// @throws std::bad_alloc
-  explicit MessageDeflater(const DeflateTerms& terms);
-  ~MessageDeflater();
-  /// The payload of a message whose frame has the compressed bit.
+  explicit MessageCompression(const DeflateTerms& terms);
+  ~MessageCompression();
+  /// The payload of a message whose frame has the compressed bit, in the order in which they are
+  /// sent. Cost: 2 ns an octet of JSON.
   [[nodiscard]] std::string deflate(std::string_view message);
+  /// Inflates the payload of a client's frame in place. @return false if it is no valid message or
+  /// has more than kLongestClientFrame octets. Does not allocate after its first call.
+  [[nodiscard]] bool inflate(ClientFrame& frame) noexcept;
 
  private:
-  struct Stream;
-  std::unique_ptr<Stream> stream_;
+  struct Streams;
+  std::unique_ptr<Streams> streams_;
   bool keeps_context_;
 };
 
@@ -48,27 +51,10 @@ struct PackedMessage {
   FrameHead head;
   std::shared_ptr<const std::string> payload;
 };
-/// Compresses texts, and pictures of at most kMostPacked octets. @param deflater null: not agreed
+/// Compresses texts. Pictures hold packed numbers: deflate saves a quarter of their octets, and
+/// costs three times what making and sending them costs. @param compression null: not agreed
 [[nodiscard]] PackedMessage pack_message(WebSocketOpcode opcode,
                                          std::shared_ptr<const std::string> payload,
-                                         MessageDeflater* deflater);
-/// Longer pictures hold packed numbers of entities: deflate saves 40 % of them, and costs four
-/// times what making them costs.
-inline constexpr std::size_t kMostPacked = 2048;
-
-/// Inflates messages of clients, each by itself; one serves all connections. Holds 40 kB.
-class MessageInflater {
- public:
-  /// @throws std::bad_alloc
-  MessageInflater();
-  ~MessageInflater();
-  /// Inflates the payload of `frame` in place. @return false if it is no valid message or has more
-  /// than kLongestClientFrame octets. Does not allocate after its first call.
-  [[nodiscard]] bool inflate(ClientFrame& frame) noexcept;
-
- private:
-  struct Stream;
-  std::unique_ptr<Stream> stream_;
-};
+                                         MessageCompression* compression);
 
 }  // namespace reckon::tools

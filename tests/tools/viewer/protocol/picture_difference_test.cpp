@@ -272,8 +272,9 @@ TEST(PictureDifference, ReaderFindsPlantedFaults) {
     for (const EntityMark& mark : rows.entities) {
       const auto found = reader.entities.find(mark.slot);
       if (found == reader.entities.end()) return false;
-      most = std::max(most, (mark.position + mark.error.cast<double>() -
-                             shown(found->second, reader.quantum)).norm());
+      most = std::max(
+          most, (mark.position + mark.error.cast<double>() - shown(found->second, reader.quantum))
+                    .norm());
     }
     return most < reader.quantum;
   };
@@ -304,7 +305,8 @@ PictureRows sample_rows(int picture) {
     if (i == 2) mark.position.z() += picture * picture * 0.01;  // it accelerates
     if (i == 4 && picture > 2) mark.error = {0.5F / static_cast<float>(picture), -0.25F, 0};
     if (i == 5 && picture > 7) mark.position.x() += 70'000;  // it jumps
-    mark.orientation = Eigen::Quaterniond(1, i == 1 ? 0.01 * picture : 0, -0.5, i == 7 ? picture : 0);
+    mark.orientation =
+        Eigen::Quaterniond(1, i == 1 ? 0.01 * picture : 0, -0.5, i == 7 ? picture : 0);
     mark.orientation.coeffs() /= std::sqrt(mark.orientation.coeffs().squaredNorm());
     mark.updated = 99.5 + (i == 1 ? 0.5 * (picture / 5) : 0);
     mark.rate = 2 + 0.01 * picture;
