@@ -34,11 +34,11 @@ struct SteadyEntity {
   std::uint8_t side = 0, cause = 0;
   bool is_right = false;  ///< shown is predicted
 };
-/// Replaces `out`. Cost: 30 ns an entity.
+/// Replaces `out`. Cost: linear in the entities, once for all live tabs.
 void steady_entities(const PictureRows& rows, std::vector<SteadyEntity>& out);
 
-/// Encodes the pictures of one connection. Holds 120 octets for each slot up to the highest one
-/// that it has sent. Cost of a picture: about 30 ns an entity, and 30 ns for each that changes.
+/// Encodes the pictures of one connection. Holds 104 octets for each slot up to the highest one
+/// that it has sent. Cost of a picture: 8 ns an entity, and 6 to 26 ns for each that changes.
 class PictureDifference {
  public:
   /// A picture of at most kFineEntities has the finer quantum [m]: a power of two. Three axes of

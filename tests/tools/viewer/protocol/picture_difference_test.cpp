@@ -11,6 +11,7 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 #include "reckon/tests/tools/support/picture_reader.hpp"
 
@@ -205,7 +206,6 @@ TEST(PictureDifference, LatePageBeginsWithAWholePicture) {
   expect_same(rows, late.reader);
   early.send(rows);
   EXPECT_FALSE(early.reader.was_whole);
-  // The first four octets are the same by chance only: the pages have different histories.
   EXPECT_EQ(read.size(), kPictureHead + kEntityOctets * rows.entities.size());
 }
 
