@@ -29,7 +29,7 @@ TOTAL = {
     "deadreckon": 4500,
     "haptics": 40000,
     "src": 52000,
-    "tools": 40000,
+    "tools": 41000,
     "python": 2500,
     "bench": 37000,
     "tests": 141000,
@@ -54,7 +54,7 @@ LARGE = {
     "src/RemoteEntity": (22, 31),
     "tools/Exercise": (304, 17),
     "tools/Listener": (327, 12),
-    "tools/ViewStage": (437, 25),
+    "tools/ViewStage": (435, 25),
 }
 FOLDERS = [*TOTAL, "cmake", "docs", "scenes"]
 CPP = (".cpp", ".hpp", ".h")

@@ -223,9 +223,14 @@ def viewer_seeds():
               b"Sec-WebSocket-Version: 13\r\n\r\n")
     messages = [b"\x01" + bytes(4), b"\x02" + struct.pack("<d", 1.5), b"\x03" + struct.pack("<f", 2), b"\x04", b"\x05\xff",
                 b"\x06" + struct.pack("<HfffB", 0, .1, .2, .3, 1), b"\x07" + struct.pack("<fffB", 100, 10, .1, 0), b"\x08", b"\x09",
-                b"\x0a\x01\x00"]
+                b"\x0a\x01\x00", b"\x0c"]
     frames = [bytes([0x82, 0x80 | len(m), 0, 0, 0, 0]) + m for m in messages]
-    return [stream, stream + b"".join(frames), b"GET / HTTP/1.1\r\nHost: " + host + b"\r\n\r\n", b"".join(frames), *messages]
+    offer = b"permessage-deflate; client_max_window_bits, permessage-deflate; server_max_window_bits=10"
+    packer = zlib.compressobj(1, zlib.DEFLATED, -15)
+    packed = (packer.compress(messages[1]) + packer.flush(zlib.Z_SYNC_FLUSH))[:-4]
+    frames.append(bytes([0xC2, 0x80 | len(packed), 0, 0, 0, 0]) + packed)
+    agreed = stream[:-2] + b"Sec-WebSocket-Extensions: " + offer + b"\r\n\r\n"
+    return [stream, stream + b"".join(frames), agreed + frames[-1], offer, b"GET / HTTP/1.1\r\nHost: " + host + b"\r\n\r\n", b"".join(frames), *messages]
 
 
 def image_seeds():

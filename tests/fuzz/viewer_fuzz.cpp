@@ -12,6 +12,7 @@
 #include "reckon/tools/viewer/protocol/page_request.hpp"
 #include "reckon/tools/viewer/web/access.hpp"
 #include "reckon/tools/viewer/web/http_request.hpp"
+#include "reckon/tools/viewer/web/message_deflate.hpp"
 #include "reckon/tools/viewer/web/web_socket.hpp"
 
 namespace reckon::fuzz {
@@ -90,15 +91,25 @@ struct CheckRequest {
   void operator()(const Request&) const {}
 };
 
-void check_frames(std::span<const std::byte> octets) {
+/// RFC 7692 7.2.3.1. The first message allocates.
+bool inflates_hello(tools::MessageCompression& compression) {
+  tools::ClientFrame frame;
+  for (const unsigned octet : {0xF2U, 0x48U, 0xCDU, 0xC9U, 0xC9U, 0x07U, 0x00U})
+    frame.octets[frame.size++] = static_cast<std::byte>(octet);
+  return compression.inflate(frame) && frame.size == 5;
+}
+
+void check_frames(std::span<const std::byte> octets, tools::MessageCompression& compression) {
   tools::ClientFrame frame;
   for (;;) {
-    const FrameVerdict verdict = read_client_frame(octets, frame);
+    const FrameVerdict verdict = read_client_frame(octets, true, frame);
     require(verdict != FrameVerdict::incomplete || octets.size() < 131, "waits for too much");
     if (verdict != FrameVerdict::good) return;
     require(frame.size <= tools::kLongestClientFrame && frame.length == frame.size + 6 &&
                 frame.length <= octets.size(),
             "a frame longer than it is");
+    if (frame.is_compressed && !compression.inflate(frame)) return;
+    require(frame.size <= tools::kLongestClientFrame, "a frame inflates beyond its limit");
     if (const auto request = tools::read_page_request(frame.payload()))
       std::visit(CheckRequest{}, *request);
     octets = octets.subspan(frame.length);
@@ -109,11 +120,16 @@ void check_frames(std::span<const std::byte> octets) {
 
 void check(std::span<const std::byte> input) {
   (void)access();
+  static tools::MessageCompression compression({tools::MessageCompression::kWindowBits, true, {}});
+  static const bool inflates = inflates_hello(compression);
+  require(inflates, "a message of RFC 7692 is refused");
   const HeapMeter heap;
   const std::size_t head = check_request(text_of(input));
-  check_frames(input.subspan(head));
+  check_frames(input.subspan(head), compression);
   (void)tools::read_page_request(input);
   require(heap.allocations() == 0, "the heap is used");
+  if (const auto terms = tools::agree_on_deflate(text_of(input)))
+    require(terms->window_bits >= 9 && terms->window_bits <= 15, "a window");
 }
 
 }  // namespace reckon::fuzz

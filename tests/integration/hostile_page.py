@@ -23,7 +23,7 @@ EVERY = 0.3          # [s] between two tabs of the user
 AT_ONCE = 20         # connections that strangers open before a pause
 PAUSE = 0.005        # [s]
 MARKING = "ALICE"
-PICTURE = b"RKV3"  # start of a picture
+PICTURE = b"RKV4"  # start of a picture
 
 
 class Drawn:

@@ -210,7 +210,7 @@ def websocket(bed, host, port):
         octets = stream.read(size)
         if first & 0x0F == 1:
             yield json.loads(octets)
-        elif octets.startswith(b"RKV3"):
+        elif octets.startswith(b"RKV4"):
             sock.sendall(drawn(*struct.unpack_from("<I", octets, 4)))
 
 

@@ -54,6 +54,7 @@ class SavingTab {
         budget_(static_cast<double>(options.budget)),
         speed_(speed_for(stage.history().roster().size())),
         watcher_(stage.admit(false)) {
+    watcher_->pictures.store();
     stage_.heed(*watcher_, SeekRequest{length_ - span_});
     stage_.heed(*watcher_, SpeedRequest{static_cast<float>(speed_)});
   }

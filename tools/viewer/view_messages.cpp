@@ -152,7 +152,7 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "hello")
-      .value("version", 3)
+      .value("version", 4)
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)
@@ -278,9 +278,7 @@ ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
       groups_ && !tells_cells && std::exchange(watcher.groups_tick, cells_tick_) != cells_tick_;
   if (!tells_cells && !tells_groups) return nullptr;
   const Time time = shown_time(watcher);
-  PictureRows rows;
-  if (is_past(watcher)) fill(world_for(watcher, time), time, rows);
-  const auto& entities = is_past(watcher) ? rows.entities : live_rows().entities;
+  const auto& entities = picture_for(watcher, time).rows.entities;
   if (tells_groups) {
     const ReceivedGroups& heard = world_for(watcher, time).groups();
     return renew(watcher.groups,

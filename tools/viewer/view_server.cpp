@@ -18,6 +18,7 @@
 #include "reckon/tools/viewer/web/http_answer.hpp"
 #include "reckon/tools/viewer/web/http_request.hpp"
 #include "reckon/tools/viewer/web/listening_address.hpp"
+#include "reckon/tools/viewer/web/message_deflate.hpp"
 #include "reckon/tools/viewer/web/tls_context.hpp"
 
 namespace reckon::tools {
@@ -31,11 +32,6 @@ constexpr std::size_t kReadSize = 1024;
 constexpr nanoseconds kSlowest = std::chrono::minutes(1);
 constexpr ServerPurpose kPage{"the page", "--port or --listen"}, kMetrics{"metrics", "--metrics"};
 
-std::optional<asio::ssl::context> tls_of(const TlsFiles& files) {
-  if (files.certificate.empty()) return std::nullopt;
-  return open_tls(files);
-}
-
 }  // namespace
 
 /// All connections. Asio calls its functions only within poll().
@@ -46,7 +42,7 @@ class ViewServer::Connections {
       : stage_(stage),
         metrics_(options.metrics),
         needs_word_(options.needs_word),
-        tls_(tls_of(options.tls)),
+        tls_(open_tls_if_any(options.tls)),
         acceptor_(open_acceptor(io_, options.address, options.port, ViewServerOptions::kDefaultPort,
                                 stage == nullptr ? kMetrics : kPage)),
         endpoint_(acceptor_.local_endpoint()),
@@ -176,11 +172,13 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     const auto octets = std::as_bytes(std::span(in_));
     ClientFrame frame;
     while (true) {
-      const FrameVerdict verdict = read_client_frame(octets.subspan(at), frame);
+      const FrameVerdict verdict =
+          read_client_frame(octets.subspan(at), compression_ != nullptr, frame);
       if (verdict == FrameVerdict::incomplete) break;
       const std::size_t under_way = watcher_->under_way.size();
-      const bool is_good =
-          verdict == FrameVerdict::good && all_.stage_->answer(*watcher_, frame.payload());
+      const bool is_good = verdict == FrameVerdict::good &&
+                           (!frame.is_compressed || compression_->inflate(frame)) &&
+                           all_.stage_->answer(*watcher_, frame.payload());
       if (!is_good) {
         close();
         return false;
@@ -235,11 +233,13 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
         !lists_word(request.upgrade, "websocket") || !lists_word(request.connection, "upgrade"))
       return refuse(400, "Bad Request", "/stream needs a WebSocket of version 13");
     const bool knows_word = all_.access_.is_word(value_in_query(request.query, "word"));
-    std::string head = upgrade_answer(request.key);
     if (const std::string why = refusal_of(knows_word); !why.empty()) {
       ++all_.counts_.refused;
-      return end_with(head.append(last_frames(bye_message(why))));
+      return end_with(upgrade_answer(request.key, {}).append(last_frames(bye_message(why))));
     }
+    const auto terms = agree_on_deflate(request.extensions);
+    if (terms) compression_ = std::make_unique<MessageCompression>(*terms);
+    std::string head = upgrade_answer(request.key, terms ? terms->answer : std::string());
     in_.erase(0, request.length);
     knows_word_ = knows_word;
     since_ = all_.now_;
@@ -292,8 +292,10 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     auto message = all_.stage_->next_message(*watcher_);
     if (!message) return;
     if (message->opcode == WebSocketOpcode::binary) ++all_.counts_.pictures;
-    head_ = frame_head(message->opcode, message->payload->size());
-    send(std::move(message->payload), &head_);
+    PackedMessage packed =
+        pack_message(message->opcode, std::move(message->payload), compression_.get());
+    head_ = packed.head;
+    send(std::move(packed.payload), &head_);
   }
 
   /// Sends a message, and after it the next one.
@@ -317,6 +319,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
   std::string in_;
   std::array<char, kReadSize> room_{};
   std::unique_ptr<Watcher> watcher_;
+  std::unique_ptr<MessageCompression> compression_;  // null: not agreed
   bool knows_word_ = false, is_answered_ = false, is_writing_ = false;
   FrameHead head_;
   std::shared_ptr<const std::string> out_;

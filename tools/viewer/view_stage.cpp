@@ -27,6 +27,17 @@ HistoryOptions history_options(const StageOptions& options) {
   return history;
 }
 
+/// As it is already, mostly: slots are numbered in the order of the table.
+void sort_by_slot(std::vector<EntityMark>& entities) {
+  if (!std::ranges::is_sorted(entities, {}, &EntityMark::slot))
+    std::ranges::sort(entities, {}, &EntityMark::slot);
+}
+
+void need_whole(Watcher& watcher) {
+  watcher.needs_picture = true;
+  watcher.pictures.need_whole();
+}
+
 /// Removes rows older than `span` before the last one.
 void forget_old(auto& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
@@ -157,7 +168,7 @@ void ViewStage::show_at(Watcher& watcher, Time time, PlayState state) const {
   watcher.time = std::clamp(time, history_.begin(), std::max(history_.begin(), live_end()));
   watcher.advanced = now_;
   watcher.knows_state = false;
-  watcher.needs_picture = true;
+  need_whole(watcher);
 }
 
 /// The action of each kind of request.
@@ -221,6 +232,7 @@ struct ViewStage::Requests {
   void operator()(const GoAloneRequest&) const {
     stage.note("info", stage.options_.controls->go_alone());
   }
+  void operator()(const WholeRequest&) const { need_whole(watcher); }
 };
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
@@ -247,7 +259,8 @@ const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   return watcher.cursor->world();
 }
 
-void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
+void ViewStage::fill(const ReceivedWorld& world, Time time, FilledPicture& picture) {
+  PictureRows& rows = picture.rows;
   rows.entities.clear();
   rows.hands.clear();
   rows.tools.clear();
@@ -258,11 +271,13 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   if (frame_) {
     world.add_marks(history_.peopled(time), history_.start(), history_.roster(), *frame_,
                     rows.entities);
+    sort_by_slot(rows.entities);
     if (cells_) cells_->place(rows.entities);
     add_contacts(world, time, rows);
   }
   add_hands(time, rows);
   place_received_bodies(solids_, history_.roster(), rows);
+  steady_entities(rows, picture.entities);
 }
 
 void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {
@@ -299,9 +314,12 @@ void ViewStage::add_hands(Time time, PictureRows& rows) const {
     rows.hands[i].slot = history_.roster().slot_of(frame->ids[i]);
 }
 
-const PictureRows& ViewStage::live_rows() {
-  if (std::exchange(live_tick_, tick_) != tick_) fill(history_.live(), live_end(), live_);
-  return live_;
+FilledPicture& ViewStage::picture_for(Watcher& watcher, Time time) {
+  if (is_past(watcher))
+    fill(world_for(watcher, time), time, past_);
+  else if (std::exchange(live_.tick, tick_) != tick_)
+    fill(history_.live(), live_end(), live_);
+  return is_past(watcher) ? past_ : live_;
 }
 
 std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
@@ -326,17 +344,10 @@ bool ViewStage::wants_picture(const Watcher& watcher) const {
 
 ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
   const Time time = shown_time(watcher);
-  PictureRows& rows = is_past(watcher) ? past_ : live_;
-  if (is_past(watcher))
-    fill(world_for(watcher, time), time, past_);
-  else
-    (void)live_rows();
-  rows.flags = flags_for(watcher, time);
-  auto octets = std::make_shared<std::string>();
-  encode_picture(rows, *octets);
-  if (watcher.hand) mark_own_hand(rows, *watcher.hand, *octets);
+  FilledPicture& picture = picture_for(watcher, time);
+  picture.rows.flags = flags_for(watcher, time);
   const auto number = static_cast<std::uint32_t>(tick_);
-  number_picture(*octets, number);
+  Text octets = watcher.pictures.encode(picture, number, watcher.hand, now_, room_);
   watcher.under_way.push_back(number);
   watcher.tick = tick_;
   watcher.shown = time;

@@ -144,11 +144,11 @@ class ViewStage {
   [[nodiscard]] bool wants_picture(const Watcher& watcher) const;
   [[nodiscard]] Text next_picture(Watcher& watcher);
   [[nodiscard]] std::uint16_t flags_for(const Watcher& watcher, Time time) const;
-  void fill(const ReceivedWorld& world, Time time, PictureRows& rows);
+  void fill(const ReceivedWorld& world, Time time, FilledPicture& picture);
   void add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows);
   [[nodiscard]] const HandFrame* hands_at(Time time) const;
   void add_hands(Time time, PictureRows& rows) const;
-  [[nodiscard]] const PictureRows& live_rows();
+  [[nodiscard]] FilledPicture& picture_for(Watcher& watcher, Time time);
 
   StageOptions options_;
   History history_;
@@ -165,9 +165,8 @@ class ViewStage {
   Time now_{};
   Time next_roster_{}, next_numbers_{};
   std::uint64_t tick_ = 0, numbers_tick_ = 0, cells_tick_ = 0;
-  PictureRows live_;
-  std::uint64_t live_tick_ = 0;
-  PictureRows past_;
+  FilledPicture live_, past_;
+  std::string room_;  // for a picture that is being encoded
   std::deque<Text> notes_;
   std::uint64_t first_note_ = 0;
   std::uint64_t gaps_ = 0;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/tools/viewer/history/history.hpp"
+#include "reckon/tools/viewer/picture_sender.hpp"
 
 namespace reckon::tools {
 
@@ -35,16 +36,17 @@ struct Watcher {
   std::unique_ptr<History::Cursor> cursor;
   std::optional<std::chrono::nanoseconds> shown;  ///< instant of the last picture
   bool needs_picture = true;                      ///< even if time does not advance
-  std::uint64_t gaps = 0;                         ///< of the source, up to the last picture
-  std::vector<std::uint32_t> under_way;           ///< numbers of pictures sent and not drawn
-  std::size_t credit = kCredit;                   ///< limit of under_way
-  std::uint64_t tick = 0;                         ///< of the last picture
+  PictureSender pictures;
+  std::uint64_t gaps = 0;                ///< of the source, up to the last picture
+  std::vector<std::uint32_t> under_way;  ///< numbers of pictures sent and not drawn
+  std::size_t credit = kCredit;          ///< limit of under_way
+  std::uint64_t tick = 0;                ///< of the last picture
 
   bool greeted = false, knows_origin = false, knows_touch = false, knows_state = false;
-  std::uint32_t epoch = 0;         ///< of the roster sent to it
-  std::uint64_t notes = 0;         ///< sent to it, counted from the first
-  std::uint64_t numbers_tick = 0;  ///< of the last numbers
-  std::uint64_t owners_tick = 0;   ///< of the last look at the owners of bodies
+  std::uint32_t epoch = 0;  ///< of the roster sent to it
+  std::uint64_t notes = 0;  ///< sent to it, counted from the first
+  /// Of the last numbers, and of the last look at the owners of bodies.
+  std::uint64_t numbers_tick = 0, owners_tick = 0;
   std::uint64_t cells_tick = 0, groups_tick = 0;
   std::string cells, groups;  ///< last messages sent
   std::shared_ptr<const std::string> owners;

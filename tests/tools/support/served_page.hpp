@@ -22,6 +22,8 @@
 #include <vector>
 
 #include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tests/tools/support/message_inflate.hpp"
+#include "reckon/tests/tools/support/picture_reader.hpp"
 #include "reckon/tools/viewer/view_server.hpp"
 
 namespace reckon::tools::served {
@@ -161,10 +163,11 @@ inline std::string status_of(const std::string& answer) { return answer.substr(0
 /// A tab: a client after its handshake.
 class Tab : public Client {
  public:
+  /// @param extensions that it offers
   explicit Tab(Served& served, const std::string& query = "", int receive_buffer = 0,
-               std::uint32_t host = 1)
+               std::uint32_t host = 1, const std::string& extensions = "")
       : Client(served, receive_buffer, host) {
-    send(upgrade(served, {}, query));
+    send(upgrade(served, {{"Sec-WebSocket-Extensions", extensions}}, query));
     for (int i = 0; i < kMostRounds && in.find("\r\n\r\n") == std::string::npos; ++i)
       if (!receive()) break;
     head = in.substr(0, in.find("\r\n\r\n"));
@@ -194,9 +197,11 @@ class Tab : public Client {
         for (std::size_t i = 2; i < at; ++i) size = size << 8 | octet(i);
       }
       if (in.size() < at + size) break;
-      const std::string payload = in.substr(at, size);
-      if (octet(0) == 0x81) texts.push_back(nlohmann::json::parse(payload));
-      if (octet(0) == 0x82) pictures.push_back(payload);
+      std::string payload = in.substr(at, size);
+      octets += payload.size();
+      if ((octet(0) & 0x40U) != 0) payload = inflater_.inflate(payload);
+      if ((octet(0) & 0xBFU) == 0x81) texts.push_back(nlohmann::json::parse(payload));
+      if ((octet(0) & 0xBFU) == 0x82) pictures.push_back(reader.take(payload));
       if (octet(0) == 0x88) closed = true;
       in.erase(0, at + size);
     }
@@ -211,8 +216,13 @@ class Tab : public Client {
 
   std::string head;
   std::vector<nlohmann::json> texts;
-  std::vector<std::string> pictures;
+  std::vector<std::string> pictures;  ///< whole
+  reading::PictureReader reader;
+  std::size_t octets = 0;  ///< of payloads as they were sent
   bool closed = false;
+
+ private:
+  StreamInflater inflater_;
 };
 
 }  // namespace reckon::tools::served

@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tests/tools/support/picture_reader.hpp"
 #include "reckon/tools/viewer/view_stage.hpp"
 
 namespace reckon::tools::tabs {
@@ -51,7 +52,7 @@ class Tab {
         texts.push_back(json::parse(*message->payload));
         continue;
       }
-      pictures.push_back(*message->payload);
+      pictures.push_back(reader.take(*message->payload));
       if (draws) draw(head().number);
     }
   }
@@ -77,7 +78,8 @@ class Tab {
 
   bool draws = true;
   std::vector<json> texts;
-  std::vector<std::string> pictures;
+  std::vector<std::string> pictures;  ///< whole
+  reading::PictureReader reader;
 
  private:
   ViewStage& stage_;

@@ -93,10 +93,10 @@ TEST_F(SecurePage, ServesFilesAndPictures) {
   file.say(served::request(served_, "GET /main.js"));
   EXPECT_TRUE(file.hear("\r\n\r\n").starts_with("HTTP/1.1 200"));
   for (const std::string& host : {name_, served_.host()}) {
-    // "RKV3": a picture
-    const std::string all = answer({{"Host", host}, {"Origin", "https://" + host}}, "RKV3");
+    // "RKV4": a picture
+    const std::string all = answer({{"Host", host}, {"Origin", "https://" + host}}, "RKV4");
     EXPECT_TRUE(all.starts_with("HTTP/1.1 101")) << host;
-    EXPECT_NE(all.find("RKV3"), std::string::npos) << host;
+    EXPECT_NE(all.find("RKV4"), std::string::npos) << host;
   }
 }
 
@@ -105,7 +105,7 @@ TEST_F(SecurePage, HoldsToItsNamesAndItsScheme) {
            {served_.host(), "http://" + served_.host()},
            {"evil.example" + name_.substr(8), "https://evil.example" + name_.substr(8)},
            {name_, "https://" + served_.host()}})
-    EXPECT_TRUE(answer({{"Host", host}, {"Origin", origin}}, "RKV3").starts_with("HTTP/1.1 403"))
+    EXPECT_TRUE(answer({{"Host", host}, {"Origin", origin}}, "RKV4").starts_with("HTTP/1.1 403"))
         << origin;
   EXPECT_EQ(served_.server.address(), "https://" + name_ + "/#word=1f2e");
 }

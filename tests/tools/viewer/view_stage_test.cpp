@@ -40,7 +40,7 @@ TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   live.run(seconds(2), {&tab});
   ASSERT_FALSE(tab.texts.empty());
   EXPECT_EQ(tab.texts[0]["type"], "hello");
-  EXPECT_EQ(tab.texts[0]["version"], 3);
+  EXPECT_EQ(tab.texts[0]["version"], 4);
   EXPECT_EQ(tab.texts[0]["may_push"], false);
   EXPECT_TRUE(tab.texts[0]["origin"].is_null());
   EXPECT_EQ(tab.texts[1]["type"], "play");
@@ -54,6 +54,33 @@ TEST(ViewStage, GreetsTabsThenSendsThirtyPicturesPerSecond) {
   std::size_t numbers = 0;
   for (const json& text : tab.texts) numbers += text["type"] == "numbers" ? 1 : 0;
   EXPECT_NEAR(static_cast<double>(numbers), 8, 1);
+}
+
+TEST(ViewStage, SendsWholePicturesPeriodicallyAndOnDemand) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  const auto wholes = [&](int ticks) {
+    int count = 0;
+    for (int i = 0; i < ticks; ++i) {
+      live.run(kTick, {&tab});
+      count += tab.reader.was_whole ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(wholes(60), 1) << "the first of a tab";
+  EXPECT_EQ(wholes(610), 10);
+  while (tab.reader.was_whole) (void)wholes(1);
+  tab.ask(12);
+  EXPECT_EQ(wholes(30), 1) << "its base is lost";
+  tab.ask(2, 3.25);
+  EXPECT_EQ(wholes(1), 1) << "another instant";
+  tab.ask(4);
+  EXPECT_EQ(wholes(1), 1) << "live again";
+  Tab late(live.stage, false);
+  live.run(kTick, {&tab, &late});
+  EXPECT_TRUE(late.reader.was_whole);
+  EXPECT_FALSE(tab.reader.was_whole);
+  EXPECT_EQ(late.pictures.back().size(), tab.pictures.back().size());
 }
 
 TEST(ViewStage, SendsTwoPicturesToATabWithoutDrawing) {

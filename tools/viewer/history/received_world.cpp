@@ -111,8 +111,8 @@ void ReceivedWorld::add_marks(nanoseconds time, nanoseconds start, const Roster&
     }
     mark.rate = row.rate(entity, time);
     mark.jump = row.jump;
-    mark.speed = static_cast<float>(pose.velocity.norm());
-    mark.age = static_cast<float>(entity.age(time));
+    mark.velocity = frame.scene_from_world_vector(pose.velocity).cast<float>();
+    mark.updated = pdu::to_seconds(entity.arrival - start);
   }
 }
 

@@ -35,4 +35,5 @@ export const COMMANDS = {
   giveHand: () => command(9),
   follow: (slot) => command(10, ['u16', slot]),
   goAlone: () => command(11),
+  whole: () => command(12),
 };

@@ -26,7 +26,7 @@ import { TimeLine } from './time_line.js';
 import { Tour } from './tour.js';
 import { byId, digits, foreign } from './words.js';
 
-const VERSION = 3;
+const VERSION = 4;
 const SLOW = 250; // [ms] between two updates of table and numbers
 const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine, tour
 

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Pictures from the server: little endian, fixed sizes, read in place without a copy.
+// Whole pictures, as the page keeps and saves them: little endian, fixed sizes, read in place
+// without a copy.
 
-const MAGIC = 0x33564b52; // "RKV3"
-const HEAD = 32;
-const ENTITY = 64;
+export const MAGIC = 0x33564b52; // "RKV3"
+export const HEAD = 32;
+export const ENTITY = 64;
 const HAND = 72;
 const CONTACT = 40;
 const TOOL = 124;
@@ -17,6 +18,12 @@ export const HAND_FLAGS = {
 export const CAUSES = ['', 'first', 'threshold', 'heartbeat', 'event'];
 export const NONE = 0xffff;
 
+// Of hands, contacts, tools and bodies, by the counts in the head.
+export function octetsBesideEntities(view) {
+  const count = (at) => view.getUint16(at, true);
+  return HAND * count(18) + CONTACT * count(20) + TOOL * count(28) + BODY * count(30);
+}
+
 // Throws if the length does not match the counts.
 export function decodePicture(buffer) {
   if (buffer.byteLength < HEAD) throw new Error('a picture of less than 32 octets');
@@ -27,7 +34,7 @@ export function decodePicture(buffer) {
   const contacts = view.getUint16(20, true);
   const tools = view.getUint16(28, true);
   const bodies = view.getUint16(30, true);
-  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts + TOOL * tools + BODY * bodies;
+  const length = HEAD + ENTITY * entities + octetsBesideEntities(view);
   if (buffer.byteLength !== length) throw new Error(`a picture of ${buffer.byteLength} octets, its counts give ${length}`);
   return new Picture(buffer, view, entities, hands, contacts, tools, bodies);
 }

@@ -4,7 +4,7 @@
 // every 4 s, and not while the tab is hidden. A hidden tab draws nothing, and a server disconnects
 // such tabs.
 import { COMMANDS } from './commands.js';
-import { decodePicture } from './picture.js';
+import { PictureStream } from './picture_stream.js';
 
 const LONGEST_WAIT = 4000;
 
@@ -24,6 +24,7 @@ export class Server {
   open() {
     const socket = new WebSocket(this.url);
     this.socket = socket;
+    this.pictures = new PictureStream();
     socket.binaryType = 'arraybuffer';
     socket.onclose = () => {
       this.hear.state('lost', this.bye || `No server at ${location.host}.`);
@@ -34,13 +35,20 @@ export class Server {
       this.octets += data.byteLength ?? data.length;
       try {
         if (typeof data === 'string') this.text(JSON.parse(data));
-        else this.hear.picture(decodePicture(data));
+        else this.picture(data);
       } catch (error) {
         ++this.bad;
         this.hear.bad(error.message);
-        if (typeof data !== 'string') this.tell('drawn', numberOf(data));
+        if (typeof data === 'string') return;
+        this.tell('drawn', numberOf(data));
+        this.tell('whole');
       }
     };
+  }
+
+  picture(data) {
+    const picture = this.pictures.take(data);
+    if (picture) this.hear.picture(picture); else this.tell('drawn', numberOf(data));
   }
 
   openWhenSeen() {

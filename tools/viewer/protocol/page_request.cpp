@@ -101,6 +101,7 @@ std::optional<PageRequest> take_hand(Reader) noexcept { return TakeHandRequest{}
 std::optional<PageRequest> give_hand(Reader) noexcept { return GiveHandRequest{}; }
 std::optional<PageRequest> follow(Reader in) noexcept { return FollowRequest{in.u16()}; }
 std::optional<PageRequest> go_alone(Reader) noexcept { return GoAloneRequest{}; }
+std::optional<PageRequest> whole(Reader) noexcept { return WholeRequest{}; }
 
 /// THE list of requests: the first octet of the message, and its length.
 struct Kind {
@@ -108,7 +109,7 @@ struct Kind {
   std::size_t length;
   Read read;
 };
-constexpr std::array<Kind, 11> kKinds{{{1, 5, drawn},
+constexpr std::array<Kind, 12> kKinds{{{1, 5, drawn},
                                        {2, 9, seek},
                                        {3, 5, speed},
                                        {4, 1, live},
@@ -118,7 +119,8 @@ constexpr std::array<Kind, 11> kKinds{{{1, 5, drawn},
                                        {8, 1, take_hand},
                                        {9, 1, give_hand},
                                        {10, 3, follow},
-                                       {11, 1, go_alone}}};
+                                       {11, 1, go_alone},
+                                       {12, 1, whole}}};
 
 }  // namespace
 

@@ -48,14 +48,16 @@ struct TakeHandRequest {};
 struct GiveHandRequest {};
 /// Lets the bodies go on without the peers that are missing.
 struct GoAloneRequest {};
+/// The page cannot use its last picture: sends a whole one.
+struct WholeRequest {};
 /// Selects the entity whose cells are lit.
 struct FollowRequest {
   std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: none
 };
 
-using PageRequest =
-    std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
-                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest, GoAloneRequest>;
+using PageRequest = std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest,
+                                 PointerRequest, NetworkRequest, TakeHandRequest, GiveHandRequest,
+                                 FollowRequest, GoAloneRequest, WholeRequest>;
 
 /// The request in a message; none if it is no request, has another length, or a number in it is not
 /// finite or out of its range.

@@ -9,10 +9,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reckon/tools/listener/update_cause.hpp"
+#include "reckon/tools/viewer/protocol/octet_writer.hpp"
 
 namespace reckon::tools {
 
@@ -57,8 +59,8 @@ struct EntityMark {
   Eigen::Vector3f error = Eigen::Vector3f::Zero();                  ///< shown minus predicted
   double rate = 0;                                                  ///< updates a second
   double jump = 0;                                                  ///< of the last update [m]
-  float speed = 0;                                                  ///< predicted [m/s]
-  float age = 0;                                                    ///< of the last update [s]
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();               ///< predicted [m/s]
+  double updated = 0;  ///< time of the last update, since the start of the source [s]
 };
 
 /// A hand of this program.
@@ -114,11 +116,30 @@ struct PictureRows {
   std::vector<BodyMark> bodies;
 };
 
-/// Writes the octets to `out`, replacing its content.
-void encode_picture(const PictureRows& rows, std::string& out);
-/// Sets the number in the head of an encoded picture.
-void number_picture(std::string& octets, std::uint32_t number);
-/// Sets kHandYours for the hand of this index, in an encoded picture of `rows`.
-void mark_own_hand(const PictureRows& rows, std::uint16_t index, std::string& octets);
+/// Writes a whole picture to `out`, replacing its content.
+void encode_picture(const PictureRows& rows, std::uint32_t number, std::string& out);
+
+/// Parts that whole pictures and differences (picture_difference.hpp) share
+/// ------------------------------------------------------------------------------------------------
+
+struct PictureHead {
+  std::uint32_t magic = kPictureMagic, number = 0;
+  std::uint16_t flags = 0;
+};
+/// Writes kPictureHead octets.
+void write_picture_head(OctetWriter& out, const PictureRows& rows, const PictureHead& head);
+/// Octets of hands, contacts, tools and bodies.
+[[nodiscard]] std::size_t octets_beside_entities(const PictureRows& rows) noexcept;
+/// Writes these. @param own_hand gets kHandYours
+void write_beside_entities(OctetWriter& out, const PictureRows& rows,
+                           std::optional<std::uint16_t> own_hand);
+
+/// Rounded, limited to 0 .. 65535; NaN becomes 0.
+[[nodiscard]] std::uint16_t rounded_u16(double value) noexcept;
+/// w x y z, each times 32767; NaN becomes 0.
+[[nodiscard]] std::array<std::int16_t, 4> quaternion_parts(
+    const Eigen::Quaterniond& orientation) noexcept;
+/// The number of a cause for the page.
+[[nodiscard]] std::uint8_t cause_number(UpdateCause cause) noexcept;
 
 }  // namespace reckon::tools

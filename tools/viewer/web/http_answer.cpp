@@ -37,11 +37,13 @@ std::string refusal_answer(int status, std::string_view reason, std::string_view
       status, reason, kPolicy, sentence.size() + 1, sentence);
 }
 
-std::string upgrade_answer(std::string_view key) {
+std::string upgrade_answer(std::string_view key, std::string_view extensions) {
+  std::string agreed;
+  if (!extensions.empty()) agreed = fmt::format("Sec-WebSocket-Extensions: {}\r\n", extensions);
   return fmt::format(
       "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: "
-      "Upgrade\r\nSec-WebSocket-Accept: {}\r\n\r\n",
-      web_socket_accept(key));
+      "Upgrade\r\nSec-WebSocket-Accept: {}\r\n{}\r\n",
+      web_socket_accept(key), agreed);
 }
 
 }  // namespace reckon::tools

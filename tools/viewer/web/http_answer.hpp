@@ -14,7 +14,7 @@ namespace reckon::tools {
 /// A refusal with a sentence. @param status such as 403  @param reason HTTP reason phrase
 [[nodiscard]] std::string refusal_answer(int status, std::string_view reason,
                                          std::string_view sentence);
-/// The server's part of a WebSocket handshake with this key.
-[[nodiscard]] std::string upgrade_answer(std::string_view key);
+/// The server's part of a WebSocket handshake with this key. @param extensions agreed; empty: none
+[[nodiscard]] std::string upgrade_answer(std::string_view key, std::string_view extensions);
 
 }  // namespace reckon::tools

@@ -51,15 +51,18 @@ struct NamedField {
   std::string_view name;
   std::string_view HttpRequest::*value;
 };
-constexpr std::array<NamedField, 6> kFields{{{"host", &HttpRequest::host},
-                                             {"origin", &HttpRequest::origin},
-                                             {"upgrade", &HttpRequest::upgrade},
-                                             {"connection", &HttpRequest::connection},
-                                             {"sec-websocket-key", &HttpRequest::key},
-                                             {"sec-websocket-version", &HttpRequest::version}}};
+constexpr std::array<NamedField, 7> kFields{
+    {{"host", &HttpRequest::host},
+     {"origin", &HttpRequest::origin},
+     {"upgrade", &HttpRequest::upgrade},
+     {"connection", &HttpRequest::connection},
+     {"sec-websocket-key", &HttpRequest::key},
+     {"sec-websocket-version", &HttpRequest::version},
+     {"sec-websocket-extensions", &HttpRequest::extensions}}};
 
 /// @return false for a line that is no field, and for a repeated field that we use
-bool read_field(std::string_view line, HttpRequest& out, std::array<bool, 6>& seen) noexcept {
+bool read_field(std::string_view line, HttpRequest& out,
+                std::array<bool, kFields.size()>& seen) noexcept {
   const std::size_t colon = line.find(':');
   if (colon == 0 || colon == std::string_view::npos || !is_graphic(line.substr(0, colon)))
     return false;
@@ -82,15 +85,19 @@ RequestVerdict read_request(std::string_view octets, HttpRequest& out) noexcept 
   std::string_view head = octets.substr(0, end);
   out.length = end + 4;
   if (!read_request_line(cut_front(head, kLineEnd), out)) return RequestVerdict::bad;
-  std::array<bool, 6> seen{};
+  std::array<bool, kFields.size()> seen{};
   while (!head.empty())
     if (!read_field(cut_front(head, kLineEnd), out, seen)) return RequestVerdict::bad;
   return RequestVerdict::good;
 }
 
+std::string_view cut_trimmed(std::string_view& text, std::string_view end) noexcept {
+  return without_blanks(cut_front(text, end));
+}
+
 bool lists_word(std::string_view list, std::string_view word) noexcept {
   while (!list.empty())
-    if (same_word(without_blanks(cut_front(list, ",")), word)) return true;
+    if (same_word(cut_trimmed(list, ","), word)) return true;
   return false;
 }
 

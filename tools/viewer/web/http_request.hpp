@@ -19,8 +19,8 @@ struct HttpRequest {
   std::string_view path;    ///< "/stream", without the query
   std::string_view query;   ///< "word=1f2e", without the question mark
   std::string_view host, origin, upgrade, connection;
-  std::string_view key, version;  ///< Sec-WebSocket-Key, -Version
-  std::size_t length = 0;         ///< of the head with its empty line [octets]
+  std::string_view key, version, extensions;  ///< Sec-WebSocket-Key, -Version, -Extensions
+  std::size_t length = 0;                     ///< of the head with its empty line [octets]
 };
 
 enum class RequestVerdict : std::uint8_t {
@@ -32,6 +32,10 @@ enum class RequestVerdict : std::uint8_t {
 
 /// Reads the head at the begin of `octets`.
 [[nodiscard]] RequestVerdict read_request(std::string_view octets, HttpRequest& out) noexcept;
+
+/// Removes the text before `end` from the front, and `end` too. @return that text without blanks
+/// around it
+std::string_view cut_trimmed(std::string_view& text, std::string_view end) noexcept;
 
 /// Whether a list field contains this word, ignoring case: "keep-alive, Upgrade".
 [[nodiscard]] bool lists_word(std::string_view list, std::string_view word) noexcept;

@@ -101,6 +101,11 @@ asio::ssl::context open_tls(const TlsFiles& files) {
 
 void check_tls(const TlsFiles& files) { static_cast<void>(open_tls(files)); }
 
+std::optional<asio::ssl::context> open_tls_if_any(const TlsFiles& files) {
+  if (files.certificate.empty()) return std::nullopt;
+  return open_tls(files);
+}
+
 std::vector<std::string> certified_names(asio::ssl::context& context) {
   std::vector<std::string> names;
   const X509* const leaf = SSL_CTX_get0_certificate(context.native_handle());

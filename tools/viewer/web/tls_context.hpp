@@ -4,6 +4,7 @@
 #pragma once
 
 #include <asio/ssl/context.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace reckon::tools {
 
 /// @throws as check_tls
 [[nodiscard]] asio::ssl::context open_tls(const TlsFiles& files);
+
+/// The same; none if the files are empty.
+[[nodiscard]] std::optional<asio::ssl::context> open_tls_if_any(const TlsFiles& files);
 
 /// Host names of its certificate, except names with a `*`.
 [[nodiscard]] std::vector<std::string> certified_names(asio::ssl::context& context);

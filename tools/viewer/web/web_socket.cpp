@@ -72,12 +72,12 @@ std::string web_socket_accept(std::string_view key) {
   return base64(std::as_bytes(std::span(digest)));
 }
 
-FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept {
+FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload, bool compressed) noexcept {
   FrameHead head;
   const auto put = [&head](std::uint64_t octet) {
     head.octets[head.size++] = static_cast<std::byte>(octet & 0xFFU);
   };
-  put(0x80U | static_cast<std::uint8_t>(opcode));
+  put(0x80U | (compressed ? 0x40U : 0U) | static_cast<std::uint8_t>(opcode));
   int length_octets = 0;
   if (payload >= 126) length_octets = payload < 65536 ? 2 : 8;
   put(length_octets == 0 ? payload : length_octets == 2 ? 126U : 127U);
@@ -96,15 +96,18 @@ std::string last_frames(std::string_view text) {
   return frames;
 }
 
-FrameVerdict read_client_frame(std::span<const std::byte> octets, ClientFrame& out) noexcept {
+FrameVerdict read_client_frame(std::span<const std::byte> octets, bool may_be_compressed,
+                               ClientFrame& out) noexcept {
   constexpr std::size_t kHead = 6;  // with the mask
-  constexpr auto kWhole = std::byte{0x80};
+  constexpr auto kWhole = std::byte{0x80}, kCompressed = std::byte{0x40};
   if (octets.size() < 2) return FrameVerdict::incomplete;
   const std::byte opcode = octets[0] & std::byte{0x0F};
   const auto size = std::to_integer<std::size_t>(octets[1] & std::byte{0x7F});
   const bool is_masked = (octets[1] & std::byte{0x80}) != std::byte{0};
-  // Reserved bits must be zero: no extension was negotiated.
-  const bool is_whole = (octets[0] & std::byte{0xF0}) == kWhole;
+  out.is_compressed = may_be_compressed && (octets[0] & kCompressed) != std::byte{0};
+  // The other reserved bits must be zero: no other extension is agreed.
+  const std::byte first = out.is_compressed ? octets[0] & ~kCompressed : octets[0];
+  const bool is_whole = (first & std::byte{0xF0}) == kWhole;
   if (!is_masked || !is_whole || size > kLongestClientFrame) return FrameVerdict::bad;
   if (opcode == std::byte{static_cast<std::uint8_t>(WebSocketOpcode::close)})
     return FrameVerdict::closing;

@@ -28,7 +28,9 @@ struct FrameHead {
   std::size_t size = 0;
   [[nodiscard]] std::span<const std::byte> bytes() const { return {octets.data(), size}; }
 };
-[[nodiscard]] FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept;
+/// @param compressed the payload is (RFC 7692)
+[[nodiscard]] FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload,
+                                   bool compressed = false) noexcept;
 
 /// A text frame and a close frame.
 [[nodiscard]] std::string last_frames(std::string_view text);
@@ -41,6 +43,7 @@ struct ClientFrame {
   std::array<std::byte, kLongestClientFrame> octets{};
   std::size_t size = 0;    ///< of the payload
   std::size_t length = 0;  ///< of the frame with its header
+  bool is_compressed = false;
   [[nodiscard]] std::span<const std::byte> payload() const { return {octets.data(), size}; }
 };
 
@@ -48,11 +51,12 @@ enum class FrameVerdict : std::uint8_t {
   incomplete,  ///< more octets are needed, at most 131 in total
   good,
   closing,  ///< the page closes the connection
-  bad       ///< not masked, too long, fragmented, or of another kind: close the connection
+  bad       ///< not masked, too long, fragmented, compressed without being agreed, or of another
+            ///< kind: close the connection
 };
 
-/// Reads the frame at the begin of `octets`.
+/// Reads the frame at the begin of `octets`. @param may_be_compressed as agreed
 [[nodiscard]] FrameVerdict read_client_frame(std::span<const std::byte> octets,
-                                             ClientFrame& out) noexcept;
+                                             bool may_be_compressed, ClientFrame& out) noexcept;
 
 }  // namespace reckon::tools

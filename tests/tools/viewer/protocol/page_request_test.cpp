@@ -50,6 +50,7 @@ TEST(PageRequest, IsReadOfEachKind) {
   EXPECT_TRUE(std::holds_alternative<GiveHandRequest>(*read_page_request(message(9))));
   EXPECT_EQ(std::get<FollowRequest>(*read_page_request(message(10, std::uint16_t{5}))).slot, 5);
   EXPECT_TRUE(std::holds_alternative<GoAloneRequest>(*read_page_request(message(11))));
+  EXPECT_TRUE(std::holds_alternative<WholeRequest>(*read_page_request(message(12))));
 }
 
 TEST(PageRequest, RefusesInvalidAndOutOfRangeNumbers) {
@@ -77,7 +78,7 @@ TEST(PageRequest, RefusesEveryOtherLengthAndKind) {
     EXPECT_FALSE(read_page_request(std::span(pointer).first(size)).has_value()) << size;
   EXPECT_FALSE(read_page_request(message(4, kOn)).has_value());
   EXPECT_FALSE(read_page_request(message(0)).has_value());
-  EXPECT_FALSE(read_page_request(message(12)).has_value());
+  EXPECT_FALSE(read_page_request(message(13)).has_value());
 }
 
 TEST(PageRequest, PointerNetworkAndHandsChangeTheExercise) {

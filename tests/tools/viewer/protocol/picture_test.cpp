@@ -35,8 +35,8 @@ PictureRows rows() {
   entity.error = {0.25F, 0, -0.25F};
   entity.rate = 12.34;
   entity.jump = 0.0123;
-  entity.speed = 13.5F;
-  entity.age = 0.75F;
+  entity.velocity = {0, 13.5F, 0};
+  entity.updated = 11.75;
   picture.hands.resize(1);
   picture.hands[0].index = 3;
   picture.hands[0].flags = kHandInContact;
@@ -59,16 +59,15 @@ PictureRows rows() {
 
 TEST(Picture, HasTheLengthOfItsCounts) {
   std::string octets;
-  encode_picture(rows(), octets);
+  encode_picture(rows(), 0, octets);
   EXPECT_EQ(octets.size(), 32U + 2 * 64 + 72 + 40 + 124 + 20);
-  encode_picture({}, octets);
+  encode_picture({}, 0, octets);
   EXPECT_EQ(octets.size(), 32U);
 }
 
 TEST(Picture, HasEachThingAtItsPlace) {
   std::string octets;
-  encode_picture(rows(), octets);
-  number_picture(octets, 99);
+  encode_picture(rows(), 99, octets);
   EXPECT_EQ(octets.substr(0, 4), "RKV3");
   EXPECT_EQ(at<std::uint32_t>(octets, 4), 99U);
   EXPECT_EQ(at<double>(octets, 8), 12.5);
@@ -110,13 +109,15 @@ TEST(Picture, HasEachThingAtItsPlace) {
 }
 
 TEST(Picture, MarksAHandAsItsReadersOwn) {
-  std::string octets;
   const PictureRows picture = rows();
-  encode_picture(picture, octets);
-  mark_own_hand(picture, 2, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 2 * 64 + 2), kHandInContact);
-  mark_own_hand(picture, 3, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 2 * 64 + 2), kHandInContact | kHandYours);
+  std::string octets(octets_beside_entities(picture), '\0');
+  const auto flags_for = [&](std::uint16_t hand) {
+    OctetWriter writer(octets.data());
+    write_beside_entities(writer, picture, hand);
+    return at<std::uint16_t>(octets, 2);
+  };
+  EXPECT_EQ(flags_for(2), kHandInContact);
+  EXPECT_EQ(flags_for(3), kHandInContact | kHandYours);
 }
 
 TEST(Picture, ResolvesMillimetresSixThousandKilometresAway) {
@@ -124,10 +125,10 @@ TEST(Picture, ResolvesMillimetresSixThousandKilometresAway) {
   const Eigen::Vector3d away(-4'461'603.0, 2'757'549.5, -2'740'670.75);
   std::string before, after;
   picture.entities[0].position = picture.contacts[0].point = away;
-  encode_picture(picture, before);
+  encode_picture(picture, 0, before);
   picture.entities[0].position.y() += 0.001;
   picture.contacts[0].point = picture.entities[0].position;
-  encode_picture(picture, after);
+  encode_picture(picture, 0, after);
   for (const std::size_t place : {32U + 8 + 8, 32U + 2 * 64 + 72 + 4 + 8})
     EXPECT_NEAR(at<double>(after, place) - at<double>(before, place), 0.001, 1e-8) << place;
 }
@@ -139,7 +140,7 @@ TEST(Picture, ClampsValuesOutOfRange) {
   picture.entities[0].rate = std::numeric_limits<double>::quiet_NaN();
   picture.entities[0].orientation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
   std::string octets;
-  encode_picture(picture, octets);
+  encode_picture(picture, 0, octets);
   EXPECT_EQ(at<std::uint16_t>(octets, 32 + 52), 0);
   EXPECT_EQ(at<std::uint16_t>(octets, 32 + 54), 65535);
   EXPECT_EQ(at<std::int16_t>(octets, 32 + 32), 0);

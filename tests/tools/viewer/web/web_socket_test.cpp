@@ -44,23 +44,26 @@ TEST(WebSocket, WritesPayloadLengthsInTheShortestForm) {
 TEST(WebSocket, UnmasksAShortBinaryFrame) {
   const auto frame = octets({0x82, 0x83, 1, 2, 4, 8, 0x10, 0x22, 0x44, 99});
   ClientFrame read;
-  ASSERT_EQ(read_client_frame(frame, read), FrameVerdict::good);
+  ASSERT_EQ(read_client_frame(frame, false, read), FrameVerdict::good);
   EXPECT_EQ(std::vector(read.payload().begin(), read.payload().end()), octets({0x11, 0x20, 0x40}));
   EXPECT_EQ(read.length, 9U);
   for (std::size_t size = 0; size < 9; ++size)
-    EXPECT_EQ(read_client_frame(std::span(frame).first(size), read), FrameVerdict::incomplete);
+    EXPECT_EQ(read_client_frame(std::span(frame).first(size), false, read),
+              FrameVerdict::incomplete);
 }
 
 TEST(WebSocket, RefusesUnmaskedLongPartialAndOtherFrames) {
   ClientFrame read;
-  EXPECT_EQ(read_client_frame(octets({0x82, 0x01, 7}), read), FrameVerdict::bad);
-  EXPECT_EQ(read_client_frame(octets({0x82, 0xFE, 0, 126}), read), FrameVerdict::bad);
-  EXPECT_EQ(read_client_frame(octets({0x02, 0x81}), read), FrameVerdict::bad);  // first of several
-  EXPECT_EQ(read_client_frame(octets({0x80, 0x81}), read), FrameVerdict::bad);  // the last of them
-  EXPECT_EQ(read_client_frame(octets({0xC2, 0x81}), read), FrameVerdict::bad);  // compressed
-  EXPECT_EQ(read_client_frame(octets({0x81, 0x81}), read), FrameVerdict::bad);  // text
-  EXPECT_EQ(read_client_frame(octets({0x89, 0x80}), read), FrameVerdict::bad);  // ping
-  EXPECT_EQ(read_client_frame(octets({0x88, 0x80}), read), FrameVerdict::closing);
+  EXPECT_EQ(read_client_frame(octets({0x82, 0x01, 7}), false, read), FrameVerdict::bad);
+  EXPECT_EQ(read_client_frame(octets({0x82, 0xFE, 0, 126}), false, read), FrameVerdict::bad);
+  EXPECT_EQ(read_client_frame(octets({0x02, 0x81}), false, read),
+            FrameVerdict::bad);  // first of several
+  EXPECT_EQ(read_client_frame(octets({0x80, 0x81}), false, read),
+            FrameVerdict::bad);  // the last of them
+  EXPECT_EQ(read_client_frame(octets({0xC2, 0x81}), false, read), FrameVerdict::bad);  // compressed
+  EXPECT_EQ(read_client_frame(octets({0x81, 0x81}), false, read), FrameVerdict::bad);  // text
+  EXPECT_EQ(read_client_frame(octets({0x89, 0x80}), false, read), FrameVerdict::bad);  // ping
+  EXPECT_EQ(read_client_frame(octets({0x88, 0x80}), false, read), FrameVerdict::closing);
 }
 
 }  // namespace
