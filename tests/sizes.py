@@ -32,7 +32,7 @@ TOTAL = {
     "tools": 41000,
     "python": 2500,
     "bench": 37000,
-    "tests": 141000,
+    "tests": 142500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
