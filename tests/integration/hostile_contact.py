@@ -18,7 +18,7 @@ FROZEN = 1 << 21  # bit of an appearance
 BODIES = (65534, 1)  # simulation address of the scene's bodies, which its peers send
 ESTABLISHED = 2.0     # [s] until a peer keeps its number against a claim with an earlier start
 HANDED_OUT = 7.0      # [s] until leaders are elected, and groups are distributed and in use
-BEFORE = 1.5          # [s] of contact that are measured before each attack
+BEFORE = 1.5          # [s] of contact that are measured before each attack, two periods of the hands
 FILLING = 10.0        # [s] more if a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown during an attack
 LONGEST = 0.5         # [s], longest interruption of the contact by an attack
@@ -54,16 +54,17 @@ start = "1 s"
 [[operator]]
 trace = "press.csv"
 position = "14 0 0 mm"
-speed = 0.9
 
 [[operator]]
 sweep = {from = "0 300 0 mm", to = "0 310 0 mm", period = "1 s"}
 """
 
 
-# A hand that moves to and fro by a millimetre with a period of 1.1 s.
-PRESS = "t_s,px_m,py_m,pz_m\n" + "".join(f"{0.01 * i:.3f},{0.0005 * (1 - math.cos(2 * math.pi * i / 110)):.7f},0,0\n"
-                                         for i in range(111))
+# A hand that moves to and fro by a millimetre. Both hands have this period: the medians of BEFORE do not depend on when
+# it begins.
+PERIOD = 75  # [10 ms]
+PRESS = "t_s,px_m,py_m,pz_m\n" + "".join(
+    f"{0.01 * i:.3f},{0.0005 * (1 - math.cos(2 * math.pi * i / PERIOD)):.7f},0,0\n" for i in range(PERIOD + 1))
 
 # Cells so small that there are more of them than groups.
 WITH_LEADERS = "pool = 16\nleaders = true\nhand_out = true"
