@@ -59,6 +59,9 @@ struct FederateOptions {
   /// that as a notice. If this is false, joining a LAN with devices throws StepTooDear in this
   /// case.
   bool even_if_slow = false;
+  /// Pace of the scene's bodies, see haptics::BodyWorld::set_pace(). Absent: on a LAN with devices
+  /// it is measured, which takes 20 ms; else 1.
+  std::optional<double> body_pace;
   /// The software stop of its hands, shared with other federates of the program; must outlive the
   /// federate. Null: one of its own.
   haptics::ForceStop* force_stop = nullptr;

@@ -138,6 +138,8 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   own.founds = !lan_ || (roll && roll->is_first());
   peer_ = std::make_unique<Peer>(*options_.scene, own, way, options_.devices);
   if (lan_) check_step_cost();
+  if (options_.body_pace && peer_->bodies() != nullptr)
+    peer_->bodies()->set_pace(*options_.body_pace);
   if (sealed_) sealed_->count_in(peer_->counters());
   if (hold_ && !hold_->report().empty())
     static_cast<void>(
@@ -160,7 +162,7 @@ void JoinedPeer::check_step_cost() {
   auto slow = find_step_too_dear(scene.scene, *peer_->plan(), scene.hand.contact_radius,
                                  peer_->servo_period());
   if (haptics::BodyWorld* bodies = peer_->bodies()) {
-    bodies->set_pace(measure_body_pace());
+    if (!options_.body_pace) bodies->set_pace(measure_body_pace());
     if (!slow) slow = find_bodies_too_dear(scene, peer_->devices(), peer_->servo_period());
   }
   if (!slow) return;

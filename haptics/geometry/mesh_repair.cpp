@@ -19,9 +19,10 @@ void weld(TriangleSoup& soup, MeshReport& report) {
   std::vector<std::uint32_t> numbers;
   numbers.reserve(soup.vertices.size());
   PositionTable table(different, soup.vertices.size());
-  constexpr std::size_t kFetched = 12;  // vertices, for the memory to arrive
+  constexpr std::size_t kFetchedVertices = 12;  // vertices, for the memory to arrive
   for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
-    if (i + kFetched < soup.vertices.size()) table.fetch(soup.vertices[i + kFetched]);
+    if (i + kFetchedVertices < soup.vertices.size())
+      table.fetch(soup.vertices[i + kFetchedVertices]);
     numbers.push_back(table.number_of(soup.vertices[i]));
   }
   report.vertices = different.size();

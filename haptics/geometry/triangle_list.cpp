@@ -11,9 +11,10 @@ TriangleList::TriangleList(TriangleSoup& soup, std::span<const std::uint32_t> or
   corners_.reserve(order.size());
   vertices_.reserve(soup.vertices.size());
   std::vector<std::uint32_t> numbers(soup.vertices.size(), kNew);
-  constexpr std::size_t kFetched = 16;  // triangles, for the memory to arrive
+  constexpr std::size_t kFetchedTriangles = 16;  // triangles, for the memory to arrive
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + kFetched < order.size()) __builtin_prefetch(&soup.triangles[order[i + kFetched]]);
+    if (i + kFetchedTriangles < order.size())
+      __builtin_prefetch(&soup.triangles[order[i + kFetchedTriangles]]);
     std::array<std::uint32_t, 3>& corners = corners_.emplace_back(soup.triangles[order[i]].corners);
     for (std::uint32_t& corner : corners) {
       std::uint32_t& number = numbers[corner];

@@ -17,7 +17,7 @@ struct Limit {
 // In the order of LoadWork. docs/robustness.md has the table, with inputs that reach each bound.
 constexpr Limit kLimits[kLoadWorks] = {
     {512 << 20, "octets in all files", "use smaller files, or fewer"},
-    {1 << 21, "triangles in all meshes and pictures", "use coarser ones, or fewer"},
+    {10 << 20, "triangles in all meshes and pictures", "use coarser ones, or fewer"},
     {100'000'000, "pairs of corners in faces that are not convex",
      "triangulate the mesh before its export"},
     {1 << 24, "pixels in all pictures", "scale them down, or use fewer"},

@@ -20,12 +20,12 @@ BAD_NETWORK = "delay=50ms jitter=20ms loss=10%"
 def trace_of(run):
     """The trace that `reckon demo --trace` writes for the run."""
     lines = ["t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,mesh_fx_N,mesh_fy_N,mesh_fz_N,"
-             "hand_fx_N,hand_fy_N,hand_fz_N,record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device"]
+             "hand_fx_N,hand_fy_N,hand_fz_N,record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device,pace"]
     vectors = numpy.hstack([run.handle, run.surface_point, run.velocity, run.force, run.mesh_force, run.hand_force,
                             run.record_force, run.ledger[:, None], run.need[:, None], run.energy[:, None]])
     for row, numbers in enumerate(vectors):
         lines.append(f"{run.time[row]:.6f},{run.peer[row]}," + ",".join(f"{number:.9g}" for number in numbers) +
-                     f",{run.contacts[row]},{run.patch[row]},{run.device[row]}")
+                     f",{run.contacts[row]},{run.patch[row]},{run.device[row]},1")
     return lines
 
 

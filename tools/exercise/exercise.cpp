@@ -73,9 +73,8 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
     servo_ = std::make_unique<peer::ServoThread>(steady_);
   }
   const std::uint32_t epoch = options.epoch != 0 ? options.epoch : std::random_device{}() | 1u;
-  for (std::size_t i = 0; i < options.peers; ++i) {
+  for (std::size_t i = 0; i < options.peers; ++i)
     add_member(scene, epoch + static_cast<std::uint32_t>(i));
-  }
   std::vector<std::size_t> peers;
   for (const Hand& hand : hands_) peers.push_back(hand.peer);
   measurement_ = std::make_unique<DemoMeasurement>(std::move(peers), scene.hand);
@@ -111,6 +110,7 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   own.impairment_changes = options_.impairment_changes;
   own.servo = servo_.get();
   own.even_if_slow = options_.even_if_slow;
+  own.body_pace = options_.body_pace;
   if (options_.simulated_time) {
     own.loops = peer::FederateLoops::by_hand;
     member.joined = std::make_unique<peer::JoinedPeer>(own, network_->link(index), manual_, epoch);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -50,6 +51,7 @@ struct ExerciseOptions {
   /// impedances still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool even_if_slow = false;                 ///< real time: see FederateOptions
+  std::optional<double> body_pace;           ///< see FederateOptions
   haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null:
                                              ///< none
   bool time_servo = false;                   ///< simulated time: measure the duration of servo

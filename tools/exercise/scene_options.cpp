@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/file_kind.hpp"
@@ -29,6 +31,9 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
   line.flag("--even-if-slow", options.even_if_slow,
             "run the scene even if servo steps exceed their period on this host");
+  line.option("--pace", options.pace,
+              "time of this host for counted work of bodies, relative to the reference host, 0.25 "
+              "to 8; default: measured, or 1 with --simulated-time");
 }
 
 namespace {
@@ -59,7 +64,22 @@ void check_key(const peer::SceneFile& scene) {
         "--key seals datagrams, but the scene's 'interop' needs plain ones: remove one of them");
 }
 
+void check_pace(double pace, const peer::SceneFile& scene) {
+  using haptics::BodyWorld;
+  if (pace == 0.0) return;
+  if (!(pace >= BodyWorld::kLeastPace && pace <= BodyWorld::kMostPace))
+    throw UsageError(fmt::format("--pace: {} is not from {} to {}", pace, BodyWorld::kLeastPace,
+                                 BodyWorld::kMostPace));
+  const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
+  if (std::ranges::none_of(scene.scene.objects, moves))
+    throw UsageError("--pace: no object of the scene has a mass; remove the flag");
+}
+
 }  // namespace
+
+std::optional<double> pace_of(const SceneOptions& options) noexcept {
+  return options.pace > 0.0 ? std::optional(options.pace) : std::nullopt;
+}
 
 std::string refusal_of(const peer::StepTooDear& slow) {
   return slow.finding() +
@@ -85,6 +105,7 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
   } catch (const std::exception& error) {
     throw UsageError(error.what());
   }
+  check_pace(options.pace, scene);
   if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
   if (options.seed && !draws_by_seed(scene.impairment.law))
     throw UsageError("--seed needs a random impairment; add one, for example --impair 'loss=20%'");

@@ -24,10 +24,11 @@ struct SceneOptions {
   std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
   bool even_if_slow = false;         ///< see FederateOptions
+  double pace = 0.0;                 ///< FederateOptions::body_pace; 0: absent
   haptics::CustomEffects effects{};  ///< of the program that reads the scene
 };
 
-/// Declares --mesh, --hand, --impair, --seed, --iface, --key and --even-if-slow.
+/// Declares --mesh, --hand, --impair, --seed, --iface, --key, --even-if-slow and --pace.
 void add_scene_options(CommandLine& line, SceneOptions& options);
 
 /// The problem of the scene, and the remedy.
@@ -35,6 +36,9 @@ void add_scene_options(CommandLine& line, SceneOptions& options);
 
 /// Whether the impairment uses random numbers.
 [[nodiscard]] bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept;
+
+/// options.pace for FederateOptions.
+[[nodiscard]] std::optional<double> pace_of(const SceneOptions& options) noexcept;
 
 /// Reads the scene, applies the options, and opens every file that `hands` hands need.
 /// @param shipped default scene. @throws UsageError with the place and the remedy.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kColumns =
     "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
     "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
-    "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device";
+    "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device,pace";
 constexpr std::string_view kTurnColumns =
     ",tx_Nm,ty_Nm,tz_Nm,qw,qx,qy,qz,wx_radps,wy_radps,wz_radps";
 
@@ -25,7 +25,8 @@ constexpr std::string_view kTurnColumns =
 ServoTrace::ServoTrace(const std::filesystem::path& file, bool turns)
     : turns_(turns), file_(file, fmt::format("{}{}", kColumns, turns ? kTurnColumns : "")) {}
 
-void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
+void ServoTrace::write(std::size_t peer, std::size_t device, double pace,
+                       const haptics::ServoSnapshot& step) {
   line_.clear();
   const auto to = std::back_inserter(line_);
   const auto vector = [&](const Eigen::Vector3d& v) {
@@ -49,8 +50,8 @@ void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::Serv
   }
   vector(hands);
   vector(records);
-  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{},{}"), ledger, need, step.port_energy,
-                 step.count, step.mesh_patch, device + 1);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{},{},{}"), ledger, need,
+                 step.port_energy, step.count, step.mesh_patch, device + 1, pace);
   if (turns_) {
     const Eigen::Quaterniond& q = step.tool.orientation;
     vector(step.tool.torque);

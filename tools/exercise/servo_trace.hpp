@@ -20,7 +20,9 @@ class ServoTrace {
   explicit ServoTrace(const std::filesystem::path& file, bool turns = false);
 
   /// @param peer, device numbered from 0; from 1 in the file
-  void write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step);
+  /// @param pace of the peer's bodies, see haptics::BodyWorld::set_pace(); 1 without bodies
+  void write(std::size_t peer, std::size_t device, double pace,
+             const haptics::ServoSnapshot& step);
   /// As CsvOutput::close().
   void close() { file_.close(); }
 

@@ -130,6 +130,7 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
   made.even_if_slow = options.scene.even_if_slow;
+  made.body_pace = pace_of(options.scene);
   made.plugins = plugins_of(options.device);
   made.trace_bodies = !options.traces.bodies.empty();
   made.trace_loops = !options.traces.loop.empty();

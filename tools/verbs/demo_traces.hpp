@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
@@ -36,7 +37,8 @@ class DemoTraces {
  public:
   /// @param exercise has trace_bodies and trace_loops set for the requested files; outlives it
   /// @throws UsageError if a file cannot be written, or would be empty.
-  DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise) {
+  DemoTraces(const TraceFiles& files, const peer::SceneFile& scene, Exercise& exercise)
+      : exercise_(exercise) {
     if (!files.servo.empty()) {
       const auto turns = [](const peer::DeviceConfig& device) { return device.axes == 6; };
       servo_.emplace(files.servo, std::ranges::any_of(scene.devices, turns));
@@ -58,7 +60,9 @@ class DemoTraces {
   [[nodiscard]] bool takes_steps() const noexcept { return servo_.has_value(); }
   /// @param peer, device numbered from 0
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
-    if (servo_) servo_->write(peer, device, step);
+    if (!servo_) return;
+    const haptics::BodyWorld* bodies = exercise_.peer(peer).bodies();
+    servo_->write(peer, device, bodies == nullptr ? 1.0 : bodies->pace(), step);
   }
   /// Flushes the files; call it after the exercise has stopped. @throws EnvironmentError if the
   /// disk is full.
@@ -69,6 +73,7 @@ class DemoTraces {
   }
 
  private:
+  Exercise& exercise_;
   std::optional<ServoTrace> servo_;
   std::optional<BodyTrace> bodies_;
   std::optional<StageTrace> stages_;

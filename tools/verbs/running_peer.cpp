@@ -58,6 +58,7 @@ peer::FederateOptions RunningPeer::federate_options(const peer::SceneFile& scene
   own.scene = scene;
   own.loops = peer::FederateLoops::threads;
   own.even_if_slow = options.scene.even_if_slow;
+  own.body_pace = pace_of(options.scene);
   if (options.application) own.application = static_cast<std::uint16_t>(*options.application);
   const bool lends = flags_of_switch(options.view).has_value();
   const auto make_hands = [&scene, &options, &hands, &real, lends](std::uint32_t number) {

@@ -305,8 +305,8 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--log", {csv_}},
   };
   Words flags = flags_of({"demo"});
-  const std::set<std::string> refused{"--view", "--listen",        "--open",  "--even-if-slow",
-                                      "--tls",  "--behind-tunnel", "--plugin"};
+  const std::set<std::string> refused{"--view", "--listen",        "--open",   "--even-if-slow",
+                                      "--tls",  "--behind-tunnel", "--plugin", "--pace"};  // Pace
   std::erase_if(flags, [&](const std::string& flag) {
     return flag == "SCENE" || flag == "--help" || refused.contains(flag);
   });

@@ -187,11 +187,11 @@ TEST_F(PeerFlags, EachChangeAnObservableFact) {
   EXPECT_THAT(follower, Contains("follows"));
 
   // A flag missing in this list has no known effect. The test two_applications covers
-  // --application, the viewer tests the page's flags, NativeCode --plugin, and StepTooDear
-  // --even-if-slow.
+  // --application, the viewer tests the page's flags, NativeCode --plugin, StepTooDear
+  // --even-if-slow, and Pace --pace.
   Facts known{"SCENE",  "--help",          "--operator", "--json", "--follow",   "--iface",
               "--seed", "--application",   "--listen",   "--open", "--firmware", "--even-if-slow",
-              "--tls",  "--behind-tunnel", "--plugin",   "--log"};
+              "--tls",  "--behind-tunnel", "--plugin",   "--log",  "--pace"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -201,6 +201,7 @@ TEST_F(PeerFlags, AreRefusedByNameWhereUseless) {
   const std::vector<Words> refused{
       {"--follow", "gate"},  // no groups are handed out
       {"--seed", "7"},       // nothing is drawn; a simulated demo shows its effect
+      {"--pace", "2"},       // there are no bodies
       {"--iface", "no-such-interface"},
       {"--operator", "0"},
       {"--application", "2"},   // peers agree on their IDs
