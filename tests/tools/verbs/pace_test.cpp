@@ -16,15 +16,14 @@ namespace reckon::tools {
 namespace {
 
 using test::run_reckon;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 class Pace : public testing::Test {
  protected:
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
-  // The trace of a run of two seconds; its JSON in `summary`.
+  // The trace of a run of three seconds; its JSON in `summary`.
   std::string traced(const std::string& pace, std::string& summary) const {
-    const auto run = run_reckon({"demo", cubes_, "--peers", "1", "--simulated-time", "--for", "2s",
+    const auto run = run_reckon({"demo", cubes_, "--peers", "1", "--simulated-time", "--for", "3s",
                                  "--json", "--pace", pace, "--trace", file("t.csv")});
     EXPECT_EQ(run.status, 0) << run.err;
     summary = run.out;
@@ -46,7 +45,7 @@ TEST_F(Pace, RepeatsRunOfASlowerHost) {
   const std::string slower = traced("8", slow);
   EXPECT_THAT(first, HasSubstr(R"("pace":1})"));
   EXPECT_THAT(slow, HasSubstr(R"("pace":8})"));
-  EXPECT_THAT(slower, EndsWith(",1,8\n"));
+  EXPECT_THAT(slower, HasSubstr(",1,8\n"));
   const auto without_pace = [](const std::string& text) {
     return std::regex_replace(text, std::regex(",[0-9]+\n"), "\n");
   };
