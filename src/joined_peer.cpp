@@ -163,7 +163,8 @@ void JoinedPeer::check_step_cost() {
                                  peer_->servo_period());
   if (haptics::BodyWorld* bodies = peer_->bodies()) {
     if (!options_.body_pace) bodies->set_pace(measure_body_pace());
-    if (!slow) slow = find_bodies_too_dear(scene, peer_->devices(), peer_->servo_period());
+    if (!slow)
+      slow = find_bodies_too_dear(scene, peer_->devices(), peer_->servo_period(), bodies->pace());
   }
   if (!slow) return;
   if (!options_.even_if_slow) throw *slow;

@@ -34,8 +34,8 @@ constexpr nanoseconds kLeastSleep = microseconds(100);
 // rest is at most kLongestRest.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
-// If the model loop reads the link, it takes all arrivals within this time together; while peers
-// wait for answers, within kPrompt.
+// If the model loop reads the link, it processes all datagrams of this interval in one pass. The
+// interval is kPrompt while a peer waits for an answer.
 constexpr nanoseconds kTogether = std::chrono::milliseconds(5);
 constexpr nanoseconds kPrompt = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams

@@ -88,8 +88,8 @@ struct AggregatorCounts {
 /// Hybrid (quorum or deadline) bundling. One thread. Allocates only when more updates are pending
 /// than ever before: in more than 4 groups, beyond 16 KiB or 128 updates in a group, 512 entities
 /// in all, or a PDU longer than the payload limit. A group takes memory only while an update is
-/// pending in it, or if it once held more than that. Cost: about 30 ns an update, however many are
-/// pending, see docs/area_of_interest_mechanisms.md.
+/// pending in it, or if it once held more than that. Cost: about 30 ns an update up to 10,000
+/// pending entities, 40 to 200 ns at 100,000, see docs/measurements/interest.md.
 class Aggregator {
  public:
   /// @throws std::invalid_argument if the payload limit leaves no room for an Entity State with

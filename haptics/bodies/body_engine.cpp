@@ -19,6 +19,7 @@ constexpr double kLongestGap = 0.1;    // [s]
 constexpr double kJitter = 5e-5;       // [s], lateness of a punctual servo
 constexpr double kBefore = 0.17;       // greatest counted work before the forces, over the period
 constexpr double kAfter = 0.4;         // the same after them
+constexpr double kLate = 0.2;          // the same of a short step, which a late servo needs
 constexpr double kMetAhead = 2.0;      // periods in which a moving body may reach a sleeping one
 constexpr int kCoarsePeriods = 16;     // after a prediction that needed too much work
 constexpr double kOver = 1.5;          // greatest work of a prediction, over its share
@@ -292,7 +293,8 @@ double BodyEngine::time_before() const noexcept {
 // Moves bodies in usual steps, within the time after the forces.
 void BodyEngine::move_rest(BodySet rest, double from, double to) noexcept {
   const double steps = std::max(1.0, std::ceil((to - from - kJitter) / kLongestStep - 1e-9));
-  solver_.allow({kAfter * (to - from) / (pace_ * steps), pushes_.pushed()});
+  const double share = std::max(kAfter * (to - from) / steps, kLate * period_);
+  solver_.allow({share / pace_, pushes_.pushed()});
   pushes_.move(rest, from, to, steps);
 }
 

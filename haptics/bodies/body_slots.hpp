@@ -91,8 +91,8 @@ class BodySlots {
     return bodies_[slot];
   }
   [[nodiscard]] BodySet carried() const noexcept { return carried_; }
-  /// `some` but carried objects, and all bodies whose boxes are within a distance [m] of theirs,
-  /// directly or through others.
+  /// `some` without carried objects, and all bodies whose boxes are within a distance [m] of
+  /// theirs, directly or through others.
   [[nodiscard]] BodySet near(BodySet some, double distance) const noexcept;
   /// Calls visit(slot) for each slot in use of the set, ascending.
   void each(BodySet some, auto&& visit) const {

@@ -177,11 +177,12 @@ class BodyWorld {
   void trace(BodyRing* ring) noexcept { trace_ = ring; }
   /// Kinetic and potential energy, relative to the initial positions [J].
   [[nodiscard]] double energy() const noexcept;
-  /// Counted work of all steps so far: seconds that they take on the reference host. The same on
-  /// each host.
+  /// Counted work of all steps so far [s], an upper estimate of their time on the reference host.
+  /// The same on each host.
   [[nodiscard]] double work() const noexcept;
-  /// Sets the time of this host for a second of counted work [s], from kLeastPace to kMostPace; 1
-  /// at construction. A greater one leaves less work for a period. Call before the first step.
+  /// Sets the pace: time of this host over that of the reference host for the same work, from
+  /// kLeastPace to kMostPace; 1 at construction. A greater one allows less work in a period. Call
+  /// before the first step.
   void set_pace(double pace) noexcept;
   [[nodiscard]] double pace() const noexcept;
   /// Energy added by the solver and taken out again [J], since the start.
@@ -189,7 +190,8 @@ class BodyWorld {
   /// Steps in which the iterative solver replaced the exact one, which failed or would have taken
   /// too long, since the start.
   [[nodiscard]] std::uint64_t approximated() const noexcept;
-  /// Predictions of a hand whose island was too large to be predicted as a whole, since the start.
+  /// Periods of a hand with the reduced prediction, because the whole one needs too much work,
+  /// since the start.
   [[nodiscard]] std::uint64_t coarse() const noexcept;
   /// Periods in which a body could not wake because all slots were awake.
   [[nodiscard]] std::uint64_t crowded() const noexcept;

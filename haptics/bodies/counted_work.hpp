@@ -6,7 +6,7 @@
 
 namespace reckon::haptics {
 
-/// Seconds of the reference host, an EPYC core of 2.4 GHz, as body_bench measures them.
+/// Upper estimates of the seconds of the reference host, an EPYC core of 2.4 GHz.
 struct CountedWork {
   static constexpr double kStep = 2e-6;      ///< of a step with any awake body
   static constexpr double kBody = 1.5e-6;    ///< of an awake body: collision, energy, sleep

@@ -13,6 +13,14 @@ namespace {
 // Iterations times contacts of the iterative solver, which bounds the time of a step.
 constexpr int kIterations = 2000, kFewest = 10, kMost = 30;
 
+// Counted work of the cheapest solution.
+double least_of(int contacts) noexcept {
+  if (contacts == 0) return 0.0;
+  const double iterated = CountedWork::iterated(contacts, kFewest);
+  return contacts > IslandPlan::kMostExact ? iterated
+                                           : std::min(iterated, CountedWork::exact(contacts));
+}
+
 int most_iterations(int contacts) noexcept {
   return std::clamp(kIterations / std::max(contacts, 1), kFewest, kMost);
 }
@@ -40,10 +48,9 @@ void IslandPlan::make(BodySet bodies, IslandEnergy::Islands& islands, BodySet pu
     is_any_large |= island.contacts > kMostExact;
   }
   if (!is_any_large && seconds_ <= seconds) return;
-  // Each island has its fewest iterations; what is left goes to exact solutions, then to more.
+  // Each island has its cheapest solution; what is left goes to exact ones, then to iterations.
   double rest = seconds;
-  for (const PlannedIsland& island : all())
-    rest -= island.contacts > 0 ? CountedWork::iterated(island.contacts, kFewest) : 0.0;
+  for (const PlannedIsland& island : all()) rest -= least_of(island.contacts);
   choose_exact(pushed, rest);
   choose_iterations(rest);
 }
@@ -79,9 +86,8 @@ void IslandPlan::choose_exact(BodySet pushed, double& rest) noexcept {
   for (const std::size_t i : std::span(order).first(count_)) {
     PlannedIsland& island = islands_[i];
     if (island.contacts == 0) continue;
-    const double more =
-        CountedWork::exact(island.contacts) - CountedWork::iterated(island.contacts, kFewest);
-    island.is_exact = island.contacts <= kMostExact && more <= rest;
+    const double more = CountedWork::exact(island.contacts) - least_of(island.contacts);
+    island.is_exact = island.contacts <= kMostExact && more <= std::max(rest, 0.0);
     if (island.is_exact) rest -= more;
     if (!island.is_exact) iterated_ |= island.bodies;
   }

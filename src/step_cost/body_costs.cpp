@@ -90,10 +90,11 @@ Eigen::AlignedBox3d largest_island(const haptics::EffectPlan& plan) {
 class Run {
  public:
   Run(const SceneFile& scene, const std::shared_ptr<const haptics::EffectPlan>& plan,
-      const Sweep& sweep, std::size_t hands, nanoseconds period)
+      const Sweep& sweep, std::size_t hands, nanoseconds period, double pace)
       : period_(period),
         world_(haptics::make_bodies(*plan, scene.scene,
                                     std::make_shared<BodyMover>(*plan, scene.nodes))) {
+    world_->set_pace(pace);
     haptics::ServoConfig config;
     config.period = period;
     config.probe_radius = scene.hand.radius;
@@ -171,7 +172,7 @@ std::optional<BodyCosts> measure_bodies(const SceneFile& scene, std::size_t hand
   const double step = pdu::to_seconds(period), settled = sweep.arrival() + 0.05;
   std::vector<double> written, whole, awake;
   for (int run = 0; run < runs.runs; ++run) {
-    Run bodies(scene, plan, sweep, hands, period);
+    Run bodies(scene, plan, sweep, hands, period, runs.pace);
     const double begin = pdu::to_seconds(thread_cpu_time());
     const auto is_over = [&](double share) {
       return pdu::to_seconds(thread_cpu_time()) - begin > share * runs.longest;

@@ -23,6 +23,7 @@ struct BodyCosts {
 struct BodyRuns {
   int runs = 3;          ///< > 0: more give a steadier result
   double longest = 0.5;  ///< [s] of CPU, of a run
+  double pace = 1.0;     ///< see haptics::BodyWorld::set_pace()
 };
 
 /// Runs the scene's own bodies, all awake, while hands sweep through the largest island. Each run

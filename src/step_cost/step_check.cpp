@@ -52,15 +52,15 @@ std::optional<StepTooDear> find_step_too_dear(const haptics::Scene& scene,
 
 std::string bodies_too_dear_sentence(const BodyCosts& costs, std::chrono::nanoseconds period) {
   return fmt::format(
-      "a servo step among {} moving bodies takes {} at p99 on this host, and its period is {} ({} "
-      "of {} steps are late; costliest: bodies)",
+      "the servo steps of one period among {} moving bodies take {} at p99 on this host, and the "
+      "period is {} ({} of {} periods are late; costliest: bodies)",
       costs.bodies, milliseconds_text(costs.p99), milliseconds_text(pdu::to_seconds(period)),
       costs.late, costs.steps);
 }
 
 std::optional<StepTooDear> find_bodies_too_dear(const SceneFile& scene, std::size_t hands,
-                                                std::chrono::nanoseconds period) {
-  const auto costs = measure_bodies(scene, hands, period, {1, 0.08});
+                                                std::chrono::nanoseconds period, double pace) {
+  const auto costs = measure_bodies(scene, hands, period, {1, 0.08, pace});
   if (!costs || !(costs->p99 > pdu::to_seconds(period))) return std::nullopt;
   return StepTooDear(bodies_too_dear_sentence(*costs, period), costs->p99, period);
 }

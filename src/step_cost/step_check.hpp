@@ -15,8 +15,8 @@
 
 namespace reckon::peer {
 
-/// "a servo step that touches stone takes 2.3 ms of this host and has 1 ms (dearest: contact 2.1
-/// ms, ..)" with the object's three dearest stages.
+/// "a servo step that touches stone takes 2.3 ms on this host, and its period is 1 ms (costliest:
+/// contact 2.1 ms, ..)" with the object's three dearest stages.
 [[nodiscard]] std::string too_dear_sentence(const DearestStep& step,
                                             std::chrono::nanoseconds period,
                                             const std::vector<haptics::PlanStage>& stages,
@@ -30,15 +30,16 @@ namespace reckon::peer {
                                                             double radius,
                                                             std::chrono::nanoseconds period);
 
-/// "a servo step among 64 moving bodies takes 1.3 ms at p99 on this host, ..".
+/// "the servo steps of one period among 64 moving bodies take 1.3 ms at p99 on this host, ..".
 [[nodiscard]] std::string bodies_too_dear_sentence(const BodyCosts& costs,
                                                    std::chrono::nanoseconds period);
 
-/// Measures steps with hands among the scene's moving bodies; too dear if one in a hundred takes
-/// longer than the period. Set-up code: takes some 80 ms in a scene with bodies, else nothing.
-/// @param hands number of hands, > 0
+/// Measures steps with hands among the scene's moving bodies; too dear if the steps of one period
+/// in a hundred take longer. Set-up code: takes some 80 ms in a scene with bodies, else nothing.
+/// @param hands number of hands, > 0  @param pace see haptics::BodyWorld::set_pace()
 [[nodiscard]] std::optional<StepTooDear> find_bodies_too_dear(const SceneFile& scene,
                                                               std::size_t hands,
-                                                              std::chrono::nanoseconds period);
+                                                              std::chrono::nanoseconds period,
+                                                              double pace);
 
 }  // namespace reckon::peer

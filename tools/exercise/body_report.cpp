@@ -67,13 +67,14 @@ void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
   if (bodies->approximated() > 0 || bodies->coarse() > 0)
     fmt::print(out,
                "                             {} steps by the iterative solver; {} periods of a "
-               "hand at more bodies than can be predicted\n",
+               "hand with the reduced prediction\n",
                bodies->approximated(), bodies->coarse());
   if (bodies->pace() != 1.0)
-    fmt::print(out,
-               "                             a pace of {:.2f}: the time of counted work on this "
-               "host, over the reference host\n",
-               bodies->pace());
+    fmt::print(
+        out,
+        "                             pace {:.2f}: time of this host for the same work, over "
+        "that of the reference host\n",
+        bodies->pace());
   if (bodies->crowded() > 0)
     fmt::print(out,
                "                             in {} steps a body stayed at rest, because 64 (the "

@@ -31,9 +31,10 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
   line.flag("--even-if-slow", options.even_if_slow,
             "run the scene even if servo steps exceed their period on this host");
-  line.option("--pace", options.pace,
-              "time of this host for counted work of bodies, relative to the reference host, 0.25 "
-              "to 8; default: measured, or 1 with --simulated-time");
+  line.option(
+      "--pace", options.pace,
+      "time of this host for the work of bodies, over that of the reference host, 0.25 to 8; "
+      "default: measured, or 1 with --simulated-time");
 }
 
 namespace {

@@ -160,7 +160,8 @@ std::optional<peer::BodyCosts> body_costs_of(const LoadedScene& scene,
   nanoseconds period{1'000'000};
   if (!devices.empty()) period = nanoseconds(std::llround(1e9 * devices.front().period));
   const auto hands = peer::devices_of(scene.file, 1).size();
-  return peer::measure_bodies(scene.file, std::max<std::size_t>(hands, 1), period);
+  return peer::measure_bodies(scene.file, std::max<std::size_t>(hands, 1), period,
+                              {.pace = peer::measure_body_pace()});
 }
 
 std::string body_text(const peer::BodyCosts& costs) {

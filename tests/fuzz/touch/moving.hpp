@@ -37,6 +37,10 @@ class MovingBooks {
   [[nodiscard]] bool are_exact() const { return !is_pushed_; }
   /// Positions of the falling body and the pinched cube [m], where they exist.
   [[nodiscard]] std::vector<Eigen::Vector3d> places() const;
+  /// See haptics::BodyWorld.
+  [[nodiscard]] std::uint64_t approximated() const {
+    return world_ == nullptr ? 0 : world_->approximated();
+  }
   void judge(Outcome& out) const;
 
  private:

@@ -128,6 +128,13 @@ TEST(TouchScenario, PinchesACubeBesideAHeap) {
   EXPECT_LE(outcome.heap_place, 1e-6);
 }
 
+// A late servo steps the bodies once more, for a short time.
+TEST(TouchScenario, PinchesACubeBesideAHeapWhileLate) {
+  const Outcome outcome =
+      try_beside_heap(scenario_of("seed=184982 late=0.03435 body=1 pile=2 paddle=0.7413"), 2);
+  EXPECT_LE(outcome.heap_place, 1e-6);
+}
+
 // Weight, spring, magnet and border; the judge computes their force independently.
 TEST(TouchScenario, RegionForceIsRightAtRest) {
   for (const char* region : {"region=3 region_strength=0.9", "region=4 region_off=0.015",

@@ -35,7 +35,7 @@ struct Outcome {
   double haunted = 0;       ///< [s], longest contact with a body that has passed the hand
   double pinched = 0;       ///< greatest speed of the pinched cube relative to the paddle
   double heap_force = 0;    ///< [N], greatest change of the first hand's force by a distant heap
-  double heap_place = 0;    ///< [m], greatest change of the position of a body beside the hand
+  double heap_place = 0;  ///< [m], the same of a body's position, while the budget of work suffices
   ModelBooks model;
   Excess liar;            ///< energy of the first hand beyond that from an honest twin of the liar
   double late_cost = 0;   ///< [J], greatest energy that a late sample took

@@ -128,10 +128,10 @@ TEST(BodyCosts, AreOfMovingBodiesWithHandsAmongThem) {
 }
 
 TEST(BodyCosts, NameTheStepThatIsTooDear) {
-  EXPECT_FALSE(find_bodies_too_dear(parse_scene_file("", "x.toml", {}), 1, 100us));
+  EXPECT_FALSE(find_bodies_too_dear(parse_scene_file("", "x.toml", {}), 1, 100us, 1.0));
   EXPECT_EQ(bodies_too_dear_sentence({64, 4e-4, 1.34e-3, 3e-4, 700, 85}, 1ms),
-            "a servo step among 64 moving bodies takes 1.3 ms at p99 on this host, and its period "
-            "is 1 ms (85 of 700 steps are late; costliest: bodies)");
+            "the servo steps of one period among 64 moving bodies take 1.3 ms at p99 on this host, "
+            "and the period is 1 ms (85 of 700 periods are late; costliest: bodies)");
 }
 
 TEST(BodyCosts, GiveThePaceOfThisHost) {

@@ -55,7 +55,7 @@ class PictureDifference {
   struct Options {
     std::uint32_t number = 0;
     std::optional<std::uint16_t> own_hand;  ///< gets kHandYours
-    bool whole = false;  ///< the page's state is unknown; so it is at a leap in time, too
+    bool whole = false;  ///< send a whole picture, as after a leap in time
   };
   /// Encodes the next picture. @param entities of `rows`, by rising slot, none twice
   /// @param room memory for the result, which grows if it has to  @return the octets, in `room`
