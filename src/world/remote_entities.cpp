@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -20,10 +21,10 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) {
   return row.updates > 0 && row.timestamp == pdu.header.timestamp &&
          row.appearance == pdu.appearance && row.type == pdu.entity_type &&
-         row.state.algorithm == state.algorithm && row.state.position == state.position &&
-         row.state.velocity == state.velocity && row.state.acceleration == state.acceleration &&
-         row.state.orientation.coeffs() == state.orientation.coeffs() &&
-         row.state.angular_velocity == state.angular_velocity;
+         row.state->algorithm == state.algorithm && row.state->position == state.position &&
+         row.state->velocity == state.velocity && row.state->acceleration == state.acceleration &&
+         row.state->orientation.coeffs() == state.orientation.coeffs() &&
+         row.state->angular_velocity == state.angular_velocity;
 }
 
 }  // namespace
@@ -50,7 +51,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       admission_(settings_, table_, owners_, outside_, counts_),
       touch_(settings.touch),
       models_(settings_, owners_, touch_, counts_),
-      bodies_(settings.body_owners, aoim.presence(), counts_) {
+      bodies_(settings.body_owners, aoim.presence(), counts_),
+      may_wait_(!settings.is_adaptive() && !held_.is_on()) {
   near_.mark_beginnings(beginnings_, owners_);
 }
 
@@ -80,15 +82,15 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   RemoteEntity* row = table_.find(update.entity);
   if (!ownership_.may_update(update, arrival, row)) return false;
   if (update.has_state) {
+    const bool watched = row == nullptr || is_watched(*row, update, arrival.now);
     deadreckon::KinematicState state;
-    if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
-        ConversionError::none) {
+    if (read_state(update.state, watched, state) != ConversionError::none) {
       counts_.refused_values.add();
       return false;
     }
-    row = row_for(row, update, arrival, state);
+    row = row_for(row, update, arrival, state, watched);
     if (row == nullptr) return false;
-    const ReceivedState heard{update.state, state, arrival, servo};
+    const ReceivedState heard{update.state, state, arrival, servo, watched ? nullptr : &frame_};
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
@@ -99,6 +101,26 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   note_taken(*row, update);
   return true;
+}
+
+// Whether a state of this row is taken whole. Otherwise its orientation is computed when somebody
+// looks, and its shown pose does not converge, because nobody has seen the one before.
+bool RemoteEntities::is_watched(RemoteEntity& row, const Inbound& update,
+                                nanoseconds now) const noexcept {
+  const pdu::EntityState& pdu = update.state;
+  const bool looked_at = row.state.is_watched(now);
+  const bool is_plain = may_wait_ && !row.haptic && !update.has_model && row.parts == 0 &&
+                        pdu.variable_parameters.empty() &&
+                        !deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes;
+  const bool goes_on = row.timestamp != pdu.header.timestamp &&
+                       row.frozen == ((pdu.appearance & pdu::kAppearanceFrozen) != 0);
+  return looked_at || !is_plain || !goes_on || bodies_.contains(row.id);
+}
+
+ConversionError RemoteEntities::read_state(const pdu::EntityState& pdu, bool watched,
+                                           deadreckon::KinematicState& state) const noexcept {
+  return watched ? from_wire(pdu, frame_, state, settings_.acceleration)
+                 : motion_from_wire(pdu, frame_, state, settings_.acceleration);
 }
 
 // The remaining effects of an update, after its state was taken.
@@ -116,6 +138,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
 // A repetition shows only that the entity still exists.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const ReceivedState& heard) noexcept {
+  row.state.forget_looks();  // is_repeat() was none
   counts_.repeats.add();
   row.last_heard = std::max(row.last_heard, heard.at.arrival);
   note_held(row, heard, row.state_time, true);

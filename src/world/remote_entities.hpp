@@ -10,6 +10,7 @@
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
@@ -114,8 +115,8 @@ class RemoteEntities {
   /// [m/s]) for each received entity, shown or not.
   void for_each_place(std::chrono::nanoseconds now, auto&& visit) const {
     for (const RemoteEntity& row : rows()) {
-      const deadreckon::Pose pose = row.predicted(now);
-      visit(row.epoch, pose.position, pose.velocity.norm());
+      const RemoteEntity::Motion motion = row.motion(now);
+      visit(row.epoch, motion.position, motion.velocity.norm());
     }
     outside_.for_each([&](const OutsideEntity& entity) {
       visit(entity.arrival().epoch, entity.position(now), entity.state().velocity.norm());
@@ -207,8 +208,12 @@ class RemoteEntities {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 
  private:
+  bool is_watched(RemoteEntity& row, const Inbound& update,
+                  std::chrono::nanoseconds now) const noexcept;
+  deadreckon::ConversionError read_state(const pdu::EntityState& pdu, bool watched,
+                                         deadreckon::KinematicState& state) const noexcept;
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
-                        const deadreckon::KinematicState& state) noexcept;
+                        deadreckon::KinematicState& state, bool watched) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
                     const deadreckon::KinematicState& state, const RemoteEntity* row) noexcept;
   void keep_outside(const RemoteEntity& row) noexcept;
@@ -254,6 +259,7 @@ class RemoteEntities {
   ForceModelIntake models_;
   SceneBodies bodies_;
   std::chrono::nanoseconds first_heard_{-1};
+  bool may_wait_;  // rows that nobody watches: no history or held state needs their states
 };
 
 }  // namespace reckon::peer

@@ -29,6 +29,8 @@ struct ReceivedState {
   const deadreckon::KinematicState& state;  ///< the same, S frame
   const Arrival& at;
   const haptics::ServoSnapshot& servo;
+  /// S, if nobody watches the row: then `state` lacks its orientation, which is computed later.
+  const deadreckon::LocalFrame* unturned_in = nullptr;
 };
 
 /// Parallel to the rows of a StateTable: the clock of each sender, and the history in scenes with
@@ -72,14 +74,17 @@ class RemoteMotion {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
 
  private:
+  Outcome take_unwatched(RemoteEntity& row, const ReceivedState& heard, Nanoseconds time) noexcept;
   static void note_state(RemoteEntity& row, const ReceivedState& heard, Nanoseconds time) noexcept;
   /// @param expected prediction by the last update for this one's instant
   void note_history(RemoteEntity& row, std::size_t place, const deadreckon::Pose& expected,
                     bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const deadreckon::Pose& shown,
                                  const deadreckon::Pose& expected) const noexcept;
-  void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
-                 const haptics::ServoSnapshot& servo) noexcept;
+  void note_jump(RemoteEntity& row, const Eigen::Vector3d& before,
+                 const Eigen::Vector3d& after) noexcept;
+  void note_force_jump(const RemoteEntity& row, const deadreckon::Pose& before,
+                       const deadreckon::Pose& after, const haptics::ServoSnapshot& servo) noexcept;
   void snap(RemoteEntity& row) noexcept;
 
   const RemoteSettings& settings_;
