@@ -71,7 +71,6 @@ void end_to_end(benchmark::State& state, const Way& way) {
     Updates bundled(way, next_group(), false, kPerDatagram);
     Updates offloaded(way, next_group(), true, kPerDatagram);
     Updates watched(way, next_group(), true, kPerDatagram);
-    watched.watch();
     Updates behind(way, next_group(), true, kPerDatagram);
     Updates single(way, next_group(), false, 1), single_offloaded(way, next_group(), true, 1);
     Rows rows;
@@ -81,7 +80,7 @@ void end_to_end(benchmark::State& state, const Way& way) {
       rows["bare9_ns"].add(plain);
       add_stages(rows, ours, plain);
       add_offloaded(rows, offloaded.turn(), ours, plain);
-      add_watched(rows, watched.turn());
+      add_watched(rows, watched.turn_watched());
       add_behind(rows, behind.turn_behind());
       const double alone = bare_one.turn(), one = single.turn().all();
       rows["bare1_ns"].add(alone);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -51,8 +50,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       admission_(settings_, table_, owners_, outside_, counts_),
       touch_(settings.touch),
       models_(settings_, owners_, touch_, counts_),
-      bodies_(settings.body_owners, aoim.presence(), counts_),
-      may_wait_(!settings.is_adaptive() && !held_.is_on()) {
+      bodies_(settings.body_owners, aoim.presence(), counts_) {
   near_.mark_beginnings(beginnings_, owners_);
 }
 
@@ -82,14 +80,17 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   RemoteEntity* row = table_.find(update.entity);
   if (!ownership_.may_update(update, arrival, row)) return false;
   if (update.has_state) {
-    const bool watched = row == nullptr || is_watched(*row, update, arrival.now);
+    const bool watched =
+        row == nullptr || update.has_model || motion_.is_watched(*row, update.state, arrival.now);
     deadreckon::KinematicState state;
-    if (read_state(update.state, watched, state) != ConversionError::none) {
+    if (motion_from_wire(update.state, frame_, state, settings_.acceleration) !=
+        ConversionError::none) {
       counts_.refused_values.add();
       return false;
     }
-    row = row_for(row, update, arrival, state, watched);
+    row = row_for(row, update, arrival, state);
     if (row == nullptr) return false;
+    if (watched) state.orientation = orientation_from_wire(update.state.orientation, frame_);
     const ReceivedState heard{update.state, state, arrival, servo, watched ? nullptr : &frame_};
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
@@ -101,26 +102,6 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   note_taken(*row, update);
   return true;
-}
-
-// Whether a state of this row is taken whole. Otherwise its orientation is computed when somebody
-// looks, and its shown pose does not converge, because nobody has seen the one before.
-bool RemoteEntities::is_watched(RemoteEntity& row, const Inbound& update,
-                                nanoseconds now) const noexcept {
-  const pdu::EntityState& pdu = update.state;
-  const bool looked_at = row.state.is_watched(now);
-  const bool is_plain = may_wait_ && !row.haptic && !update.has_model && row.parts == 0 &&
-                        pdu.variable_parameters.empty() &&
-                        !deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes;
-  const bool goes_on = row.timestamp != pdu.header.timestamp &&
-                       row.frozen == ((pdu.appearance & pdu::kAppearanceFrozen) != 0);
-  return looked_at || !is_plain || !goes_on || bodies_.contains(row.id);
-}
-
-ConversionError RemoteEntities::read_state(const pdu::EntityState& pdu, bool watched,
-                                           deadreckon::KinematicState& state) const noexcept {
-  return watched ? from_wire(pdu, frame_, state, settings_.acceleration)
-                 : motion_from_wire(pdu, frame_, state, settings_.acceleration);
 }
 
 // The remaining effects of an update, after its state was taken.

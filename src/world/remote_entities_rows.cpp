@@ -21,10 +21,10 @@ constexpr double kLeastStep = 0.01;
 }  // namespace
 
 // The row for a state, `row` or a new one; null if the entity leaves, is of no interest, or gets no
-// room.  @param state without its orientation if the row is not watched
+// room.  @param state without its orientation
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
-                                      const Arrival& arrival, deadreckon::KinematicState& state,
-                                      bool watched) noexcept {
+                                      const Arrival& arrival,
+                                      deadreckon::KinematicState& state) noexcept {
   const bool body = bodies_.contains(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0 && !body) {
     if (row != nullptr) drop(table_.place_of(*row), Removal::deactivated);
@@ -49,8 +49,10 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
       aoim_.sight().judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     counts_.not_interesting.add();
-    if (!watched) state.orientation = orientation_from_wire(update.state.orientation, frame_);
-    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state, row);
+    if (verdict != aoim::InterestVerdict::class_off) {
+      state.orientation = orientation_from_wire(update.state.orientation, frame_);
+      keep_outside(update, arrival, state, row);
+    }
     if (row != nullptr) drop(table_.place_of(*row), Removal::out_of_sight);
     return nullptr;
   }

@@ -56,6 +56,18 @@ void RemoteMotion::erase(std::size_t place, std::span<RemoteEntity> rows) noexce
   if (place < rows.size()) rows[place].order = &orders_[place];
 }
 
+bool RemoteMotion::is_watched(RemoteEntity& row, const pdu::EntityState& pdu,
+                              nanoseconds now) const noexcept {
+  const bool looked_at = row.state.is_watched(now);
+  const bool needs_each = is_adaptive_ || settings_.near_rows > 0;  // a history, or held states
+  const bool is_plain = !row.haptic && row.parts == 0 && pdu.variable_parameters.empty() &&
+                        !aoim::BodyOwners::are_for(row.id) &&
+                        !deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes;
+  const bool goes_on = row.timestamp != pdu.header.timestamp &&
+                       row.frozen == ((pdu.appearance & pdu::kAppearanceFrozen) != 0);
+  return looked_at || needs_each || !is_plain || !goes_on;
+}
+
 RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
                                          const ReceivedState& heard) noexcept {
   const auto& [pdu, state, at, servo, unturned_in] = heard;

@@ -55,6 +55,11 @@ class RemoteMotion {
   /// Prefetches the memory that take() reads.
   void prefetch(std::size_t place) const noexcept { clocks_.prefetch(place); }
 
+  /// Whether an update without a force model is taken whole. Otherwise its orientation is computed
+  /// when somebody looks, and its shown pose does not converge, because nobody has seen the one
+  /// before. Call it once for each update.
+  [[nodiscard]] bool is_watched(RemoteEntity& row, const pdu::EntityState& pdu,
+                                Nanoseconds now) const noexcept;
   /// Applies a state to the row at `place`.
   Outcome take(RemoteEntity& row, std::size_t place, const ReceivedState& heard) noexcept;
   /// Returns to a state that was received before, without a jump.
