@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/pdu/entity/variable_parameter.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/src/support/incoming_half.hpp"
 
@@ -24,7 +25,6 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-constexpr std::array<std::byte, 16> kPart{};  // a part that turns nothing
 constexpr std::size_t kEntities = 48;
 
 // Some entities have body axes, parts or a force model.
@@ -32,6 +32,19 @@ bool has_body_axes(std::size_t i) { return i % 4 == 0; }
 bool has_parts(std::size_t i) { return i % 8 == 1; }
 bool is_felt(std::size_t i) { return i % 8 == 2; }
 bool is_plain(std::size_t i) { return !has_body_axes(i) && !has_parts(i) && !is_felt(i); }
+
+// A turret at half a radian (SISO UID 58, 59).
+std::span<const std::byte> turret() {
+  static const auto octets = [] {
+    std::array<std::byte, pdu::kVariableParameterSize> part{};
+    pdu::ArticulatedPart wire;
+    wire.parameter_type = 128 * 32 + 11;
+    wire.parameter_value = 0.5F;
+    static_cast<void>(pdu::store_record(wire, part));
+    return part;
+  }();
+  return octets;
+}
 
 pdu::EntityId id_of(std::size_t i) {
   return {7, static_cast<std::uint16_t>(1 + i % 3), static_cast<std::uint16_t>(1 + i)};
@@ -110,7 +123,7 @@ class Traffic {
     pdu.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land};
     pdu.appearance = frozen_[i] ? pdu::kAppearanceFrozen : 0U;
     if (chance(0.005)) pdu.appearance |= pdu::kAppearanceDeactivated;
-    if (has_parts(i) && chance(0.5)) pdu.variable_parameters = kPart;
+    if (has_parts(i) && chance(0.5)) pdu.variable_parameters = turret();
     sent.update.has_model = is_felt(i) && chance(0.3);
     sent.update.model.k1 = 100;
     sent.epoch = i % 3 == 0 ? 0 : 17;
@@ -158,6 +171,7 @@ class LazyRows : public testing::TestWithParam<const char*> {
     EXPECT_EQ(row.timeout, lazy.timeout);
     EXPECT_EQ(row.jump_m, lazy.jump_m);
     EXPECT_EQ(row.frozen, lazy.frozen);
+    EXPECT_EQ(row.parts, lazy.parts);
     EXPECT_EQ(row.epoch, lazy.epoch);
   }
   void expect_same_changes() {
@@ -230,6 +244,7 @@ TEST_P(LazyRows, EqualWatchedRowsExceptForCorrections) {
     EXPECT_EQ(gap(row.shown(now_), lazy.shown(now_)), 0.0);
   }
   EXPECT_GT(looks, 20U);
+  EXPECT_GT(lazy_.remote.with_parts(), 0U);
   EXPECT_EQ(corrected > 0, is_lazy) << "a history needs each state";
   for (const char* name : {"disputed_in", "values_refused", "stale_in", "repeats_in", "left",
                            "not_interesting", "sender_leaps", "entered"})
