@@ -107,13 +107,19 @@ Vector3d turning_share(const KinematicState& state, AccelerationReading reading)
   return differs ? state.angular_velocity.cross(state.velocity) : Vector3d(0, 0, 0);
 }
 
-// The received state in W, with our reading of the acceleration.
+Eigen::Quaterniond orientation_of(const pdu::EulerAngles& wire) {
+  return quaternion_from_euler({wire.psi, wire.theta, wire.phi});
+}
+
+bool is_finite(const pdu::EulerAngles& wire) {
+  return std::isfinite(wire.psi) && std::isfinite(wire.theta) && std::isfinite(wire.phi);
+}
+
+// The received state in W without its orientation, with our reading of the acceleration.
 KinematicState world_state(const pdu::EntityState& pdu, AccelerationReading reading) {
   KinematicState world;
   world.algorithm = algorithm_of(pdu);
   world.position = {pdu.location.x, pdu.location.y, pdu.location.z};
-  world.orientation =
-      quaternion_from_euler({pdu.orientation.psi, pdu.orientation.theta, pdu.orientation.phi});
   world.velocity = vector(pdu.linear_velocity);
   world.acceleration = vector(pdu.dead_reckoning.linear_acceleration);
   world.angular_velocity = vector(pdu.dead_reckoning.angular_velocity);
@@ -128,12 +134,12 @@ std::string_view sentence(ConversionError error) noexcept {
   return row < kSentences.size() ? kSentences[row] : "unknown error";
 }
 
-ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
-                          AccelerationReading reading) noexcept {
+ConversionError motion_from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
+                                 KinematicState& out, AccelerationReading reading) noexcept {
   KinematicState state = world_state(pdu, reading);
+  if (!is_finite(pdu.orientation)) return Error::not_finite;
   if (const Error e = check(state); e != Error::none) return e;
   state.position = frame.scene_from_world(state.position);
-  state.orientation = frame.scene_from_world(state.orientation).normalized();
   if (!drm_terms(state.algorithm).body_axes) {
     state.velocity = frame.scene_from_world_vector(state.velocity);
     state.acceleration = frame.scene_from_world_vector(state.acceleration);
@@ -142,9 +148,22 @@ ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame, 
   return Error::none;
 }
 
+Eigen::Quaterniond orientation_from_wire(const pdu::EulerAngles& wire,
+                                         const LocalFrame& frame) noexcept {
+  return frame.scene_from_world(orientation_of(wire)).normalized();
+}
+
+ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
+                          AccelerationReading reading) noexcept {
+  const Error e = motion_from_wire(pdu, frame, out, reading);
+  if (e == Error::none) out.orientation = orientation_from_wire(pdu.orientation, frame);
+  return e;
+}
+
 ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out,
                           AccelerationReading reading) noexcept {
-  const KinematicState state = world_state(pdu, reading);
+  KinematicState state = world_state(pdu, reading);
+  state.orientation = orientation_of(pdu.orientation);
   if (const Error e = check(state); e != Error::none) return e;
   out = state;
   return Error::none;

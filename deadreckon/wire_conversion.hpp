@@ -54,6 +54,15 @@ inline constexpr double kLargestSize = 1e4;             ///< Radius, distance of
     const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
     AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
+/// The same without the orientation, of which only the numbers are checked: `out.orientation` is
+/// the identity. orientation_from_wire() computes it. Half the cost.
+[[nodiscard]] ConversionError motion_from_wire(
+    const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
+    AccelerationReading reading = AccelerationReading::component_rate) noexcept;
+/// The orientation of from_wire(), body to S. @param wire finite
+[[nodiscard]] Eigen::Quaterniond orientation_from_wire(const pdu::EulerAngles& wire,
+                                                       const LocalFrame& frame) noexcept;
+
 /// The same in the geocentric frame W of the wire, for listeners without a scene.
 [[nodiscard]] ConversionError from_wire(
     const pdu::EntityState& pdu, KinematicState& out,

@@ -65,9 +65,8 @@ struct FederateOptions {
   /// The software stop of its hands, shared with other federates of the program; must outlive the
   /// federate. Null: one of its own.
   haptics::ForceStop* force_stop = nullptr;
-  bool transfer = true;            ///< give energy on demand; otherwise no hand can push another
-  bool record_shown = false;       ///< fill Peer::shown() at every model step
-  std::size_t capacity = 100'000;  ///< most remote entities; some 2.4 kB each once it is there
+  bool transfer = true;       ///< give energy on demand; otherwise no hand can push another
+  bool record_shown = false;  ///< fill Peer::shown() at every model step
   /// Stream of the random impairment of the scene: peers with different numbers lose different
   /// datagrams.
   std::uint64_t receiver = 0;

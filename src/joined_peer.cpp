@@ -120,7 +120,6 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
-  own.capacity = options_.capacity;
   own.tap = options_.tap;
   own.force_stop = options_.force_stop;
   Link& way = sealed(link, own.site);

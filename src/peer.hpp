@@ -56,7 +56,6 @@ struct PeerOptions {
   std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()
   bool record_shown = false;                ///< fill shown() at every model step
   bool record_changes = false;              ///< for RemoteEntities::take_changes()
-  std::size_t capacity = 100'000;  ///< most remote entities; memory is touched as they come
   /// Size of each ring of datagrams between the model loop and the network [octets], at least 64
   /// KiB. 2 MiB hold 5,400 typical updates, or a stall of 110 ms at 50,000 a second; then the
   /// kernel's buffer fills. Memory is used as the ring fills.

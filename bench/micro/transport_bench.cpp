@@ -45,9 +45,15 @@ void add_offloaded(Rows& rows, const Stages& fast, const Stages& ours, double pl
   rows["offload9_ns"].add(fast.all());
   rows["offload9_over_bare9"].add(fast.all() / plain);
   rows["offload_gain"].add(ours.all() / fast.all());
+  rows["offload_table_ns"].add(fast.table);
   rows["offload_send_ns"].add(fast.send);
   rows["offload_receive_ns"].add(fast.receive);
   rows["slower_side_Mps"].add(1e3 / std::max(fast.out(), fast.in()));
+}
+
+void add_watched(Rows& rows, const Stages& watched) {
+  rows["watched9_ns"].add(watched.all());
+  rows["watched_table_ns"].add(watched.table);
 }
 
 void add_behind(Rows& rows, const Stages& late) {
@@ -64,6 +70,7 @@ void end_to_end(benchmark::State& state, const Way& way) {
     BareLoop bare(way, kPerDatagram * kUpdate, next_group()), bare_one(way, kUpdate, next_group());
     Updates bundled(way, next_group(), false, kPerDatagram);
     Updates offloaded(way, next_group(), true, kPerDatagram);
+    Updates watched(way, next_group(), true, kPerDatagram);
     Updates behind(way, next_group(), true, kPerDatagram);
     Updates single(way, next_group(), false, 1), single_offloaded(way, next_group(), true, 1);
     Rows rows;
@@ -73,6 +80,7 @@ void end_to_end(benchmark::State& state, const Way& way) {
       rows["bare9_ns"].add(plain);
       add_stages(rows, ours, plain);
       add_offloaded(rows, offloaded.turn(), ours, plain);
+      add_watched(rows, watched.turn_watched());
       add_behind(rows, behind.turn_behind());
       const double alone = bare_one.turn(), one = single.turn().all();
       rows["bare1_ns"].add(alone);

@@ -132,6 +132,12 @@ class ConvergingError {
 
   /// Shows the plain predictions from now on.
   void snap() noexcept { active_ = false; }
+  /// The same for an update at `now`.
+  void snap(double now) noexcept {
+    active_ = false;
+    started_ = true;
+    start_ = now;
+  }
 
   /// Tc of the present error [s].
   [[nodiscard]] double duration() const noexcept { return duration_; }

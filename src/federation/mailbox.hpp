@@ -121,6 +121,9 @@ struct News {
 template <class Letter>
 class LetterBox {
  public:
+  /// Makes both copies from `values`.
+  explicit LetterBox(const auto&... values) : copies_{Letter(values...), Letter(values...)} {}
+
   /// Writer: whether the last letter was given back, so that letter() may be filled and sent.
   [[nodiscard]] bool is_free() const noexcept {
     return sent_.load(std::memory_order_acquire) == nullptr;

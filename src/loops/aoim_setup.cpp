@@ -105,6 +105,7 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   settings.acceleration = scene.dead_reckoning.acceleration;
   settings.bodies_in_part = has_distance_tiers(scene.aoim.tiers);
   settings.nimbus = scene.aoim.awareness.nimbus;
+  settings.capacity = scene.network.entities;
   settings.strangers_memory = scene.network.strangers_memory;
   settings.near_rows = own_group_count(scene.aoim.tiers);
   settings.touch = scene.network.touch_rule();

@@ -37,9 +37,9 @@ void BudgetKeeper::ask_for_less(const RemoteEntities& remote, aoim::AreaOfIntere
                                 Nanoseconds now, haptics::SpscRing<Notice>& out) {
   clients_.clear();
   for (const RemoteEntity& row : remote.rows()) {
-    const deadreckon::Pose pose = row.predicted(now);
-    clients_.push_back({aoim.sight().interest().distance_to_focus(to_position(pose.position)),
-                        !pose.velocity.isZero(0)});
+    const RemoteEntity::Motion motion = row.motion(now);
+    clients_.push_back({aoim.sight().interest().distance_to_focus(to_position(motion.position)),
+                        !motion.velocity.isZero(0)});
   }
   const aoim::ChannelBudget budget = aoim.receivers()->fit(clients_, budget_);
   aoim.set_stretch(budget.stretch);

@@ -16,7 +16,7 @@ using std::chrono::nanoseconds;
 void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, bool interop,
                  RemoteHand& hand) {
   hand.id = row.id;
-  hand.state = row.state;
+  hand.state = *row.state;
   hand.state_time = row.state_time;
   hand.model = row.model;
   hand.valid_until = std::min(row.valid_until, row.felt_until);

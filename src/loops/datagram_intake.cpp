@@ -60,7 +60,7 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
       hooks_(hooks),
       counted_(counted),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
-               wiring.capacity),
+               wiring.scene.network.entities),
       overtaken_(wiring.scene.network.exercise, kFarAtOnce,
                  has_distance_tiers(wiring.scene.aoim.tiers)),
       queued_(kFarAtOnce),

@@ -51,7 +51,8 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
     static_cast<void>(
         out.push(make_end(NoticeKind::crowded, "all bodies near a hand are felt again")));
   report(NoticeKind::table_full, table_full_.turn(now),
-         "the table of remote entities is full with {} rows: further ones are not shown",
+         "the table of remote entities is full with {} rows: further ones are not shown; raise "
+         "[network] entities",
          "the table of remote entities has room again", capacity_);
   report(NoticeKind::write_full, write_overflow_.turn(now),
          "the ring to the network is full: updates are dropped",

@@ -22,7 +22,6 @@ constexpr std::size_t kLeastAsked = 1024;  // in one pass
 RemoteSettings settings_of(const ModelWiring& wiring, const aoim::BodyOwners* owners) {
   RemoteSettings settings = remote_settings(wiring.scene);
   settings.body_owners = owners;
-  settings.capacity = wiring.capacity;
   settings.record_changes = wiring.record_changes;
   return settings;
 }

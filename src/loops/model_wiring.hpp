@@ -36,7 +36,6 @@ struct ModelWiring {
   Link& link;  ///< for its condition; the loop sends and receives by the rings
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
-  std::size_t capacity = 100'000;                       ///< limit of remote entities
   bool record_changes = false;                          ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;      ///< from the read loop; may be null
   haptics::SpscRing<RefusedSender>* refused = nullptr;  ///< from the read loop; may be null

@@ -68,7 +68,8 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
   if (evicted_.begins(remote.evicted(), now)) {
     const aoim::SourceAddress& by = remote.last_evicted();
     report(make_notice(NoticeKind::rows_evicted,
-                       "{} fills the table of entities: its rows make room for other hosts",
+                       "{} fills the table of entities: its rows make room for other hosts; raise "
+                       "[network] entities if all are wanted",
                        AddressText(by).view()),
            by, now);
   }

@@ -193,6 +193,10 @@ Section<NetworkConfig> network_section() {
            "that proved to have the `key`), or a list of site:application, for example [\"1:2\", "
            "\"40:1\"], of peers and plain DIS programs, each at the address that used its number "
            "first. With `interop` the default is all"},
+          {"entities", &NetworkConfig::entities,
+           within("", 1, static_cast<double>(NetworkConfig::kMostEntities)),
+           "most entities of other peers and programs; further ones are counted (`table_full`) and "
+           "not shown. Memory is used as they come, some 1 kB each"},
           {"strangers_memory", &NetworkConfig::strangers_memory, within("B", 65536, 1e12),
            "memory for entities of plain DIS programs; 32 MiB hold 12,000 to 30,000 of them"},
           {"compression", &NetworkConfig::compression,

@@ -56,6 +56,10 @@ struct NetworkConfig {
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   /// Recipients of each datagram without multicast, see FanOutLink; empty: groups.
   std::vector<NamedPeer> peers;
+  /// Most remote entities, 1 .. kMostEntities. Address space is reserved for all; some 1 kB each is
+  /// used once they are there. Further ones are counted and not shown.
+  std::size_t entities = 100'000;
+  static constexpr std::size_t kMostEntities = 1'000'000;
   /// Memory limit [octets] for the entities of plain DIS programs
   std::size_t strangers_memory = std::size_t{32} << 20;
   ManagementRule management;       ///< senders whose Stop/Freeze and Start/Resume are obeyed

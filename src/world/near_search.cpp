@@ -28,8 +28,8 @@ class Closing {
  public:
   Closing(const RemoteEntity& row, const Pose& pose) : turn_(pose.angular_velocity.norm()) {
     speed_ = NearSearch::kHandSpeed + pose.velocity.norm() + turn_ * row.model.point.norm();
-    if (deadreckon::drm_terms(row.state.algorithm).acceleration)
-      acceleration_ = row.state.acceleration.norm();
+    if (deadreckon::drm_terms(row.state.motion().algorithm).acceleration)
+      acceleration_ = row.state.motion().acceleration.norm();
     const pdu::ForceModelKind kind = row.model.kind;
     if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
   }

@@ -27,7 +27,7 @@ EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
   view.id = row.id;
   view.marking = row.marking;
   view.kind = row.type.kind;
-  view.algorithm = row.state.algorithm;
+  view.algorithm = row.state->algorithm;
   view.position = row.shown(now).position;
   view.age = pdu::to_seconds(now - row.last_heard);
   view.rate_hz = rate_of(row, view.age);
@@ -55,7 +55,7 @@ namespace {
 
 // Squared [m^2].
 double distance_of(const RemoteEntity& row, const Eigen::Vector3d& from) noexcept {
-  const double distance = (row.state.position - from).squaredNorm();
+  const double distance = (row.state.motion().position - from).squaredNorm();
   const bool is_number = distance < std::numeric_limits<double>::max();
   return is_number ? distance : std::numeric_limits<double>::max();
 }

@@ -38,7 +38,9 @@ struct RemoteCounters {
                                "updates refused, because another peer owns their entity")),
         timed_out(counters.make("timed_out", "entities dropped after silence")),
         left(counters.make("left", "entities that were deactivated or left the radius")),
-        snaps(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
+        snaps(counters.make("snaps",
+                            "updates of watched entities shown at once: teleports, frozen or "
+                            "resumed")) {}
 
   Counter& accepted;
   Counter& refused_values;

@@ -20,10 +20,10 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) {
   return row.updates > 0 && row.timestamp == pdu.header.timestamp &&
          row.appearance == pdu.appearance && row.type == pdu.entity_type &&
-         row.state.algorithm == state.algorithm && row.state.position == state.position &&
-         row.state.velocity == state.velocity && row.state.acceleration == state.acceleration &&
-         row.state.orientation.coeffs() == state.orientation.coeffs() &&
-         row.state.angular_velocity == state.angular_velocity;
+         row.state->algorithm == state.algorithm && row.state->position == state.position &&
+         row.state->velocity == state.velocity && row.state->acceleration == state.acceleration &&
+         row.state->orientation.coeffs() == state.orientation.coeffs() &&
+         row.state->angular_velocity == state.angular_velocity;
 }
 
 }  // namespace
@@ -80,15 +80,18 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   RemoteEntity* row = table_.find(update.entity);
   if (!ownership_.may_update(update, arrival, row)) return false;
   if (update.has_state) {
+    const bool watched =
+        row == nullptr || update.has_model || motion_.is_watched(*row, update.state, arrival.now);
     deadreckon::KinematicState state;
-    if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
+    if (motion_from_wire(update.state, frame_, state, settings_.acceleration) !=
         ConversionError::none) {
       counts_.refused_values.add();
       return false;
     }
     row = row_for(row, update, arrival, state);
     if (row == nullptr) return false;
-    const ReceivedState heard{update.state, state, arrival, servo};
+    if (watched) state.orientation = orientation_from_wire(update.state.orientation, frame_);
+    const ReceivedState heard{update.state, state, arrival, servo, watched ? nullptr : &frame_};
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
@@ -116,6 +119,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
 // A repetition shows only that the entity still exists.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const ReceivedState& heard) noexcept {
+  row.state.forget_looks();  // is_repeat() was none
   counts_.repeats.add();
   row.last_heard = std::max(row.last_heard, heard.at.arrival);
   note_held(row, heard, row.state_time, true);

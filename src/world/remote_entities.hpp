@@ -40,7 +40,7 @@ namespace reckon::peer {
 enum class Gone : std::uint8_t { left, silent };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
-/// construction. An update of a known entity costs some 0.3 us.
+/// construction. An update of a known entity costs some 0.3 us, of an unwatched one 0.17 us.
 ///
 /// Only its owner changes an entity. The numbers of a living peer belong to only that peer,
 /// identified by its epoch. A row with a number that no peer has belongs to the sender (address,
@@ -114,8 +114,8 @@ class RemoteEntities {
   /// [m/s]) for each received entity, shown or not.
   void for_each_place(std::chrono::nanoseconds now, auto&& visit) const {
     for (const RemoteEntity& row : rows()) {
-      const deadreckon::Pose pose = row.predicted(now);
-      visit(row.epoch, pose.position, pose.velocity.norm());
+      const RemoteEntity::Motion motion = row.motion(now);
+      visit(row.epoch, motion.position, motion.velocity.norm());
     }
     outside_.for_each([&](const OutsideEntity& entity) {
       visit(entity.arrival().epoch, entity.position(now), entity.state().velocity.norm());
@@ -208,7 +208,7 @@ class RemoteEntities {
 
  private:
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
-                        const deadreckon::KinematicState& state) noexcept;
+                        deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
                     const deadreckon::KinematicState& state, const RemoteEntity* row) noexcept;
   void keep_outside(const RemoteEntity& row) noexcept;

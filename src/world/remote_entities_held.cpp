@@ -48,7 +48,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
 // As if the entity had been received outside. Its time is known, so no clock is used again.
 void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   const std::size_t place = table_.place_of(row);
-  HeldState known{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
+  HeldState known{*row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
   const bool near = held_.is_on() && held_.shown_by(place) != aoim::kBaseGroup;
   if (near) known = held_.behind(place, settings_.near_rows - 1);
   if (!known.is_heard) return;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -20,10 +21,10 @@ constexpr double kLeastStep = 0.01;
 }  // namespace
 
 // The row for a state, `row` or a new one; null if the entity leaves, is of no interest, or gets no
-// room.
+// room.  @param state without its orientation
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
-                                      const deadreckon::KinematicState& state) noexcept {
+                                      deadreckon::KinematicState& state) noexcept {
   const bool body = bodies_.contains(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0 && !body) {
     if (row != nullptr) drop(table_.place_of(*row), Removal::deactivated);
@@ -48,7 +49,10 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
       aoim_.sight().judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     counts_.not_interesting.add();
-    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state, row);
+    if (verdict != aoim::InterestVerdict::class_off) {
+      state.orientation = orientation_from_wire(update.state.orientation, frame_);
+      keep_outside(update, arrival, state, row);
+    }
     if (row != nullptr) drop(table_.place_of(*row), Removal::out_of_sight);
     return nullptr;
   }
@@ -72,10 +76,11 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
   const double step = std::max(aoim_.sight().interest().margin() / 10.0, kLeastStep);
   const auto look = [&](std::size_t place) -> Sight {
     const RemoteEntity& row = table_.rows()[place];
-    const deadreckon::Pose pose = row.predicted(now);
-    const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
+    const RemoteEntity::Motion motion = row.motion(now);
+    const deadreckon::KinematicState& stated = row.state.motion();
+    const double speed = deadreckon::stands_still(stated) ? 0.0 : motion.velocity.norm();
     const double spare = aoim_.sight().check(
-        {to_position(pose.position), to_position(row.state.position), now - row.state_time,
+        {to_position(motion.position), to_position(stated.position), now - row.state_time,
          nimbus_of(settings_.nimbus, row.type), static_cast<std::uint8_t>(row.type.kind)},
         kLeastStep);
     return {spare, speed};
@@ -83,7 +88,7 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
   sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
     const RemoteEntity& row = table_.rows()[place];
     // A cut-off entity is no longer received. Its owner introduces it when it returns or we join.
-    if (!aoim_.sight().is_cut_off(to_position(row.predicted(now).position))) keep_outside(row);
+    if (!aoim_.sight().is_cut_off(to_position(row.motion(now).position))) keep_outside(row);
     drop(place, Removal::out_of_sight);
   });
 }
@@ -114,7 +119,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
     return drop(table_.place_of(*row), Removal::out_of_sight);  // it has no first timestamp
   }
   row->last_heard = std::max(row->last_heard, entity.last_heard());
-  note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
+  note_sight(*row, aoim::InterestVerdict::inside, entity.state(), entity.arrival().now);
   note_taken(*row, update);
   if (bodies_.is_orphan(*row)) doubt_row(table_.place_of(*row), row->last_heard);
   counts_.entered.add();

@@ -56,9 +56,21 @@ void RemoteMotion::erase(std::size_t place, std::span<RemoteEntity> rows) noexce
   if (place < rows.size()) rows[place].order = &orders_[place];
 }
 
+bool RemoteMotion::is_watched(RemoteEntity& row, const pdu::EntityState& pdu,
+                              nanoseconds now) const noexcept {
+  const bool looked_at = row.state.is_watched(now);
+  const bool needs_each = is_adaptive_ || settings_.near_rows > 0;  // a history, or held states
+  const bool is_plain = !row.haptic && row.parts == 0 && pdu.variable_parameters.empty() &&
+                        !aoim::BodyOwners::are_for(row.id) &&
+                        !deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes;
+  const bool goes_on = row.timestamp != pdu.header.timestamp &&
+                       row.frozen == ((pdu.appearance & pdu::kAppearanceFrozen) != 0);
+  return looked_at || needs_each || !is_plain || !goes_on;
+}
+
 RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
                                          const ReceivedState& heard) noexcept {
-  const auto& [pdu, state, at, servo] = heard;
+  const auto& [pdu, state, at, servo, unturned_in] = heard;
   const bool known = row.updates > 0;
   SenderClock& clock = clocks_[place];
   const auto time =
@@ -68,24 +80,40 @@ RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
     return Outcome::stale;
   }
   if (clock.has_leapt()) counts_.sender_leaps.add();
+  if (unturned_in != nullptr) return take_unwatched(row, heard, *time);
 
   const deadreckon::Pose before = row.predicted(at.now);
   const deadreckon::Pose shown = row.shown(before, at.now);
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
-  const bool other_model = known && state.algorithm != row.state.algorithm;
+  const bool other_model = known && state.algorithm != row.state.motion().algorithm;
   const deadreckon::Pose expected = is_adaptive_ ? row.predicted(*time) : deadreckon::Pose();
   note_state(row, heard, *time);
   const deadreckon::Pose after = row.predicted(at.now);
   const bool abrupt = halted || (known && is_teleport(shown, after));
   if (is_adaptive_) note_history(row, place, expected, abrupt || other_model);
   if (known) {
-    note_jump(row, before, after, servo);
+    note_jump(row, before.position, after.position);
+    if (row.haptic) note_force_jump(row, before, after, servo);
     row.convergence.restart(settings_.convergence.settings, knocked(row, shown, before, after),
                             row.expected(after, at.now), pdu::to_seconds(at.now));
   }
   if (abrupt) snap(row);
+  row.state.forget_looks();
   return abrupt ? Outcome::abrupt : Outcome::smooth;
+}
+
+// Nobody has seen a pose from which the shown one would have to converge.
+RemoteMotion::Outcome RemoteMotion::take_unwatched(RemoteEntity& row, const ReceivedState& heard,
+                                                   nanoseconds time) noexcept {
+  const bool known = row.updates > 0;
+  const Eigen::Vector3d before = row.motion(heard.at.now).position;
+  note_state(row, heard, time);
+  if (known) {
+    note_jump(row, before, row.motion(heard.at.now).position);
+    row.convergence.snap(pdu::to_seconds(heard.at.now));
+  }
+  return Outcome::smooth;
 }
 
 void RemoteMotion::snap(RemoteEntity& row) noexcept {
@@ -96,7 +124,11 @@ void RemoteMotion::snap(RemoteEntity& row) noexcept {
 void RemoteMotion::note_state(RemoteEntity& row, const ReceivedState& heard,
                               nanoseconds time) noexcept {
   const pdu::EntityState& pdu = heard.pdu;
-  row.state = heard.state;
+  if (heard.unturned_in != nullptr) {
+    row.state.put(heard.state, pdu.orientation, *heard.unturned_in);
+  } else {
+    row.state = heard.state;
+  }
   row.state_time = time;
   row.timestamp = pdu.header.timestamp;
   row.last_heard = heard.at.arrival;
@@ -107,12 +139,12 @@ void RemoteMotion::note_state(RemoteEntity& row, const ReceivedState& heard,
   row.appearance = pdu.appearance;
   row.capabilities = pdu.capabilities;
   row.strokes = row.epoch != 0 && row.haptic && row.type.kind == pdu::EntityKind::life_form &&
-                deadreckon::drm_terms(row.state.algorithm).acceleration &&
-                !row.state.acceleration.isZero(0);
+                deadreckon::drm_terms(heard.state.algorithm).acceleration &&
+                !heard.state.acceleration.isZero(0);
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
   if (!row.haptic)
     row.timeout = deadreckon::timeout(
-        deadreckon::nominal_heartbeat(row.type, deadreckon::stands_still(row.state)));
+        deadreckon::nominal_heartbeat(row.type, deadreckon::stands_still(heard.state)));
 }
 
 bool RemoteMotion::is_teleport(const deadreckon::Pose& shown,
@@ -127,21 +159,24 @@ bool RemoteMotion::is_teleport(const deadreckon::Pose& shown,
 // ends if a better estimate of the sender's clock has reversed the order of its instants.
 void RemoteMotion::note_history(RemoteEntity& row, std::size_t place,
                                 const deadreckon::Pose& expected, bool abrupt) noexcept {
-  const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
+  const auto sample = deadreckon::motion_sample(*row.state, pdu::to_seconds(row.state_time));
   deadreckon::AdaptiveOrder& order = orders_[place];
   if (!abrupt && row.updates > 0 && order.add(sample, expected)) return;
   deadreckon::AdaptiveSettings settings;
-  settings.sent = sent_rates(row.state.algorithm);
+  settings.sent = sent_rates(row.state->algorithm);
   order = deadreckon::AdaptiveOrder(settings);
   static_cast<void>(order.add(sample));
 }
 
-void RemoteMotion::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
-                             const deadreckon::Pose& after,
-                             const haptics::ServoSnapshot& servo) noexcept {
-  row.jump_m = (after.position - before.position).norm();
+void RemoteMotion::note_jump(RemoteEntity& row, const Eigen::Vector3d& before,
+                             const Eigen::Vector3d& after) noexcept {
+  row.jump_m = (after - before).norm();
   pose_jumps_.add(row.jump_m);
-  if (!row.haptic) return;
+}
+
+void RemoteMotion::note_force_jump(const RemoteEntity& row, const deadreckon::Pose& before,
+                                   const deadreckon::Pose& after,
+                                   const haptics::ServoSnapshot& servo) noexcept {
   const deadreckon::ProbeState probe{servo.device, servo.device_velocity, settings_.probe_radius};
   const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
   const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);

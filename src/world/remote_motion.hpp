@@ -29,6 +29,8 @@ struct ReceivedState {
   const deadreckon::KinematicState& state;  ///< the same, S frame
   const Arrival& at;
   const haptics::ServoSnapshot& servo;
+  /// S, if nobody watches the row: then `state` lacks its orientation, which is computed later.
+  const deadreckon::LocalFrame* unturned_in = nullptr;
 };
 
 /// Parallel to the rows of a StateTable: the clock of each sender, and the history in scenes with
@@ -53,6 +55,11 @@ class RemoteMotion {
   /// Prefetches the memory that take() reads.
   void prefetch(std::size_t place) const noexcept { clocks_.prefetch(place); }
 
+  /// Whether an update without a force model is taken whole. Otherwise its orientation is computed
+  /// when somebody looks, and its shown pose does not converge, because nobody has seen the one
+  /// before. Call it once for each update.
+  [[nodiscard]] bool is_watched(RemoteEntity& row, const pdu::EntityState& pdu,
+                                Nanoseconds now) const noexcept;
   /// Applies a state to the row at `place`.
   Outcome take(RemoteEntity& row, std::size_t place, const ReceivedState& heard) noexcept;
   /// Returns to a state that was received before, without a jump.
@@ -72,14 +79,17 @@ class RemoteMotion {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
 
  private:
+  Outcome take_unwatched(RemoteEntity& row, const ReceivedState& heard, Nanoseconds time) noexcept;
   static void note_state(RemoteEntity& row, const ReceivedState& heard, Nanoseconds time) noexcept;
   /// @param expected prediction by the last update for this one's instant
   void note_history(RemoteEntity& row, std::size_t place, const deadreckon::Pose& expected,
                     bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const deadreckon::Pose& shown,
                                  const deadreckon::Pose& expected) const noexcept;
-  void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
-                 const haptics::ServoSnapshot& servo) noexcept;
+  void note_jump(RemoteEntity& row, const Eigen::Vector3d& before,
+                 const Eigen::Vector3d& after) noexcept;
+  void note_force_jump(const RemoteEntity& row, const deadreckon::Pose& before,
+                       const deadreckon::Pose& after, const haptics::ServoSnapshot& servo) noexcept;
   void snap(RemoteEntity& row) noexcept;
 
   const RemoteSettings& settings_;

@@ -21,8 +21,8 @@ struct RemoteSettings {
   ConvergenceConfig convergence;
   deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
   /// Most entities, 1 .. 2^24. Address space is reserved for all, and memory is touched as they
-  /// come: some 900 octets each, 1,500 in scenes with adaptive prediction.
-  std::size_t capacity = 100'000;
+  /// come: some 1,000 octets each, 1,500 in scenes with adaptive prediction.
+  std::size_t capacity = NetworkConfig().entities;
   /// Most memory for entities of plain DIS programs, whose identity is unproven [octets].
   std::size_t strangers_memory = std::size_t{32} << 20;
   double contact_reach = kContactReach;  ///< [m], >= 0, reach of find_near()

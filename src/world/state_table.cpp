@@ -28,6 +28,22 @@ StateAge age_of(const RemoteEntity& row, nanoseconds now) noexcept {
   return {since, row.timeout, row.frozen, doubted};
 }
 
+deadreckon::Pose pose_of(const RemoteEntity& row, const deadreckon::KinematicState& state,
+                         nanoseconds now) noexcept {
+  const StateAge age = age_of(row, now);
+  // A program without trailers compares with the standard's prediction, so this uses that one.
+  deadreckon::Pose pose = row.epoch != 0 ? deadreckon::extrapolate_trusted(state, age.tau)
+                                         : deadreckon::extrapolate(state, age.tau);
+  age.hold(pose);
+  return pose;
+}
+
+// A row after a look: a copy for other threads is whole, and their reading does not change it.
+const RemoteEntity& seen(const RemoteEntity& row) noexcept {
+  static_cast<void>(*row.state);
+  return row;
+}
+
 // The pose near `predicted` according to the history in `order`, if there is one.
 deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::AdaptiveOrder* order,
                              const deadreckon::Pose& predicted, nanoseconds now) noexcept {
@@ -41,12 +57,12 @@ deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::Adaptive
 }  // namespace
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
-  const StateAge age = age_of(*this, now);
-  // A program without trailers compares with the standard's prediction, so this uses that one.
-  deadreckon::Pose pose = epoch != 0 ? deadreckon::extrapolate_trusted(state, age.tau)
-                                     : deadreckon::extrapolate(state, age.tau);
-  age.hold(pose);
-  return pose;
+  return pose_of(*this, *state, now);
+}
+
+RemoteEntity::Motion RemoteEntity::motion(nanoseconds now) const noexcept {
+  const deadreckon::Pose pose = pose_of(*this, state.motion(), now);
+  return {pose.position, pose.velocity};
 }
 
 deadreckon::Pose RemoteEntity::expected(nanoseconds now) const noexcept {
@@ -69,7 +85,7 @@ deadreckon::Pose RemoteEntity::shown(const deadreckon::Pose& predicted,
   return convergence.shown(expected(predicted, now), at);
 }
 
-RemoteCopy::RemoteCopy(const RemoteEntity& row) noexcept : entity_(row) {
+RemoteCopy::RemoteCopy(const RemoteEntity& row) noexcept : entity_(seen(row)) {
   entity_.order = nullptr;
   if (row.order != nullptr) order_ = *row.order;
 }

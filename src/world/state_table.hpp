@@ -18,6 +18,7 @@
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/peer/world/key_index.hpp"
+#include "reckon/peer/world/lazy_state.hpp"
 #include "reckon/peer/world/row_column.hpp"
 
 namespace reckon::peer {
@@ -42,7 +43,7 @@ struct RemoteEntity {
   std::uint32_t capabilities = 0;  ///< as on the wire
   std::uint32_t epoch = 0;         ///< of the owner's process; 0 = a peer without trailers
 
-  deadreckon::KinematicState state;        ///< S frame, at state_time
+  LazyState state;                         ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
   /// Since when its owner is silent for too long; the entity comes to rest from then on. kTrusted
@@ -83,6 +84,11 @@ struct RemoteEntity {
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
+  /// Position [m] and velocity [m/s] of predicted(): no look, see LazyState.
+  struct Motion {
+    Eigen::Vector3d position, velocity;
+  };
+  [[nodiscard]] Motion motion(std::chrono::nanoseconds now) const noexcept;
   /// Pose to which the shown one converges: predicted(), or one near it by `order` if adaptive.
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.

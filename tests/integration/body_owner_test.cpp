@@ -144,7 +144,7 @@ TEST(BodyOwner, ForgedAddressMovesNothing) {
   }
   EXPECT_GT(forged, 0u);
   ASSERT_NE(exercise.cube_row(), nullptr);
-  EXPECT_LT(exercise.cube_row()->state.position.norm(), 0.1);
+  EXPECT_LT(exercise.cube_row()->state->position.norm(), 0.1);
   EXPECT_NEAR(exercise.cube_at(), 0.0, 1e-4);
   EXPECT_GE(exercise.count(kSecond, "datagrams_refused"), forged);
 }

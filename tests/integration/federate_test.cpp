@@ -213,6 +213,30 @@ TEST(FederateObjects, ThatAreGoneCannotBeChanged) {
   EXPECT_NE(world[0].register_object(truck(), {}), handle);
 }
 
+// One host may fill the table; it makes room for another one.
+TEST(FederateObjects, FillTheTableUpToTheScenesEntities) {
+  peer::SceneFile scene = country();
+  scene.network.entities = 4;
+  World world(scene, 3);
+  const auto count = [&](const char* name) {
+    return world[1].peer().counters().find(name)->value();
+  };
+  const auto add = [&](std::size_t federate) {
+    world[federate].publish(EntityClass{kTruck});
+    const auto handle = world[federate].register_object(truck(), {});
+    world.run(500ms);
+    return world[federate].id_of(handle);
+  };
+  world.run(500ms);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(world[1].find(add(0)));
+  EXPECT_EQ(count("table_full"), 0U);
+  EXPECT_FALSE(world[1].find(add(0)));
+  EXPECT_GE(count("table_full"), 1U);
+  EXPECT_TRUE(world[1].find(add(2)));
+  EXPECT_GE(count("rows_evicted"), 1U);
+  EXPECT_EQ(world[1].size(), 4U);
+}
+
 TEST(FederateObjects, SendTheirLastStateBeforeTheyResign) {
   World world(country());
   std::size_t fires = 0;

@@ -91,10 +91,10 @@ TEST_F(Forgery, OfADeactivationIsRefused) {
 }
 
 TEST_F(Forgery, OfAPlaceIsRefused) {
-  const Eigen::Vector3d before = row(world_.peer(1).own_id())->state.position;
+  const Eigen::Vector3d before = row(world_.peer(1).own_id())->state->position;
   forge([](pdu::EntityState& state) { state.location.x += 3.0; });
   ASSERT_NE(row(world_.peer(1).own_id()), nullptr);
-  EXPECT_LT((row(world_.peer(1).own_id())->state.position - before).norm(), 0.1);
+  EXPECT_LT((row(world_.peer(1).own_id())->state->position - before).norm(), 0.1);
   EXPECT_NE(row(world_.peer(1).own_id())->epoch, 0U);
   expect_refused_and_told();
 }
@@ -161,8 +161,7 @@ TEST_F(Forgery, OfAnOrderIsRefusedAndReported) {
   }
   EXPECT_FALSE(world_.view(0).frozen);
   EXPECT_EQ(world_.count(0, "orders_refused"), 4U);
-  EXPECT_THAT(world_.notices(0),
-              Contains(HasSubstr("9:9:0 at " + endpoint(2) + " to freeze")));
+  EXPECT_THAT(world_.notices(0), Contains(HasSubstr("9:9:0 at " + endpoint(2) + " to freeze")));
 }
 
 TEST_F(Forgery, OfAPermittedPeersOrderIsRefused) {

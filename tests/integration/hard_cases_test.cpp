@@ -170,11 +170,11 @@ TEST_F(HardCases, CopiesOfAnOldUpdateAreNoLeap) {
       listener.hear(listener.state(seconds(1) + i * milliseconds(100)),
                     seconds(100) + i * milliseconds(100));
     }
-    const double x = listener.row().state.position.norm();
+    const double x = listener.row().state->position.norm();
     for (int i = 1; i < 200 && gap * i < seconds(11); ++i) {
       listener.hear(listener.state(seconds(1)), seconds(102) + i * gap);
     }
-    EXPECT_EQ(listener.row().state.position.norm(), x);
+    EXPECT_EQ(listener.row().state->position.norm(), x);
     EXPECT_EQ(listener.count("sender_leaps"), 0u) << gap.count();
   }
 }

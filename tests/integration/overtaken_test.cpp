@@ -75,8 +75,8 @@ TEST_F(Overtaken, StatesLeaveTheNewestShown) {
   world_.run(2);
   ASSERT_NE(row(1), nullptr);
   ASSERT_NE(row(3), nullptr);
-  EXPECT_EQ(row(1)->state.position, row(3)->state.position);
-  EXPECT_EQ(row(2)->state.position, row(3)->state.position);
+  EXPECT_EQ(row(1)->state->position, row(3)->state->position);
+  EXPECT_EQ(row(2)->state->position, row(3)->state->position);
 }
 
 TEST_F(Overtaken, StatesTakenAtOnceAreNotOvertaken) {

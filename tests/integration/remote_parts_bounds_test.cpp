@@ -73,8 +73,8 @@ TEST(RemoteParts, InvalidOnesAreOmittedAndCounted) {
 
   for (const double t : {1.0, 2.0, 3.0}) plain.hear({}, t, t);
   EXPECT_EQ(receiver.count("updates_in"), 3U);
-  EXPECT_EQ(receiver.row()->shown(pdu::from_seconds(3.05)).position,
-            plain.row()->shown(pdu::from_seconds(3.05)).position);
+  EXPECT_EQ(receiver.row()->predicted(pdu::from_seconds(3.05)).position,
+            plain.row()->predicted(pdu::from_seconds(3.05)).position);
 }
 
 TEST(RemoteParts, StayFiniteForRandomOctets) {

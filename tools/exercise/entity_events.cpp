@@ -6,15 +6,13 @@
 
 #include <string>
 
-#include "reckon/peer/peer.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
 
-EntityEvents::Letter::Letter() {
-  const std::size_t most = peer::PeerOptions{}.capacity;
-  heard.reserve(most);
-  removed.reserve(most);
+EntityEvents::Letter::Letter(std::size_t entities) {
+  heard.reserve(entities);
+  removed.reserve(entities);
 }
 
 void EntityEvents::begin_pass(peer::ModelLoop&) noexcept {}

@@ -26,6 +26,9 @@ namespace reckon::tools {
 ///   events.report(elapsed, stdout);
 class EntityEvents final : public peer::ModelGuest {
  public:
+  /// @param entities most rows of the table: [network] entities of the scene
+  explicit EntityEvents(std::size_t entities) : letters_(entities) {}
+
   void begin_pass(peer::ModelLoop& loop) noexcept override;
   void receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
                const peer::InteractionSender& sender) noexcept override;
@@ -49,7 +52,7 @@ class EntityEvents final : public peer::ModelGuest {
   // Has room for a whole table, so that the loop allocates nothing; pages are used only as it
   // fills.
   struct Letter {
-    Letter();
+    explicit Letter(std::size_t entities);
     std::vector<Heard> heard;  // new or changed
     std::vector<pdu::EntityId> removed;
   };

@@ -235,7 +235,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   peer::SceneFile scene = checked_scene(options, console);
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
-  EntityEvents events;  // outlives the peer
+  EntityEvents events(scene.network.entities);  // outlives the peer
   std::optional<BalanceLines> balance;
   if (options.balance) balance.emplace(*options.balance, console.out);
   // Before the peer: it does not join if the metrics port cannot be used.

@@ -150,12 +150,13 @@ SettingRows scene_limits(const peer::SceneFile& file) {
   constexpr std::size_t kPlaces = 64;
   const std::size_t row = sizeof(peer::RemoteEntity) + sizeof(peer::SenderClock) + kPlaces +
                           (adaptive ? sizeof(deadreckon::AdaptiveOrder) : 0);
+  const std::size_t entities = file.network.entities;
   constexpr double kMebi = 1024.0 * 1024.0;
   return {
       {"remote entities",
        fmt::format("{} rows of {} octets, {:.0f} MiB when full; memory is used as it fills; "
-                   "further ones are counted (table_full) and not shown",
-                   options.capacity, row, static_cast<double>(options.capacity * row) / kMebi)},
+                   "further ones are counted (table_full) and not shown; [network] entities",
+                   entities, row, static_cast<double>(entities * row) / kMebi)},
       {"rings of datagrams",
        fmt::format(
            "{:.3g} MiB each way; memory is used as they fill; when full, received datagrams wait "

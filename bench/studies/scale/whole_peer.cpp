@@ -81,8 +81,8 @@ peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) 
   peer::FederateOptions options;
   options.name = "whole";
   options.scene = scale_scene(setting);
+  options.scene->network.entities = setting.crowd.entities;  // room is reserved for all
   options.site = kSite;
-  options.capacity = setting.crowd.entities;  // the table reserves room for all entities
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
 }

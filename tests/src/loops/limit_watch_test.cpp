@@ -13,6 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -50,7 +51,8 @@ TEST_F(LimitWatchTest, ReportsUnfeltHandsOnceAndTheirEndOnce) {
 
 TEST_F(LimitWatchTest, ReportsAFullTableAndFullRings) {
   counters_.make("table_full", "").add();
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("full with 1234 rows")));
+  EXPECT_THAT(run(seconds(1)), ElementsAre(AllOf(HasSubstr("full with 1234 rows"),
+                                                 HasSubstr("raise [network] entities"))));
   EXPECT_THAT(run(seconds(4)),
               ElementsAre(HasSubstr("the table of remote entities has room again")));
   counters_.make("write_overflow", "").add();

@@ -133,6 +133,7 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.network.ttl, silent.network.ttl);
   EXPECT_EQ(told.network.rate, silent.network.rate);
   EXPECT_EQ(told.network.offload, silent.network.offload);
+  EXPECT_EQ(told.network.entities, silent.network.entities);
   EXPECT_EQ(told.network.bundle_max, silent.network.bundle_max);
   EXPECT_EQ(told.network.bundle.hold, silent.network.bundle.hold);
   EXPECT_EQ(told.network.bundle.updates, silent.network.bundle.updates);

@@ -108,12 +108,12 @@ TEST_F(BodyRows, OnlyTheOwnerChangesABody) {
   hear(state(2, 0, 1.3), 1.3, kThief, kOwner, 6);  // names the owner
   hear(state(2, 0, 1.4), 1.4, kOwner, kThief, 6);  // the owner names another
   hear(2, 1.5, 0, 6);                              // plain DIS
-  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 1.0, 1e-6);
   EXPECT_EQ(row()->epoch, kOwner);
   EXPECT_EQ(count("bodies_disputed"), 3U);
   EXPECT_EQ(count("bodies_early"), 2U) << "the table may name it soon";
   for (int i = 0; i < 20; ++i) hear(2, 2.0 + 0.1 * i, kThief, 6);
-  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 1.0, 1e-6);
   EXPECT_GT(count("bodies_disputed"), 10U) << "it does not";
 }
 
@@ -136,14 +136,14 @@ TEST_F(BodyRows, NumbersWithoutABodyAreRefused) {
 TEST_F(BodyRows, OlderVersionIsRefused) {
   hear(1, 1, kOwner, 5);
   hear(2, 1.1, kOwner, 4);
-  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 1.0, 1e-6);
   EXPECT_EQ(count("bodies_stale"), 1U);
   own(kOwner, 7);
   hear(2, 1.2, kOwner, 6);
-  EXPECT_NEAR(row()->state.position.x(), 1.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 1.0, 1e-6);
   EXPECT_EQ(count("bodies_stale"), 2U);
   hear(2, 1.3, kOwner, 7);
-  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 2.0, 1e-6);
 }
 
 TEST_F(BodyRows, NextOwnerTakesTheRowWithoutAJump) {
@@ -169,7 +169,7 @@ TEST_F(BodyRows, NextOwnerMayHaveAnotherClock) {
   hear(1, 1, kOwner);
   own(kNext);
   hear(state(2, 0, 1 - 900), 1.1, kNext, kNext, 2);  // a quarter of an hour behind
-  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 2.0, 1e-6);
   EXPECT_EQ(count("stale_in"), 0U);
 }
 
@@ -178,11 +178,11 @@ TEST_F(BodyRows, FormerOwnerIsRefusedAfterTheTakeOver) {
   own(kNext);
   hear(2, 1.1, kNext, 2);
   hear(1, 1.2, kOwner, 1);
-  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 2.0, 1e-6);
   own(kOwner);  // a table that lags behind the row
   hear(1, 1.3, kOwner, 1);
   hear(1, 1.3, kOwner, 2);
-  EXPECT_NEAR(row()->state.position.x(), 2.0, 1e-6);
+  EXPECT_NEAR(row()->state->position.x(), 2.0, 1e-6);
   EXPECT_EQ(row()->epoch, kNext);
   EXPECT_EQ(count("bodies_stale"), 2U);
 }

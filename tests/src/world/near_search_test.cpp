@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/src/support/poses.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
@@ -57,14 +58,16 @@ class Crowd {
   // An update: another motion, and sometimes another or no model.
   void move(std::size_t place) {
     RemoteEntity& row = table_.rows()[place];
-    row.state.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(1 + random_.below(9));
-    row.state.position = random_.vector(size_);
-    row.state.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(
+    deadreckon::KinematicState state;
+    state.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(1 + random_.below(9));
+    state.position = random_.vector(size_);
+    state.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(
         random_.within(3), Vector3d(random_.vector(1) + Vector3d(0, 0, 2)).normalized()));
     const double speed = random_.below(3) == 0 ? 0.0 : std::pow(10.0, random_.within(1.5));
-    row.state.velocity = random_.vector(speed);
-    row.state.acceleration = random_.vector(speed);
-    row.state.angular_velocity = random_.vector(random_.below(2) == 0 ? 0.0 : 2.0);
+    state.velocity = random_.vector(speed);
+    state.acceleration = random_.vector(speed);
+    state.angular_velocity = random_.vector(random_.below(2) == 0 ? 0.0 : 2.0);
+    row.state = state;
     row.state_time = now_ - milliseconds(random_.below(50));
     row.frozen = random_.below(10) == 0;
     row.timeout = random_.below(5) == 0 ? 0.3 : 12.0;
@@ -103,7 +106,9 @@ class Crowd {
       all += depths.size();
       EXPECT_EQ(near.size() + found_[i].left_out(), depths.size());
       EXPECT_EQ(near.size(), std::min(depths.size(), haptics::kMaxRemoteHands));
-      if (near.size() == depths.size()) { EXPECT_EQ(depths_of(near), depths); }
+      if (near.size() == depths.size()) {
+        EXPECT_EQ(depths_of(near), depths);
+      }
     }
     return all;
   }
@@ -255,8 +260,7 @@ TEST(NearSearch, ChecksDistantEntitiesRarely) {
   Crowd crowd(kRows, 1, 100'000);
   for (std::size_t i = 0; i < kRows; ++i) {
     crowd.add();
-    crowd.table().rows()[i].state = {};
-    crowd.table().rows()[i].state.position = {100.0 + static_cast<double>(i), 0, 0};
+    crowd.table().rows()[i].state = test::last_sent_at(100.0 + static_cast<double>(i));
     crowd.table().rows()[i].model.kind = Kind::sphere;
     crowd.give_model(i);
     crowd.table().rows()[i].model.kind = Kind::sphere;
@@ -308,8 +312,7 @@ TEST(NearSearch, KeepsTheNearestAndCountsTheRest) {
   for (int i = 0; i < 100; ++i) {
     crowd.add();
     RemoteEntity& row = crowd.table().rows().back();
-    row.state = {};
-    row.state.position.x() = 0.002 * ((37 * i) % 100);
+    row.state = test::last_sent_at(0.002 * ((37 * i) % 100));
     row.model = {};
     row.model.kind = Kind::sphere;
     row.haptic = true;
@@ -325,7 +328,7 @@ TEST(NearSearch, KeepsTheNearestAndCountsTheRest) {
 TEST(NearSearch, OutlivesAHandThatIsNowhere) {
   Crowd crowd(4, 1, 1);
   crowd.add();
-  crowd.table().rows()[0].state = {};
+  crowd.table().rows()[0].state = test::last_sent_at(0);
   crowd.give_model(0);
   crowd.table().rows()[0].model = {};
   crowd.table().rows()[0].model.kind = Kind::sphere;

@@ -184,7 +184,7 @@ TEST(OutsideEntities, KeepTheirPlainDisOwnerWhileItSends) {
     receiver.look(25);
     receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 25.1, appearance);
     ASSERT_NE(receiver.find(), nullptr);
-    EXPECT_NEAR(receiver.find()->state.position.x(), 1500, 1e-3);
+    EXPECT_NEAR(receiver.find()->state->position.x(), 1500, 1e-3);
     EXPECT_EQ(receiver.count("disputed_in"), 2u);
   }
 }
@@ -258,7 +258,7 @@ TEST(ShownEntities, ComeBackAsTheyWere) {
   receiver.look(3.2);
   ASSERT_NE(receiver.find(), nullptr);
   const RemoteEntity& after = *receiver.find();
-  EXPECT_EQ(after.state.position, before.state.position);
+  EXPECT_EQ(after.state->position, before.state->position);
   EXPECT_EQ(after.state_time, before.state_time);
   EXPECT_EQ(after.last_heard, before.last_heard);
   EXPECT_EQ(after.timestamp, before.timestamp);

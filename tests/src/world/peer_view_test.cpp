@@ -12,6 +12,8 @@
 #include <set>
 #include <vector>
 
+#include "reckon/tests/src/support/poses.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -22,7 +24,7 @@ std::vector<RemoteEntity> on_a_line(const std::vector<double>& places) {
   std::vector<RemoteEntity> rows(places.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].id = {1, 2, static_cast<std::uint16_t>((7919 * (i + 1)) % 65521)};
-    rows[i].state.position.x() = places[i];
+    rows[i].state = test::last_sent_at(places[i]);
   }
   return rows;
 }
@@ -36,7 +38,7 @@ std::vector<double> line(std::size_t count) {
 std::set<double> places_of(std::span<const std::uint32_t> chosen,
                            const std::vector<RemoteEntity>& rows) {
   std::set<double> places;
-  for (const std::uint32_t i : chosen) places.insert(rows[i].state.position.x());
+  for (const std::uint32_t i : chosen) places.insert(rows[i].state->position.x());
   return places;
 }
 
@@ -89,13 +91,13 @@ TEST(ViewChoice, StaysWhereDistancesTremble) {
   ViewChoice choice;
   std::vector<std::uint32_t> first;
   for (int picture = 0; picture < 200; ++picture) {
-    for (RemoteEntity& row : rows) row.state.position.x() = 100 * trembling(random);
+    for (RemoteEntity& row : rows) row.state = test::last_sent_at(100 * trembling(random));
     const auto chosen = choice.choose(rows, Vector3d::Zero());
     if (picture == 0) first.assign(chosen.begin(), chosen.end());
     ASSERT_TRUE(std::equal(chosen.begin(), chosen.end(), first.begin(), first.end()));
   }
   const std::uint32_t absent = 64 * 65 / 2 - std::accumulate(first.begin(), first.end(), 0U);
-  rows[absent].state.position.x() = 80;
+  rows[absent].state = test::last_sent_at(80);
   const auto chosen = choice.choose(rows, Vector3d::Zero());
   EXPECT_NE(std::find(chosen.begin(), chosen.end(), absent), chosen.end());
 }
@@ -111,7 +113,7 @@ TEST(ViewChoice, FindsTheNearestWithinAFewPictures) {
   for (std::size_t i = 0; i < kCount; ++i) {
     rows[i].id = {1, static_cast<std::uint16_t>(1 + i / 60'000),
                   static_cast<std::uint16_t>(i % 60'000)};
-    rows[i].state.position.x() = places[i];
+    rows[i].state = test::last_sent_at(places[i]);
   }
   ViewChoice choice;
   constexpr std::size_t kPictures = kCount / ViewChoice::kLooks + 1;
@@ -127,7 +129,7 @@ TEST(ViewChoice, FindsTheNearestWithinAFewPictures) {
   EXPECT_EQ(*found.begin(), 1.0);
 
   const auto near = std::find(places.begin(), places.end(), 90'000.0) - places.begin();
-  rows[static_cast<std::size_t>(near)].state.position.x() = 0.5;
+  rows[static_cast<std::size_t>(near)].state = test::last_sent_at(0.5);
   for (std::size_t i = 0; i < kPictures; ++i)
     found = places_of(choice.choose(rows, Vector3d::Zero()), rows);
   EXPECT_EQ(*found.begin(), 0.5);

@@ -82,16 +82,18 @@ class Twins {
 RemoteEntity bounced(std::uint32_t epoch) {
   RemoteEntity row;
   row.epoch = epoch;
-  row.state.algorithm = pdu::DeadReckoningAlgorithm::rvw;
-  row.state.velocity = {0, 0, 5};
-  row.state.acceleration = {0, 0, 600};
+  deadreckon::KinematicState state;
+  state.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  state.velocity = {0, 0, 5};
+  state.acceleration = {0, 0, 600};
+  row.state = state;
   return row;
 }
 
 TEST(RemoteEntity, OfAPeerIsNotAcceleratedForEver) {
   const RemoteEntity row = bounced(1);
   const deadreckon::Pose pose = row.predicted(std::chrono::seconds(1));
-  EXPECT_EQ(pose.position, deadreckon::extrapolate_trusted(row.state, 1).position);
+  EXPECT_EQ(pose.position, deadreckon::extrapolate_trusted(*row.state, 1).position);
   EXPECT_LT(pose.position.z(), 6);
 }
 

@@ -76,8 +76,8 @@ passive = true
 [[device]]
 peer = 2
 )";
-  EntityEvents events_;
   peer::SceneFile scene_;
+  EntityEvents events_{scene_.network.entities};
   InProcess world_;
 };
 

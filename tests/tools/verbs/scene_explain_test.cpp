@@ -186,7 +186,7 @@ TEST(SceneExplain, ReportsThatNothingRunsInAnEmptyWorld) {
 }
 
 TEST(SceneExplain, PrintsTheLimits) {
-  const TemporaryScene scene("");
+  const TemporaryScene scene("[network]\nentities = 1234\n");
   const auto text = run_reckon({"scene", "explain", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("LIMITS"));
   std::map<std::string, std::string> limits;
@@ -194,7 +194,7 @@ TEST(SceneExplain, PrintsTheLimits) {
     const auto row = nlohmann::json::parse(line);
     if (row["kind"] == "limit") limits[row["what"]] = row["value"];
   }
-  EXPECT_THAT(limits["remote entities"], HasSubstr("100000 rows of "));
+  EXPECT_THAT(limits["remote entities"], HasSubstr("1234 rows of "));
   EXPECT_THAT(limits["remote entities"], HasSubstr("(table_full)"));
   EXPECT_THAT(limits["rings of datagrams"], HasSubstr("2 MiB each way"));
   EXPECT_THAT(limits["felt by a hand"], HasSubstr("the 32 nearest bodies within 250 mm"));
