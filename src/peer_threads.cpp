@@ -34,10 +34,6 @@ constexpr nanoseconds kLeastSleep = microseconds(100);
 // rest is at most kLongestRest.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
-// If the model loop reads the link, it takes all arrivals within this time together; while peers
-// wait for answers, within kPrompt.
-constexpr nanoseconds kTogether = std::chrono::milliseconds(5);
-constexpr nanoseconds kPrompt = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams
 // If notifications of the model loop come at least this often, they come from the servo of a moving
 // hand. Arrivals then wait for the next of them.
@@ -248,7 +244,8 @@ void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexce
   const bool ended = !news && peer_.link().wait(timeout);
   at_link_.store(false, std::memory_order_relaxed);
   const nanoseconds now = clock_.now();
-  if (ended && now < together) news = news_.wait(together - now);
+  // A notification is taken even if it is too late to wait: else it would cause a second pass.
+  if (ended) news = news_.wait(std::max(together - now, nanoseconds(0)));
   note_pace(news);
 }
 

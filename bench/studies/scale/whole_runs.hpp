@@ -30,6 +30,13 @@ enum class Meeting : std::uint8_t {
 /// @throws UsageError or EnvironmentError with the remedy if the exercise cannot run there
 void check_meeting(const ScaleSetting& setting, Meeting meeting);
 
+/// CPU time that live peers use beside their loops in simulated time [s], system calls included.
+struct LiveCosts {
+  double wake = 0;      ///< of a pass of the model loop
+  double datagram = 0;  ///< of one that is heard, with its sender's share
+  double tick = 0;      ///< of the program that states the motion of its entities
+};
+
 /// Results of all peers of an exercise.
 struct WholeRun {
   ScaleSetting setting;
@@ -40,10 +47,19 @@ struct WholeRun {
   double resident = 0;          ///< memory of all peers [octets]
   double wall = 0;              ///< duration of the run [s]
   double latest = 0;            ///< largest delay of a step of a process [s]
-  /// CPU time of all peers in a kernel, which a simulated network lacks [s]; filled in by the
-  /// caller.
-  double kernel_cpu = 0;
+  /// CPU time of all live peers beside their loops [s]: predicted for a simulated run by the
+  /// caller, else 0.
+  double live_cpu = 0;
+  LiveCosts costs;  ///< of the prediction
+
+  /// Of a core, on average over the peers.
+  [[nodiscard]] double cpu_share() const noexcept {
+    return (counts.cpu + live_cpu) / counts.seconds / static_cast<double>(setting.peers);
+  }
 };
+
+/// That of all peers of a simulated run [s].
+[[nodiscard]] double live_cpu(const WholeRun& run, const LiveCosts& costs) noexcept;
 
 /// Most peers as processes of one machine.
 inline constexpr std::size_t kMostProcesses = 250;
@@ -56,6 +72,7 @@ inline constexpr std::size_t kMostProcesses = 250;
 /// When a real peer takes part [s since begin].
 struct LiveStay {
   double from = 0, until = 0;
+  double settling = kWarmUp;  ///< not counted
 };
 struct LiveOutcome {
   WholeCounts counts;
@@ -72,7 +89,7 @@ struct PeerProcess {
                               std::span<const PeerProcess> processes);
 
 /// Runs one real peer during `stay` at the setting's ticks, by the host's clock. It counts from
-/// kWarmUp after it joins, or after the begin if that is later. @param begin steady time
+/// `stay.settling` after it joins, or after the begin if that is later. @param begin steady time
 [[nodiscard]] LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                                    std::chrono::nanoseconds begin, const LiveStay& stay,
                                    const AttendanceLaw& attendance = {});

@@ -13,6 +13,7 @@ namespace reckon::bench {
 /// A run of processes, and the same exercise with simulated peers.
 struct WholeRow {
   WholeRun run, simulated;
+  double load = 0;  ///< of the machine during the run: threads that run or wait
 };
 
 /// A table for each row: simulated, processes, difference; then losses and costs of each peer.
