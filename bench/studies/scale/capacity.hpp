@@ -19,7 +19,7 @@ struct HostLimits {
   double link = 1e9;        ///< capacity of the LAN at each host [bit/s], > 0
   double link_share = 0.5;  ///< share of it that the exercise may use
   double core_share = 0.5;  ///< share of one core that a peer may use
-  LiveCosts costs;          ///< of a peer on this host
+  LiveCosts costs{};        ///< of a peer on this host
 };
 
 /// The largest exercise that a mechanism supports.

@@ -8,7 +8,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <cmath>
+#include <string_view>
 
 #include "reckon/bench/studies/scale/peer_processes.hpp"
 
@@ -17,11 +18,12 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kSettling = 1, kMeasured = 2;  // [s]
+constexpr std::size_t kMostOfCosts = 16;            // peers
+constexpr double kSettling = 0.7, kMeasured = 1.5;  // [s]
 
 /// Exercises that differ in what they do most.
 struct CostExercise {
-  std::size_t peers;
+  CostHalf half;
   double rate;           // ticks a second
   std::size_t entities;  // a peer
   std::string_view movement;
@@ -29,99 +31,114 @@ struct CostExercise {
 };
 // THE list.
 constexpr std::array kCostExercises{
-    CostExercise{2, 2, 1, "rest", false},       // the loop's own deadlines
-    CostExercise{2, 60, 1, "rest", false},      // ticks
-    CostExercise{4, 25, 1, "vehicles", true},   // a wake for few datagrams
-    CostExercise{4, 10, 12, "vehicles", true},  // many datagrams a wake
+    CostExercise{CostHalf::before, 2, 1, "rest", false},       // the loop's own deadlines
+    CostExercise{CostHalf::before, 20, 4, "flyers", false},    // joins
+    CostExercise{CostHalf::before, 15, 8, "vehicles", true},   // datagrams
+    CostExercise{CostHalf::after, 60, 1, "rest", false},       // ticks
+    CostExercise{CostHalf::after, 20, 30, "vehicles", false},  // what to send, what is shown
 };
 
-ScaleSetting setting_of(const CostExercise& exercise, std::uint16_t port) {
-  ScaleSetting setting;
-  setting.peers = exercise.peers;
-  setting.crowd = {exercise.movement, exercise.peers * exercise.entities};
+ScaleSetting setting_of(const ScaleSetting& like, const CostExercise& exercise) {
+  ScaleSetting setting = like;
+  setting.peers = std::min(like.peers, kMostOfCosts);
+  setting.crowd.entities = setting.peers * exercise.entities;
+  setting.crowd.movement = exercise.movement;
+  setting.crowd.tracks = {};
   setting.rate = exercise.rate;
   setting.seconds = kMeasured;
-  setting.design = {.dead_reckoning = !exercise.every_tick};
-  setting.port = port;
+  setting.network = {};
+  if (exercise.every_tick) setting.design.dead_reckoning = setting.design.bundling = false;
+  setting.port = static_cast<std::uint16_t>(40'000 + getpid() % 20'000);
   return setting;
+}
+
+constexpr auto kCosts = static_cast<Eigen::Index>(kCostNames.size());
+using CostVector = Eigen::Matrix<double, kCosts, 1>;
+using CostMatrix = Eigen::Matrix<double, kCosts, kCosts>;
+
+// Usual costs relative to a wake, and their weight relative to the samples.
+const CostVector kUsual{{1, 0.25, 0.05, 0.5, 0.2, 1}};
+constexpr double kUsualWeight = 0.3;
+
+/// Least squares of the chosen costs; the others are 0. @param chosen a bit each
+CostVector solved(const CostMatrix& normal, const CostVector& target, unsigned chosen) {
+  CostMatrix part = CostMatrix::Identity();
+  CostVector right = CostVector::Zero();
+  const auto is_chosen = [&](Eigen::Index i) { return (chosen >> i & 1U) != 0; };
+  for (Eigen::Index i = 0; i < kCosts; ++i) {
+    if (!is_chosen(i)) continue;
+    right(i) = target(i);
+    for (Eigen::Index j = 0; j < kCosts; ++j)
+      if (is_chosen(j)) part(i, j) = normal(i, j);
+  }
+  return part.colPivHouseholderQr().solve(right);
 }
 
 }  // namespace
 
-CostSample cost_sample(const WholeRun& run, double loops) {
-  const WholeCounts& counts = run.counts;
-  return {static_cast<double>(counts.passes), static_cast<double>(counts.heard_datagrams),
-          run.setting.rate * counts.seconds * static_cast<double>(run.setting.peers),
-          counts.cpu - loops};
-}
-
 LiveCosts fitted_costs(std::span<const CostSample> samples) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d target = Eigen::Vector3d::Zero(), best = target;
+  // In units of a tenth of a millisecond, so that costs are near 1.
+  constexpr double kUnit = 1e-4;
+  CostMatrix normal = CostMatrix::Zero();
+  CostVector target = CostVector::Zero(), best = CostVector::Zero();
   for (const CostSample& sample : samples) {
-    if (!(sample.cpu > 0)) continue;
-    const Eigen::Vector3d row =
-        Eigen::Vector3d(sample.wakes, sample.datagrams, sample.ticks) / sample.cpu;
+    const CostVector row = CostVector(sample.counts.data()) * (kUnit / sample.cpu);
     normal += row * row.transpose();
     target += row;
   }
-  // Of all choices of costs that are not 0, the best whose costs are positive.
+  for (Eigen::Index i = 1; i < kCosts; ++i) {
+    // A cost that no sample has is the usual one.
+    CostVector row = CostVector::Zero();
+    row(i) = kUsualWeight * std::sqrt(std::max(normal(i, i), 1e-6));
+    row(0) = -kUsual(i) * row(i);
+    normal += row * row.transpose();
+  }
   double least = 0;
-  for (unsigned chosen = 1; chosen < 8; ++chosen) {
-    Eigen::Matrix3d part = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const auto is_chosen = [&](int i) { return (chosen >> i & 1U) != 0; };
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (is_chosen(i) && is_chosen(j)) part(i, j) = normal(i, j);
-    for (int i = 0; i < 3; ++i)
-      if (is_chosen(i)) right(i) = target(i);
-    const Eigen::Vector3d costs = part.colPivHouseholderQr().solve(right);
+  for (unsigned chosen = 1; chosen < 1U << kCosts; ++chosen) {
+    const CostVector costs = solved(normal, target, chosen);
     const double error = costs.dot(normal * costs) - 2 * costs.dot(target);
     if (costs.minCoeff() < 0 || !(error < least)) continue;
     least = error;
     best = costs;
   }
-  return {best(0), best(1), best(2)};
+  LiveCosts costs{};
+  for (Eigen::Index i = 0; i < kCosts; ++i) costs[static_cast<std::size_t>(i)] = kUnit * best(i);
+  return costs;
+}
+
+double level_of(std::span<const CostSample> samples, const LiveCosts& costs) {
+  double sum = 0;
+  for (const CostSample& sample : samples) sum += sample.cpu / live_cpu(sample.counts, costs);
+  return samples.empty() ? 1 : sum / static_cast<double>(samples.size());
 }
 
 std::string costs_text(const LiveCosts& costs) {
-  return fmt::format("{:.0f} us a wake, {:.1f} us a datagram, {:.0f} us a tick", 1e6 * costs.wake,
-                     1e6 * costs.datagram, 1e6 * costs.tick);
+  std::string out;
+  for (std::size_t i = 0; i < costs.size(); ++i)
+    out += fmt::format("{}{:.0f} us a {}", i == 0 ? "" : ", ", 1e6 * costs[i], kCostNames[i]);
+  return out;
 }
 
-std::optional<LiveCosts> measure_live_costs(Meeting meeting, const ScaleProgress& progress) {
-  const auto first = static_cast<std::uint16_t>(40'000 + getpid() % 20'000);
-  std::vector<ScaleSetting> settings;
-  std::vector<double> loops;
-  std::vector<std::size_t> exercise_of;  // by process
-  for (const CostExercise& exercise : kCostExercises) {
-    const auto number = static_cast<std::uint16_t>(settings.size());
-    exercise_of.insert(exercise_of.end(), exercise.peers, settings.size());
-    settings.push_back(setting_of(exercise, static_cast<std::uint16_t>(first + number)));
-    loops.push_back(run_whole_peers(settings.back(), Meeting::simulated).counts.cpu);
-  }
-  ProcessPlan plan;
-  plan.count = exercise_of.size();
-  plan.lan = meeting == Meeting::lan;
-  plan.seconds = kSettling + kMeasured;
-  const auto is_first = [&](std::size_t process) {
-    return process == 0 || exercise_of[process] != exercise_of[process - 1];
-  };
-  const auto task = [&](std::size_t process, peer::Link& link, nanoseconds begin) {
-    std::size_t peer = 0;
-    for (std::size_t p = process; !is_first(p); --p) ++peer;
-    return live_for(settings[exercise_of[process]], peer, link, begin,
-                    {0, plan.seconds, kSettling});
-  };
-  const std::vector<PeerProcess> processes = run_peer_processes(plan, task, progress);
-  if (processes.empty()) return std::nullopt;
+std::vector<CostSample> cost_samples(const ScaleSetting& like, Meeting meeting, CostHalf half,
+                                     const ScaleProgress& progress) {
   std::vector<CostSample> samples;
-  for (std::size_t e = 0, p = 0; e < settings.size(); p += settings[e++].peers)
-    samples.push_back(cost_sample(
-        sum_of(settings[e], meeting, std::span(processes).subspan(p, settings[e].peers)),
-        loops[e]));
-  return fitted_costs(samples);
+  for (const CostExercise& exercise : kCostExercises) {
+    if (exercise.half != half) continue;
+    const ScaleSetting setting = setting_of(like, exercise);
+    const double loops = run_whole_peers(setting, Meeting::simulated).counts.cpu;
+    ProcessPlan plan;
+    plan.count = setting.peers;
+    plan.lan = meeting == Meeting::lan;
+    plan.seconds = kSettling + kMeasured;
+    const auto task = [&](std::size_t peer, peer::Link& link, nanoseconds begin) {
+      return live_for(setting, peer, link, begin, {0, plan.seconds, kSettling});
+    };
+    const auto processes = run_peer_processes(plan, task, progress);
+    if (processes.empty()) return {};
+    const WholeRun run = sum_of(setting, meeting, processes);
+    if (run.counts.cpu > loops) samples.push_back({cost_counts(run), run.counts.cpu - loops});
+  }
+  return samples;
 }
 
 }  // namespace reckon::bench

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "reckon/bench/studies/scale/whole_runs.hpp"
 
@@ -13,23 +14,29 @@ namespace reckon::bench {
 
 /// What live peers used beside their loops, and how often they did what costs.
 struct CostSample {
-  double wakes = 0, datagrams = 0, ticks = 0;  ///< as in LiveCosts
-  double cpu = 0;                              ///< [s]
+  CostCounts counts{};
+  double cpu = 0;  ///< beside the loops [s], > 0
 };
-/// The sample of a run of processes. @param loops CPU time of the same run in simulated time [s]
-[[nodiscard]] CostSample cost_sample(const WholeRun& run, double loops);
 
-/// The costs that fit the samples best: least squares of relative errors, none below 0. Zero for no
-/// samples.
+/// The costs that fit the samples best: least squares of relative errors, none below 0. Where
+/// samples do not tell two costs apart, their usual ratio decides. Zero for no samples.
 [[nodiscard]] LiveCosts fitted_costs(std::span<const CostSample> samples);
+/// Mean ratio of what the samples used to what the costs predict for them; 1 for no samples.
+[[nodiscard]] double level_of(std::span<const CostSample> samples, const LiveCosts& costs);
 
-/// "34 us a wake, 1.2 us a datagram, 80 us a tick".
+/// "34 us a wake, 9 us a pass, .."
 [[nodiscard]] std::string costs_text(const LiveCosts& costs);
 
-/// Runs some peers as processes that do little but wake, receive, or state the motion of their
-/// entities, all at once, for some 5 s. @param meeting lo or lan; others are measured on lo
-/// @return none if `progress` ended the run  @throws as run_whole_peers() does
-[[nodiscard]] std::optional<LiveCosts> measure_live_costs(Meeting meeting,
-                                                          const ScaleProgress& progress = {});
+/// One half of the exercises that cost_samples() can run. An exercise is measured between both.
+enum class CostHalf : bool { before, after };
+
+/// Runs two or three exercises of processes, one after the other, some 4 s each. They do little but
+/// wake, receive, decide what to send, or state the motion of their entities. @param like the
+/// exercise to predict: the same peers (16 at most), cells and mechanisms, but other entities and
+/// ticks  @param meeting lo or lan; others are measured on lo  @return empty if `progress` ended
+/// them  @throws as run_whole_peers() does
+[[nodiscard]] std::vector<CostSample> cost_samples(const ScaleSetting& like, Meeting meeting,
+                                                   CostHalf half,
+                                                   const ScaleProgress& progress = {});
 
 }  // namespace reckon::bench

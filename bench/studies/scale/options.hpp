@@ -36,16 +36,16 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< none: 5 s
   std::string report;
-  std::optional<std::uint64_t> drawn;            ///< exercises that a seed draws
-  std::string pick;                   ///< p99 pose error that a policy may have; empty: no pick
-  std::string compare;                ///< JSON Lines of an earlier run
-  std::string whole;                  ///< network of processes, see read_meeting(); empty: none
-  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
-  std::string ssh;                    ///< command; empty: HostsPlan::ssh
-  std::string share;                  ///< peers of one host, see read_host_share(); empty: none
-  std::optional<std::uint64_t> port;  ///< of the share's peers
-  bool hands = false;                 ///< hands in contact too
-  bool many_hands = false;            ///< hands of many peers too
+  std::optional<std::uint64_t> drawn;  ///< exercises that a seed draws
+  std::string pick;                    ///< p99 pose error that a policy may have; empty: no pick
+  std::string compare;                 ///< JSON Lines of an earlier run
+  std::string whole;                   ///< network of processes, see read_meeting(); empty: none
+  std::string hosts;                   ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                     ///< command; empty: HostsPlan::ssh
+  std::string share;                   ///< peers of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;   ///< of the share's peers
+  bool hands = false;                  ///< hands in contact too
+  bool many_hands = false;             ///< hands of many peers too
   bool json = false;
   bool wide = false;  ///< all columns
 };

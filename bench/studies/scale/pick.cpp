@@ -55,7 +55,7 @@ std::optional<PolicyPick> pick_policy(const ScaleSetting& exercise, double error
   const auto predicted = [&](const PolicyPlace& place) {
     WholeRun run =
         run_whole_peers(with_policy(exercise, error, place), Meeting::simulated, progress);
-    run.live_cpu = live_cpu(run, costs);
+    run.live_cpu = live_cpu(cost_counts(run), costs);
     return run;
   };
   std::vector<Policy> policies;
@@ -77,6 +77,7 @@ std::optional<PolicyPick> pick_policy(const ScaleSetting& exercise, double error
     if (!row) return std::nullopt;
     pick.rows.push_back(std::move(*row));
   }
+  predict(pick.rows);
   return pick;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <utility>
 
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/scale/live_costs.hpp"
@@ -22,14 +23,15 @@ namespace {
 /// A measure of scale_measures() that is predicted.
 struct Predicted {
   std::string_view name, title;
+  bool is_judged;
 };
 // THE list.
-constexpr std::array kPredicted{Predicted{"sent_packets_per_s", "SENT/s"},
-                                Predicted{"heard_packets_per_s", "HEARD/s"},
-                                Predicted{"heard_bytes_per_s", "B/s"},
-                                Predicted{"wakes_per_s", "WAKES/s"},
-                                Predicted{"cpu_share", "CPU"},
-                                Predicted{"pose_error_p99_m", "POSE"}};
+constexpr std::array kPredicted{Predicted{"sent_packets_per_s", "SENT/s", true},
+                                Predicted{"heard_packets_per_s", "HEARD/s", true},
+                                Predicted{"heard_bytes_per_s", "B/s", true},
+                                Predicted{"wakes_per_s", "WAKES/s", false},
+                                Predicted{"cpu_share", "CPU", true},
+                                Predicted{"pose_error_p99_m", "POSE", false}};
 
 double value_of(std::string_view name, const WholeRun& run) {
   return scale_measure(name).of({kMechanisms.size() - 1, run});
@@ -41,10 +43,6 @@ double ratio_of(std::string_view name, const WholeRow& row) {
 double present_load() {
   double load = 0;
   return getloadavg(&load, 1) == 1 ? load : 0;
-}
-
-LiveCosts mean_of(const LiveCosts& a, const LiveCosts& b) {
-  return {(a.wake + b.wake) / 2, (a.datagram + b.datagram) / 2, (a.tick + b.tick) / 2};
 }
 
 }  // namespace
@@ -83,17 +81,30 @@ std::optional<WholeRow> predicted_and_measured(const WholeRun& simulated, Meetin
                                                const HostsPlan& hosts,
                                                const ScaleProgress& progress) {
   const ScaleSetting& setting = simulated.setting;
-  const auto before = measure_live_costs(meeting, progress);
-  if (!before) return std::nullopt;
+  std::vector<CostSample> samples = cost_samples(setting, meeting, CostHalf::before, progress);
+  if (samples.empty()) return std::nullopt;
   WholeRow row{{}, simulated, present_load()};
   row.run = meeting == Meeting::hosts ? run_on_hosts(setting, hosts, progress)
                                       : run_whole_peers(setting, meeting, progress);
   row.load = (row.load + present_load()) / 2;
-  const auto after = measure_live_costs(meeting, progress);
-  if (!after) return std::nullopt;
-  row.simulated.costs = mean_of(*before, *after);
-  row.simulated.live_cpu = live_cpu(simulated, row.simulated.costs);
+  const auto after = cost_samples(setting, meeting, CostHalf::after, progress);
+  if (after.empty()) return std::nullopt;
+  samples.insert(samples.end(), after.begin(), after.end());
+  row.samples = std::move(samples);
   return row;
+}
+
+void predict(std::span<WholeRow> rows) {
+  std::vector<CostSample> samples;
+  for (const WholeRow& row : rows)
+    samples.insert(samples.end(), row.samples.begin(), row.samples.end());
+  const LiveCosts costs = fitted_costs(samples);
+  for (WholeRow& row : rows) {
+    row.simulated.costs = costs;
+    const double level = std::sqrt(level_of(row.samples, costs));
+    for (double& cost : row.simulated.costs) cost *= level;
+    row.simulated.live_cpu = live_cpu(cost_counts(row.simulated), row.simulated.costs);
+  }
 }
 
 std::string prediction_text(std::span<const WholeRow> rows) {
@@ -103,7 +114,7 @@ std::string prediction_text(std::span<const WholeRow> rows) {
   for (const Predicted& one : kPredicted)
     for (const std::string_view part : {"", "IS", "RATIO"})
       columns.push_back({std::string(part.empty() ? one.title : part), kRight});
-  columns.insert(columns.end(), {{"US A WAKE, DATAGRAM, TICK", kRight}, {"LOAD", kRight}});
+  columns.insert(columns.end(), {{"WAKE", kRight}, {"LOAD", kRight}});
   tools::TextTable table(columns);
   std::size_t good = 0;
   for (const WholeRow& row : rows) {
@@ -118,19 +129,19 @@ std::string prediction_text(std::span<const WholeRow> rows) {
       cells.push_back(measure_text(measure, value_of(one.name, row.simulated)));
       cells.push_back(measure_text(measure, value_of(one.name, row.run)));
       cells.push_back(fmt::format("{:.2f}", ratio));
-      is_good = is_good && !(std::abs(ratio - 1) > kGoodPrediction);
+      is_good = is_good && !(one.is_judged && std::abs(ratio - 1) > kGoodPrediction);
     }
     good += is_good;
-    const LiveCosts& costs = row.simulated.costs;
-    cells.push_back(fmt::format("{:.0f}, {:.1f}, {:.0f}", 1e6 * costs.wake, 1e6 * costs.datagram,
-                                1e6 * costs.tick));
+    cells.push_back(fmt::format("{:.0f} us", 1e6 * row.simulated.costs.front()));
     cells.push_back(fmt::format("{:.1f}", row.load));
     table.add(cells);
   }
+  if (rows.empty()) return {};
   return fmt::format(
       "Predicted, and measured of processes (IS); each peer\n{}{} of {} rows are within {:g} % in "
-      "all\n",
-      table.text(), good, rows.size(), 100 * kGoodPrediction);
+      "datagrams, octets and CPU; {}\n",
+      table.text(), good, rows.size(), 100 * kGoodPrediction,
+      costs_text(rows.back().simulated.costs));
 }
 
 std::string prediction_json(std::span<const WholeRow> rows) {
@@ -147,11 +158,9 @@ std::string prediction_json(std::span<const WholeRow> rows) {
     for (const Predicted& one : kPredicted)
       object.value(one.name, value_of(one.name, row.run))
           .value(fmt::format("predicted_{}", one.name), value_of(one.name, row.simulated));
-    object.value("wake_s", costs.wake)
-        .value("datagram_s", costs.datagram)
-        .value("tick_s", costs.tick)
-        .value("load", row.load)
-        .end("\n");
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      object.value(fmt::format("{}_cost_s", kCostNames[i]), costs[i]);
+    object.value("load", row.load).end("\n");
   }
   return out;
 }

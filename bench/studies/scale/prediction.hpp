@@ -22,13 +22,16 @@ inline constexpr double kGoodPrediction = 0.2;
 [[nodiscard]] std::vector<ScaleSetting> drawn_settings(const ScaleSetting& base, std::size_t count,
                                                        std::uint64_t seed);
 
-/// Runs the exercise as processes, with measure_live_costs() before and after it; the prediction
-/// uses their mean. @param simulated the same exercise in simulated time  @param hosts of
-/// Meeting::hosts  @return none if `progress` ended it  @throws as run_whole_peers() does
+/// Runs the exercise as processes, with cost_samples() before and after it. @param simulated the
+/// same exercise in simulated time  @param hosts of Meeting::hosts  @return none if `progress`
+/// ended it  @throws as run_whole_peers() does
 [[nodiscard]] std::optional<WholeRow> predicted_and_measured(const WholeRun& simulated,
                                                              Meeting meeting,
                                                              const HostsPlan& hosts,
                                                              const ScaleProgress& progress);
+/// Predicts the CPU time of all rows from the samples of all. As the load of the machine changes, a
+/// row's costs are the geometric mean of these and of the same at the level of its own samples.
+void predict(std::span<WholeRow> rows);
 
 /// Predicted, measured and their ratio for datagrams, octets, CPU and error; a line for each row.
 [[nodiscard]] std::string prediction_text(std::span<const WholeRow> rows);

@@ -64,9 +64,18 @@ ScaleSetting setting_of(const ScaleSetting& exercise, std::size_t mechanism) {
 /// The costs on lo, measured once by this process; none if stopped. Processes of an exercise have
 /// costs of their own: predicted_and_measured().
 std::optional<LiveCosts> usual_costs(const tools::Console& console) {
+  ScaleSetting usual;
+  usual.peers = 4;
   static std::optional<LiveCosts> costs;
-  if (!costs) costs = measure_live_costs(Meeting::lo, [&](double) { return !console.stopped(); });
-  return costs;
+  if (costs) return costs;
+  const auto progress = [&](double) { return !console.stopped(); };
+  std::vector<CostSample> samples;
+  for (const CostHalf half : {CostHalf::before, CostHalf::after}) {
+    const auto more = cost_samples(usual, Meeting::lo, half, progress);
+    if (more.empty()) return std::nullopt;
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  return costs = fitted_costs(samples);
 }
 
 /// False if stopped: the report then has the completed runs.
@@ -91,7 +100,7 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
       if (!sweep.next([&](const ScaleProgress& progress) {
             ScaleRow row{mechanism, run_whole_peers(setting_of(setting, mechanism),
                                                     Meeting::simulated, progress)};
-            row.run.live_cpu = live_cpu(row.run, report.limits.costs);
+            row.run.live_cpu = live_cpu(cost_counts(row.run), report.limits.costs);
             if (!console.stopped()) report.rows.push_back(std::move(row));
           }))
         return false;
@@ -187,6 +196,7 @@ int bench_scale(const ScaleWords& words, const std::string& command,
     check_same_exercises(plan.settings, report.base, words.compare);
   }
   const bool whole = run_all(plan, words, report, console);
+  predict(report.whole);
   if (!whole) report.base.clear();  // missing rows are no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -36,9 +37,11 @@ class WatchedLink final : public peer::Link {
   explicit WatchedLink(peer::Link& link) : link_(link) {}
 
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
+    sent_.store(true, std::memory_order_relaxed);
     return link_.send(to, bytes);
   }
   peer::SentBatch send_batch(std::span<const peer::OutgoingDatagram> batch) noexcept override {
+    sent_.store(true, std::memory_order_relaxed);
     return link_.send_batch(batch);
   }
   std::size_t receive(std::span<peer::Datagram> out) noexcept override {
@@ -70,11 +73,15 @@ class WatchedLink final : public peer::Link {
   bool take_event(peer::LinkEvent& event) noexcept override { return link_.take_event(event); }
 
   [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_; }
+  /// Whether a datagram was sent since the last call. A real link delivers it to its sender too,
+  /// which ignores it, but wakes.
+  bool take_sent() noexcept { return sent_.exchange(false, std::memory_order_relaxed); }
 
  private:
   peer::Link& link_;
   std::set<peer::GroupAddress> joined_;
   std::uint64_t foreign_ = 0;
+  std::atomic<bool> sent_{false};
 };
 
 peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer,
@@ -186,13 +193,15 @@ struct WholePeer::MeasuredFederate {
     }
     const peer::Peer& peer = federate.peer();
     collects = counted("datagrams_in") > heard + 1;
+    hears_itself = watched.take_sent();
     until = peer.next_step();
     together = begun + (peer.is_prompt(begun) ? peer::kPrompt : peer::kTogether);
   }
   /// Whether the model loop of PeerThreads would pass now.
   [[nodiscard]] bool is_due() {
     const nanoseconds now = federate.now();
-    return now >= until || (now >= together && (collects || watched.wait(nanoseconds(0))));
+    return now >= until ||
+           (now >= together && (collects || hears_itself || watched.wait(nanoseconds(0))));
   }
 
   /// Box around the own entities, enlarged by the radius of interest.
@@ -269,7 +278,7 @@ struct WholePeer::MeasuredFederate {
   // Of pass() without threads.
   std::uint64_t passes = 0;
   nanoseconds until{0}, together{0};
-  bool collects = false;
+  bool collects = false, hears_itself = false;
 };
 
 WholePeer::WholePeer(const ScaleSetting& setting, std::size_t peer, peer::Link& link,

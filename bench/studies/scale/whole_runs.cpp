@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <thread>
 
 #include "reckon/bench/studies/scale/peer_processes.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
@@ -23,7 +25,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kExerciseBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
-constexpr double kPassGrid = 0.001;      // [s], of the passes of simulated peers
+constexpr double kPassGrid = 0.00025;    // [s], of the passes of simulated peers
 constexpr std::size_t kLeastRoom = 512;  // datagrams in flight to a peer
 constexpr double kComing = 1;            // [s] in which all peers of a simulated network join
 constexpr double kOffTick = 0.37;        // of the time from one joining peer to the next
@@ -196,11 +198,21 @@ Meeting read_meeting(const std::string& text) {
   throw tools::UsageError(fmt::format("--whole: '{}' is not one of lo, lan, hosts", text));
 }
 
-double live_cpu(const WholeRun& run, const LiveCosts& costs) noexcept {
+CostCounts cost_counts(const WholeRun& run) noexcept {
   const WholeCounts& counts = run.counts;
-  const double ticks = run.setting.rate * counts.seconds * static_cast<double>(run.setting.peers);
-  return costs.wake * static_cast<double>(counts.passes) +
-         costs.datagram * static_cast<double>(counts.heard_datagrams) + costs.tick * ticks;
+  const double seconds = counts.seconds * static_cast<double>(run.setting.peers);
+  const auto passes = static_cast<double>(counts.passes);
+  const double wakes = std::min(passes, seconds / pdu::to_seconds(peer::kTogether));
+  return {wakes,
+          passes - wakes,
+          static_cast<double>(counts.heard_datagrams),
+          static_cast<double>(counts.datagrams),
+          run.setting.rate * seconds,
+          static_cast<double>(counts.joins)};
+}
+
+double live_cpu(const CostCounts& counts, const LiveCosts& costs) noexcept {
+  return std::inner_product(counts.begin(), counts.end(), costs.begin(), 0.0);
 }
 
 WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,

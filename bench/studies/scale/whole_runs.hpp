@@ -3,10 +3,12 @@
 // All peers of an exercise: in one process and simulated time, or as processes on a real network.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "reckon/bench/studies/scale/whole_peer.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
@@ -30,12 +32,15 @@ enum class Meeting : std::uint8_t {
 /// @throws UsageError or EnvironmentError with the remedy if the exercise cannot run there
 void check_meeting(const ScaleSetting& setting, Meeting meeting);
 
-/// CPU time that live peers use beside their loops in simulated time [s], system calls included.
-struct LiveCosts {
-  double wake = 0;      ///< of a pass of the model loop
-  double datagram = 0;  ///< of one that is heard, with its sender's share
-  double tick = 0;      ///< of the program that states the motion of its entities
-};
+/// What costs a live peer CPU time beside its loops in simulated time, system calls included.
+inline constexpr std::array<std::string_view, 6> kCostNames{"wake", "pass", "heard",
+                                                            "sent", "tick", "join"};
+/// Times that all peers of a run did each. A wake is a pass of the model loop, one each
+/// peer::kTogether at most; `pass` are those beyond, without a sleep before. Heard and sent:
+/// datagrams. Tick: of the program that states the motion of its entities. Join: of a group.
+using CostCounts = std::array<double, kCostNames.size()>;
+/// CPU time of each [s].
+using LiveCosts = std::array<double, kCostNames.size()>;
 
 /// Results of all peers of an exercise.
 struct WholeRun {
@@ -50,7 +55,7 @@ struct WholeRun {
   /// CPU time of all live peers beside their loops [s]: predicted for a simulated run by the
   /// caller, else 0.
   double live_cpu = 0;
-  LiveCosts costs;  ///< of the prediction
+  LiveCosts costs{};  ///< of the prediction
 
   /// Of a core, on average over the peers.
   [[nodiscard]] double cpu_share() const noexcept {
@@ -58,8 +63,9 @@ struct WholeRun {
   }
 };
 
-/// That of all peers of a simulated run [s].
-[[nodiscard]] double live_cpu(const WholeRun& run, const LiveCosts& costs) noexcept;
+[[nodiscard]] CostCounts cost_counts(const WholeRun& run) noexcept;
+/// Of all peers beside their loops [s].
+[[nodiscard]] double live_cpu(const CostCounts& counts, const LiveCosts& costs) noexcept;
 
 /// Most peers as processes of one machine.
 inline constexpr std::size_t kMostProcesses = 250;
