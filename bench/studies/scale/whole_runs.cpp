@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "reckon/bench/studies/scale/peer_processes.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer_threads.hpp"
@@ -27,6 +28,7 @@ constexpr nanoseconds kExerciseBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
 constexpr double kPassGrid = 0.00025;    // [s], of the passes of simulated peers
 constexpr std::size_t kLeastRoom = 512;  // datagrams in flight to a peer
+constexpr double kLatest = 0.0005;       // [s], of a tick of a simulated peer
 constexpr double kComing = 1;            // [s] in which all peers of a simulated network join
 constexpr double kOffTick = 0.37;        // of the time from one joining peer to the next
 
@@ -134,12 +136,14 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
   double time = 0;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     time = static_cast<double>(tick) / setting.rate;
-    clock.set(kExerciseBegin + pdu::from_seconds(time));
+    // A live program states the motion a little late. Without that, deadlines would fall on ticks.
+    const double late = kLatest * pdu::unit_of(pdu::split_mix(setting.seed + tick));
+    clock.set(kExerciseBegin + pdu::from_seconds(time + late));
     crowd.advance(time);
     if (tick == warm) peers.for_each([&](WholePeer& peer) { peer.begin_counting(time); });
     peers.for_each([&](WholePeer& peer) { peer.step(time, crowd); });
     if (is_look(setting, tick)) peers.for_each([&](WholePeer& peer) { peer.look(time, crowd); });
-    for (double at = time + kPassGrid; at < time + 1 / setting.rate; at += kPassGrid) {
+    for (double at = time + kLatest; at < time + 1 / setting.rate; at += kPassGrid) {
       clock.set(kExerciseBegin + pdu::from_seconds(at));
       peers.pass(at);
     }
@@ -183,7 +187,8 @@ void check_meeting(const ScaleSetting& setting, Meeting meeting) {
   const bool is_perfect = setting.network.delay == nanoseconds(0) && setting.network.loss == 0;
   if (!is_perfect)
     throw tools::UsageError(
-        "--delay, --jitter, --loss: a real network has its own; remove them, or --whole");
+        "--delay, --jitter, --loss: a real network has its own; remove them, or --whole and "
+        "--pick");
   if (meeting == Meeting::lan && geteuid() != 0)
     throw tools::EnvironmentError(
         "--whole lan creates network namespaces, which needs root; run it with sudo, or write "

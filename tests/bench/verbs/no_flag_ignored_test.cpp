@@ -237,6 +237,8 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
       {"--rate", {"10"}},
       {"--threshold", {"0.2m"}},
       {"--whole", {"lo"}},
+      {"--drawn", {"1"}},
+      {"--pick", {"2m"}},
       {"--hosts", {"a,b"}},
       {"--ssh", {"ssh -4"}},
       {"--share", {"1-1"}},
