@@ -18,8 +18,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kMostOfCosts = 16;            // peers
-constexpr double kSettling = 0.7, kMeasured = 1.5;  // [s]
+constexpr std::size_t kMostOfCosts = 16;                 // peers
+constexpr double kSettling = 0.7;                        // [s]
+constexpr double kMeasured = 10, kLeast = 1, kMost = 4;  // [s], of all processes; of one
 
 /// Exercises that differ in what they do most.
 struct CostExercise {
@@ -45,7 +46,7 @@ ScaleSetting setting_of(const ScaleSetting& like, const CostExercise& exercise) 
   setting.crowd.movement = exercise.movement;
   setting.crowd.tracks = {};
   setting.rate = exercise.rate;
-  setting.seconds = kMeasured;
+  setting.seconds = std::clamp(kMeasured / static_cast<double>(setting.peers), kLeast, kMost);
   setting.network = {};
   if (exercise.every_tick) setting.design.dead_reckoning = setting.design.bundling = false;
   setting.port = static_cast<std::uint16_t>(40'000 + getpid() % 20'000);
@@ -129,7 +130,7 @@ std::vector<CostSample> cost_samples(const ScaleSetting& like, Meeting meeting, 
     ProcessPlan plan;
     plan.count = setting.peers;
     plan.lan = meeting == Meeting::lan;
-    plan.seconds = kSettling + kMeasured;
+    plan.seconds = kSettling + setting.seconds;
     const auto task = [&](std::size_t peer, peer::Link& link, nanoseconds begin) {
       return live_for(setting, peer, link, begin, {0, plan.seconds, kSettling});
     };

@@ -101,7 +101,7 @@ void predict(std::span<WholeRow> rows) {
   const LiveCosts costs = fitted_costs(samples);
   for (WholeRow& row : rows) {
     row.simulated.costs = costs;
-    const double level = std::sqrt(level_of(row.samples, costs));
+    const double level = level_of(row.samples, costs);
     for (double& cost : row.simulated.costs) cost *= level;
     row.simulated.live_cpu = live_cpu(cost_counts(row.simulated), row.simulated.costs);
   }

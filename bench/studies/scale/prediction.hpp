@@ -29,8 +29,8 @@ inline constexpr double kGoodPrediction = 0.2;
                                                              Meeting meeting,
                                                              const HostsPlan& hosts,
                                                              const ScaleProgress& progress);
-/// Predicts the CPU time of all rows from the samples of all. As the load of the machine changes, a
-/// row's costs are the geometric mean of these and of the same at the level of its own samples.
+/// Predicts the CPU time of all rows. The ratios of the costs fit the samples of all rows, their
+/// level only those of the row, since the load of the machine changes.
 void predict(std::span<WholeRow> rows);
 
 /// Predicted, measured and their ratio for datagrams, octets, CPU and error; a line for each row.
