@@ -236,7 +236,8 @@ void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   }
 }
 
-// An arrival soon after the last pass waits for others.
+// An arrival soon after the last pass waits for others. A notification that ended the wait is taken,
+// else it would cause a second pass.
 void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexcept {
   at_link_.store(true, std::memory_order_relaxed);
   std::atomic_thread_fence(std::memory_order_seq_cst);
@@ -244,7 +245,6 @@ void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexce
   const bool ended = !news && peer_.link().wait(timeout);
   at_link_.store(false, std::memory_order_relaxed);
   const nanoseconds now = clock_.now();
-  // A notification is taken even if it is too late to wait: else it would cause a second pass.
   if (ended) news = news_.wait(std::max(together - now, nanoseconds(0)));
   note_pace(news);
 }
