@@ -81,15 +81,21 @@ std::optional<WholeRow> predicted_and_measured(const WholeRun& simulated, Meetin
                                                const HostsPlan& hosts,
                                                const ScaleProgress& progress) {
   const ScaleSetting& setting = simulated.setting;
-  std::vector<CostSample> samples = cost_samples(setting, meeting, CostHalf::before, progress);
-  if (samples.empty()) return std::nullopt;
+  std::vector<CostSample> samples;
+  const auto measure = [&](CostHalf half) {
+    const auto more = cost_samples(setting, meeting, half, progress);
+    samples.insert(samples.end(), more.begin(), more.end());
+    return !more.empty();
+  };
+  // Other hosts say at once what they lack.
+  const bool is_first = meeting == Meeting::hosts;
+  if (!is_first && !measure(CostHalf::before)) return std::nullopt;
   WholeRow row{{}, simulated, present_load()};
   row.run = meeting == Meeting::hosts ? run_on_hosts(setting, hosts, progress)
                                       : run_whole_peers(setting, meeting, progress);
   row.load = (row.load + present_load()) / 2;
-  const auto after = cost_samples(setting, meeting, CostHalf::after, progress);
-  if (after.empty()) return std::nullopt;
-  samples.insert(samples.end(), after.begin(), after.end());
+  if (is_first && !measure(CostHalf::before)) return std::nullopt;
+  if (!measure(CostHalf::after)) return std::nullopt;
   row.samples = std::move(samples);
   return row;
 }

@@ -82,11 +82,16 @@ std::optional<LiveCosts> usual_costs(const tools::Console& console) {
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const tools::Console& console) {
   const bool live = plan.meeting != Meeting::simulated && !plan.pick;
-  if (!plan.settings.empty()) {
+  const auto measure_costs = [&] {
     const auto costs = usual_costs(console);
-    if (!costs) return false;
-    report.limits.costs = *costs;
-  }
+    report.limits.costs = costs.value_or(LiveCosts{});
+    for (ScaleRow& row : report.rows)
+      row.run.live_cpu = live_cpu(cost_counts(row.run), report.limits.costs);
+    return costs.has_value();
+  };
+  // Other hosts say at once what they lack.
+  const bool measures_last = plan.meeting == Meeting::hosts;
+  if (!plan.settings.empty() && !measures_last && !measure_costs()) return false;
   const auto measured = [&](const WholeRun& simulated, const ScaleProgress& progress) {
     if (auto row = predicted_and_measured(simulated, plan.meeting, plan.hosts, progress))
       report.whole.push_back(std::move(*row));
@@ -114,6 +119,7 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
           measured(run_whole_peers(setting, Meeting::simulated), progress);
         }))
       return false;
+  if (measures_last && !measure_costs()) return false;
   if (plan.pick && !sweep.next([&](const ScaleProgress& progress) {
         report.pick = pick_policy(plan.settings.back(), *plan.pick, report.limits.costs,
                                   plan.meeting, progress);
