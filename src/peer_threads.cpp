@@ -34,10 +34,6 @@ constexpr nanoseconds kLeastSleep = microseconds(100);
 // rest is at most kLongestRest.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
-// If the model loop reads the link, it processes all datagrams of this interval in one pass. The
-// interval is kPrompt while a peer waits for an answer.
-constexpr nanoseconds kTogether = std::chrono::milliseconds(5);
-constexpr nanoseconds kPrompt = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams
 // If notifications of the model loop come at least this often, they come from the servo of a moving
 // hand. Arrivals then wait for the next of them.
@@ -240,7 +236,8 @@ void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   }
 }
 
-// An arrival soon after the last pass waits for others.
+// An arrival soon after the last pass waits for others. A notification that ended the wait is taken,
+// else it would cause a second pass.
 void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexcept {
   at_link_.store(true, std::memory_order_relaxed);
   std::atomic_thread_fence(std::memory_order_seq_cst);
@@ -248,7 +245,7 @@ void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexce
   const bool ended = !news && peer_.link().wait(timeout);
   at_link_.store(false, std::memory_order_relaxed);
   const nanoseconds now = clock_.now();
-  if (ended && now < together) news = news_.wait(together - now);
+  if (ended) news = news_.wait(std::max(together - now, nanoseconds(0)));
   note_pace(news);
 }
 

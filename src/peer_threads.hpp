@@ -12,12 +12,17 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
-#include "reckon/peer/threads/wake_signal.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/threads/real_time_priority.hpp"
 #include "reckon/peer/threads/servo_thread.hpp"
+#include "reckon/peer/threads/wake_signal.hpp"
 
 namespace reckon::peer {
+
+/// If the model loop reads the link, it processes all datagrams of this interval in one pass. The
+/// interval is kPrompt while a peer waits for an answer.
+inline constexpr std::chrono::nanoseconds kTogether = std::chrono::milliseconds(5);
+inline constexpr std::chrono::nanoseconds kPrompt = std::chrono::milliseconds(1);
 
 /// How the threads run.
 struct PeerThreadsOptions {
@@ -43,8 +48,8 @@ struct PeerThreadsOptions {
 /// The model loop runs when a datagram has arrived, after a step of the servo, and at the time of
 /// Peer::next_step(). Waking a thread costs more than a datagram. If delays cannot be felt, because
 /// no body is within reach of a hand and passes are short, the model loop itself therefore reads
-/// and sends. It then takes all arrivals within 1 ms together. Otherwise the reader waits at the
-/// link and wakes the model loop for each arrival that can be felt, and the writer sends. Other
+/// and sends. It then takes all arrivals within kTogether together. Otherwise the reader waits at
+/// the link and wakes the model loop for each arrival that can be felt, and the writer sends. Other
 /// arrivals then wait for the next step of a servo that paces the model loop.
 class PeerThreads {
  public:

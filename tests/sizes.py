@@ -31,7 +31,7 @@ TOTAL = {
     "src": 52000,
     "tools": 41000,
     "python": 2500,
-    "bench": 37000,
+    "bench": 37500,
     "tests": 142500,
 }
 # Class -> lines of function bodies, data members.
@@ -40,7 +40,7 @@ LARGE = {
     "aoim/AreaOfInterestManager": (317, 24),
     "aoim/LeaderRole": (363, 26),
     "aoim/Presence": (360, 18),
-    "bench/ScaleWords": (0, 27),
+    "bench/ScaleWords": (0, 29),
     "haptics/BoundingVolumeTree": (309, 6),
     "haptics/ContactSolver": (321, 24),
     "haptics/DeviceMeasurement": (193, 26),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reckon/bench/studies/scale/live_costs.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -37,8 +38,7 @@ constexpr std::array kUses{
           return 8 * a_peer(row, static_cast<double>(counts.octets + counts.heard_octets));
         },
         [](const HostLimits& limits) { return limits.link_share * limits.link; }},
-    Use{"the CPU of a host",
-        [](const ScaleRow& row) { return a_peer(row, row.run.counts.cpu + row.run.kernel_cpu); },
+    Use{"the CPU of a host", [](const ScaleRow& row) { return row.run.cpu_share(); },
         [](const HostLimits& limits) { return limits.core_share; }},
 };
 
@@ -93,10 +93,6 @@ std::string carries(const Capacity& one) {
 
 }  // namespace
 
-double kernel_cpu(const WholeCounts& counts, const HostLimits& limits) {
-  return limits.datagram * static_cast<double>(counts.heard_datagrams);
-}
-
 std::vector<Capacity> capacities(std::span<const ScaleRow> rows, const HostLimits& limits) {
   std::vector<Capacity> out;
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
@@ -111,9 +107,9 @@ std::string capacity_text(std::span<const Capacity> capacities, const HostLimits
   if (capacities.empty()) return {};
   return fmt::format(
              "Capacity of a LAN of {:g} Gbit/s, with {:g} % of it and {:g} % of a core for each "
-             "peer, {:.1f} us a datagram:\n",
+             "peer;\n{}:\n",
              1e-9 * limits.link, 100 * limits.link_share, 100 * limits.core_share,
-             1e6 * limits.datagram) +
+             costs_text(limits.costs)) +
          "- with all mechanisms: " + carries(capacities.back()) +
          "- with dead reckoning only: " + carries(capacities[1]);
 }

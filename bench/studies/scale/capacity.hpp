@@ -19,11 +19,8 @@ struct HostLimits {
   double link = 1e9;        ///< capacity of the LAN at each host [bit/s], > 0
   double link_share = 0.5;  ///< share of it that the exercise may use
   double core_share = 0.5;  ///< share of one core that a peer may use
-  double datagram = 0.0;    ///< CPU time of the kernel to receive a datagram [s]
+  LiveCosts costs{};        ///< of a peer on this host
 };
-
-/// CPU time of the kernel to receive all datagrams of a run [s].
-[[nodiscard]] double kernel_cpu(const WholeCounts& counts, const HostLimits& limits);
 
 /// The largest exercise that a mechanism supports.
 struct Capacity {

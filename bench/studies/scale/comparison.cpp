@@ -50,7 +50,7 @@ double notable(std::string_view measure) { return is_cpu(measure) ? kNotableCpu 
 
 /// The kernel's cost on this host is measured at each start. It is no change between builds.
 bool is_of_host(std::string_view measure) {
-  return measure == "kernel_cpu_share" || measure == "cpu_share";
+  return measure == "live_cpu_share" || measure == "cpu_share";
 }
 
 bool is_of(const BaseRow& base, const ScaleRow& row) {

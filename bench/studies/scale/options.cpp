@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reckon/bench/studies/scale/many_hands.hpp"
+#include "reckon/bench/studies/scale/prediction.hpp"
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double kMostPeers = 65'534, kMostEntities = 1e7;
 constexpr std::uint64_t kMostPort = 65'535;
+constexpr std::uint64_t kMostDrawn = 100;
 constexpr double kShortest = 1, kLongest = 3600;  // [s]
 
 std::vector<std::size_t> counts_of(const std::string& text, double most, std::string_view flag) {
@@ -142,6 +144,26 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
         "--whole hosts");
 }
 
+/// Replaces the settings by drawn ones. These are of processes, on lo unless --whole says another.
+void draw_settings(const ScaleWords& words, const ScaleSetting& base, ScalePlan& plan) {
+  if (*words.drawn < 1 || *words.drawn > kMostDrawn)
+    throw tools::UsageError(fmt::format("--drawn: write 1 to {} exercises", kMostDrawn));
+  const ScaleWords usual;
+  const bool is_sized = words.peers != usual.peers || !words.entities.empty() ||
+                        !words.movement.empty() || !words.file.empty() ||
+                        words.radius != usual.radius || !words.scheme.empty() ||
+                        !words.cell.empty() || !words.pool.empty() || !words.density.empty() ||
+                        words.threshold != usual.threshold || words.rate != usual.rate;
+  if (is_sized || words.hands || words.many_hands || !words.compare.empty() ||
+      !words.pick.empty() || !words.share.empty())
+    throw tools::UsageError(
+        "--drawn draws the exercises by --seed: remove the other flags, except --whole lo, --whole "
+        "lan, --for and --json");
+  if (plan.meeting == Meeting::simulated) plan.meeting = Meeting::lo;
+  plan.drawn = drawn_settings(base, *words.drawn, base.seed);
+  for (const ScaleSetting& setting : plan.drawn) check_meeting(setting, plan.meeting);
+}
+
 /// Moves exercises of more than kMostWhole peers to `fitted`, unless peers run as processes.
 void set_fitted_apart(ScalePlan& plan) {
   if (plan.meeting != Meeting::simulated || plan.share) return;
@@ -194,6 +216,16 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
   if (words.port.value_or(base.port) > kMostPort)
     throw tools::UsageError("--port: write 1 to 65535");
   base.port = static_cast<std::uint16_t>(words.port.value_or(base.port));
+  if (words.drawn) {
+    draw_settings(words, base, plan);
+    return plan;
+  }
+  if (!words.pick.empty()) {
+    plan.pick = single(words.pick, {"m", 1e-3, 1e4, false}, "--pick");
+    if (plan.meeting == Meeting::hosts)
+      throw tools::UsageError("--pick needs peers on this machine: write --whole lo or lan");
+    if (plan.meeting == Meeting::simulated) plan.meeting = Meeting::lo;
+  }
   plan.tracks = read_tracks(words, kWarmUp + base.seconds);
   base.crowd.tracks = plan.tracks;
   for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))

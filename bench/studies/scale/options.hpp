@@ -36,14 +36,16 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< none: 5 s
   std::string report;
-  std::string compare;                ///< JSON Lines of an earlier run
-  std::string whole;                  ///< network of processes, see read_meeting(); empty: none
-  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
-  std::string ssh;                    ///< command; empty: HostsPlan::ssh
-  std::string share;                  ///< peers of one host, see read_host_share(); empty: none
-  std::optional<std::uint64_t> port;  ///< of the share's peers
-  bool hands = false;                 ///< hands in contact too
-  bool many_hands = false;            ///< hands of many peers too
+  std::optional<std::uint64_t> drawn;  ///< exercises that a seed draws
+  std::string pick;                    ///< p99 pose error that a policy may have; empty: no pick
+  std::string compare;                 ///< JSON Lines of an earlier run
+  std::string whole;                   ///< network of processes, see read_meeting(); empty: none
+  std::string hosts;                   ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                     ///< command; empty: HostsPlan::ssh
+  std::string share;                   ///< peers of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;   ///< of the share's peers
+  bool hands = false;                  ///< hands in contact too
+  bool many_hands = false;             ///< hands of many peers too
   bool json = false;
   bool wide = false;  ///< all columns
 };
@@ -55,6 +57,8 @@ struct ScalePlan {
   HostsPlan hosts;                       ///< of Meeting::hosts
   std::optional<HostShare> share;        ///< if set, only this runs, with the first setting
   std::vector<ScaleSetting> settings;    ///< peers times entities; entities vary fastest
+  std::vector<ScaleSetting> drawn;       ///< run as processes only; then `settings` is empty
+  std::optional<double> pick;            ///< error of the policy for the last setting [m]
   std::vector<ScaleSetting> fitted;      ///< with more than kMostWhole peers; not run
   std::size_t hands = 0;  ///< of many peers: peers of the largest setting, kManyHands at most
 };

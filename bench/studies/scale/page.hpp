@@ -10,6 +10,7 @@
 #include "reckon/bench/studies/scale/comparison.hpp"
 #include "reckon/bench/studies/scale/hands.hpp"
 #include "reckon/bench/studies/scale/many_hands.hpp"
+#include "reckon/bench/studies/scale/pick.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/scale/whole_text.hpp"
 
@@ -22,8 +23,9 @@ struct ScaleReport {
   HostLimits limits;          ///< of the capacities
   std::vector<ScaleRow> rows;
   std::vector<FittedRow> fitted;
-  std::vector<WholeRow> whole;  ///< of processes; empty unless requested
-  std::vector<HandsRow> hands;  ///< empty unless requested
+  std::vector<WholeRow> whole;     ///< of processes; empty unless requested
+  std::optional<PolicyPick> pick;  ///< empty unless requested
+  std::vector<HandsRow> hands;     ///< empty unless requested
   std::vector<ManyHandsRow> many_hands;
   std::vector<BaseRow> base;  ///< of --compare
 };

@@ -15,9 +15,10 @@
 
 #include "reckon/bench/studies/frame/text_lines.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
+#include "reckon/bench/studies/scale/live_costs.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
-#include "reckon/bench/studies/scale/read_cost.hpp"
+#include "reckon/bench/studies/scale/prediction.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
@@ -60,33 +61,73 @@ ScaleSetting setting_of(const ScaleSetting& exercise, std::size_t mechanism) {
   return setting;
 }
 
+/// The costs on lo, measured once by this process; none if stopped. Processes of an exercise have
+/// costs of their own: predicted_and_measured().
+std::optional<LiveCosts> usual_costs(const tools::Console& console) {
+  ScaleSetting usual;
+  usual.peers = 4;
+  static std::optional<LiveCosts> costs;
+  if (costs) return costs;
+  const auto progress = [&](double) { return !console.stopped(); };
+  std::vector<CostSample> samples;
+  for (const CostHalf half : {CostHalf::before, CostHalf::after}) {
+    const auto more = cost_samples(usual, Meeting::lo, half, progress);
+    if (more.empty()) return std::nullopt;
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  return costs = fitted_costs(samples);
+}
+
 /// False if stopped: the report then has the completed runs.
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const tools::Console& console) {
-  const bool live = plan.meeting != Meeting::simulated;
-  Sweep sweep(plan.settings.size() * (kMechanisms.size() + (live ? 1 : 0)) + (words.hands ? 1 : 0) +
-                  (words.many_hands ? 1 : 0),
+  const bool live = plan.meeting != Meeting::simulated && !plan.pick;
+  const auto measure_costs = [&] {
+    const auto costs = usual_costs(console);
+    report.limits.costs = costs.value_or(LiveCosts{});
+    for (ScaleRow& row : report.rows)
+      row.run.live_cpu = live_cpu(cost_counts(row.run), report.limits.costs);
+    return costs.has_value();
+  };
+  // Other hosts say at once what they lack.
+  const bool measures_last = plan.meeting == Meeting::hosts;
+  if (!plan.settings.empty() && !measures_last && !measure_costs()) return false;
+  const auto measured = [&](const WholeRun& simulated, const ScaleProgress& progress) {
+    if (auto row = predicted_and_measured(simulated, plan.meeting, plan.hosts, progress))
+      report.whole.push_back(std::move(*row));
+  };
+  Sweep sweep((plan.pick ? 1 : 0) + plan.drawn.size() +
+                  plan.settings.size() * (kMechanisms.size() + (live ? 1 : 0)) +
+                  (words.hands ? 1 : 0) + (words.many_hands ? 1 : 0),
               console);
   for (const ScaleSetting& setting : plan.settings) {
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
       if (!sweep.next([&](const ScaleProgress& progress) {
             ScaleRow row{mechanism, run_whole_peers(setting_of(setting, mechanism),
                                                     Meeting::simulated, progress)};
-            row.run.kernel_cpu = kernel_cpu(row.run.counts, report.limits);
+            row.run.live_cpu = live_cpu(cost_counts(row.run), report.limits.costs);
             if (!console.stopped()) report.rows.push_back(std::move(row));
           }))
         return false;
     if (live && !sweep.next([&](const ScaleProgress& progress) {
-          WholeRun run = plan.meeting == Meeting::hosts
-                             ? run_on_hosts(setting, plan.hosts, progress)
-                             : run_whole_peers(setting, plan.meeting, progress);
-          if (!console.stopped()) report.whole.push_back({std::move(run), report.rows.back().run});
+          measured(report.rows.back().run, progress);
         }))
       return false;
   }
+  for (const ScaleSetting& setting : plan.drawn)
+    if (!sweep.next([&](const ScaleProgress& progress) {
+          measured(run_whole_peers(setting, Meeting::simulated), progress);
+        }))
+      return false;
+  if (measures_last && !measure_costs()) return false;
+  if (plan.pick && !sweep.next([&](const ScaleProgress& progress) {
+        report.pick = pick_policy(plan.settings.back(), *plan.pick, report.limits.costs,
+                                  plan.meeting, progress);
+      }))
+    return false;
   for (const ScaleSetting& setting : plan.fitted)
     std::ranges::move(fitted_rows(report.rows, setting), std::back_inserter(report.fitted));
-  const ScaleSetting& any = plan.settings.front();
+  const ScaleSetting& any = plan.settings.empty() ? plan.drawn.front() : plan.settings.front();
   if (words.hands && !sweep.next([&](const ScaleProgress& progress) {
         report.hands = run_hands(any.network, any.seed, progress);
       }))
@@ -127,8 +168,12 @@ std::string scale_findings(const ScaleReport& report, bool json, bool wide) {
       report.fitted, [&] { return fitted_json(report.fitted); },
       [&] { return fitted_text(report.fitted); });
   add(
-      report.whole, [&] { return whole_json(report.whole); },
-      [&] { return whole_text(report.whole); });
+      report.whole, [&] { return whole_json(report.whole) + prediction_json(report.whole); },
+      [&] { return whole_text(report.whole) + prediction_text(report.whole); });
+  const std::vector<WholeRow> picked = report.pick ? report.pick->rows : std::vector<WholeRow>();
+  add(
+      picked, [&] { return prediction_json(picked); }, [&] { return prediction_text(picked); });
+  if (report.pick && !json) out += '\n' + pick_text(*report.pick);
   add(
       report.hands, [&] { return hands_json(report.hands); },
       [&] { return hands_text(report.hands); });
@@ -152,12 +197,12 @@ int bench_scale(const ScaleWords& words, const std::string& command,
   ScaleReport report;
   report.command = command;
   report.circumstances = circumstances();
-  report.limits.datagram = measure_read_cost();
   if (!words.compare.empty()) {
     report.base = read_scale_rows(words.compare);
     check_same_exercises(plan.settings, report.base, words.compare);
   }
   const bool whole = run_all(plan, words, report, console);
+  predict(report.whole);
   if (!whole) report.base.clear();  // missing rows are no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)

@@ -41,6 +41,12 @@ class ScaleStudy final : public Study {
         {"--whole", &words_.whole,
          "scale: compares simulated peers with processes: on lo, on a lan of network namespaces "
          "(root), or on several hosts"},
+        {"--drawn", &words_.drawn,
+         "scale: so many exercises that --seed draws, predicted and as processes (on lo, or on a "
+         "--whole lan), and nothing else"},
+        {"--pick", &words_.pick,
+         "scale: the cheapest threshold, cells and pool with this p99 pose error, such as 2m, by "
+         "prediction; then it and its neighbours as processes"},
         {"--hosts", &words_.hosts,
          "scale: hosts on which --whole hosts starts them over ssh, such as a,b=eth1: HOST or "
          "HOST=INTERFACE"},

@@ -77,11 +77,12 @@ constexpr std::array kMeasures{
                  }},
     ScaleMeasure{"loops_cpu_share", "CPU LOOPS", "",
                  [](const ScaleRow& row) { return each(row, row.run.counts.cpu); }},
-    ScaleMeasure{"kernel_cpu_share", "CPU KERNEL", "",
-                 [](const ScaleRow& row) { return each(row, row.run.kernel_cpu); }},
-    ScaleMeasure{
-        "cpu_share", "CPU", "CPU",
-        [](const ScaleRow& row) { return each(row, row.run.counts.cpu + row.run.kernel_cpu); }},
+    ScaleMeasure{"wakes_per_s", "WAKES/s", "",
+                 [](const ScaleRow& row) { return each(row, row.run.counts.passes); }},
+    ScaleMeasure{"live_cpu_share", "CPU LIVE", "",
+                 [](const ScaleRow& row) { return each(row, row.run.live_cpu); }},
+    ScaleMeasure{"cpu_share", "CPU", "CPU",
+                 [](const ScaleRow& row) { return row.run.cpu_share(); }},
 };
 
 bool is_same_exercise(const ScaleRow& a, const ScaleRow& b) {
@@ -156,8 +157,9 @@ std::string scale_text(std::span<const ScaleRow> rows) {
       "updates of remote entities\nthat are used: within the radius, or shown; UNWANTED: the "
       "others. POSE: shown against true. UNSEEN: share of\nentities within the radius, at each "
       "sample, not shown; SHOWN: time until shown. LOST: of the datagrams for\njoined groups. "
-      "GROUPS: joined at the end. CPU: of this machine's core; KERNEL: to read the received "
-      "datagrams.\n";
+      "GROUPS: joined at the end. CPU: of this machine's core; LIVE: of a live peer beside its "
+      "loops, "
+      "by its wakes, datagrams\nand ticks. WAKES: passes of the model loop.\n";
   return out;
 }
 

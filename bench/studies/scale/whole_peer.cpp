@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -36,9 +37,11 @@ class WatchedLink final : public peer::Link {
   explicit WatchedLink(peer::Link& link) : link_(link) {}
 
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
+    sent_.store(true, std::memory_order_relaxed);
     return link_.send(to, bytes);
   }
   peer::SentBatch send_batch(std::span<const peer::OutgoingDatagram> batch) noexcept override {
+    sent_.store(true, std::memory_order_relaxed);
     return link_.send_batch(batch);
   }
   std::size_t receive(std::span<peer::Datagram> out) noexcept override {
@@ -70,18 +73,24 @@ class WatchedLink final : public peer::Link {
   bool take_event(peer::LinkEvent& event) noexcept override { return link_.take_event(event); }
 
   [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_; }
+  /// Whether a datagram was sent since the last call. A real link delivers it to its sender too,
+  /// which ignores it, but wakes.
+  bool take_sent() noexcept { return sent_.exchange(false, std::memory_order_relaxed); }
 
  private:
   peer::Link& link_;
   std::set<peer::GroupAddress> joined_;
   std::uint64_t foreign_ = 0;
+  std::atomic<bool> sent_{false};
 };
 
-peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) {
+peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer,
+                                 peer::FederateLoops loops) {
   peer::FederateOptions options;
   options.name = "whole";
   options.scene = scale_scene(setting);
   options.scene->network.entities = setting.crowd.entities;  // room is reserved for all
+  options.loops = loops;
   options.site = kSite;
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
@@ -127,14 +136,14 @@ void WholeSamples::add(const WholeSamples& other) {
 struct WholePeer::MeasuredFederate {
   MeasuredFederate(const ScaleSetting& given, std::size_t number, peer::Link& link,
                    const peer::Clock& clock, nanoseconds start, std::uint32_t epoch,
-                   AttendanceLaw law)
+                   peer::FederateLoops loops, AttendanceLaw law)
       : setting(given),
         begin(start),
         owned(owned_by(given, number)),
         attendance(std::move(law)),
         entered(given.crowd.entities, kOutside),
         watched(link),
-        federate(options_of(given, number), watched, clock, epoch) {
+        federate(options_of(given, number, loops), watched, clock, epoch) {
     federate.publish(peer::EntityClass{});
     federate.subscribe(peer::EntityClass{});
     for (std::size_t p = 0; p < given.peers; ++p) {
@@ -172,13 +181,27 @@ struct WholePeer::MeasuredFederate {
     }
   }
 
-  /// Steps until no datagram is pending, at most kMostPasses times.
+  /// Without threads: steps until no datagram is pending, at most kMostPasses times.
   void pass() {
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-      const std::uint64_t heard = counted("datagrams_in");
+    if (federate.joined().threads() != nullptr) return federate.step();
+    const nanoseconds begun = federate.now();
+    const std::uint64_t heard = counted("datagrams_in");
+    ++passes;
+    for (int step = 0; step < kMostPasses; ++step) {
       federate.step();
-      if (counted("datagrams_in") == heard && !federate.peer().has_inbound()) break;
+      if (!federate.peer().has_inbound() && !watched.wait(nanoseconds(0))) break;
     }
+    const peer::Peer& peer = federate.peer();
+    collects = counted("datagrams_in") > heard + 1;
+    hears_itself = watched.take_sent();
+    until = peer.next_step();
+    together = begun + (peer.is_prompt(begun) ? peer::kPrompt : peer::kTogether);
+  }
+  /// Whether the model loop of PeerThreads would pass now.
+  [[nodiscard]] bool is_due() {
+    const nanoseconds now = federate.now();
+    return now >= until ||
+           (now >= together && (collects || hears_itself || watched.wait(nanoseconds(0))));
   }
 
   /// Box around the own entities, enlarged by the radius of interest.
@@ -232,6 +255,8 @@ struct WholePeer::MeasuredFederate {
     sums.heard_datagrams = counted("datagrams_in");
     sums.heard_octets = counted("octets_in") + peer::kUdpIpv4Headers * sums.heard_datagrams;
     sums.lost = counted("datagrams_lost");
+    const peer::PeerThreads* threads = federate.joined().threads();
+    sums.passes = threads != nullptr ? threads->model_times().times().count() : passes;
     const peer::LinkStatistics link = watched.statistics();
     sums.joins = link.joins;
     sums.dropped = link.kernel_drops;
@@ -250,12 +275,16 @@ struct WholePeer::MeasuredFederate {
   WholeCounts counts, before;
   WholeSamples samples;
   double counting_since = 0, cpu = 0, cpu_before = 0;
+  // Of pass() without threads.
+  std::uint64_t passes = 0;
+  nanoseconds until{0}, together{0};
+  bool collects = false, hears_itself = false;
 };
 
 WholePeer::WholePeer(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                      const peer::Clock& clock, nanoseconds begin, std::uint32_t epoch,
-                     AttendanceLaw attendance)
-    : measured_(std::make_unique<MeasuredFederate>(setting, peer, link, clock, begin, epoch,
+                     peer::FederateLoops loops, AttendanceLaw attendance)
+    : measured_(std::make_unique<MeasuredFederate>(setting, peer, link, clock, begin, epoch, loops,
                                                    std::move(attendance))) {}
 WholePeer::~WholePeer() = default;
 
@@ -269,6 +298,8 @@ void WholePeer::step(double time, Crowd& crowd) {
   s.pass();
   s.cpu += pdu::to_seconds(peer::thread_cpu_time() - begun);
 }
+
+bool WholePeer::is_due() { return measured_->is_due(); }
 
 void WholePeer::serve() {
   MeasuredFederate& s = *measured_;
@@ -300,7 +331,8 @@ WholeCounts WholePeer::counts(double time) {
   for (std::uint64_t WholeCounts::*sum :
        {&WholeCounts::updates, &WholeCounts::datagrams, &WholeCounts::octets,
         &WholeCounts::heard_updates, &WholeCounts::heard_datagrams, &WholeCounts::heard_octets,
-        &WholeCounts::wanted, &WholeCounts::joins, &WholeCounts::lost, &WholeCounts::dropped})
+        &WholeCounts::wanted, &WholeCounts::joins, &WholeCounts::lost, &WholeCounts::dropped,
+        &WholeCounts::passes})
     counts.*sum = now.*sum - s.before.*sum;
   const peer::LinkStatistics link = s.watched.statistics();
   counts.groups = link.joins - link.leaves - 1;  // without the base group

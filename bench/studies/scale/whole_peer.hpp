@@ -14,6 +14,7 @@
 #include "reckon/bench/studies/scale/crowd.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
@@ -38,6 +39,7 @@ struct WholeCounts {
   std::uint64_t heard_updates = 0, heard_datagrams = 0, heard_octets = 0;
   std::uint64_t wanted = 0;   ///< updates used: of entities within the radius, or shown
   std::uint64_t joins = 0;    ///< of groups
+  std::uint64_t passes = 0;   ///< of the model loops
   std::uint64_t lost = 0;     ///< datagrams missing in their senders' numbering
   std::uint64_t dropped = 0;  ///< by the kernel
   std::uint64_t foreign = 0;  ///< datagrams of groups that the peer had not joined, or joined
@@ -68,6 +70,7 @@ inline constexpr std::array kWholeSums{
     WholeSum{"heard_octets", &WholeCounts::heard_octets},
     WholeSum{"wanted", &WholeCounts::wanted},
     WholeSum{"joins", &WholeCounts::joins},
+    WholeSum{"passes", &WholeCounts::passes},
     WholeSum{"lost", &WholeCounts::lost},
     WholeSum{"dropped", &WholeCounts::dropped},
     WholeSum{"foreign", &WholeCounts::foreign},
@@ -94,12 +97,14 @@ class WholePeer {
   /// @param epoch of this federate, never used twice @throws as Federate does
   WholePeer(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
             const peer::Clock& clock, std::chrono::nanoseconds begin, std::uint32_t epoch,
-            AttendanceLaw attendance = {});
+            peer::FederateLoops loops, AttendanceLaw attendance = {});
   ~WholePeer();
 
   /// Sets its own entities to their states at `time` [s since begin], sends due updates, and reads
   /// arrived datagrams. @param crowd at `time`
   void step(double time, Crowd& crowd);
+  /// Without threads: whether the model loop of a live peer would pass now.
+  [[nodiscard]] bool is_due();
   /// Sends due datagrams and reads arrived ones, between two steps.
   void serve();
   /// Compares shown with true positions.

@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <thread>
 
 #include "reckon/bench/studies/scale/peer_processes.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/peer_threads.hpp"
+#include "reckon/peer/threads/cpu_time.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
@@ -22,8 +26,11 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kExerciseBegin = std::chrono::seconds(1);
 constexpr double kLookPeriod = 0.1;      // [s]
+constexpr double kPassGrid = 0.00025;    // [s], of the passes of simulated peers
 constexpr std::size_t kLeastRoom = 512;  // datagrams in flight to a peer
+constexpr double kLatest = 0.0005;       // [s], of a tick of a simulated peer
 constexpr double kComing = 1;            // [s] in which all peers of a simulated network join
+constexpr double kOffTick = 0.37;        // of the time from one joining peer to the next
 
 std::size_t ticks_until(const ScaleSetting& setting, double time) {
   return static_cast<std::size_t>(std::llround(time * setting.rate));
@@ -60,15 +67,17 @@ class SimulatedPeers {
     network_.impair(setting.network);
   }
 
-  /// Steps each peer. Peers join one after the other; else all would repeat their states at the
-  /// same instants.
-  void step(double time, Crowd& crowd) {
-    const double come = time / kComing * static_cast<double>(setting_.peers);
+  /// Each peer passes if its model loop would. Peers join one after the other, and not at a tick;
+  /// else all would repeat their states at the same instants, together with a tick.
+  void pass(double time) {
+    const double come = time / kComing * static_cast<double>(setting_.peers) - kOffTick;
     for (std::size_t p = peers_.size(); p < setting_.peers && static_cast<double>(p) <= come; ++p)
-      peers_.push_back(std::make_unique<WholePeer>(setting_, p, network_.link(p), clock_,
-                                                   kExerciseBegin,
-                                                   static_cast<std::uint32_t>(p + 1)));
-    for_each([&](WholePeer& peer) { peer.step(time, crowd); });
+      peers_.push_back(std::make_unique<WholePeer>(
+          setting_, p, network_.link(p), clock_, kExerciseBegin, static_cast<std::uint32_t>(p + 1),
+          peer::FederateLoops::in_step));
+    for_each([](WholePeer& peer) {
+      if (peer.is_due()) peer.serve();
+    });
   }
   /// Calls use(peer) for each joined peer. When many datagrams are in flight, all peers read them,
   /// so that no link overflows.
@@ -127,16 +136,17 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
   double time = 0;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     time = static_cast<double>(tick) / setting.rate;
-    clock.set(kExerciseBegin + pdu::from_seconds(time));
+    // A live program states the motion a little late. Without that, deadlines would fall on ticks.
+    const double late = kLatest * pdu::unit_of(pdu::split_mix(setting.seed + tick));
+    clock.set(kExerciseBegin + pdu::from_seconds(time + late));
     crowd.advance(time);
     if (tick == warm) peers.for_each([&](WholePeer& peer) { peer.begin_counting(time); });
-    peers.step(time, crowd);
-    // Bundles are sent after their hold time, not at the next tick.
-    if (setting.hold < 1 / setting.rate) {
-      clock.set(kExerciseBegin + pdu::from_seconds(time + setting.hold));
-      peers.serve();
-    }
+    peers.for_each([&](WholePeer& peer) { peer.step(time, crowd); });
     if (is_look(setting, tick)) peers.for_each([&](WholePeer& peer) { peer.look(time, crowd); });
+    for (double at = time + kLatest; at < time + 1 / setting.rate; at += kPassGrid) {
+      clock.set(kExerciseBegin + pdu::from_seconds(at));
+      peers.pass(at);
+    }
     if (progress && !progress(static_cast<double>(tick + 1) / static_cast<double>(ticks))) break;
   }
   WholeRun run;
@@ -177,7 +187,8 @@ void check_meeting(const ScaleSetting& setting, Meeting meeting) {
   const bool is_perfect = setting.network.delay == nanoseconds(0) && setting.network.loss == 0;
   if (!is_perfect)
     throw tools::UsageError(
-        "--delay, --jitter, --loss: a real network has its own; remove them, or --whole");
+        "--delay, --jitter, --loss: a real network has its own; remove them, or --whole and "
+        "--pick");
   if (meeting == Meeting::lan && geteuid() != 0)
     throw tools::EnvironmentError(
         "--whole lan creates network namespaces, which needs root; run it with sudo, or write "
@@ -190,6 +201,23 @@ Meeting read_meeting(const std::string& text) {
   if (text == "lan") return Meeting::lan;
   if (text == "hosts") return Meeting::hosts;
   throw tools::UsageError(fmt::format("--whole: '{}' is not one of lo, lan, hosts", text));
+}
+
+CostCounts cost_counts(const WholeRun& run) noexcept {
+  const WholeCounts& counts = run.counts;
+  const double seconds = counts.seconds * static_cast<double>(run.setting.peers);
+  const auto passes = static_cast<double>(counts.passes);
+  const double wakes = std::min(passes, seconds / pdu::to_seconds(peer::kTogether));
+  return {wakes,
+          passes - wakes,
+          static_cast<double>(counts.heard_datagrams),
+          static_cast<double>(counts.datagrams),
+          run.setting.rate * seconds,
+          static_cast<double>(counts.joins)};
+}
+
+double live_cpu(const CostCounts& counts, const LiveCosts& costs) noexcept {
+  return std::inner_product(counts.begin(), counts.end(), costs.begin(), 0.0);
 }
 
 WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
@@ -226,8 +254,8 @@ LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& 
   const peer::SteadyClock clock;
   Crowd crowd(setting.crowd);
   std::size_t tick = ticks_until(setting, stay.from);
-  const std::size_t warm =
-      std::max(ticks_until(setting, kWarmUp), ticks_until(setting, stay.from + kWarmUp));
+  const std::size_t warm = std::max(ticks_until(setting, stay.settling),
+                                    ticks_until(setting, stay.from + stay.settling));
   const std::size_t end = ticks_until(setting, stay.until);
   // All processes take the same steps, so that their true positions are equal.
   for (std::size_t t = 0; t <= tick; ++t) crowd.advance(static_cast<double>(t) / setting.rate);
@@ -242,16 +270,29 @@ LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& 
   wait_for(tick);
   LiveOutcome outcome;
   const auto epoch = static_cast<std::uint32_t>(peer + 1 + 1000 * (1 + tick));
-  WholePeer whole(setting, peer, link, clock, begin, epoch, attendance);
+  WholePeer whole(setting, peer, link, clock, begin, epoch, peer::FederateLoops::threads,
+                  attendance);
+  nanoseconds before{0}, of_study{0};  // CPU time
+  const auto apart = [&](auto&& work) {
+    const nanoseconds begun = peer::thread_cpu_time();
+    work();
+    of_study += peer::thread_cpu_time() - begun;
+  };
   for (; tick < end; ++tick) {
     outcome.latest = std::max(outcome.latest, wait_for(tick));
     const double time = static_cast<double>(tick) / setting.rate;
-    crowd.advance(time);
-    if (tick == warm) whole.begin_counting(time);
+    apart([&] { crowd.advance(time); });
+    if (tick == warm) {
+      whole.begin_counting(time);
+      before = peer::process_cpu_time();
+      of_study = nanoseconds(0);
+    }
     whole.step(time, crowd);
-    if (is_look(setting, tick)) whole.look(time, crowd);
+    if (is_look(setting, tick)) apart([&] { whole.look(time, crowd); });
   }
+  const nanoseconds spent = peer::process_cpu_time() - before - of_study;
   outcome.counts = whole.counts(static_cast<double>(end) / setting.rate);
+  outcome.counts.cpu = pdu::to_seconds(spent);
   outcome.samples = whole.samples();
   return outcome;
 }

@@ -3,10 +3,12 @@
 // All peers of an exercise: in one process and simulated time, or as processes on a real network.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "reckon/bench/studies/scale/whole_peer.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
@@ -30,6 +32,16 @@ enum class Meeting : std::uint8_t {
 /// @throws UsageError or EnvironmentError with the remedy if the exercise cannot run there
 void check_meeting(const ScaleSetting& setting, Meeting meeting);
 
+/// What costs a live peer CPU time beside its loops in simulated time, system calls included.
+inline constexpr std::array<std::string_view, 6> kCostNames{"wake", "pass", "heard",
+                                                            "sent", "tick", "join"};
+/// Times that all peers of a run did each. A wake is a pass of the model loop, one each
+/// peer::kTogether at most; `pass` are those beyond, without a sleep before. Heard and sent:
+/// datagrams. Tick: of the program that states the motion of its entities. Join: of a group.
+using CostCounts = std::array<double, kCostNames.size()>;
+/// CPU time of each [s].
+using LiveCosts = std::array<double, kCostNames.size()>;
+
 /// Results of all peers of an exercise.
 struct WholeRun {
   ScaleSetting setting;
@@ -40,10 +52,20 @@ struct WholeRun {
   double resident = 0;          ///< memory of all peers [octets]
   double wall = 0;              ///< duration of the run [s]
   double latest = 0;            ///< largest delay of a step of a process [s]
-  /// CPU time of all peers in a kernel, which a simulated network lacks [s]; filled in by the
-  /// caller.
-  double kernel_cpu = 0;
+  /// CPU time of all live peers beside their loops [s]: predicted for a simulated run by the
+  /// caller, else 0.
+  double live_cpu = 0;
+  LiveCosts costs{};  ///< of the prediction
+
+  /// Of a core, on average over the peers.
+  [[nodiscard]] double cpu_share() const noexcept {
+    return (counts.cpu + live_cpu) / counts.seconds / static_cast<double>(setting.peers);
+  }
 };
+
+[[nodiscard]] CostCounts cost_counts(const WholeRun& run) noexcept;
+/// Of all peers beside their loops [s].
+[[nodiscard]] double live_cpu(const CostCounts& counts, const LiveCosts& costs) noexcept;
 
 /// Most peers as processes of one machine.
 inline constexpr std::size_t kMostProcesses = 250;
@@ -56,6 +78,7 @@ inline constexpr std::size_t kMostProcesses = 250;
 /// When a real peer takes part [s since begin].
 struct LiveStay {
   double from = 0, until = 0;
+  double settling = kWarmUp;  ///< not counted
 };
 struct LiveOutcome {
   WholeCounts counts;
@@ -72,7 +95,7 @@ struct PeerProcess {
                               std::span<const PeerProcess> processes);
 
 /// Runs one real peer during `stay` at the setting's ticks, by the host's clock. It counts from
-/// kWarmUp after it joins, or after the begin if that is later. @param begin steady time
+/// `stay.settling` after it joins, or after the begin if that is later. @param begin steady time
 [[nodiscard]] LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                                    std::chrono::nanoseconds begin, const LiveStay& stay,
                                    const AttendanceLaw& attendance = {});

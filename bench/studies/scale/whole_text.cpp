@@ -45,9 +45,6 @@ std::string difference(double found, double simulated) {
   return simulated != 0 ? fmt::format("{:+.1f} %", 100 * (found / simulated - 1)) : "-";
 }
 
-double share_of_core(const WholeRun& run) {
-  return run.counts.cpu / run.counts.seconds / static_cast<double>(run.setting.peers);
-}
 double update_cpu(const WholeRun& run) {
   return run.counts.heard_updates > 0
              ? run.counts.cpu / static_cast<double>(run.counts.heard_updates)
@@ -101,7 +98,7 @@ std::string whole_text(std::span<const WholeRow> rows) {
         "run took {:.1f} s\n{}\n",
         run.setting.peers, run.setting.crowd.entities, name_of(run.meeting), counts.seconds,
         table.text(), counts.looks, counts.overdue, kShownWithin, counts.lost, counts.dropped,
-        counts.foreign, 100 * share_of_core(run), number_text(1e6 * update_cpu(run)),
+        counts.foreign, 100 * run.cpu_share(), number_text(1e6 * update_cpu(run)),
         number_text(octets_each(run) / 1024),
         static_cast<double>(counts.known) / static_cast<double>(run.setting.peers),
         static_cast<double>(counts.groups) / static_cast<double>(run.setting.peers), run.wall,

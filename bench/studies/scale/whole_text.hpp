@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "reckon/bench/studies/scale/live_costs.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 
 namespace reckon::bench {
@@ -13,6 +14,8 @@ namespace reckon::bench {
 /// A run of processes, and the same exercise with simulated peers.
 struct WholeRow {
   WholeRun run, simulated;
+  double load = 0;  ///< of the machine during the run: threads that run or wait
+  std::vector<CostSample> samples = {};  ///< measured before and after the run
 };
 
 /// A table for each row: simulated, processes, difference; then losses and costs of each peer.

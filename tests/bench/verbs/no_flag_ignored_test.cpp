@@ -66,7 +66,7 @@ class NoFlagIgnored : public testing::Test {
     std::string text = result.out;
     for (const std::string& file : written_) text += content(file);
     static const std::regex times(
-        R"x((query_ns|servo_step_ns|loops_cpu_share|kernel_cpu_share|cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
+        R"x((query_ns|servo_step_ns|loops_cpu_share|live_cpu_share|cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
     return {result, std::regex_replace(text, times, "")};
   }
 
@@ -237,6 +237,8 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
       {"--rate", {"10"}},
       {"--threshold", {"0.2m"}},
       {"--whole", {"lo"}},
+      {"--drawn", {"1"}},
+      {"--pick", {"2m"}},
       {"--hosts", {"a,b"}},
       {"--ssh", {"ssh -4"}},
       {"--share", {"1-1"}},

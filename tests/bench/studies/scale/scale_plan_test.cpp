@@ -41,6 +41,23 @@ TEST(ScalePlan, CrossesPeersWithEntities) {
   EXPECT_EQ(plan.settings[0].network.jitter, std::chrono::milliseconds(20));
 }
 
+TEST(ScalePlan, DrawnExercisesReplaceAllOthers) {
+  ScaleWords words;
+  words.drawn = 3;
+  const ScalePlan plan = read_scale_plan(words);
+  EXPECT_EQ(plan.drawn.size(), 3U);
+  EXPECT_TRUE(plan.settings.empty());
+  EXPECT_EQ(plan.meeting, Meeting::lo);
+  words.cell = "50 m";
+  EXPECT_THAT(refusal(words), HasSubstr("--drawn draws the exercises"));
+  words = {};
+  words.drawn = 0;
+  EXPECT_THAT(refusal(words), HasSubstr("--drawn: write 1"));
+  words = {};
+  words.pick = "0 m";
+  EXPECT_THAT(refusal(words), HasSubstr("--pick"));
+}
+
 TEST(ScalePlan, RefusesByNameWhatCannotBe) {
   ScaleWords words;
   words.peers = "8.5";

@@ -117,7 +117,7 @@ TEST(ScaleText, CpuIsJudgedOnlyByRepeatedRuns) {
   std::ofstream(file) << scale_json(std::vector{row_of(1, 60)});
   ScaleRow slow = row_of(1, 60);
   slow.run.counts.cpu *= 3;
-  slow.run.kernel_cpu = 1;
+  slow.run.live_cpu = 1;
   EXPECT_TRUE(changes_of(std::vector{slow}, read_scale_rows(file)).empty());
   std::ofstream(file, std::ios::app) << scale_json(std::vector{row_of(1, 60)});
   const auto changes = changes_of(std::vector{slow}, read_scale_rows(file));
@@ -166,11 +166,11 @@ std::vector<ScaleRow> exercise_of(std::size_t peers, double power) {
 
 // 20,000 datagrams of 10 us take a fifth of a core; half a core is 2.5 times that.
 TEST(ScaleCapacity, QuantityAtItsLimitEndsTheExercise) {
-  const HostLimits limits{1e9, 0.5, 0.5, 10e-6};
+  const HostLimits limits{1e9, 0.5, 0.5, {0, 0, 10e-6}};
   for (const double power : {0.5, 1.0, 2.0}) {
     std::vector<ScaleRow> rows = exercise_of(10, power);
     for (const ScaleRow& row : exercise_of(20, power)) rows.push_back(row);
-    for (ScaleRow& row : rows) row.run.kernel_cpu = kernel_cpu(row.run.counts, limits);
+    for (ScaleRow& row : rows) row.run.live_cpu = live_cpu(cost_counts(row.run), limits.costs);
     const auto found = capacities(rows, limits);
     ASSERT_EQ(found.size(), kMechanisms.size());
     EXPECT_NEAR(found.back().peers, 10 * std::pow(2.5, 1 / power), 0.01) << power;
@@ -186,7 +186,7 @@ TEST(ScaleCapacity, QuantityAtItsLimitEndsTheExercise) {
 }
 
 TEST(ScaleCapacity, IsTheLinkWhereThatIsFullFirst) {
-  const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
+  const HostLimits limits{1e9, 0.5, 0.5, {0, 0, 1e-6}};
   std::vector<ScaleRow> rows = exercise_of(10, 1);
   for (const ScaleRow& row : exercise_of(20, 1)) rows.push_back(row);
   for (ScaleRow& row : rows) row.run.counts.heard_octets = 1000 * row.run.counts.heard_datagrams;
@@ -197,7 +197,7 @@ TEST(ScaleCapacity, IsTheLinkWhereThatIsFullFirst) {
 }
 
 TEST(ScaleCapacity, FarExercisesAreNotExtrapolated) {
-  const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
+  const HostLimits limits{1e9, 0.5, 0.5, {0, 0, 1e-6}};
   std::vector<ScaleRow> rows = exercise_of(10, 0);
   EXPECT_TRUE(capacities(rows, limits).empty());
   EXPECT_EQ(capacity_text({}, limits), "");
