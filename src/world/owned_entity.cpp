@@ -372,15 +372,17 @@ bool OwnedEntity::hold_back(nanoseconds time) noexcept {
   return first;
 }
 
-// Without listeners nothing is due.
+// Without listeners nothing is due. What was due at the last check was deferred, if anything was.
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
   if (!is_ours()) return nanoseconds::max();
-  const nanoseconds own = last_built_ + pdu::from_seconds(policy_.silence());
-  if (!audiences_) return std::max(withheld_until_, std::min(held_until_, own));
-  const std::size_t served = audiences_->served();
-  const nanoseconds others = pdu::from_seconds(audiences_->next(served));
-  const nanoseconds next = std::min(held_until_, others);
-  return std::max(withheld_until_, served == 0 ? std::min(next, own) : next);
+  nanoseconds due = last_built_ + pdu::from_seconds(policy_.silence());
+  if (audiences_) {
+    const std::size_t served = audiences_->served();
+    const nanoseconds others = pdu::from_seconds(audiences_->next(served));
+    due = served == 0 ? std::min(due, others) : others;
+  }
+  const bool is_deferred = due <= checked_ && held_until_ < nanoseconds::max();
+  return std::max(withheld_until_, is_deferred ? held_until_ : std::min(held_until_, due));
 }
 
 }  // namespace reckon::peer

@@ -215,6 +215,7 @@ class OwnedEntity {
   /// Records a check: ends a deferral until `now`, unless the update is deferred again.
   void note_check(std::chrono::nanoseconds now) noexcept {
     if (held_until_ <= now) held_until_ = std::chrono::nanoseconds::max();
+    checked_ = now;
   }
 
   /// The motion that an update at `now` states, S frame.
@@ -257,6 +258,7 @@ class OwnedEntity {
   bool frozen_ = false;
   std::chrono::nanoseconds held_until_ = std::chrono::nanoseconds::max();
   std::chrono::nanoseconds withheld_until_ = std::chrono::nanoseconds::min();
+  std::chrono::nanoseconds checked_ = std::chrono::nanoseconds::min();
   bool has_waited_ = false;  // an update was deferred since the last one
   std::chrono::nanoseconds last_built_{std::chrono::nanoseconds::min() / 2};
   DeadReckoningConfig config_;
