@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -16,9 +16,25 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(DeferredUpdates, LetTheModelLoopSleep) {
-  SceneFile scene = *dis_exercise(1, 0.3, 0.145);
-  scene.network.interop = false;
-  scene.aoim.tiers = distance_tiers(aoim::default_channels());
+  const SceneFile scene = parse_scene_file(R"(
+[aoim]
+cell = "100 m"
+radius = "200 m"
+
+[[aoim.tier]]
+farthest = "50 m"
+active = "30 Hz"
+passive = "0.2 Hz"
+octets = "232 B"
+own_group = true
+
+[[aoim.tier]]
+body = "rigid"
+active = "1 Hz"
+passive = "0.2 Hz"
+octets = "144 B"
+)",
+                                           "tiers.toml");
   ManualClock clock(1s, 1h);
   SimulatedNetworkOptions links;
   links.links = 1;
@@ -27,10 +43,10 @@ TEST(DeferredUpdates, LetTheModelLoopSleep) {
   options.epoch = 1;
   Peer peer(scene, options, network.link(0), {});
   const auto car = [&] {  // on a circle, as no prediction has it
-    const double angle = 0.5 * pdu::to_seconds(clock.now());
+    const double angle = 2.0 * pdu::to_seconds(clock.now());
     EntityTruth truth;
     truth.time = clock.now();
-    truth.position = {20 * std::cos(angle), 20 * std::sin(angle), 0};
+    truth.position = {5 * std::cos(angle), 5 * std::sin(angle), 0};
     truth.velocity = {-10 * std::sin(angle), 10 * std::cos(angle), 0};
     return truth;
   };
