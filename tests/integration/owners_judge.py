@@ -12,7 +12,7 @@ ADOPTED = 5.0    # [s] after a kill
 GIVEN = 7.0      # [s] after it, of a body that was being given to the killed process
 UNOWNED = 1.0    # [s] without an owner, while nobody fails
 NEAR = (20, 100) # [ms] before and after a hand-over
-KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock: delay, and the passes of both loops
+KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock, beside the time between its passes
 KNOWN = 20       # [ms] for which the last state of an owner says where the body is
 SAME = 2.0       # [mm], as far as a place is the same
 AWAKE = 2.0      # [s] after a sleep in which an old place would come back
@@ -143,14 +143,14 @@ class Judge:
         for name, log in self.logs.items():
             changes = {body: sorted(row[0] for row in rows) for body, rows in
                        by_body([row for kind in ("knows", "begin", "end") for row in self.rows(log, kind)]).items()}
-            for time, body, (excess, change, *was) in self.rows(log, "jump"):
+            for time, body, (excess, change, since, *was) in self.rows(log, "jump"):
                 at = [t for t in changes.get(body, ()) if t - NEAR[0] * 1e6 <= time <= t + NEAR[1] * 1e6]
                 there = self.truth(body, time)
                 if not at or there is None or self.is_waking(log, time):
                     continue
                 error = math.dist(was, there)
                 self.worst_error = max(self.worst_error, error)
-                excess -= KNOCK * change
+                excess -= (KNOCK + since / 1e3) * change
                 self.worst_jump = max(self.worst_jump, excess - error)
                 if excess > JUMP + error:
                     self.fault(time, body, f"the pose that {name} shows jumps by {excess:.2f} mm at a hand-over; it was "
@@ -203,7 +203,7 @@ class Judge:
 
     def returns(self, name, log, old, since):
         poses = {(time, body): pose for time, body, pose in log.events["pose"]}
-        for time, body, (_, _, *was) in self.rows(log, "jump"):
+        for time, body, (_, _, _, *was) in self.rows(log, "jump"):
             if body not in old or not since <= time <= since + AWAKE * SECOND or (time, body) not in poses:
                 continue
             if math.dist(poses[time, body], old[body]) <= SAME < math.dist(was, old[body]):
@@ -248,14 +248,14 @@ PLANTED = (
     ("version 5 of one, then 5", "two", "begin 0 6", "begin 0 5"),
     ("knows version 5, then 4", "one", "knows 0 22 6", "knows 0 22 4"),
     ("has the owners", "one", "knows 0 22 6", "knows 0 11 6"),
-    ("jumps by 1.50 mm", "two", "2500000000 pose", "2004000000 jump 0 1.50 0.00 0.00 0.00 20.00\n2500000000 pose"),
+    ("jumps by 1.50 mm", "two", "2500000000 pose", "2004000000 jump 0 1.50 0.00 1.00 0.00 0.00 20.00\n2500000000 pose"),
     ("without an owner", "two", "2003000000 begin", "3003000000 begin"),
     ("nobody owns it", "two", "3000000000 count received 7", "2600000000 end 0 0.00 0.00 20.00 0.00 0.00 0.00\n9000000000 count received 7"),
     ("does not show it", "two", "2500000000 pose", "2400000000 gone 0\n2500000000 pose"),
     ("'begin' together", "one", "2000000000 end 0 0.00",
      "2600000000 slept 1900000000\n2700000000 end 0 0.00"),
     ("where it was before a sleep", "one", "3000000000 count",
-     "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 jump 0 40.00 0.00 40.00 0.00 20.00\n"
+     "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 jump 0 40.00 0.00 1.00 40.00 0.00 20.00\n"
      "2900000000 pose 0 0.00 0.00 20.00\n3000000000 count"),
 )
 # It may end in the first pass after a sleep.

@@ -10,8 +10,8 @@
 //   owns BODY, yields BODY   the same for what its protocol allows
 //   knows BODY EPOCH VERSION the owner by its table, while that is whole
 //   pose BODY X Y Z          shown, after each 4 mm
-//   jump BODY EXCESS CHANGE X Y Z  the pose does not follow from the last one, which is named, and
-//                            both velocities; their difference
+//   jump BODY EXCESS CHANGE SINCE X Y Z  the pose does not follow from the last one, which is named,
+//                            and both velocities; their difference; the time between both [ms]
 //   gone BODY                not shown any more
 //   slept SINCE              time of the pass before; it got no processor time for long
 //   final BODY X Y Z, count NAME NUMBER  at the end
@@ -183,7 +183,7 @@ class Owner final : public peer::ModelGuest {
     const double excess = (is.position - follows).norm() - allowed;
     const bool jumps = last_ > 0ns && excess > kLeastJump;
     if (jumps)
-      log(now, "jump {} {:.2f} {:.2f} {}", number, 1e3 * excess, 1e3 * change,
+      log(now, "jump {} {:.2f} {:.2f} {:.2f} {}", number, 1e3 * excess, 1e3 * change, 1e3 * since,
           text_of(was.position));
     if (!jumps && (is.position - body.logged).norm() < kLogged) return;
     log(now, "pose {} {}", number, text_of(is.position));
