@@ -56,7 +56,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
     return is_on_ ? next_ : std::chrono::nanoseconds::max();
   }
 
-  /// Wants a body, and keeps it as the owner, until divest(). Its owner gives it to the peers in
+  /// Requests a body, and keeps it as the owner until divest(). Its owner gives it to the peers in
   /// the order of their requests, while none of its hands touches it.
   void acquire(std::size_t body) noexcept;
   /// Gives a body to the next peer that asks.

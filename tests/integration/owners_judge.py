@@ -12,7 +12,7 @@ ADOPTED = 5.0    # [s] after a kill
 GIVEN = 7.0      # [s] after it, of a body that was being given to the killed process
 UNOWNED = 1.0    # [s] without an owner, while nobody fails
 NEAR = (20, 100) # [ms] before and after a hand-over
-KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock, beside the time between its passes
+KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock: delay, and the passes of both loops
 KNOWN = 20       # [ms] for which the last state of an owner says where the body is
 SAME = 2.0       # [mm], as far as a place is the same
 AWAKE = 2.0      # [s] after a sleep in which an old place would come back
@@ -150,11 +150,11 @@ class Judge:
                     continue
                 error = math.dist(was, there)
                 self.worst_error = max(self.worst_error, error)
-                excess -= (KNOCK + since / 1e3) * change
+                excess -= KNOCK * change
                 self.worst_jump = max(self.worst_jump, excess - error)
                 if excess > JUMP + error:
                     self.fault(time, body, f"the pose that {name} shows jumps by {excess:.2f} mm at a hand-over; it was "
-                                           f"wrong by {error:.2f} mm")
+                                           f"wrong by {error:.2f} mm; looks {since:.1f} ms apart, velocity changed by {change:.0f} mm/s")
 
     @staticmethod
     def is_waking(log, time):
