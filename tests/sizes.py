@@ -50,7 +50,7 @@ LARGE = {
     "src/ModelLoop": (310, 25),
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (191, 27),
-    "src/RemoteEntities": (458, 21),
+    "src/RemoteEntities": (457, 21),
     "src/RemoteEntity": (21, 31),
     "tools/Exercise": (304, 17),
     "tools/Listener": (327, 12),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/seconds.hpp"
 
@@ -18,6 +19,7 @@ constexpr double kSeenJump = 0.001;      // [m]
 constexpr double kUsualOff = 0.005;      // [m]
 // The new owner of a body that we gave away states it within this time, or it stands still.
 constexpr nanoseconds kSilence = milliseconds(500);
+constexpr nanoseconds kSilentOwner = milliseconds(1000);
 
 ObjectState state_of(const haptics::ObjectMotion& motion, nanoseconds utc) noexcept {
   ObjectState state;
@@ -185,6 +187,19 @@ void BodyHandOvers::doubt_left(nanoseconds now) noexcept {
     left_at_[i] = nanoseconds(0);
     const RemoteEntity* row = stages_.remote.find(body_id(i));
     if (row != nullptr && row->epoch == epoch_) stages_.remote.doubt(body_id(i), now);
+  }
+}
+
+void BodyHandOvers::doubt_silent(nanoseconds now) noexcept {
+  for (const Voter& voter : protocol_.acts().decided().roll.voters()) {
+    if (!protocol_.is_silent(voter, kSilentOwner, now)) continue;
+    for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
+      if (protocol_.tenure(i).owner != voter.epoch) continue;
+      const RemoteEntity* row = stages_.remote.find(body_id(i));
+      if (row != nullptr && row->epoch == voter.epoch && now - row->last_heard > kSilentOwner &&
+          !deadreckon::stands_still(row->state.motion()))
+        stages_.remote.doubt(row->id, now);
+    }
   }
 }
 

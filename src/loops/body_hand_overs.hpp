@@ -50,6 +50,9 @@ class BodyHandOvers {
   void begin_own(std::size_t body) noexcept { left_at_[body] = Nanoseconds(0); }
   /// Brings bodies to rest whose new owner has sent no state yet.
   void doubt_left(Nanoseconds now) noexcept;
+  /// Brings moving bodies to rest whose owner is silent. A peer with a moving body is not: it sends
+  /// ten rounds a second.
+  void doubt_silent(Nanoseconds now) noexcept;
 
  private:
   // Bodies that this peer stops simulating in order to give them away.

@@ -286,6 +286,7 @@ void OwnershipStage::step(const Pass& pass) noexcept {
   hand_overs_.send_orders(pass);
   name_owners();
   hand_overs_.doubt_left(pass.now);
+  hand_overs_.doubt_silent(pass.now);
   send_messages();
   watch_.look(protocol_, pass.now);
   counted_.publish(protocol_.counts());

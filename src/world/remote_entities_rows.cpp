@@ -76,14 +76,13 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
   const double step = std::max(aoim_.sight().interest().margin() / 10.0, kLeastStep);
   const auto look = [&](std::size_t place) -> Sight {
     const RemoteEntity& row = table_.rows()[place];
-    const RemoteEntity::Motion motion = row.motion(now);
-    const deadreckon::KinematicState& stated = row.state.motion();
-    const double speed = deadreckon::stands_still(stated) ? 0.0 : motion.velocity.norm();
-    const double spare = aoim_.sight().check(
-        {to_position(motion.position), to_position(stated.position), now - row.state_time,
-         nimbus_of(settings_.nimbus, row.type), static_cast<std::uint8_t>(row.type.kind)},
-        kLeastStep);
-    return {spare, speed};
+    const RemoteEntity::Motion motion = bodies_.seen(row, now);
+    const double spare =
+        aoim_.sight().check({to_position(motion.position), to_position(row.state.motion().position),
+                             now - row.state_time, nimbus_of(settings_.nimbus, row.type),
+                             static_cast<std::uint8_t>(row.type.kind)},
+                            kLeastStep);
+    return {spare, motion.velocity.norm()};
   };
   sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
     const RemoteEntity& row = table_.rows()[place];

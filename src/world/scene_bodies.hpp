@@ -10,6 +10,7 @@
 
 #include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/peer/world/arrival.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/force_model_intake.hpp"
@@ -46,6 +47,15 @@ class SceneBodies {
   [[nodiscard]] bool is_orphan(const RemoteEntity& row) const noexcept {
     return contains(row.id) && row.epoch != presence_.own().epoch &&
            presence_.standing(row.epoch) != aoim::Standing::member;
+  }
+  /// Motion by which a row leaves the radius of interest. A body leaves by its stated position: if
+  /// its owner fails, others own it from there on.
+  [[nodiscard]] RemoteEntity::Motion seen(const RemoteEntity& row,
+                                          std::chrono::nanoseconds now) const noexcept {
+    const deadreckon::KinematicState& stated = row.state.motion();
+    if (contains(row.id) || deadreckon::stands_still(stated))
+      return {stated.position, Eigen::Vector3d::Zero()};
+    return row.motion(now);
   }
   /// Simulation address of the owner of a row; of an orphan the scene's.
   [[nodiscard]] aoim::PeerId owner_of(const RemoteEntity& row) const noexcept {

@@ -163,6 +163,33 @@ TEST(OwnedBodies, StayWithTheirOwnerFarAway) {
   EXPECT_GT(exercise.body(heir, 1).position.x(), 1.9);
 }
 
+// Two are thrown up and away as their owner stops. Nobody knows what became of them, so they come
+// to rest, and stay in sight until they are adopted.
+TEST(OwnedBodies, StayInSightWhenTheirOwnerFails) {
+  OwnersExercise exercise(3, cubes_scene(2));
+  exercise.start_all();
+  exercise.run(3000);
+  ASSERT_TRUE(exercise.owners(0).order(placed(0, {0, 0, 0.1}, {2, 0, 3})));
+  ASSERT_TRUE(exercise.owners(0).order(placed(1, {0.1, 0, 0.02}, {0, 3, 0})));
+  exercise.run(30);
+  exercise.stop(0);
+  const auto is_adopted = [&](std::size_t body) {
+    return exercise.simulates(1, body) || exercise.simulates(2, body);
+  };
+  for (int t = 0; t < 5000; ++t) {
+    exercise.step();
+    for (std::size_t body = 0; body < 2; ++body) {
+      if (is_adopted(body)) continue;
+      const peer::RemoteEntity* row = exercise.peer(2).model().remote().find(peer::body_id(body));
+      ASSERT_NE(row, nullptr) << body << " after " << t << " ms";
+      if (t < 1700) continue;
+      EXPECT_EQ(row->shown(exercise.now()).velocity.norm(), 0.0) << body << " after " << t << " ms";
+    }
+  }
+  EXPECT_TRUE(is_adopted(0));
+  EXPECT_TRUE(is_adopted(1));
+}
+
 // A listener without Reckon's rules sees one entity that goes on, now from another sender.
 TEST(OwnedBodies, ArriveAtPlainDisWithoutAGap) {
   OwnersExercise exercise(3, cubes_scene(1));

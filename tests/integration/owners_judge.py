@@ -3,6 +3,7 @@
 """Judges the logs of owners_process: never two owners, no version goes back, no jump at a hand-over. Times are
 CLOCK_MONOTONIC [ns], the same for all processes; lengths are in mm.
   owners_judge.py    checks the judge itself: each planted fault must be found"""
+import bisect
 import collections
 import math
 import sys
@@ -13,6 +14,7 @@ GIVEN = 7.0      # [s] after it, of a body that was being given to the killed pr
 UNOWNED = 1.0    # [s] without an owner, while nobody fails
 NEAR = (20, 100) # [ms] before and after a hand-over
 KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock: delay, and the passes of both loops
+LOOKS = 5.0      # [ms] apart at most: over a longer time a correction, which takes 20 ms, looks like a jump
 KNOWN = 20       # [ms] for which the last state of an owner says where the body is
 SAME = 2.0       # [mm], as far as a place is the same
 AWAKE = 2.0      # [s] after a sleep in which an old place would come back
@@ -71,7 +73,7 @@ class Judge:
         intervals = [i for name, log in logs.items() for i in log.intervals(name, "begin", "end") if i.begin < until]
         self.simulated = by_body(sorted(intervals, key=lambda i: i.begin), lambda i: i.body)
         self.failures = [log.killed for log in logs.values() if log.killed] + [s for log in logs.values() for s, _ in log.slept]
-        self.hand_overs = 0
+        self.hand_overs = self.unjudged = 0
 
     def judge(self):
         self.one_owner("begin", "end")
@@ -126,29 +128,46 @@ class Judge:
                     if owner != 0 and owners.setdefault((body, version), owner) != owner:
                         self.fault(time, body, f"version {version} has the owners {owner} and {owners[body, version]}")
 
-    def truth(self, body, time):
-        """Where the body is by the last state of an owner that has just stopped simulating it; None: not known."""
+    def truths(self, body, time):
+        """Where the body may be. Between two states of its owner it moved by the earlier one until a knock, and by the
+        later one from then on; without an owner, by the last state of the owner before it."""
+        def moved(since, state):
+            tau = (time - since) / SECOND
+            return [p + tau * v for p, v in zip(state[:3], state[3:])]
+
+        for interval in self.simulated.get(body, ()):
+            if not interval.begin <= time <= interval.end:
+                continue
+            times, states = self.states[interval.owner, body]
+            at = bisect.bisect_right(times, time)
+            near = [i for i in (at - 1, at) if 0 <= i < len(times) and interval.begin <= times[i] <= interval.end]
+            if near:
+                return [moved(times[i], states[i]) for i in near]
         since, state = max(((t, n) for t, n in self.ends[body] if t <= time + SECOND // 1000), default=(0, None))
-        if state is None or time - since > KNOWN * 1e6:
-            return None
-        tau = (time - since) / SECOND
-        return [p + tau * v for p, v in zip(state[:3], state[3:])]
+        return [] if state is None or time - since > KNOWN * 1e6 else [moved(since, state)]
 
     def jumps(self):
         """A pose may jump to the truth from where loss has led it, or by a knock, and else stays."""
         self.ends = collections.defaultdict(list)
-        for log in self.logs.values():
+        self.states = collections.defaultdict(lambda: ([], []))  # (times, states) of (owner, body)
+        for name, log in self.logs.items():
             for time, body, state in self.rows(log, "end"):
                 self.ends[body].append((time, state))
+            for time, body, state in sorted(self.rows(log, "state")):
+                for column, value in zip(self.states[name, body], (time, state)):
+                    column.append(value)
         for name, log in self.logs.items():
             changes = {body: sorted(row[0] for row in rows) for body, rows in
                        by_body([row for kind in ("knows", "begin", "end") for row in self.rows(log, kind)]).items()}
             for time, body, (excess, change, since, *was) in self.rows(log, "jump"):
                 at = [t for t in changes.get(body, ()) if t - NEAR[0] * 1e6 <= time <= t + NEAR[1] * 1e6]
-                there = self.truth(body, time)
-                if not at or there is None or self.is_waking(log, time):
+                truths = self.truths(body, time - since * 1e6)
+                if not at or not truths or self.is_waking(log, time):
                     continue
-                error = math.dist(was, there)
+                if since > LOOKS:
+                    self.unjudged += 1
+                    continue
+                error = max(math.dist(was, truth) for truth in truths)
                 self.worst_error = max(self.worst_error, error)
                 excess -= KNOCK * change
                 self.worst_jump = max(self.worst_jump, excess - error)
@@ -258,6 +277,10 @@ PLANTED = (
      "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 jump 0 40.00 0.00 1.00 40.00 0.00 20.00\n"
      "2900000000 pose 0 0.00 0.00 20.00\n3000000000 count"),
 )
+# A pose that was wrong by a knock after the hand-over may go to the truth.
+KNOCKED = ("one", "3000000000 count", "2010000000 jump 0 3.00 0.00 5.00 0.00 0.00 20.00\n3000000000 count")
+NEW_STATES = ("two", "2500000000 pose", "2003000000 state 0 0.00 0.00 20.00 0.00 0.00 0.00\n"
+              "2010000000 state 0 0.00 0.00 26.00 0.00 0.00 600.00\n2500000000 pose")
 # It may end in the first pass after a sleep.
 SLEPT = ("one", "2000000000 end 0 0.00", "2600000000 slept 1900000000\n2600000000 end 0 0.00")
 
@@ -266,17 +289,23 @@ def faults_of(texts):
     return Judge({name: Log(text) for name, text in texts.items()}).judge()
 
 
-def replaced(name, old, new):
-    assert GOOD[name].count(old) == 1, old
-    return {**GOOD, name: GOOD[name].replace(old, new)}
+def replaced(*changes):
+    texts = dict(GOOD)
+    for name, old, new in changes:
+        assert GOOD[name].count(old) == 1, old
+        texts[name] = texts[name].replace(old, new)
+    return texts
 
 
 def check_itself():
     wrong = [f"a good log is refused: {faults}" for faults in (faults_of(GOOD),) if faults]
-    slept = faults_of(replaced(*SLEPT))
+    slept = faults_of(replaced(SLEPT))
     wrong += [f"an end in the first pass after a sleep is refused: {slept}"] if slept else []
+    knocked = faults_of(replaced(KNOCKED, NEW_STATES))
+    wrong += [f"a knock after a hand-over is refused: {knocked}"] if knocked else []
+    wrong += [] if faults_of(replaced(KNOCKED)) else ["not found: a jump without a knock"]
     for words, *change in PLANTED:
-        faults = faults_of(replaced(*change))
+        faults = faults_of(replaced(change))
         print(f"  {'; '.join(faults)}")
         wrong += [] if any(words in fault for fault in faults) else [f"not found: {words}"]
     return wrong

@@ -116,7 +116,8 @@ def verdict_of(judge, least, is_quiet=True):
           f"adopted {judge.count('bodies_adopted')}, released {judge.count('bodies_released')}, refused "
           f"{judge.count('ownership_refused')}, stale {judge.count('bodies_stale')}\n"
           f"  longest time without an owner {judge.longest_gap:.3f} s, worst jump {judge.worst_jump:.2f} mm beyond the error "
-          f"before it, which is {judge.worst_error:.1f} mm at most; places at the end differ by {judge.spread():.2f} mm")
+          f"before it, which is {judge.worst_error:.1f} mm at most; {judge.unjudged} "
+          f"looks too far apart to judge; places at the end differ by {judge.spread():.2f} mm")
     for fault in faults[:20]:
         print(f"  {fault}")
     check(not faults, f"{len(faults)} faults")

@@ -9,8 +9,10 @@
 //   end BODY X Y Z VX VY VZ  it does not any more, no earlier than its last step; the last state
 //   owns BODY, yields BODY   the same for what its protocol allows
 //   knows BODY EPOCH VERSION the owner by its table, while that is whole
+//   state BODY X Y Z VX VY VZ  of a body that it simulates; between two it moves by the earlier
 //   pose BODY X Y Z          shown, after each 4 mm
-//   jump BODY EXCESS CHANGE SINCE X Y Z  the pose does not follow from the last one, which is named,
+//   jump BODY EXCESS CHANGE SINCE X Y Z  the pose does not follow from the last one, which is
+//   named,
 //                            and both velocities; their difference; the time between both [ms]
 //   gone BODY                not shown any more
 //   slept SINCE              time of the pass before; it got no processor time for long
@@ -43,6 +45,7 @@ constexpr nanoseconds kSlept = 200ms;  // between two passes
 constexpr nanoseconds kGivesUp = 3s;   // without the body
 constexpr double kLogged = 4e-3;       // [m], between two poses
 constexpr double kLeastJump = 0.5e-3;  // [m]
+constexpr double kStated = 0.2e-3;     // [m], off the path of the last state
 constexpr double kStep = 1e-3;         // [s], of the simulation
 
 std::atomic<bool> stopped{false};
@@ -93,6 +96,8 @@ class Owner final : public peer::ModelGuest {
     peer::Tenure known;
     haptics::ObjectMotion shown;
     Eigen::Vector3d logged = Eigen::Vector3d::Constant(1e9);
+    haptics::ObjectMotion stated;
+    nanoseconds stated_at{-1};  // -1: not since it simulates the body
   };
 
   template <typename... Arguments>
@@ -170,6 +175,7 @@ class Owner final : public peer::ModelGuest {
     Body& body = bodies_[number];
     const peer::RemoteEntity* row = loop.remote().find(peer::body_id(number));
     if (body.is_remote && !body.simulated && row == nullptr) log(now, "gone {}", number);
+    const bool was_remote = body.is_remote;
     body.is_remote = !body.simulated && row != nullptr;
     const haptics::ObjectMotion was = body.shown;
     body.shown = world()[number];
@@ -177,10 +183,11 @@ class Owner final : public peer::ModelGuest {
     const haptics::ObjectMotion& is = body.shown;
     // Half of the change of velocity, and the part of a step that is not simulated yet.
     const double change = (is.velocity - was.velocity).norm();
-    const double allowed =
-        0.5 * since * change + (body.is_remote ? 0.0 : kStep * is.velocity.norm());
+    const double step = was_remote && body.is_remote ? 0.0 : kStep;
+    const double allowed = 0.5 * since * change + step * is.velocity.norm();
     const Eigen::Vector3d follows = was.position + 0.5 * since * (was.velocity + is.velocity);
     const double excess = (is.position - follows).norm() - allowed;
+    note_state(number, was, now);
     const bool jumps = last_ > 0ns && excess > kLeastJump;
     if (jumps)
       log(now, "jump {} {:.2f} {:.2f} {:.2f} {}", number, 1e3 * excess, 1e3 * change, 1e3 * since,
@@ -188,6 +195,24 @@ class Owner final : public peer::ModelGuest {
     if (!jumps && (is.position - body.logged).norm() < kLogged) return;
     log(now, "pose {} {}", number, text_of(is.position));
     body.logged = is.position;
+  }
+
+  // Also the state before, so that a knock is between two.
+  void note_state(std::size_t number, const haptics::ObjectMotion& was, nanoseconds now) {
+    Body& body = bodies_[number];
+    if (!body.simulated) body.stated_at = -1ns;
+    if (!body.simulated) return;
+    const bool is_first = body.stated_at < 0ns;
+    const Eigen::Vector3d follows =
+        body.stated.position + pdu::to_seconds(now - body.stated_at) * body.stated.velocity;
+    if (!is_first && (body.shown.position - follows).norm() < kStated) return;
+    if (!is_first && body.stated_at < last_) log_state(number, was, last_);
+    log_state(number, body.shown, now);
+    body.stated = body.shown;
+    body.stated_at = now;
+  }
+  static void log_state(std::size_t number, const haptics::ObjectMotion& motion, nanoseconds time) {
+    log(time, "state {} {} {}", number, text_of(motion.position), text_of(motion.velocity));
   }
 
   peer::JoinedPeer& joined_;
