@@ -28,7 +28,7 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 40000,
-    "src": 52000,
+    "src": 52500,
     "tools": 41000,
     "python": 2500,
     "bench": 37500,

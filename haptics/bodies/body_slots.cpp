@@ -13,6 +13,8 @@
 namespace reckon::haptics {
 namespace {
 
+static_assert(BodySlots::kMost == BodyWorld::kMostActive);
+
 using Eigen::Vector3d;
 
 constexpr double kEffort = 6e-4;  // cost of a step for a mesh corner, over a box

@@ -71,9 +71,9 @@ using BodyRing = SpscRing<BodyStep>;
 /// owns it. Orders change that at run time. An owned body begins in the given state and no other
 /// energy; bodies that it overlaps part at 0.1 m/s at most.
 ///
-/// At most 64 bodies are active. A larger world starts asleep: a body that is pushed or near a
-/// moving one wakes; the others cost nothing. While 64 are awake, the others do not give way
-/// (crowded()).
+/// At most kMostActive bodies are active. A larger world starts asleep: a body that is pushed or
+/// near a moving one wakes; the others cost nothing. While so many are awake, the others do not
+/// give way (crowded()).
 ///
 /// Allocates at construction, and in the first steps until the number of contacts has reached its
 /// maximum; then nothing. 3 us for an awake body, 20 us for ten in a pile; body_bench measures
@@ -81,6 +81,7 @@ using BodyRing = SpscRing<BodyStep>;
 class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};
+  static constexpr std::size_t kMostActive = 64;  ///< bodies
   static constexpr double kLeastPace = 0.25, kMostPace = 8.0;
   /// Limits of speed [m/s] and turn rate [rad/s] of a body.
   static constexpr double kFastest = 200.0;

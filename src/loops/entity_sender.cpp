@@ -120,8 +120,7 @@ Dispatch EntitySender::choose(Decision& decision, SendReason inmost, bool in_com
     look_for_listeners(decision);
     return choose_audience(decision, inmost, in_company);
   }
-  const bool waits = !in_company && is_by_distance(inmost) && may_wait(decision, 0, inmost);
-  return {waits ? SendReason::none : inmost, in_company};
+  return {in_company ? inmost : unless_waiting(decision, 0, inmost), in_company};
 }
 
 // The outermost tier with a due update determines the recipients.
@@ -137,7 +136,8 @@ Dispatch EntitySender::choose_audience(Decision& decision, SendReason inmost,
       reason = SendReason::heartbeat;
     if (reason == SendReason::none) continue;
     const bool at_once = in_company && (audience == 0 || aoim_.tiers().last_row() == 0);
-    if (!at_once && may_wait(decision, audience, reason)) continue;
+    if (!at_once) reason = unless_waiting(decision, audience, reason);
+    if (reason == SendReason::none) continue;
     const bool is_outmost = how.reason == SendReason::none;
     if (is_outmost) how.audience = std::max(audience, inmost_group);
     how.reason = is_outmost ? reason : std::min(how.reason, reason);
@@ -166,6 +166,16 @@ const aoim::Channel* EntitySender::channel_of(Decision& decision,
   const aoim::ChannelTable& table = aoim_.receivers()->table();
   const std::size_t row = audiences->row_of(std::min(audience, audiences->last()));
   return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
+}
+
+// A deferred update of the pose does not keep a heartbeat from leaving.
+SendReason EntitySender::unless_waiting(Decision& decision, std::size_t audience,
+                                        SendReason reason) noexcept {
+  const OwnedEntity& entity = decision.entity;
+  if (reason == SendReason::none || !may_wait(decision, audience, reason)) return reason;
+  const bool is_due = is_by_distance(reason) && entity.is_heartbeat_due(audience, decision.at);
+  return is_due && !may_wait(decision, audience, SendReason::heartbeat) ? SendReason::heartbeat
+                                                                        : SendReason::none;
 }
 
 bool EntitySender::may_wait(Decision& decision, std::size_t audience, SendReason reason) noexcept {

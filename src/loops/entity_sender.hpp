@@ -86,6 +86,8 @@ class EntitySender {
                                                 std::size_t audience) const noexcept;
   [[nodiscard]] bool may_wait(Decision& decision, std::size_t audience,
                               deadreckon::SendReason reason) noexcept;
+  [[nodiscard]] deadreckon::SendReason unless_waiting(Decision& decision, std::size_t audience,
+                                                      deadreckon::SendReason reason) noexcept;
   void hold(OwnedEntity& entity, Nanoseconds until) noexcept;
   bool send(Decision& decision, const Dispatch& how,
             std::span<const EnergyAccount> accounts) noexcept;

@@ -78,6 +78,10 @@ class Audiences {
   }
   /// When decide() is due for a tier, counted from `audience` outwards, even without a change.
   [[nodiscard]] double next(std::size_t audience) const noexcept;
+  /// Time of the next heartbeat to an audience >= 1 [s].
+  [[nodiscard]] double heartbeat(std::size_t audience) const noexcept {
+    return sides_[audience - 1].heartbeat();
+  }
 
   // Tiers with listeners.
 

@@ -365,6 +365,11 @@ void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
   touch_->sent_count_ = update.account_count;
 }
 
+bool OwnedEntity::is_heartbeat_due(std::size_t audience, nanoseconds now) const noexcept {
+  return audience == 0 ? now >= last_built_ + pdu::from_seconds(policy_.silence())
+                       : pdu::to_seconds(now) >= audiences_->heartbeat(audience);
+}
+
 bool OwnedEntity::hold_back(nanoseconds time) noexcept {
   const bool first = !has_waited_;
   has_waited_ = true;

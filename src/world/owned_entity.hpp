@@ -200,6 +200,9 @@ class OwnedEntity {
     return (touch_ && body != aoim::Body::full) || (parts_ && body == aoim::Body::rigid);
   }
 
+  /// Whether a heartbeat to an audience is due, even if decide() gives a reason before it.
+  [[nodiscard]] bool is_heartbeat_due(std::size_t audience,
+                                      std::chrono::nanoseconds now) const noexcept;
   /// Defers a due update to `time`, unless an update is sent before. True if nothing was deferred
   /// since the last update.
   bool hold_back(std::chrono::nanoseconds time) noexcept;

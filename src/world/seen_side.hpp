@@ -55,9 +55,11 @@ class SeenSide {
   }
   /// Time of the last update to these peers [s].
   [[nodiscard]] double last_sent() const noexcept { return last_sent_; }
+  /// Time of the next heartbeat [s].
+  [[nodiscard]] double heartbeat() const noexcept { return last_sent_ + policy_.silence(); }
   /// When decide() is due even without a change.
   [[nodiscard]] double next() const noexcept {
-    const double next = last_sent_ + policy_.silence();
+    const double next = heartbeat();
     return next < next_in_step() ? next : next_in_step();
   }
 

@@ -171,6 +171,21 @@ TEST(Channels, FollowAnApproachingReceiverWithinTwoHundredMilliseconds) {
   EXPECT_GT(place.rate("updates_out", 5s), 2.0);
 }
 
+// The tiers grant distant peers no updates, but recorders and plain DIS programs drop an entity
+// after 2.4 heartbeats.
+TEST(Channels, SendHeartbeatsOfWhatTheyHoldBack) {
+  peer::SceneFile scene = country(true);
+  scene.aoim.tiers.back().channel.active_hz = 0.0;
+  Roundabout place(scene);
+  place.join_at({600, 0, 0});
+  place.run(5s);
+  const std::uint64_t before = place.count(0, "updates_out");
+  place.run(200s);
+  const std::uint64_t sent = place.count(0, "updates_out") - before;
+  EXPECT_GE(sent, 3u);
+  EXPECT_LE(sent, 8u) << "each may be repeated";
+}
+
 TEST(Channels, SendHeldBackStatesInTheEnd) {
   Roundabout place(country(true));
   place.join_at({600, 0, 0});

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/notation/units.hpp"
+#include "reckon/peer/ownership/tenure.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
@@ -165,6 +167,9 @@ SettingRows scene_limits(const peer::SceneFile& file) {
       {"felt by a hand",
        fmt::format("the {1} nearest bodies within {0}; further ones are counted (hands_unfelt)",
                    format_quantity(peer::kContactReach, "m"), haptics::kMaxRemoteHands)},
+      {"moving objects",
+       fmt::format("{}; {} are awake at most, and meanwhile further ones stay at rest (not_woken)",
+                   peer::kMostOwnable, haptics::BodyWorld::kMostActive)},
       {"devices of a peer", fmt::format("{} at most", peer::kMaxDevices)},
       {"peers known", fmt::format("{}; further ones are counted (peers_not_joined)",
                                   aoim::PresenceConfig{}.capacity)},
