@@ -72,8 +72,8 @@ using BodyRing = SpscRing<BodyStep>;
 /// energy; bodies that it overlaps part at 0.1 m/s at most.
 ///
 /// At most kMostActive bodies are active. A larger world starts asleep: a body that is pushed or
-/// near a moving one wakes; the others cost nothing. While so many are awake, the others do not
-/// give way (crowded()).
+/// near a moving one wakes; the others cost nothing. While kMostActive are awake, the others
+/// do not give way (crowded()).
 ///
 /// Allocates at construction, and in the first steps until the number of contacts has reached its
 /// maximum; then nothing. 3 us for an awake body, 20 us for ten in a pile; body_bench measures

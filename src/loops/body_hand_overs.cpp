@@ -19,6 +19,7 @@ constexpr double kSeenJump = 0.001;      // [m]
 constexpr double kUsualOff = 0.005;      // [m]
 // The new owner of a body that we gave away states it within this time, or it stands still.
 constexpr nanoseconds kSilence = milliseconds(500);
+// A moving body comes to rest if its owner sends nothing for this time.
 constexpr nanoseconds kSilentOwner = milliseconds(1000);
 
 ObjectState state_of(const haptics::ObjectMotion& motion, nanoseconds utc) noexcept {

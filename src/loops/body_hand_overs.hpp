@@ -50,8 +50,8 @@ class BodyHandOvers {
   void begin_own(std::size_t body) noexcept { left_at_[body] = Nanoseconds(0); }
   /// Brings bodies to rest whose new owner has sent no state yet.
   void doubt_left(Nanoseconds now) noexcept;
-  /// Brings moving bodies to rest whose owner is silent. A peer with a moving body is not: it sends
-  /// ten rounds a second.
+  /// Brings a moving body to rest if no round of its owner and no state of the body has arrived for
+  /// 1 s. The owner of a moving body sends ten rounds a second.
   void doubt_silent(Nanoseconds now) noexcept;
 
  private:

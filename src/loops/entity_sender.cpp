@@ -168,7 +168,7 @@ const aoim::Channel* EntitySender::channel_of(Decision& decision,
   return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
 }
 
-// A deferred update of the pose does not keep a heartbeat from leaving.
+// The reason, unless the update may wait; then a heartbeat if one is due, else none.
 SendReason EntitySender::unless_waiting(Decision& decision, std::size_t audience,
                                         SendReason reason) noexcept {
   const OwnedEntity& entity = decision.entity;

@@ -200,7 +200,7 @@ class OwnedEntity {
     return (touch_ && body != aoim::Body::full) || (parts_ && body == aoim::Body::rigid);
   }
 
-  /// Whether a heartbeat to an audience is due, even if decide() gives a reason before it.
+  /// Whether a heartbeat to an audience is due. decide() may give a reason of higher priority.
   [[nodiscard]] bool is_heartbeat_due(std::size_t audience,
                                       std::chrono::nanoseconds now) const noexcept;
   /// Defers a due update to `time`, unless an update is sent before. True if nothing was deferred

@@ -48,8 +48,8 @@ class SceneBodies {
     return contains(row.id) && row.epoch != presence_.own().epoch &&
            presence_.standing(row.epoch) != aoim::Standing::member;
   }
-  /// Motion by which a row leaves the radius of interest. A body leaves by its stated position: if
-  /// its owner fails, others own it from there on.
+  /// Position and velocity for the check against the radius of interest. A body or a resting entity
+  /// is at its stated position: if the owner of a body fails, a new owner adopts it there.
   [[nodiscard]] RemoteEntity::Motion seen(const RemoteEntity& row,
                                           std::chrono::nanoseconds now) const noexcept {
     const deadreckon::KinematicState& stated = row.state.motion();

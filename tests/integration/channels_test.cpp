@@ -171,9 +171,9 @@ TEST(Channels, FollowAnApproachingReceiverWithinTwoHundredMilliseconds) {
   EXPECT_GT(place.rate("updates_out", 5s), 2.0);
 }
 
-// The tiers grant distant peers no updates, but recorders and plain DIS programs drop an entity
-// after 2.4 heartbeats.
-TEST(Channels, SendHeartbeatsOfWhatTheyHoldBack) {
+// The outermost tier grants moving entities no updates. Recorders and plain DIS programs drop an
+// entity after 2.4 heartbeats without one.
+TEST(Channels, SendHeartbeatsOfDeferredEntities) {
   peer::SceneFile scene = country(true);
   scene.aoim.tiers.back().channel.active_hz = 0.0;
   Roundabout place(scene);
@@ -183,7 +183,7 @@ TEST(Channels, SendHeartbeatsOfWhatTheyHoldBack) {
   place.run(200s);
   const std::uint64_t sent = place.count(0, "updates_out") - before;
   EXPECT_GE(sent, 3u);
-  EXPECT_LE(sent, 8u) << "each may be repeated";
+  EXPECT_LE(sent, 8u) << "a heartbeat may be sent twice";
 }
 
 TEST(Channels, SendHeldBackStatesInTheEnd) {

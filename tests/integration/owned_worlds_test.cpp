@@ -163,8 +163,8 @@ TEST(OwnedBodies, StayWithTheirOwnerFarAway) {
   EXPECT_GT(exercise.body(heir, 1).position.x(), 1.9);
 }
 
-// Two are thrown up and away as their owner stops. Nobody knows what became of them, so they come
-// to rest, and stay in sight until they are adopted.
+// The owner stops 30 ms after it throws one body and slides another. They come to rest at the other
+// peers, and stay visible until they are adopted.
 TEST(OwnedBodies, StayInSightWhenTheirOwnerFails) {
   OwnersExercise exercise(3, cubes_scene(2));
   exercise.start_all();

@@ -14,7 +14,7 @@ GIVEN = 7.0      # [s] after it, of a body that was being given to the killed pr
 UNOWNED = 1.0    # [s] without an owner, while nobody fails
 NEAR = (20, 100) # [ms] before and after a hand-over
 KNOCK = 0.004    # [s] for which a viewer shows the old velocity after a knock: delay, and the passes of both loops
-LOOKS = 5.0      # [ms] apart at most: over a longer time a correction, which takes 20 ms, looks like a jump
+LOOKS = 5.0      # [ms], between two passes at most: a correction takes 20 ms, and looks like a jump after a longer time
 KNOWN = 20       # [ms] for which the last state of an owner says where the body is
 SAME = 2.0       # [mm], as far as a place is the same
 AWAKE = 2.0      # [s] after a sleep in which an old place would come back
@@ -129,8 +129,8 @@ class Judge:
                         self.fault(time, body, f"version {version} has the owners {owner} and {owners[body, version]}")
 
     def truths(self, body, time):
-        """Where the body may be. Between two states of its owner it moved by the earlier one until a knock, and by the
-        later one from then on; without an owner, by the last state of the owner before it."""
+        """Possible positions of the body [mm]; empty: unknown. Between two logged states a body follows the earlier one
+        until a knock, then the later one. Without an owner, the last state of the former owner counts for KNOWN ms."""
         def moved(since, state):
             tau = (time - since) / SECOND
             return [p + tau * v for p, v in zip(state[:3], state[3:])]
@@ -277,7 +277,7 @@ PLANTED = (
      "2700000000 slept 1900000000\n2800000000 pose 0 40.00 0.00 20.00\n2900000000 jump 0 40.00 0.00 1.00 40.00 0.00 20.00\n"
      "2900000000 pose 0 0.00 0.00 20.00\n3000000000 count"),
 )
-# A pose that was wrong by a knock after the hand-over may go to the truth.
+# With NEW_STATES a knock explains this jump; without them it is a fault.
 KNOCKED = ("one", "3000000000 count", "2010000000 jump 0 3.00 0.00 5.00 0.00 0.00 20.00\n3000000000 count")
 NEW_STATES = ("two", "2500000000 pose", "2003000000 state 0 0.00 0.00 20.00 0.00 0.00 0.00\n"
               "2010000000 state 0 0.00 0.00 26.00 0.00 0.00 600.00\n2500000000 pose")
@@ -302,7 +302,7 @@ def check_itself():
     slept = faults_of(replaced(SLEPT))
     wrong += [f"an end in the first pass after a sleep is refused: {slept}"] if slept else []
     knocked = faults_of(replaced(KNOCKED, NEW_STATES))
-    wrong += [f"a knock after a hand-over is refused: {knocked}"] if knocked else []
+    wrong += [f"a jump after a knock is a fault: {knocked}"] if knocked else []
     wrong += [] if faults_of(replaced(KNOCKED)) else ["not found: a jump without a knock"]
     for words, *change in PLANTED:
         faults = faults_of(replaced(change))

@@ -117,7 +117,7 @@ def verdict_of(judge, least, is_quiet=True):
           f"{judge.count('ownership_refused')}, stale {judge.count('bodies_stale')}\n"
           f"  longest time without an owner {judge.longest_gap:.3f} s, worst jump {judge.worst_jump:.2f} mm beyond the error "
           f"before it, which is {judge.worst_error:.1f} mm at most; {judge.unjudged} "
-          f"looks too far apart to judge; places at the end differ by {judge.spread():.2f} mm")
+          f"jumps not judged, passes too far apart; places at the end differ by {judge.spread():.2f} mm")
     for fault in faults[:20]:
         print(f"  {fault}")
     check(not faults, f"{len(faults)} faults")

@@ -9,11 +9,12 @@
 //   end BODY X Y Z VX VY VZ  it does not any more, no earlier than its last step; the last state
 //   owns BODY, yields BODY   the same for what its protocol allows
 //   knows BODY EPOCH VERSION the owner by its table, while that is whole
-//   state BODY X Y Z VX VY VZ  of a body that it simulates; between two it moves by the earlier
+//   state BODY X Y Z VX VY VZ  of a simulated body, when it leaves the path of the last state by
+//                            0.2 mm; before it, the state of the pass before
 //   pose BODY X Y Z          shown, after each 4 mm
-//   jump BODY EXCESS CHANGE SINCE X Y Z  the pose does not follow from the last one, which is
-//   named,
-//                            and both velocities; their difference; the time between both [ms]
+//   jump BODY EXCESS CHANGE SINCE X Y Z
+//                            the pose does not follow from that of the last pass, which is X Y Z:
+//                            excess distance, change of velocity, time between both passes [ms]
 //   gone BODY                not shown any more
 //   slept SINCE              time of the pass before; it got no processor time for long
 //   final BODY X Y Z, count NAME NUMBER  at the end
@@ -97,7 +98,7 @@ class Owner final : public peer::ModelGuest {
     haptics::ObjectMotion shown;
     Eigen::Vector3d logged = Eigen::Vector3d::Constant(1e9);
     haptics::ObjectMotion stated;
-    nanoseconds stated_at{-1};  // -1: not since it simulates the body
+    nanoseconds stated_at{-1};  // -1: none since the simulation began
   };
 
   template <typename... Arguments>
@@ -197,7 +198,7 @@ class Owner final : public peer::ModelGuest {
     body.logged = is.position;
   }
 
-  // Also the state before, so that a knock is between two.
+  // Logs the state of the pass before as well, so that a knock lies between two logged states.
   void note_state(std::size_t number, const haptics::ObjectMotion& was, nanoseconds now) {
     Body& body = bodies_[number];
     if (!body.simulated) body.stated_at = -1ns;

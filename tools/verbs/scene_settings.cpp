@@ -168,8 +168,9 @@ SettingRows scene_limits(const peer::SceneFile& file) {
        fmt::format("the {1} nearest bodies within {0}; further ones are counted (hands_unfelt)",
                    format_quantity(peer::kContactReach, "m"), haptics::kMaxRemoteHands)},
       {"moving objects",
-       fmt::format("{}; {} are awake at most, and meanwhile further ones stay at rest (not_woken)",
-                   peer::kMostOwnable, haptics::BodyWorld::kMostActive)},
+       fmt::format(
+           "{0} at most, {1} of them awake; while {1} are awake, no other one wakes (not_woken)",
+           peer::kMostOwnable, haptics::BodyWorld::kMostActive)},
       {"devices of a peer", fmt::format("{} at most", peer::kMaxDevices)},
       {"peers known", fmt::format("{}; further ones are counted (peers_not_joined)",
                                   aoim::PresenceConfig{}.capacity)},

@@ -199,7 +199,7 @@ TEST(SceneExplain, PrintsTheLimits) {
   EXPECT_THAT(limits["rings of datagrams"], HasSubstr("2 MiB each way"));
   EXPECT_THAT(limits["felt by a hand"], HasSubstr("the 32 nearest bodies within 250 mm"));
   EXPECT_EQ(limits["moving objects"],
-            "256; 64 are awake at most, and meanwhile further ones stay at rest (not_woken)");
+            "256 at most, 64 of them awake; while 64 are awake, no other one wakes (not_woken)");
   EXPECT_THAT(limits["devices of a peer"], HasSubstr("8 at most"));
   EXPECT_THAT(limits["rows of a picture"], HasSubstr("64"));
   EXPECT_THAT(limits["peers known"], HasSubstr("1024"));
