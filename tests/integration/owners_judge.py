@@ -281,6 +281,8 @@ PLANTED = (
 KNOCKED = ("one", "3000000000 count", "2010000000 jump 0 3.00 0.00 5.00 0.00 0.00 20.00\n3000000000 count")
 NEW_STATES = ("two", "2500000000 pose", "2003000000 state 0 0.00 0.00 20.00 0.00 0.00 0.00\n"
               "2010000000 state 0 0.00 0.00 26.00 0.00 0.00 600.00\n2500000000 pose")
+# Not judged, but counted.
+FAR_APART = ("one", "3000000000 count", "2010000000 jump 0 3.00 0.00 6.00 0.00 0.00 20.00\n3000000000 count")
 # It may end in the first pass after a sleep.
 SLEPT = ("one", "2000000000 end 0 0.00", "2600000000 slept 1900000000\n2600000000 end 0 0.00")
 
@@ -304,6 +306,8 @@ def check_itself():
     knocked = faults_of(replaced(KNOCKED, NEW_STATES))
     wrong += [f"a jump after a knock is a fault: {knocked}"] if knocked else []
     wrong += [] if faults_of(replaced(KNOCKED)) else ["not found: a jump without a knock"]
+    judge = Judge({name: Log(text) for name, text in replaced(FAR_APART).items()})
+    wrong += [] if not judge.judge() and judge.unjudged == 1 else ["a jump between passes too far apart is not counted"]
     for words, *change in PLANTED:
         faults = faults_of(replaced(change))
         print(f"  {'; '.join(faults)}")
