@@ -9,6 +9,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/haptics/servo/pressing_hands.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
@@ -96,12 +97,10 @@ std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
 }
 
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
-    const SceneFile& scene, const haptics::Scene& felt, const PeerOptions& options,
-    std::span<const PeerDevice> devices, const std::shared_ptr<haptics::BodyWorld>& bodies,
-    haptics::ForceStop& stop) {
+    const SceneFile& scene, const std::shared_ptr<const haptics::EffectPlan>& plan,
+    const PeerOptions& options, std::span<const PeerDevice> devices,
+    const std::shared_ptr<haptics::BodyWorld>& bodies, haptics::ForceStop& stop) {
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
-  if (devices.empty()) return servos;
-  const auto plan = std::make_shared<const haptics::EffectPlan>(felt);
   for (const PeerDevice& device : devices) {
     servos.push_back(std::make_unique<haptics::ServoLoop>(
         *device.device, plan, servo_config(scene, options, device, stop), bodies));
@@ -156,9 +155,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       felt_(felt_by(scene, owns_)),
       mover_(mover_of(felt_, scene.nodes, devices)),
       bodies_(bodies_of(felt_, devices, mover_)),
-      stepped_(bodies_ != nullptr && devices.empty() ? std::make_unique<SteppedBodies>(*bodies_)
-                                                     : nullptr),
-      servos_(make_servos(scene, felt_, options, devices, bodies_, *force_stop_)),
+      pressed_(pressed_of(options, devices)),
+      servos_(make_servos(scene, pressed_.plan, options, devices, bodies_, *force_stop_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, scene.network.lenient,
             options.tap, urgent_ring(scene, urgent_.get())),
@@ -180,8 +178,9 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               &read_.known(),
               &read_.felt(),
               bodies_.get(),
-              stepped_.get(),
+              pressed_.handless.get(),
               mover_.get(),
+              pressed_.others ? &pressed_.others->hands() : nullptr,
               custom_effects_of(servos_),
               options.mechanisms},
              {{options.site, options.application},
@@ -196,6 +195,24 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
   add_hands(options, devices);
   const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
   if (sends_bodies() || (bodies_ != nullptr && !scene.network.interop)) model_.add_bodies(next);
+}
+
+// In an interop exercise, hands have no force models that other peers know.
+Peer::Pressed Peer::pressed_of(const PeerOptions& options,
+                               std::span<const PeerDevice> devices) const {
+  Pressed out;
+  const bool may_press = bodies_ != nullptr && has_bodies(scene_.scene) && !scene_.network.interop;
+  if (!devices.empty() || may_press) out.plan = std::make_shared<const haptics::EffectPlan>(felt_);
+  if (may_press) {
+    haptics::ServoConfig config;
+    config.period = devices.empty() ? SteppedBodies::kPeriod : period_of(options, devices.front());
+    config.contact_radius = scene_.hand.contact_radius;
+    config.patch_radius = scene_.hand.patch_radius;
+    out.others = std::make_unique<haptics::PressingHands>(*bodies_, out.plan, config);
+  }
+  if (bodies_ != nullptr && devices.empty())
+    out.handless = std::make_unique<SteppedBodies>(*bodies_);
+  return out;
 }
 
 void Peer::add_hands(const PeerOptions& options, std::span<const PeerDevice> devices) {

@@ -37,6 +37,10 @@ class EffectPlan;
 class ServoLoop;
 }  // namespace reckon::haptics
 
+namespace reckon::haptics {
+class PressingHands;
+}  // namespace reckon::haptics
+
 namespace reckon::peer {
 
 /// Settings of a peer besides its scene.
@@ -201,7 +205,14 @@ class Peer {
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 
  private:
+  struct Pressed {
+    std::shared_ptr<const haptics::EffectPlan> plan;  // of the servos and of others; or null
+    std::unique_ptr<haptics::PressingHands> others;   // null: no other peer can press a body
+    std::unique_ptr<SteppedBodies> handless;          // null: servos step the bodies
+  };
   void add_hands(const PeerOptions& options, std::span<const PeerDevice> devices);
+  [[nodiscard]] Pressed pressed_of(const PeerOptions& options,
+                                   std::span<const PeerDevice> devices) const;
   [[nodiscard]] bool sends_bodies() const noexcept { return bodies_ != nullptr && owns_; }
 
   const SceneFile& scene_;
@@ -220,7 +231,7 @@ class Peer {
   haptics::Scene felt_;                         // as this peer begins to move it
   std::shared_ptr<BodyMover> mover_;            // of the bodies of other peers
   std::shared_ptr<haptics::BodyWorld> bodies_;  // of the servos, which share it
-  std::unique_ptr<SteppedBodies> stepped_;      // the same without a device
+  Pressed pressed_;
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   std::chrono::nanoseconds servo_period_;
   struct ServoDue {

@@ -27,12 +27,12 @@ TOTAL = {
     "pdu": 12500,
     "aoim": 12500,
     "deadreckon": 4500,
-    "haptics": 40000,
+    "haptics": 41000,
     "src": 52500,
     "tools": 41000,
     "python": 2500,
     "bench": 37500,
-    "tests": 142500,
+    "tests": 143500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -50,7 +50,7 @@ LARGE = {
     "src/ModelLoop": (310, 25),
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (191, 27),
-    "src/RemoteEntities": (457, 21),
+    "src/RemoteEntities": (455, 21),
     "src/RemoteEntity": (21, 31),
     "tools/Exercise": (304, 17),
     "tools/Listener": (327, 12),

@@ -13,6 +13,9 @@
 
 namespace reckon::aoim {
 
+/// Counterpart of the energy account of a hand with all bodies of the scene.
+inline constexpr pdu::EntityId kAllBodies{kSceneId.site, kSceneId.application, 0};
+
 /// The peer that may send a body.
 struct BodyOwnership {
   std::uint32_t epoch = 0;    ///< of the owner; 0: not known, so nobody may send the body

@@ -84,7 +84,7 @@ class FullTable {
                now_ += milliseconds(2);
                hand_[0].position.z() += ++pass_ % 100 < 50 ? 0.002 : -0.002;
                remote_.expire(now_);
-               remote_.find_near(hand_, now_, near_);
+               remote_.find_near(hand_, now_, near_, {}, hands_near_);
              }
            }) /
            kPasses;
@@ -162,6 +162,7 @@ class FullTable {
   std::vector<std::vector<std::byte>> block_;
   std::array<deadreckon::ProbeState, 1> hand_;
   std::array<NearBodies, 1> near_;
+  HandsNear hands_near_;
   std::uint32_t turn_ = 0;
   std::size_t pass_ = 0;
   nanoseconds now_ = seconds(1);

@@ -173,11 +173,12 @@ void search_near(benchmark::State& state) {
   nanoseconds now = world.now();
   std::array<deadreckon::ProbeState, 1> hand;
   std::array<NearBodies, 1> found;
+  HandsNear hands;
   std::size_t within = 0, plain = 0, step = 0;
   const auto search = [&] {
     now += milliseconds(2);
     hand[0].position.z() += ++step % 100 < 50 ? 0.002 : -0.002;
-    world.remote().find_near(hand, now, found);
+    world.remote().find_near(hand, now, found, {}, hands);
     within += found[0].bodies().size();
   };
   const auto look_at_all = [&] {

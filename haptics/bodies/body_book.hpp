@@ -48,6 +48,16 @@ class BodyBook {
   void read_again(std::size_t body, std::size_t slot) noexcept;
   /// Shows an order's effect on a body.
   void show(std::uint32_t body) noexcept;
+  /// See BodyState::copied; before show().
+  void set_copied(std::uint32_t body, bool is_copied) noexcept {
+    now_[body].copied = next_[body].copied = is_copied;
+  }
+  /// See ObjectMotion::drawn; after read().
+  void note_drawn(std::uint32_t body, const Eigen::Vector3d& way,
+                  const Eigen::Vector3d& turn) noexcept {
+    now_[body].drawn = way;
+    now_[body].drawn_turn = turn;
+  }
   /// An order came, which may have had no effect.
   void note_order() noexcept { ++version_; }
 

@@ -30,7 +30,8 @@ BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
                        std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
     : solver_(plan, gravity, work_space),
       carried_(plan, solver_.slots(), std::move(mover)),
-      ordered_(solver_.slots(), carried_),
+      copied_(solver_.slots(), carried_),
+      ordered_(solver_.slots(), carried_, copied_),
       book_(solver_, carried_),
       near_(radii_of_moving(plan)),
       pushes_(solver_) {}
@@ -84,7 +85,11 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     foreseen = 0;
   }
   carried_.put(solver_.slots());
-  read_states(~foreseen, length, ~rest);
+  copied_.draw(now, whole);
+  read_states(copied_.empty() ? ~foreseen : BodySolver::all(), length, ~rest);
+  copied_.each_drawn([this](std::uint32_t body, const Vector3d& way, const Vector3d& turn) {
+    book_.note_drawn(body, way, turn);
+  });
   pushes_.end_period();
   begin_period();
   return true;
@@ -171,12 +176,15 @@ bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
   go_back();
   if (order.body < book_.now().size()) was = slots.motion_of(order.body);
   if (!ordered_.admits(order)) return false;
-  const bool is_put = order.act == BodyAct::own || order.act == BodyAct::place;
+  const bool goes_on = copied_.contains(order.body) && order.act != BodyAct::follow;
+  const bool is_put = !goes_on && (order.act == BodyAct::own || order.act == BodyAct::place ||
+                                   order.act == BodyAct::copy);
   if (is_put) wake_near(order.body);
-  const bool is_left = order.act == BodyAct::disown;
+  const bool is_left = order.act == BodyAct::disown || order.act == BodyAct::follow;
   ordered_.carry_out(order, is_left ? slots.slot_of(order.body) : slot_for(order.body));
   // The springs of hands end where the body was.
   if (is_put || is_left) pushes_.end(order.body);
+  book_.set_copied(order.body, copied_.contains(order.body));
   book_.show(order.body);
   near_.forget();
   return true;
@@ -287,7 +295,9 @@ bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
 
 // For the prediction of one hand, or for the steps of the islands [s].
 double BodyEngine::time_before() const noexcept {
-  return kBefore * period_ / (pace_ * static_cast<double>(near_.hands() + 1));
+  const bool is_idle = guest_ < near_.hands() && !pushes_.has_any_of(guest_);
+  const std::size_t hands = near_.hands() - (is_idle ? 1 : 0);
+  return kBefore * period_ / (pace_ * static_cast<double>(hands + 1));
 }
 
 // Moves bodies in usual steps, within the time after the forces.

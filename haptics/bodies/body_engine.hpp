@@ -18,6 +18,7 @@
 #include "reckon/haptics/bodies/body_solver.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/carried_objects.hpp"
+#include "reckon/haptics/bodies/copied_bodies.hpp"
 #include "reckon/haptics/bodies/hand_pushes.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
@@ -33,6 +34,7 @@ class BodyEngine {
              std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space);
 
   std::size_t add_hand() { return near_.add_hand(); }
+  std::size_t add_guest() { return guest_ = near_.add_hand(); }
 
   /// BodyWorld documents this function and those below that have no comment; it calls them under
   /// the same names. @return whether the time has advanced
@@ -62,6 +64,10 @@ class BodyEngine {
     return book_.next()[body];
   }
   [[nodiscard]] bool has_hands() const noexcept { return near_.hands() > 0; }
+  /// Whether forces of hands are waited for; a guest has none.
+  [[nodiscard]] bool has_devices() const noexcept {
+    return near_.hands() > (guest_ == BodyWorld::kNoPush ? 0u : 1u);
+  }
 
   /// @return whether all hands have written
   bool written(std::size_t hand, const HandReach& reach) noexcept;
@@ -103,7 +109,7 @@ class BodyEngine {
 
  private:
   [[nodiscard]] bool is_quiet() const noexcept {
-    return book_.is_quiet() && pushes_.is_quiet() && carried_.empty();
+    return book_.is_quiet() && pushes_.is_quiet() && carried_.empty() && copied_.empty();
   }
   [[nodiscard]] BodiesAbout about(std::span<const BodyState> states) const noexcept;
   [[nodiscard]] std::size_t slot_for(std::size_t body) noexcept;
@@ -124,9 +130,11 @@ class BodyEngine {
 
   BodySolver solver_;
   CarriedObjects carried_;
+  CopiedBodies copied_;
   OrderedBodies ordered_;
   BodyBook book_;
   NearBodies near_;
+  std::size_t guest_ = BodyWorld::kNoPush;  // hand that counts only while it presses
   HandPushes pushes_;
   std::uint64_t written_ = 0;  // hands with a write in this period
   BodySet rest_ = 0;           // bodies moved to the end of the period

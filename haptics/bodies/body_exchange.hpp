@@ -18,21 +18,24 @@
 namespace reckon::haptics {
 
 enum class BodyAct : std::uint8_t {
-  own,     ///< this peer simulates the body, from `state` on
+  own,     ///< this peer simulates the body, from `state` on; a copy goes on from where it is
   disown,  ///< its mover carries it; it stands in its last state until its mover moves it
   wake,    ///< makes it active
   push,    ///< gives it an impulse, and wakes it
   place,   ///< puts it into `state`, and wakes it
+  copy,    ///< simulates a copy of it, from `state` on, and draws that to the mover's poses
+  follow,  ///< ends the copy: its mover carries the body
 };
 
-/// An order to one body. Except for `own`, an order to a body that this peer does not own has no
-/// effect.
+/// An order to one body. Except for `own`, `copy` and `follow`, an order to a body that this peer
+/// does not own has no effect.
 struct BodyOrder {
   BodyAct act = BodyAct::wake;
   std::uint32_t body = 0;
-  ObjectMotion state{};                               ///< for `own` and `place`; frame S
+  ObjectMotion state{};                               ///< for `own`, `copy`, `place`; frame S
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s], S
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m], S, where the impulse acts
+  double delay = 0.0;                                 ///< [s], of the mover's poses; for `copy`
 };
 
 /// The answer to each `disown` of a transaction.

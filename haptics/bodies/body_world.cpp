@@ -24,6 +24,12 @@ BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
     : engine_(std::make_unique<BodyEngine>(plan, gravity, std::move(mover), work_space)),
       was_awake_(engine_->states().size(), 0) {
   orders_.reserve(kMostOrders);
+  for (const PlannedObject& object : plan.objects()) {
+    if (!object.moves()) continue;
+    PlannedObject apart = object;
+    apart.place(Vector3d::Zero(), Eigen::Matrix3d::Identity());
+    boxes_.push_back(apart.bounds);
+  }
   // Reserves memory in each slot of the buffers.
   for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
     for (int i = 0; i < 3; ++i) {
@@ -47,6 +53,7 @@ void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
   if (!engine_->advance_to(now, frozen)) return;
   is_due_ = true;
   if (!engine_->has_hands()) publish();
+  if (guest_ != nullptr) guest_->step(now, frozen);
 }
 
 bool BodyWorld::order(const BodyOrder& order) noexcept {
@@ -118,6 +125,10 @@ void BodyWorld::keep_carried(std::size_t body) noexcept { engine_->keep_carried(
 bool BodyWorld::can_own(std::size_t body) const noexcept { return engine_->can_own(body); }
 void BodyWorld::touch(std::uint32_t body) noexcept { engine_->touch(body); }
 std::size_t BodyWorld::add_hand() { return engine_->add_hand(); }
+std::size_t BodyWorld::add_guest(BodyGuest& guest) {
+  guest_ = &guest;
+  return engine_->add_guest();
+}
 std::span<const std::uint32_t> BodyWorld::near(std::size_t hand, const HandReach& reach,
                                                double period) noexcept {
   return engine_->near(hand, reach, period);
@@ -131,7 +142,7 @@ std::size_t BodyWorld::press(std::size_t hand, const BodySpring& spring) noexcep
 void BodyWorld::written(std::size_t hand, const HandReach& reach) noexcept {
   if (!engine_->written(hand, reach)) return;
   if (is_due_) publish();
-  engine_->go_ahead();
+  if (engine_->has_devices()) engine_->go_ahead();
 }
 void BodyWorld::foresee(std::size_t hand, double period) noexcept {
   engine_->foresee(hand, period);

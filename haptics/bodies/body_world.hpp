@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reckon/haptics/bodies/body_exchange.hpp"
+#include "reckon/haptics/bodies/body_guest.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -27,10 +28,13 @@ struct BodyState : ObjectMotion {
   std::uint32_t object = 0;  ///< index in the plan
   bool awake = true;
   bool carried = false;  ///< not owned by this peer: its mover moves it, and no push does
+  bool copied = false;   ///< not owned by this peer: a copy that pushes move, see CopiedBodies
   bool touched = false;  ///< by a hand of this peer, within the last 50 ms
   /// A body of its contact island: the same for all its bodies, and for a carried body that touches
   /// one of them. Itself while it sleeps or touches no body.
   std::uint32_t island = 0;
+
+  [[nodiscard]] bool is_owned() const noexcept { return !carried && !copied; }
 };
 
 struct BodySpring;
@@ -120,12 +124,20 @@ class BodyWorld {
   [[nodiscard]] bool has_orders() const noexcept { return !orders_.empty() || !exchange_.empty(); }
   /// Whether an owned body is awake, or a carried one moves near an owned one.
   [[nodiscard]] bool is_any_moving() const noexcept;
+  /// Whether the guest has something to press with.
+  [[nodiscard]] bool has_guest_pending() noexcept {
+    return guest_ != nullptr && guest_->is_pending();
+  }
   /// Whether there are owned and carried ones.
   [[nodiscard]] bool is_mixed() const noexcept;
   /// This peer never owns that body. Call before the first advance.
   void keep_carried(std::size_t body) noexcept;
   /// Whether this peer can own it. Any thread after the first advance.
   [[nodiscard]] bool can_own(std::size_t body) const noexcept;
+  /// Box around a body in its axes [m]. Any thread.
+  [[nodiscard]] const Eigen::AlignedBox3d& box(std::size_t body) const noexcept {
+    return boxes_[body];
+  }
   /// A hand touches a body; for BodyState::touched.
   void touch(std::uint32_t body) noexcept;
 
@@ -135,6 +147,13 @@ class BodyWorld {
                    const Eigen::Vector3d& force) noexcept;
   static constexpr std::size_t kNoPush = static_cast<std::size_t>(-1);
 
+  /// Adds a guest, which steps in each advance, and is a hand for the functions below. @param guest
+  /// outlives this @return its number. Once, before the first advance. Allocates.
+  [[nodiscard]] std::size_t add_guest(BodyGuest& guest);
+  /// Takes energy from the guest, see BodyGuest. @return the energy taken [J]
+  double take_from_guest(double energy) noexcept {
+    return guest_ != nullptr ? guest_->take(energy) : 0.0;
+  }
   /// Adds a hand. @return its number, for the functions below. Call before the first advance.
   /// Allocates.
   [[nodiscard]] std::size_t add_hand();
@@ -209,7 +228,9 @@ class BodyWorld {
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
   BodyExchange exchange_;
+  BodyGuest* guest_ = nullptr;
   std::vector<BodyOrder> orders_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // by body
   std::uint64_t serial_ = 0, ignored_ = 0;  // see BodyStates
   BodyRing* trace_ = nullptr;
   std::vector<char> was_awake_;  // by body, in the last step

@@ -32,13 +32,28 @@ CarriedObjects::CarriedObjects(const EffectPlan& plan, const BodySlots& slots,
 }
 
 void CarriedObjects::add(std::uint32_t body, const ObjectMotion& at) noexcept {
+  follow(body, at);
   Carried& one = all_[body];
-  one.before = one.now = {at.position, at.orientation};
-  carried_.insert(std::ranges::lower_bound(carried_, body), body);
   if (mover_ == nullptr) return;
   ObjectMotion object = one.now;
   object.position -= at.orientation * one.origin;
   mover_->leave_at(one.object, object);
+}
+
+void CarriedObjects::follow(std::uint32_t body, const ObjectMotion& at) noexcept {
+  Carried& one = all_[body];
+  one.before = one.now = {at.position, at.orientation};
+  carried_.insert(std::ranges::lower_bound(carried_, body), body);
+}
+
+ObjectMotion CarriedObjects::motion_of(std::uint32_t body, std::chrono::nanoseconds now) noexcept {
+  const Carried& one = all_[body];
+  if (mover_ == nullptr) return one.now;
+  ObjectMotion motion = mover_->motion_of(one.object, now);
+  const Eigen::Vector3d arm = motion.orientation * one.origin;
+  motion.position += arm;
+  motion.velocity += motion.turn_rate.cross(arm);
+  return motion;
 }
 
 void CarriedObjects::see(std::chrono::nanoseconds now, double gap) noexcept {
@@ -46,10 +61,7 @@ void CarriedObjects::see(std::chrono::nanoseconds now, double gap) noexcept {
     Carried& one = all_[body];
     one.before = one.now;
     if (mover_ == nullptr) continue;
-    one.now = mover_->motion_of(one.object, now);
-    const Eigen::Vector3d arm = one.now.orientation * one.origin;
-    one.now.position += arm;
-    one.now.velocity += one.now.turn_rate.cross(arm);
+    one.now = motion_of(body, now);
     if (!one.may_jump) continue;
     const double speed = std::max(one.before.velocity.norm(), one.now.velocity.norm());
     one.jumps = (one.now.position - one.before.position).norm() > kJump + kExplained * speed * gap;

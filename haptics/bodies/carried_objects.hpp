@@ -30,6 +30,10 @@ class CarriedObjects {
   [[nodiscard]] std::span<const std::uint32_t> bodies() const noexcept { return carried_; }
   /// Carries a body, which stands at `at` until its mover moves it.
   void add(std::uint32_t body, const ObjectMotion& at) noexcept;
+  /// Carries a body that its mover moves already.
+  void follow(std::uint32_t body, const ObjectMotion& at) noexcept;
+  /// Motion of a body by its mover, carried or not.
+  [[nodiscard]] ObjectMotion motion_of(std::uint32_t body, std::chrono::nanoseconds now) noexcept;
   void remove(std::uint32_t body) noexcept { std::erase(carried_, body); }
   /// Reads their motion from the mover. @param gap [s] since the last call
   void see(std::chrono::nanoseconds now, double gap) noexcept;

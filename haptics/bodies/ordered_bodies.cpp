@@ -26,35 +26,48 @@ bool is_usable(const ObjectMotion& state) {
 bool OrderedBodies::admits(const BodyOrder& order) const noexcept {
   if (order.body >= slots_.kinds().size()) return false;
   const BodyKind& kind = slots_.kinds()[order.body];
+  const bool is_copied = copied_.contains(order.body);
+  const bool is_owned = !kind.is_carried && !is_copied;
   switch (order.act) {
     case BodyAct::own:
       return kind.can_be_owned && is_usable(order.state);
+    case BodyAct::copy:
+      return kind.can_be_owned && !is_owned && is_usable(order.state);
+    case BodyAct::follow:
+      return is_copied;
     case BodyAct::place:
-      return !kind.is_carried && is_usable(order.state);
+      return is_owned && is_usable(order.state);
     case BodyAct::push:
-      return !kind.is_carried && is_within(order.impulse, kMostImpulse) &&
+      return is_owned && is_within(order.impulse, kMostImpulse) &&
              is_within(order.point, kFarthestPlace);
     case BodyAct::disown:
     case BodyAct::wake:
       break;
   }
-  return !kind.is_carried;
+  return is_owned;
 }
 
 void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept {
   const bool has_slot = slot != BodySlots::kNone;
-  if (order.act == BodyAct::disown) {
+  const bool is_copied = copied_.contains(order.body);
+  if (order.act == BodyAct::disown || order.act == BodyAct::follow) {
     const ObjectMotion at = slots_.motion_of(order.body);
     slots_.set_carried(order.body, true);
-    carried_.add(order.body, at);
+    copied_.remove(order.body);
+    is_copied ? carried_.follow(order.body, at) : carried_.add(order.body, at);
     if (has_slot) slots_[slot].carry(carried_.now(order.body));
   } else if (order.act == BodyAct::wake) {
     if (has_slot) slots_[slot].wake();
   } else if (order.act == BodyAct::push) {
     if (has_slot) slots_[slot].strike(order.impulse, order.point);
-  } else {
+  } else if (order.act == BodyAct::own && is_copied) {
+    copied_.remove(order.body);
+  } else if (order.act == BodyAct::copy && is_copied) {
+    copied_.add(order.body, order.delay);
+  } else if (order.act != BodyAct::copy || has_slot) {
     slots_.set_carried(order.body, false);
     carried_.remove(order.body);
+    if (order.act == BodyAct::copy) copied_.add(order.body, order.delay);
     ObjectMotion state = order.state;
     state.orientation.normalize();
     has_slot ? slots_[slot].start(state) : slots_.lie(order.body, state);

@@ -8,14 +8,16 @@
 #include "reckon/haptics/bodies/body_exchange.hpp"
 #include "reckon/haptics/bodies/body_slots.hpp"
 #include "reckon/haptics/bodies/carried_objects.hpp"
+#include "reckon/haptics/bodies/copied_bodies.hpp"
 
 namespace reckon::haptics {
 
 /// Servo thread, between the steps of the solver; allocates nothing.
 class OrderedBodies {
  public:
-  /// Both outlive this.
-  OrderedBodies(BodySlots& slots, CarriedObjects& carried) : slots_(slots), carried_(carried) {}
+  /// All outlive this.
+  OrderedBodies(BodySlots& slots, CarriedObjects& carried, CopiedBodies& copied)
+      : slots_(slots), carried_(carried), copied_(copied) {}
 
   /// Whether an order would have an effect: its body exists, is in the right hands, and the numbers
   /// are usable.
@@ -27,6 +29,7 @@ class OrderedBodies {
  private:
   BodySlots& slots_;
   CarriedObjects& carried_;
+  CopiedBodies& copied_;
 };
 
 }  // namespace reckon::haptics

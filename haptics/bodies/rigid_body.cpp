@@ -120,6 +120,14 @@ void RigidBody::carry(const ObjectMotion& motion) noexcept {
   }
 }
 
+void RigidBody::shift(const Vector3d& way, const Quaterniond& turned) noexcept {
+  const Vector3d place = vector_of(dBodyGetPosition(id)) + way +
+                         (turned * middle - this->turned() * middle);
+  const dQuaternion q{turned.w(), turned.x(), turned.y(), turned.z()};
+  dBodySetPosition(id, place.x(), place.y(), place.z());
+  dBodySetQuaternion(id, q);
+}
+
 void RigidBody::wake() noexcept {
   dBodyEnable(id);
   still = 0.0;

@@ -90,6 +90,8 @@ struct RigidBody : BodyKind {
   [[nodiscard]] double energy(const Eigen::Vector3d& gravity) const noexcept;
   /// Puts an owned body into a state and wakes it, at most at BodyWorld's limits of speed.
   void start(const ObjectMotion& motion) noexcept;
+  /// Moves it, without a change of velocity. @param way [m], S @param turned its new orientation
+  void shift(const Eigen::Vector3d& way, const Eigen::Quaterniond& turned) noexcept;
   /// Makes it active.
   void wake() noexcept;
   /// Sets pose and velocity of a carried object.

@@ -141,6 +141,15 @@ typename StaticContactOf<axes>::Force StaticContactOf<axes>::held_back(
 }
 
 template <int axes>
+bool StaticContactOf<axes>::touches_body(const EffectPlan& plan) const noexcept {
+  for (std::size_t probe = 0; probe < size(); ++probe) {
+    for (const std::uint32_t index : walls_[probe]->result().touched)
+      if (plan.objects()[index].is_body()) return true;
+  }
+  return false;
+}
+
+template <int axes>
 bool StaticContactOf<axes>::touches_others_body(const EffectPlan& plan) const noexcept {
   for (std::size_t probe = 0; probe < size(); ++probe) {
     for (const std::uint32_t index : walls_[probe]->result().touched) {

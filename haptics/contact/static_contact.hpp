@@ -88,6 +88,7 @@ class StaticContactOf {
   /// Result of the probe that is deepest in an object; of the first without contact.
   [[nodiscard]] const ContactResult& result() const noexcept { return walls(deepest()).result(); }
   [[nodiscard]] std::size_t deepest() const noexcept { return axes == 3 ? 0 : deepest_; }
+  [[nodiscard]] std::size_t probes() const noexcept { return size(); }
   /// Walls at a probe.
   [[nodiscard]] const WallContact& walls(std::size_t probe = 0) const noexcept {
     return *walls_[probe];
@@ -97,6 +98,14 @@ class StaticContactOf {
   [[nodiscard]] const Grab& grab(std::size_t probe) const noexcept { return grabs_[probe]; }
   [[nodiscard]] bool grabs() const noexcept { return std::ranges::any_of(grabs_, &Grab::holds); }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
+  /// Storage of the walls' springs [J].
+  [[nodiscard]] double stored() const noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->stored();
+    return sum;
+  }
+  /// Whether a probe touches an object with a mass.
+  [[nodiscard]] bool touches_body(const EffectPlan& plan) const noexcept;
   /// Whether a probe touches a body that another peer moves: a carried object with a mass.
   [[nodiscard]] bool touches_others_body(const EffectPlan& plan) const noexcept;
   /// Sum of walls and regions at all probes [N, S], after shown().

@@ -31,6 +31,17 @@ void WallContact::reset(const Eigen::Vector3d& device) noexcept {
   force_.setZero();
 }
 
+void WallContact::resume(const Eigen::Vector3d& from, const Eigen::Vector3d& device,
+                         EnergyLedger& ledger) noexcept {
+  ledger.book(booked());
+  reset(from);
+  result_ = solver_.step(device);
+  measure_stiffness();
+  gain_ = most_gain();
+  fades_in_ = false;
+  ledger.book(-booked());
+}
+
 void WallContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
   for (const std::uint32_t i : result_.touched) {

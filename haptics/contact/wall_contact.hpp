@@ -47,6 +47,11 @@ class WallContact {
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 
+  /// Goes on elsewhere with its whole force, as a probe that has moved from `from` to `device` [m,
+  /// S]. The ledger pays for the storage.
+  void resume(const Eigen::Vector3d& from, const Eigen::Vector3d& device,
+              EnergyLedger& ledger) noexcept;
+
   /// Sets the stiffness limit of all objects [N/m] from the next settle() on, at most the initial
   /// cap.
   void limit(double stiffness) noexcept { cap_ = stiffness; }

@@ -36,9 +36,12 @@ struct Shortfall {
 
 /// Totals since the start of the servo.
 struct ServoTally {
-  double hands = 0.0;    ///< [s] in contact with remote hands and bodies
-  double scene = 0.0;    ///< [s] in contact with the static scene
-  double bodies = 0.0;   ///< [s] in contact with bodies that other peers move
+  double hands = 0.0;      ///< [s] in contact with remote hands and bodies
+  double scene = 0.0;      ///< [s] in contact with the static scene
+  double bodies = 0.0;     ///< [s] in contact with bodies that other peers move
+  double at_bodies = 0.0;  ///< [s] in contact with bodies of any owner
+  /// [J], put into bodies and springs, minus what came back; 0 in a scene without bodies.
+  double body_energy = 0.0;
   double grabbed = 0.0;  ///< [s] in which it held a body
   Shortfall held_back;   ///< springs of hands, for lack of energy
   Shortfall guests;      ///< springs of guests beside hands, which come first (GuestShare)

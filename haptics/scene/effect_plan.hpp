@@ -29,6 +29,9 @@ struct ObjectMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s], of its origin
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
   double step = 0.0;  ///< [s]; the velocity lags the position by half of it
+  /// Of a copy, in the last advance: the part of its way [m] and turn [rad] by which its owner's
+  /// answer drew it. S.
+  Eigen::Vector3d drawn = Eigen::Vector3d::Zero(), drawn_turn = Eigen::Vector3d::Zero();
 
   /// Velocity of the object's material point at `point` [m], [m/s].
   [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& point) const noexcept {

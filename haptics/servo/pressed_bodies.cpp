@@ -11,6 +11,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/region_share.hpp"
+#include "reckon/haptics/servo/body_springs.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -19,8 +20,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
-constexpr double kSoon = 3.0;  // periods of look-ahead for approaching bodies
 // Share of a body's stiffness limit for a grab beside the wall, and of the viscosity limit for a
 // held force.
 constexpr double kSpringShare = 0.5;
@@ -119,11 +118,12 @@ HandReach PressedBodiesOf<axes>::reach_of(const ToolOf<axes>& tool,
 
 template <int axes>
 void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
-                                  double period) noexcept {
+                                  double period, EnergyLedger& ledger) noexcept {
   if (!world_) return;
   placed_ = 0;
   const auto put = [&](std::size_t body) {
     ++placed_;
+    if (world_->states()[body].copied) pay_for_draw(contacts, body, ledger);
     const auto number = static_cast<std::uint32_t>(body);
     contacts.set_carried(number, world_->states()[body].carried);
     contacts.place(number, world_->states()[body], world_->state_before(body));
@@ -132,6 +132,22 @@ void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes
   for (const std::uint32_t body : world_->near(hand_, reach_, period)) put(body);
   for (std::size_t probe = 0; probe < tool.size(); ++probe)
     if (contacts.grab(probe).holds()) put(contacts.grab(probe).body());
+}
+
+template <int axes>
+void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, std::size_t body,
+                                         EnergyLedger& ledger) noexcept {
+  const BodyState& state = world_->states()[body];
+  for (std::size_t probe = 0; probe < contacts.probes(); ++probe) {
+    const ContactResult& touched = contacts.walls(probe).result();
+    if (touched.objects.empty() || !touched.objects[state.object].in_contact) continue;
+    const ObjectContact& contact = touched.objects[state.object];
+    const Vector3d way = state.drawn + state.drawn_turn.cross(contact.scp - state.position);
+    const double paid =
+        world_->take_from_guest(contacts.walls(probe).gain() * contact.force.dot(way));
+    ledger.book(paid);
+    work_ -= paid;
+  }
 }
 
 template <int axes>
@@ -151,7 +167,7 @@ void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>
   const bool is_pressed = (pressed & buttons_) != 0;
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     Grab& grab = contacts.grab(probe);
-    const bool is_gone = grab.holds() && world_->states()[grab.body()].carried;
+    const bool is_gone = grab.holds() && !world_->states()[grab.body()].is_owned();
     if (is_gone || grab.tears() || (grab.holds() && by_[probe] && !is_pressed))
       grab.release(ledger);
     if (!grab.holds()) take(tool, contacts, probe, is_pressed);
@@ -167,7 +183,7 @@ void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>
   double most = 0.0;
   for (const std::uint32_t object : touched.touched) {
     const std::uint32_t i = body_of_[object];
-    if (i == kNoBody || states[i].carried) continue;
+    if (i == kNoBody || !states[i].is_owned()) continue;
     const double force = touched.objects[object].force.norm();
     const Hold& hold = holds_[i];
     const bool by_button = pressed && hold.by_button.stiffness > 0;
@@ -186,25 +202,10 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
   for (std::size_t probe = 0; placed_ > 0 && probe < tool.size(); ++probe) {
     const WallContact& walls = contacts.walls(probe);
     const Vector3d velocity = tool.velocity(probe);
-    for (const std::uint32_t index : walls.result().touched) {
-      if (body_of_[index] == kNoBody) continue;
-      const ObjectContact& contact = walls.result().objects[index];
-      BodySpring spring;
-      spring.point = contact.scp;
-      spring.force = -walls.gain() * contact.force;
-      spring.normal = contact.normal;
-      spring.velocity = velocity;
-      press(walls, probe, index, spring);
-    }
-    std::size_t next = 0;
-    while (const auto near = walls.near_body(next, velocity, kSoon * period)) {
-      BodySpring spring;
-      spring.point = near->point;
-      spring.normal = near->normal;
-      spring.gap = near->gap;
-      spring.velocity = velocity;
-      press(walls, probe, near->index, spring);
-    }
+    visit_body_springs(
+        walls, [this](std::uint32_t index) { return body_of_[index] != kNoBody; }, velocity,
+        kSpringsAhead * period,
+        [&](std::uint32_t index, const BodySpring& spring) { press(probe, index, spring); });
     const Grab& grab = contacts.grab(probe);
     if (grab.holds()) press_held(grab, probe, velocity);
   }
@@ -243,14 +244,12 @@ void PressedBodiesOf<axes>::press_held(const Grab& grab, std::size_t probe,
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, std::uint32_t object,
+void PressedBodiesOf<axes>::press(std::size_t probe, std::uint32_t object,
                                   BodySpring spring) noexcept {
   const std::uint32_t body = body_of_[object];
   if (!(spring.gap > 0)) world_->touch(body);
   if (world_->states()[body].carried) return;
   spring.body = body;
-  spring.stiffness = walls.stiffness_of(object);
-  spring.friction = walls.friction_of(object);
   spring.probe = probe;
   spring.patch = patch_;
   const std::size_t number = world_->press(hand_, spring);

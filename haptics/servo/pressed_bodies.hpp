@@ -37,9 +37,11 @@ class PressedBodiesOf {
   /// Call after the contacts have settled. If the port is in debt, the bodies return energy of the
   /// last period.
   void repay(EnergyLedger& ledger) noexcept;
-  /// Passes the bodies that the tool may touch to the contacts.
+  /// Passes the bodies that the tool may touch to the contacts. The hands of other peers pay for
+  /// the way by which a copy was drawn against the tool, and are paid for the way back.
   /// @param period [s] until the next step
-  void place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
+  void place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period,
+             EnergyLedger& ledger) noexcept;
   /// Passes all bodies to the contacts, before these restart.
   void place_all(StaticContactOf<axes>& contacts) const noexcept;
   /// Grabs touched bodies, by button or because they stick, and releases them. @param pressed
@@ -78,8 +80,9 @@ class PressedBodiesOf {
 
   [[nodiscard]] HandReach reach_of(const ToolOf<axes>& tool,
                                    const StaticContactOf<axes>& contacts) const noexcept;
-  void press(const WallContact& walls, std::size_t probe, std::uint32_t object,
-             BodySpring spring) noexcept;
+  void pay_for_draw(const StaticContactOf<axes>& contacts, std::size_t body,
+                    EnergyLedger& ledger) noexcept;
+  void press(std::size_t probe, std::uint32_t object, BodySpring spring) noexcept;
   void press_held(const Grab& grab, std::size_t probe, const Eigen::Vector3d& velocity) noexcept;
   void take(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, std::size_t probe,
             bool pressed) noexcept;

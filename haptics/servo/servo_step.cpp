@@ -238,7 +238,7 @@ void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
   port_.settle(dx, elapsed_, took_, held_share_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
-  pressed_.place(tool_, static_, period_);
+  pressed_.place(tool_, static_, period_, port_);
   static_.settle(tool_, step_.dt, port_);
   Vector3d change = Vector3d::Zero();
   const bool in_steps = port_.reads_in_steps();
@@ -290,6 +290,8 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
   if (static_.touches_others_body(*plan_)) tally_.bodies += step_.dt;
+  if (static_.touches_body(*plan_)) tally_.at_bodies += step_.dt;
+  if (!pressed_.bodies().empty()) tally_.body_energy = pressed_.work() + static_.stored();
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.

@@ -22,8 +22,10 @@ struct EnergyAccountRecord {
 
   std::uint32_t type = kType;
   std::uint16_t length = kLength;
-  EntityId counterpart;  ///< the receiver of the energy
-  double given = 0.0;    ///< [J], total given to the counterpart since contact began; never falls
+  EntityId counterpart;  ///< the receiver of the energy; entity 0 of the scene: all its bodies
+  /// [J], total given to the counterpart since contact began; never falls. For all bodies: energy
+  /// that the hand has put into them since its start, minus what came back.
+  double given = 0.0;
   /// Energy that this side lacks for its whole force, none of it booked as a spring [uJ]; 65,535
   /// also stands for more.
   std::uint16_t need = 0;

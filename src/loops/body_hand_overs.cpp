@@ -143,15 +143,30 @@ haptics::ObjectMotion BodyHandOvers::granted_motion(std::size_t object) const no
   return motion;
 }
 
-haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, bool owns) const noexcept {
+haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, haptics::BodyAct act) const noexcept {
   haptics::BodyOrder order;
   order.body = static_cast<std::uint32_t>(body);
-  order.act = owns ? haptics::BodyAct::own : haptics::BodyAct::disown;
-  if (owns) {
+  order.act = act;
+  if (act == haptics::BodyAct::own || act == haptics::BodyAct::copy) {
     order.state = granted_[body] ? granted_motion(body)
                                  : stages_.bodies.motion_now(body, stages_.remote, pass_.now);
   }
+  order.delay = delays_[body];
   return order;
+}
+
+// The order that brings the world to the right mode; none: it is there.
+std::optional<haptics::BodyAct> BodyHandOvers::act_for(
+    std::size_t body, const haptics::BodyState& state) const noexcept {
+  if (protocol_.owns(body, pass_.now)) {
+    if (state.is_owned() || !can_own(body)) return std::nullopt;
+    return haptics::BodyAct::own;
+  }
+  if (state.is_owned()) return haptics::BodyAct::disown;
+  if (state.copied && !copies(body)) return haptics::BodyAct::follow;
+  const bool begins = !state.copied && copies(body) && !granted_[body] &&
+                      stages_.remote.find(body_id(body)) != nullptr;
+  return begins ? std::optional(haptics::BodyAct::copy) : std::nullopt;
 }
 
 // The world simulates what this peer may move now, and nothing else.
@@ -164,18 +179,17 @@ void BodyHandOvers::send_changes() noexcept {
     const std::uint64_t serial = world_->exchange().send(std::span(orders).first(count));
     for (const haptics::BodyOrder& order : std::span(orders).first(count)) {
       sent_[order.body] = serial;
-      if (serial != 0) granted_.reset(order.body);
+      if (serial != 0 && order.act == haptics::BodyAct::own) granted_.reset(order.body);
     }
     count = 0;
     return serial != 0;
   };
   const std::size_t size = std::min(protocol_.table().size(), all->bodies.size());
   for (std::size_t i = 0; i < size; ++i) {
-    const bool owns = protocol_.owns(i, pass_.now);
-    const bool is_done = owns != all->bodies[i].carried;
-    const bool is_on_its_way = sent_[i] > all->serial;
-    if (is_done || is_on_its_way || (owns && !can_own(i))) continue;
-    orders[count++] = order_for(i, owns);
+    if (sent_[i] > all->serial) continue;  // on its way
+    const auto act = act_for(i, all->bodies[i]);
+    if (!act) continue;
+    orders[count++] = order_for(i, *act);
     if (count == orders.size() && !flush()) return;
   }
   if (count > 0) flush();

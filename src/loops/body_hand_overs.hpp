@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/peer/loops/body_stage.hpp"
@@ -44,6 +45,10 @@ class BodyHandOvers {
   /// Takes the last states of bodies that the world has stopped. Then their grants are sent.
   void take_answers(const Pass& pass) noexcept;
   void note(const OwnershipEvent& event) noexcept;
+  /// While another peer owns a body, the world simulates a copy of it. @param delay of its states
+  /// [s]; < 0: no copy
+  void copy(std::size_t body, double delay) noexcept { delays_[body] = delay; }
+  [[nodiscard]] bool copies(std::size_t body) const noexcept { return delays_[body] >= 0.0; }
   /// After the events of a pass.
   void send_orders(const Pass& pass) noexcept;
   /// This peer sends the body's states from now on.
@@ -62,11 +67,18 @@ class BodyHandOvers {
     ObjectSet objects;              // without an answer
   };
 
+  [[nodiscard]] static std::array<double, kMostOwnable> none() noexcept {
+    std::array<double, kMostOwnable> delays;
+    delays.fill(-1.0);
+    return delays;
+  }
   void take_ends() noexcept;
   void finish_yields() noexcept;
   void send_yields() noexcept;
   void send_changes() noexcept;
-  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, bool owns) const noexcept;
+  [[nodiscard]] haptics::BodyOrder order_for(std::size_t body, haptics::BodyAct act) const noexcept;
+  [[nodiscard]] std::optional<haptics::BodyAct> act_for(
+      std::size_t body, const haptics::BodyState& state) const noexcept;
   [[nodiscard]] haptics::ObjectMotion granted_motion(std::size_t object) const noexcept;
 
   haptics::BodyWorld* world_;
@@ -74,9 +86,10 @@ class BodyHandOvers {
   Stages stages_;
   std::uint32_t epoch_;
   Pass pass_;
-  ObjectSet granted_;                                // gained in the state of a grant
-  std::array<std::uint64_t, kMostOwnable> sent_{};   // serial of the last order to a body
-  std::array<Nanoseconds, kMostOwnable> left_at_{};  // shown by its last state here; 0: not
+  std::array<double, kMostOwnable> delays_ = none();  // of copies
+  ObjectSet granted_;                                 // gained in the state of a grant
+  std::array<std::uint64_t, kMostOwnable> sent_{};    // serial of the last order to a body
+  std::array<Nanoseconds, kMostOwnable> left_at_{};   // shown by its last state here; 0: not
   std::array<Yield, 32> yields_{};
 };
 

@@ -134,7 +134,7 @@ void BodyStage::note_motions() noexcept {
   for (std::size_t i = 0; i < std::min(states.bodies.size(), motions_.size()); ++i) {
     const haptics::BodyState& body = states.bodies[i];
     Motion& motion = motions_[i];
-    if (body.carried || (!body.awake && motion.acceleration.isZero(0))) continue;
+    if (!body.is_owned() || (!body.awake && motion.acceleration.isZero(0))) continue;
     const Eigen::Vector3d change = body.velocity - motion.velocity;
     const bool is_knock = is_known && change.norm() > kKnock + kMostSteady * step;
     const bool is_steady = is_known && body.awake && change.norm() < kMostSteady * step;
@@ -160,8 +160,8 @@ void BodyStage::show(PeerView& view) const noexcept {
   const haptics::BodyStates& states = own_->read();
   view.bodies = view.bodies_awake = 0;
   for (const haptics::BodyState& body : states.bodies) {
-    view.bodies += body.carried ? 0 : 1;
-    view.bodies_awake += body.awake && !body.carried ? 1 : 0;
+    view.bodies += body.is_owned() ? 1 : 0;
+    view.bodies_awake += body.awake && body.is_owned() ? 1 : 0;
   }
   view.bodies_not_woken = states.crowded;
 }

@@ -82,7 +82,7 @@ class BodyStage {
       const auto number = static_cast<EntityNumber>(first_ + i);
       const OwnedEntity* entity = owned.find(number);
       const haptics::BodyState& body = states.bodies[i];
-      if (entity == nullptr || body.carried || !entity->is_ours()) continue;
+      if (entity == nullptr || !body.is_owned() || !entity->is_ours()) continue;
       if (!body.awake && entity->is_resting() && is_at(*entity, body)) continue;
       EntityTruth truth = truth_of(body, states.time);
       truth.acceleration = motions_[i].acceleration;

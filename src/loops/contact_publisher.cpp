@@ -15,16 +15,10 @@ using std::chrono::nanoseconds;
 // Plain DIS programs have no hands: their life forms neither feel ours nor keep energy accounts.
 void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, bool interop,
                  RemoteHand& hand) {
-  hand.id = row.id;
-  hand.state = *row.state;
-  hand.state_time = row.state_time;
-  hand.model = row.model;
-  hand.valid_until = std::min(row.valid_until, row.felt_until);
-  hand.version = row.version;
+  hand = predictors_of(row);
   hand.given_to_us = account == nullptr ? 0.0 : account->given;
   hand.need = account == nullptr ? 0.0 : account->need;
   hand.spring_need = account == nullptr ? 0.0 : account->spring_need;
-  hand.epoch = row.epoch;
   hand.neighbours = row.neighbours;
   hand.has_device = row.type.kind == pdu::EntityKind::life_form && (row.epoch != 0 || interop);
 }
@@ -67,6 +61,18 @@ void fill_body_accounts(const NearBody& body, const pdu::EntityId& hand,
 }
 
 }  // namespace
+
+haptics::RemoteHand predictors_of(const RemoteEntity& row) noexcept {
+  RemoteHand hand;
+  hand.id = row.id;
+  hand.state = *row.state;
+  hand.state_time = row.state_time;
+  hand.model = row.model;
+  hand.valid_until = std::min(row.valid_until, row.felt_until);
+  hand.version = row.version;
+  hand.epoch = row.epoch;
+  return hand;
+}
 
 void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodies& near,
                       bool frozen, const ContactSources& sources) noexcept {

@@ -24,6 +24,9 @@ struct ContactSources {
   bool interop = false;     ///< peers do not announce themselves
 };
 
+/// The predictors of a remote entity that can be felt, without energy accounts.
+[[nodiscard]] haptics::RemoteHand predictors_of(const RemoteEntity& row) noexcept;
+
 /// Publishes the bodies near a port to its servo.
 /// @param frozen whether the hand's simulation is frozen
 void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodies& near,

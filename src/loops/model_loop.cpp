@@ -54,7 +54,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       hooks_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       assured_(wiring, identity.epoch, aoim_, time_, hooks_, outlet_, watches_.notices()),
-      ownership_(wiring, identity, {aoim_, assured_, bodies_, owned_, remote_, watches_.notices()}),
+      ownership_(wiring, identity,
+                 {aoim_, assured_, bodies_, owned_, remote_, touch_, time_, watches_.notices()}),
       view_(wiring) {}
 
 // A pass

@@ -46,6 +46,7 @@ struct ModelWiring {
   haptics::BodyWorld* bodies = nullptr;                  ///< of the scene; may be null
   SteppedBodies* stepped = nullptr;  ///< bodies that no servo steps; may be null
   BodyMover* mover = nullptr;        ///< moves carried objects; may be null
+  haptics::TripleBuffer<haptics::HandList>* pressing = nullptr;  ///< hands at bodies; may be null
   /// Fault reports of the program's own effects, from the servos.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
   std::span<const NamedHooks> mechanisms = {};  ///< of the program; only for the construction

@@ -17,6 +17,23 @@ using std::chrono::nanoseconds;
 
 // Between two steps of the protocol while nothing arrives.
 constexpr nanoseconds kStep = milliseconds(20);
+// A body is requested when a hand will touch it within kAhead [s] plus kDelays times the least
+// delay of its owner: the request, the grant, and their jitter.
+constexpr double kAhead = 0.06;
+constexpr double kDelays = 4.0;
+constexpr double kUnknownDelay = 0.05;  // [s], before the first exchange of times
+constexpr double kMostDelay = 0.25;     // [s]
+// A hand that will touch a body within this time keeps it [s].
+constexpr double kArrives = 0.06;
+// The request ends so long after the hand has turned away.
+constexpr nanoseconds kTurnsBack = milliseconds(200);
+// A copy of a body begins when a hand will touch it within this time [s], and ends so long after
+// the hand has left it. A copy follows its owner well at delays below kMostCopied [s].
+constexpr double kCopied = 0.1;
+constexpr nanoseconds kCopyEnds = milliseconds(200);
+constexpr double kMostCopied = 0.11;
+// The least time between two changes of owner if hands of both peers approach a body.
+constexpr nanoseconds kKeeps = milliseconds(300);
 
 std::size_t moving_in(const SceneFile& scene) {
   const auto moving = std::ranges::count_if(scene.scene.objects, [](const auto& object) {
@@ -55,7 +72,9 @@ OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& i
       hand_overs_(wiring.bodies, protocol_, {parts.bodies, parts.owned, parts.remote},
                   identity.epoch),
       counted_(wiring.counters),
-      watch_(parts.notices) {
+      watch_(parts.notices),
+      approach_(wiring.bodies, parts.touch),
+      pressing_(wiring.bodies, wiring.pressing, parts.touch) {
   if (is_on_) parts_.assured.set_user(this);
 }
 
@@ -128,7 +147,35 @@ bool OwnershipStage::may_take(std::size_t object, std::uint32_t epoch) {
 }
 
 bool OwnershipStage::is_busy(std::size_t object) {
-  return kept_[object] || (object < states().size() && states()[object].touched);
+  if (kept_[object] || (object < states().size() && states()[object].touched)) return true;
+  const bool is_new = reached_[object] && pass_.now - gained_at_[object] < kKeeps;
+  return is_new || approach_.time_to(object) < kArrives;
+}
+
+// [s], the least.
+double OwnershipStage::delay_to(std::uint32_t epoch) const noexcept {
+  const auto known = parts_.time.peers().difference(epoch, pass_.now);
+  if (!known) return kUnknownDelay;
+  return std::clamp(0.5 * pdu::to_seconds(known->round_trip), 0.0, kMostDelay);
+}
+
+// Requests the bodies that a hand touches or will touch.
+void OwnershipStage::ask_ahead() noexcept {
+  if (!approach_.look(states())) return;
+  for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
+    const double time = approach_.time_to(i);
+    const bool is_near = time <= kAhead + kDelays * kMostDelay && may_take(i, epoch_);
+    if (is_near && time <= kAhead + kDelays * delay_to(owner_of(i).owner))
+      reached_until_[i] = pass_.now + kTurnsBack;
+    const bool is_reached = pass_.now < reached_until_[i];
+    if (is_reached == reached_[i]) continue;
+    reached_[i] = is_reached;
+    if (is_reached) {
+      protocol_.ask(i);
+    } else if (!kept_[i]) {
+      protocol_.withdraw(i);
+    }
+  }
 }
 
 // Bodies of other owners stay with them.
@@ -139,14 +186,14 @@ ObjectSet OwnershipStage::company_of(std::size_t object) {
   if (all == nullptr || object >= all->bodies.size()) return company;
   const std::size_t count = all->copy_island(object, island);
   for (const std::uint32_t body : std::span(island).first(count)) {
-    if (body < company.size() && !all->bodies[body].carried) company.set(body);
+    if (body < company.size() && all->bodies[body].is_owned()) company.set(body);
   }
   return company;
 }
 
 bool OwnershipStage::is_any_awake() {
   return std::ranges::any_of(
-      states(), [](const haptics::BodyState& body) { return body.awake && !body.carried; });
+      states(), [](const haptics::BodyState& body) { return body.awake && body.is_owned(); });
 }
 
 std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
@@ -160,8 +207,27 @@ std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
 
 // Events
 
+// While a body belongs to another peer, a hand that touches it feels a copy, unless the delay is
+// too long for it. The choice holds for a contact.
+void OwnershipStage::choose_copies() noexcept {
+  for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
+    const bool is_felt = states()[i].touched || approach_.time_to(i) < kCopied;
+    if (is_felt) felt_at_[i] = pass_.now;
+    const bool was = hand_overs_.copies(i);
+    const bool goes_on = is_felt || (was && pass_.now - felt_at_[i] < kCopyEnds);
+    if (!goes_on || protocol_.owns(i, pass_.now) || !hand_overs_.can_own(i)) {
+      hand_overs_.copy(i, -1.0);
+      continue;
+    }
+    const double delay = delay_to(owner_of(i).owner);
+    if (was || delay < kMostCopied) hand_overs_.copy(i, delay);
+  }
+}
+
 void OwnershipStage::take_events() noexcept {
   for (const OwnershipEvent& event : protocol_.events()) {
+    for (std::size_t i = 0; i < event.objects.size(); ++i)
+      if (event.objects[i] && event.kind == OwnershipEvent::Kind::gained) gained_at_[i] = pass_.now;
     watch_.note(event);
     hand_overs_.note(event);
   }
@@ -187,7 +253,7 @@ void OwnershipStage::name_owners() noexcept {
     parts_.bodies.name_owner(i, {owner.owner, owner.version});
     note_owner(i, owner);
     if (i >= states().size()) continue;
-    const bool is_ours = protocol_.owns(i, pass_.now) && !states()[i].carried;
+    const bool is_ours = protocol_.owns(i, pass_.now) && states()[i].is_owned();
     pdu::OwnershipRecord record = hand_overs_.own_record(i);
     if (!is_ours) record.owner = 0;
     if (!parts_.bodies.set_own(i, record, parts_.owned)) continue;
@@ -258,6 +324,7 @@ void OwnershipStage::acquire(std::size_t body) noexcept {
 void OwnershipStage::divest(std::size_t body) {
   if (!is_on_ || body >= protocol_.table().size()) return;
   kept_.reset(body);
+  reached_.reset(body);
   protocol_.withdraw(body);
   next_ = pass_.now;
 }
@@ -281,12 +348,15 @@ void OwnershipStage::step(const Pass& pass) noexcept {
   pass_ = pass;
   if (!is_on_) return;
   hand_overs_.take_answers(pass);
+  ask_ahead();
   protocol_.step(pass.now);
   take_events();
+  choose_copies();
   hand_overs_.send_orders(pass);
   name_owners();
   hand_overs_.doubt_left(pass.now);
   hand_overs_.doubt_silent(pass.now);
+  pressing_.publish(states(), parts_.remote, pass.now);
   send_messages();
   watch_.look(protocol_, pass.now);
   counted_.publish(protocol_.counts());

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs the protocol of ownership for the bodies of the scene: takes and sends its messages, lets
-// the world simulate the bodies that this peer owns, and names the owner of each body.
+// Runs the protocol of ownership for the bodies of the scene: takes and sends its messages, asks
+// for bodies that a hand will touch, lets the world simulate the bodies that this peer owns, and
+// names the owner of each body.
 #pragma once
 
 #include <array>
@@ -14,9 +15,12 @@
 #include "reckon/peer/loops/assured_stage.hpp"
 #include "reckon/peer/loops/body_hand_overs.hpp"
 #include "reckon/peer/loops/body_stage.hpp"
+#include "reckon/peer/loops/hand_approach.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/ownership_counters.hpp"
 #include "reckon/peer/loops/ownership_watch.hpp"
+#include "reckon/peer/loops/pressing_publisher.hpp"
+#include "reckon/peer/loops/touch_stage.hpp"
 #include "reckon/peer/ownership/message_codec.hpp"
 #include "reckon/peer/ownership/ownership.hpp"
 #include "reckon/peer/world/arrival.hpp"
@@ -39,6 +43,8 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
     BodyStage& bodies;
     OwnedEntities& owned;
     RemoteEntities& remote;
+    const TouchStage& touch;
+    const TimeKeeper& time;
     haptics::SpscRing<Notice>& notices;
   };
 
@@ -106,6 +112,9 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
   void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
                   const Arrival& arrival) noexcept;
+  void ask_ahead() noexcept;
+  void choose_copies() noexcept;
+  [[nodiscard]] double delay_to(std::uint32_t epoch) const noexcept;
   void take_events() noexcept;
   void name_owners() noexcept;
   void note_owner(std::size_t body, const Tenure& owner) noexcept;
@@ -123,8 +132,14 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   BodyHandOvers hand_overs_;
   OwnershipCounters counted_;
   OwnershipWatch watch_;
+  HandApproach approach_;
+  PressingPublisher pressing_;
   Pass pass_;
-  ObjectSet kept_;  // by the program
+  ObjectSet kept_;     // by the program
+  ObjectSet reached_;  // by a hand, now or soon
+  std::array<Nanoseconds, kMostOwnable> reached_until_{};
+  std::array<Nanoseconds, kMostOwnable> gained_at_{};
+  std::array<Nanoseconds, kMostOwnable> felt_at_{};  // by a hand, last
   std::array<BodyOwnerView, kMostOwnable> shown_{};
   std::array<Tenure, kMostOwnable> claims_{};  // by states, for bodies that the table lacks
   std::uint32_t half_ = 0;

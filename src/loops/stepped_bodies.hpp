@@ -23,11 +23,12 @@ class SteppedBodies {
   void step(std::chrono::nanoseconds now, bool frozen) noexcept {
     if (time_ == kNever) return pass_until(now);
     if (now - time_ < kPeriod) return;
-    if (!moves_ && !world_.has_orders() && !world_.is_mixed()) return;
+    const bool is_pressed = world_.has_guest_pending();
+    if (!moves_ && !is_pressed && !world_.has_orders() && !world_.is_mixed()) return;
     if (!moves_) pass_until(now - kPeriod);
     if (now - time_ > kLongestGap) pass_until(now - kLongestGap);
     while (now - time_ >= kPeriod) world_.advance_to(time_ += kPeriod, frozen);
-    moves_ = world_.is_any_moving();
+    moves_ = world_.is_any_moving() || is_pressed;
   }
   /// When step() is due; never: max().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {

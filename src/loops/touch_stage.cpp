@@ -217,6 +217,8 @@ void TouchStage::publish_felt_sources() noexcept {
 }
 
 void TouchStage::note_accounts(const Inbound& update, const Pass& pass) noexcept {
+  if (update.has_model && update.body_energy != 0.0)
+    books_.pair(kOfBodies, update.entity, pass.now).given = update.body_energy;
   for (std::size_t i = 0; i < update.account_count; ++i) {
     const pdu::EnergyAccountRecord& account = update.accounts[i];
     const OwnedEntity* own = owned_.find(account.counterpart.entity);
@@ -244,6 +246,17 @@ const PortlessBody* TouchStage::body_of(EntityNumber number) const noexcept {
 const haptics::ServoSnapshot& TouchStage::servo() const noexcept {
   static const haptics::ServoSnapshot none;
   return hands_.empty() ? none : hands_.front().servo();
+}
+
+std::size_t TouchStage::copy_hands(std::span<ApproachingHand, kMaxDevices> out) const noexcept {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const haptics::ServoSnapshot& servo = hands_[i].servo();
+    double radius = 0.0;
+    for (const Eigen::Vector3d& probe : std::span(servo.tool.probes).first(servo.tool.count))
+      radius = std::max(radius, (probe - servo.device).norm());
+    out[i] = {servo.device, servo.device_velocity, scene_.hand.radius + radius};
+  }
+  return hands_.size();
 }
 
 std::size_t TouchStage::copy_touched(

@@ -35,6 +35,13 @@ namespace reckon::peer {
 void report_softened(std::string_view marking, const DeviceStiffness& device,
                      haptics::SpscRing<Notice>& notices) noexcept;
 
+/// A hand of this peer and its motion, S: a ball around its probes.
+struct ApproachingHand {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  double radius = 0.0;                                 ///< [m]
+};
+
 /// Data of other stages that this stage reads or changes; all outlive it.
 struct TouchParts {
   OwnedEntities& owned;
@@ -76,7 +83,13 @@ class TouchStage {
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
     if (device < hands_.size()) hands_[device].trace_contacts(ring);
   }
-  /// Stores the energy accounts of a remote body for entities of ours.
+  /// Energy that a remote hand states to have put into the bodies of the scene [J].
+  [[nodiscard]] double body_energy_of(const pdu::EntityId& hand) const noexcept {
+    const ReceivedAccount* account = books_.find(kOfBodies, hand);
+    return account == nullptr ? 0.0 : account->given;
+  }
+  /// Stores the energy accounts of a remote body for entities of ours, and for the bodies of the
+  /// scene.
   void note_accounts(const Inbound& update, const Pass& pass) noexcept;
 
   /// Whether a device moves this entity.
@@ -94,6 +107,8 @@ class TouchStage {
   }
   /// Whether a remote body is near a hand or a moving body of ours, so that it may be felt soon.
   [[nodiscard]] bool has_near() const noexcept;
+  /// Copies the motion of all hands.  @return their number
+  std::size_t copy_hands(std::span<ApproachingHand, kMaxDevices> out) const noexcept;
   /// Copies the entities touched by all hands.  @return their number
   std::size_t copy_touched(
       std::span<Touched, kMaxDevices * haptics::kMaxRemoteHands> out) const noexcept;
@@ -109,6 +124,8 @@ class TouchStage {
     std::array<Touched, haptics::kMaxRemoteHands> touched{};
     std::size_t touched_count = 0;
   };
+
+  static constexpr EntityNumber kOfBodies = 0;  // in books_: no entity of ours
 
   void consider_hands(const Pass& pass) noexcept;
   void consider_bodies(const Pass& pass) noexcept;

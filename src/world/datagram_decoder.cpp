@@ -3,8 +3,10 @@
 #include "reckon/peer/world/datagram_decoder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/pdu/management/start_resume.hpp"
 #include "reckon/pdu/management/stop_freeze.hpp"
 
@@ -215,6 +217,10 @@ void DatagramDecoder::take_account(const pdu::EntityId& entity,
                                    const pdu::SimulationAddress& own) noexcept {
   Inbound* update = stage(Inbound::Kind::entity, entity);
   if (update == nullptr) return;
+  if (account.counterpart == aoim::kAllBodies) {
+    if (std::isfinite(account.given)) update->body_energy = account.given;
+    return;
+  }
   const bool exchanges = account.given > 0.0 || account.need > 0 || account.spring_need > 0;
   if (exchanges && update->accounts_told < std::numeric_limits<std::uint8_t>::max())
     ++update->accounts_told;
@@ -276,6 +282,7 @@ void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity
   update.ownership.reset();
   update.account_count = 0;
   update.accounts_told = 0;
+  update.body_energy = 0.0;
   update.record = {};
 }
 

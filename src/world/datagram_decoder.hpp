@@ -47,6 +47,7 @@ struct Inbound {
   std::optional<pdu::OwnershipRecord> ownership;               ///< of a body of the scene
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< the accounts that name us
   std::size_t account_count = 0;
+  double body_energy = 0.0;           ///< [J], of a hand, in all bodies
   std::uint8_t accounts_told = 0;     ///< number of accounts that exchange energy, also with others
   pdu::BundledPdu pdu;                ///< the whole PDU, for all kinds but entity and claim
   std::span<const std::byte> record;  ///< the Assured Record that holds or marks the PDU, if any

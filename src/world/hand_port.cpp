@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
@@ -24,6 +26,9 @@ constexpr double kContactSmoothing = 0.05;
 // by three at twice the speed. In this case the motion along the normal follows the shape of the
 // other hand instead of the spring.
 constexpr double kSliding = 0.01;
+// The same for a hand at a body, for all directions. Its faster motion is the answer to the other
+// hands at that body, and is not predicted.
+constexpr double kBodySmoothing = 0.08;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // A hand that slides at this speed [m/s] or faster is sent by its thresholds only. Begin and end of
@@ -72,6 +77,7 @@ pdu::EntityType hand_type() noexcept {
 void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   trend_.note(snapshot.time, snapshot.velocity);
+  at_body_ = snapshot.tally.at_bodies > std::exchange(at_bodies_, snapshot.tally.at_bodies);
   note_touch(entity);
   smooth_velocity();
   read_accounts(entity.id());
@@ -89,6 +95,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   const nanoseconds longest = snapshot.time < blow_until_ ? kBlowPeriod : apart;
   const bool silent = snapshot.time - entity.last_built() >= longest;
   if (silent && snapshot.time - felt_at_ < kAfterTouch) entity.felt_event();
+  if (at_body_) keep_handle(entity);
   if (presses_body_ && snapshot.time - entity.last_built() >= kBodyPeriod) entity.felt_event();
 }
 
@@ -117,6 +124,18 @@ void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
     entity.consider_accounts(now, accounts());
 }
 
+// At a body, the peers that simulate it compute the force of this hand from the place of its
+// handle.
+void HandPort::keep_handle(OwnedEntity& entity) const noexcept {
+  if (entity.is_frozen() || entity.touch() == nullptr) return;
+  const deadreckon::Pose truth{servo().scp, orientation()};
+  const nanoseconds silence = servo().time - entity.last_built();
+  if (silence < kAtBodyGap) return;
+  if (silence >= kAtBodyPeriod ||
+      entity.touch()->point_miss(truth, pdu::to_seconds(servo().time)) > kHandleMiss)
+    entity.felt_event();
+}
+
 // Without a rotation, the axes of a tool are the axes of S.
 Eigen::Quaterniond HandPort::orientation() const noexcept {
   const haptics::ToolState& tool = servo().tool;
@@ -132,7 +151,8 @@ EntityTruth HandPort::truth() const noexcept {
     truth.angular_velocity = truth.orientation.conjugate() * servo().tool.turn_rate;
   truth.velocity = servo().velocity;
   truth.acceleration = touching_ ? lasting_acceleration() : free_acceleration();
-  if (touching_) truth.lasting_velocity = lasting_velocity();
+  if (at_body_) truth.acceleration.setZero();
+  if (touching_ || at_body_) truth.lasting_velocity = lasting_velocity();
   return truth;
 }
 
@@ -147,10 +167,11 @@ void HandPort::smooth_velocity() noexcept {
     if (is_felt(contact)) sliding = std::max(sliding, contact.sliding);
   }
   const double shape = (1.0 + sure_share(sliding, kRubbing)) * sliding / kSliding;
-  const double tau = std::max(kLeastSmoothing, kContactSmoothing / (1.0 + shape));
+  const double tau =
+      at_body_ ? kBodySmoothing : std::max(kLeastSmoothing, kContactSmoothing / (1.0 + shape));
   const double dt = std::clamp(pdu::to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
   last_seen_ = snapshot.time;
-  const double share = touching_ ? dt / (tau + dt) : 1.0;
+  const double share = touching_ || at_body_ ? dt / (tau + dt) : 1.0;
   contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
 }
 
@@ -159,6 +180,7 @@ void HandPort::smooth_velocity() noexcept {
 // and the pair would oscillate until its ledgers are empty. The slow part is common to both and is
 // predicted. Perpendicular to the normal there is no spring.
 Eigen::Vector3d HandPort::lasting_velocity() const noexcept {
+  if (at_body_) return contact_velocity_;
   Eigen::Vector3d velocity = servo().velocity;
   for (const haptics::ContactAccount& contact : contacts(servo())) {
     if (!is_felt(contact)) continue;
@@ -188,13 +210,16 @@ void HandPort::read_accounts(const pdu::EntityId& own) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   account_count_ = std::min(snapshot.count, accounts_.size());
   presses_body_ = false;
-  for (std::size_t i = 0; i < account_count_; ++i) {
+  const std::size_t contacts = account_count_;
+  for (std::size_t i = 0; i < contacts; ++i) {
     const haptics::ContactAccount& contact = snapshot.contacts[i];
     const bool body = !contact.has_device && contact.id.simulation() != own.simulation() &&
                       !contact.ungated_force.isZero();
     accounts_[i] = {contact.id, contact.given, contact.need, contact.spring_need, body};
     presses_body_ |= body;
   }
+  if (snapshot.tally.body_energy != 0.0 && account_count_ < accounts_.size())
+    accounts_[account_count_++] = {aoim::kAllBodies, snapshot.tally.body_energy, 0.0, 0.0, true};
 }
 
 }  // namespace reckon::peer

@@ -40,6 +40,11 @@ class HandPort {
   /// accounts of the hand name the body, which informs its owner of the contact.
   static constexpr std::chrono::milliseconds kBodyPeriod{100};
 
+  /// Shortest and longest silence of a hand that touches a body.
+  static constexpr std::chrono::milliseconds kAtBodyGap{5}, kAtBodyPeriod{60};
+  /// Greatest error of the handle of such a hand at its peers [m]: 40 mN at 400 N/m.
+  static constexpr double kHandleMiss = 1e-4;
+
   /// @param snapshots, contacts of the device's servo; outlive the port.
   /// @param hand the entity that the device moves.
   HandPort(haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
@@ -74,6 +79,7 @@ class HandPort {
   void note_touch(OwnedEntity& entity) noexcept;
   void smooth_velocity() noexcept;
   void consider_accounts(OwnedEntity& entity) noexcept;
+  void keep_handle(OwnedEntity& entity) const noexcept;
   [[nodiscard]] Eigen::Quaterniond orientation() const noexcept;  // body axes to S
   [[nodiscard]] EntityTruth truth() const noexcept;
   [[nodiscard]] Eigen::Vector3d free_acceleration() const noexcept;
@@ -94,6 +100,8 @@ class HandPort {
   double sliding_ = 0.0;  // over the hands nearby, the fastest [m/s]
   bool touching_ = false;
   bool presses_body_ = false;  // a remote one without a device
+  double at_bodies_ = 0.0;     // [s], see ServoTally
+  bool at_body_ = false;       // it touches one of the scene, of any owner
 };
 
 }  // namespace reckon::peer

@@ -111,6 +111,10 @@ class NearSearch {
   /// Reserves room for this many moving bodies.
   void expect_bodies(std::size_t count) { bodies_.reserve(count); }
 
+  /// Calls visit(row) for each row that has a force model. @param rows as in find()
+  void visit_felt(std::span<const RemoteEntity> rows, auto&& visit) const {
+    for (std::size_t i = 0; i < row_of_.size(); ++i) visit(rows[row_of_[i]]);
+  }
   /// Rows that have a force model.
   [[nodiscard]] std::size_t size() const noexcept { return row_of_.size(); }
   /// Checks of rows since construction: the cost of the search.

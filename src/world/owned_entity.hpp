@@ -71,6 +71,9 @@ class TouchSide {
       : model_(model), k1_(model.k1), k3_(model.k3) {}
 
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept { return model_; }
+  /// Distance of the model's point as peers predict it from its true place [m]; infinite before the
+  /// first update. @param now [s], as of the predictor
+  [[nodiscard]] double point_miss(const deadreckon::Pose& truth, double now) const noexcept;
   /// Moves the model's point within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
 

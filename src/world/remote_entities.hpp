@@ -126,17 +126,15 @@ class RemoteEntities {
   /// If several rows were left, the order is from the nearest. 1 ns for each entity and near group.
   void leave_groups(std::span<const aoim::GroupIndex> groups,
                     std::chrono::nanoseconds now) noexcept;
-  /// Finds the entities that each of our hands could touch at `now`, see NearSearch.
-  void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
-                 std::span<NearBodies> found) noexcept {
-    near_.find(table_.rows(), probes, now, found);
-  }
-  /// The same, and the remote hands that moving bodies of ours could meet.
+  /// Finds the entities that each of our hands could touch at `now`, and the remote hands that
+  /// moving bodies of ours could meet; see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
                  std::span<NearBodies> found, std::span<const MovingBody> bodies,
                  HandsNear& hands) noexcept {
     near_.find(table_.rows(), probes, now, found, bodies, hands);
   }
+  /// Calls visit(row) for each entity that has a force model.
+  void visit_felt(auto&& visit) const { near_.visit_felt(table_.rows(), visit); }
   /// Reserves room for this many moving bodies of ours; allocates.
   void expect_bodies(std::size_t count) { near_.expect_bodies(count); }
   /// Takes the changes since the last call, if `record_changes`; else nothing. Valid until the next

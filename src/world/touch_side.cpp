@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/aoim/groups/body_owners.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/owned_entity.hpp"
 
@@ -35,9 +36,16 @@ TouchSide::Miss TouchSide::worst_miss(const deadreckon::Pose& truth, double now,
   return worst;
 }
 
+double TouchSide::point_miss(const deadreckon::Pose& truth, double now) const noexcept {
+  const deadreckon::Pose shown = predictor_.entity(now);
+  const Eigen::Vector3d stated = shown.position + shown.orientation * predictor_.model().point;
+  return (stated - truth.position - truth.orientation * model_.point).norm();
+}
+
 bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const noexcept {
   const std::span<const pdu::EnergyAccountRecord> sent(sent_.data(), sent_count_);
   return std::any_of(accounts.begin(), accounts.end(), [&](const EnergyAccount& now) {
+    if (now.counterpart == aoim::kAllBodies) return false;  // goes with the motion
     const auto before = std::find_if(sent.begin(), sent.end(), [&](const auto& record) {
       return record.counterpart == now.counterpart;
     });

@@ -190,7 +190,7 @@ TEST(SharedBody, NextOwnerMovesItWithoutAJump) {
 
 TEST(SharedBody, CostsNoAllocation) {
   Table table(line_of(milliseconds(5), {}, 0.1), {0.05, 0, 0.02});
-  for (int i = 0; i < 1000; ++i) table.step();
+  for (int i = 0; i < 3500; ++i) table.step();  // until both peers have owned it
   const AllocationGuard guard;
   for (int i = 0; i < 3000; ++i) table.step();
   EXPECT_EQ(guard.count(), 0u);

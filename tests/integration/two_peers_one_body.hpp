@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Two peers with a hand each, and one body: what the hands feel, beside a run of both hands at one
+// peer.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/servo/pressing_hands.hpp"
+#include "reckon/tests/integration/owners_exercise.hpp"
+
+namespace reckon::test {
+
+/// A body and the laws of two hands, which begin at time 0.
+struct OneBody {
+  double mass = 1.0;       ///< [kg]
+  double stiffness = 500;  ///< [N/m]
+  double side = 0.08;      ///< [m], of the cube
+  double drag = 0.0;       ///< [N s/m]
+  bool is_heavy = false;   ///< it lies on a floor; else there is no weight
+  double seconds = 5.0;    ///< length of the run
+  std::array<haptics::HandScript, 2> laws{};
+
+  [[nodiscard]] double half() const { return 0.5 * side; }
+  [[nodiscard]] std::string scene() const;
+};
+
+/// One millisecond.
+struct OneBodyStep {
+  std::array<Eigen::Vector3d, 2> force{};  ///< on the hands [N]
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+  int owner = -1;  ///< peer that simulates it; -1: none
+  int owners = 0;  ///< peers that do
+  double energy =
+      0.0;  ///< work of both hands and loss in their devices, minus that of the body [J]
+};
+
+struct OneBodyLine {
+  double delay = 0.0;  ///< [s], one way, +-15 %
+  double loss = 0.0;
+  std::uint64_t seed = 1;
+};
+
+/// Target that moves smoothly from 0 to 1 between two times.
+[[nodiscard]] inline double eased(double time, double from, double to) {
+  const double u = std::clamp((time - from) / (to - from), 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
+inline std::string OneBody::scene() const {
+  std::string text = "[scene]\ngravity = \"0 0 " + std::string(is_heavy ? "-9.81" : "0") +
+                     " m/s2\"\n[hand]\nk1 = \"300 N/m\"\npatch_radius = \"10 mm\"\n"
+                     "[[operator]]\npassive = true\n[[device]]\npeer = 1\noperator = 1\n"
+                     "[[device]]\npeer = 2\noperator = 1\n";
+  if (is_heavy)
+    text +=
+        "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nbody_friction = 0.6\n"
+        "surface = {stiffness = \"500 N/m\"}\n";
+  const std::string edge = std::to_string(1e3 * side);
+  text += "[[object]]\nname = \"cube\"\nbox = \"" + edge + " " + edge + " " + edge +
+          " mm\"\nposition = [0, 0, " + std::to_string(is_heavy ? half() : 0.0) +
+          "]\nmass = " + std::to_string(mass) +
+          "\nbody_friction = 0.6\nbody_drag = " + std::to_string(drag) +
+          "\nsurface = {stiffness = " + std::to_string(stiffness) +
+          "}\nfriction = {static = 0.9, kinetic = 0.8}\n";
+  return text;
+}
+
+/// Runs it at one peer, which has both hands, or at two over a line.
+class OneBodyRun {
+ public:
+  explicit OneBodyRun(const OneBody& body) : OneBodyRun(body, 1, {}) {}
+  OneBodyRun(const OneBody& body, const OneBodyLine& line) : OneBodyRun(body, 2, line) {}
+
+  [[nodiscard]] const std::vector<OneBodyStep>& steps() const { return steps_; }
+  [[nodiscard]] peer::Peer& peer(std::size_t i) { return *peers_[i]; }
+  /// Root mean square of the difference of both forces, over that of the true ones.
+  [[nodiscard]] double error(const OneBodyRun& truth) const;
+  /// The same of the mean forces of the last second, of the worse hand.
+  [[nodiscard]] double steady_error(const OneBodyRun& truth) const;
+  [[nodiscard]] double peak() const;
+  [[nodiscard]] double least_energy() const {
+    return std::ranges::min(steps_, {}, &OneBodyStep::energy).energy;
+  }
+  /// Time of the first force on a hand [ms], and since when its peer has owned the body then.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> touch_of(std::size_t hand) const;
+
+ private:
+  static constexpr double kBegin = 3.0;  // [s], of the laws
+
+  OneBodyRun(const OneBody& body, std::size_t peers, const OneBodyLine& line);
+  void record(const OneBody& body);
+
+  peer::ManualClock clock_{seconds(1), std::chrono::hours(1)};
+  peer::SimulatedNetwork network_;
+  peer::SceneFile scene_;
+  std::array<std::unique_ptr<haptics::SimulatedDevice>, 2> hands_;
+  std::vector<std::unique_ptr<peer::Peer>> peers_;
+  std::vector<OneBodyStep> steps_;
+};
+
+inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneBodyLine& line)
+    : network_({.links = 2, .seed = line.seed}, clock_), scene_(scene_of(body.scene())) {
+  const auto delay = nanoseconds(std::llround(1e9 * line.delay));
+  network_.impair(line_of(delay * 85 / 100, delay * 3 / 10, line.loss));
+  for (std::size_t i = 0; i < 2; ++i) {
+    haptics::SimulatedDeviceConfig config;
+    config.hand_stiffness = 300;
+    config.max_force = 20;
+    config.start = body.laws[i](0).position;
+    const auto late = [law = body.laws[i]](double t) { return law(std::max(0.0, t - kBegin)); };
+    hands_[i] = std::make_unique<haptics::SimulatedDevice>(config, late);
+  }
+  std::array<peer::PeerDevice, 2> devices;
+  for (std::size_t i = 0; i < 2; ++i) devices[i].device = hands_[i].get();
+  for (std::size_t i = 0; i < peers; ++i) {
+    peer::PeerOptions own;
+    own.application = static_cast<std::uint16_t>(i + 1);
+    own.epoch = static_cast<std::uint32_t>(i + 1);
+    own.started =
+        static_cast<std::uint32_t>(std::chrono::duration_cast<seconds>(clock_.utc_now()).count());
+    own.scene_peer = static_cast<std::uint8_t>(i + 1);
+    const std::span<const peer::PeerDevice> all(devices);
+    peers_.push_back(std::make_unique<peer::Peer>(scene_, own, network_.link(i),
+                                                  peers == 1 ? all : all.subspan(i, 1)));
+    peers_.back()->start(clock_.now());
+  }
+  const auto count = static_cast<std::size_t>(1000 * (kBegin + body.seconds));
+  for (std::size_t i = 0; i < count; ++i) {
+    clock_.advance(milliseconds(1));
+    for (const auto& peer : peers_) {
+      peer->servo_step(clock_.now());
+      peer->read_step(clock_.now());
+      peer->model_step(clock_.now(), clock_.utc_now());
+      peer->write_step();
+    }
+    if (i >= static_cast<std::size_t>(1000 * kBegin)) record(body);
+  }
+}
+
+inline void OneBodyRun::record(const OneBody& body) {
+  OneBodyStep& step = steps_.emplace_back();
+  for (std::size_t i = 0; i < peers_.size(); ++i) {
+    const haptics::BodyState& state = peers_[i]->bodies()->states()[0];
+    if (!state.is_owned()) continue;
+    step.owner = static_cast<int>(i);
+    ++step.owners;
+    step.place = state.position;
+    step.turned = state.orientation;
+    step.energy = -0.5 * body.mass * state.velocity.squaredNorm();
+    if (body.is_heavy) step.energy -= body.mass * 9.81 * (state.position.z() - body.half());
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    step.force[i] = hands_[i]->force();
+    step.energy += hands_[i]->port_work() + hands_[i]->damping_loss();
+  }
+}
+
+inline double OneBodyRun::error(const OneBodyRun& truth) const {
+  double off = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      off += (steps_[i].force[k] - truth.steps_[i].force[k]).squaredNorm();
+      all += truth.steps_[i].force[k].squaredNorm();
+    }
+  }
+  return std::sqrt(off / all);
+}
+
+inline double OneBodyRun::steady_error(const OneBodyRun& truth) const {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    Eigen::Vector3d off = Eigen::Vector3d::Zero(), all = off;
+    for (std::size_t i = steps_.size() - 1000; i < steps_.size(); ++i) {
+      off += steps_[i].force[k] - truth.steps_[i].force[k];
+      all += truth.steps_[i].force[k];
+    }
+    worst = std::max(worst, off.norm() / all.norm());
+  }
+  return worst;
+}
+
+inline double OneBodyRun::peak() const {
+  double most = 0.0;
+  for (const OneBodyStep& step : steps_)
+    for (const Eigen::Vector3d& force : step.force) most = std::max(most, force.norm());
+  return most;
+}
+
+inline std::pair<std::size_t, std::size_t> OneBodyRun::touch_of(std::size_t hand) const {
+  std::size_t touch = 0;
+  while (touch < steps_.size() && steps_[touch].force[hand].isZero(0.0)) ++touch;
+  std::size_t owned = touch;
+  while (owned > 0 && owned < steps_.size() && steps_[owned].owner == static_cast<int>(hand))
+    --owned;
+  return {touch, touch - owned};
+}
+
+}  // namespace reckon::test
