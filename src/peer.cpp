@@ -208,6 +208,8 @@ Peer::Pressed Peer::pressed_of(const PeerOptions& options,
     config.period = devices.empty() ? SteppedBodies::kPeriod : period_of(options, devices.front());
     config.contact_radius = scene_.hand.contact_radius;
     config.patch_radius = scene_.hand.patch_radius;
+    config.probe_radius = scene_.hand.radius;
+    config.grab = scene_.hand.grab;
     out.others = std::make_unique<haptics::PressingHands>(*bodies_, out.plan, config);
   }
   if (bodies_ != nullptr && devices.empty())

@@ -28,7 +28,7 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 41000,
-    "src": 52500,
+    "src": 53000,
     "tools": 41000,
     "python": 2500,
     "bench": 37500,

@@ -58,6 +58,8 @@ class Grab {
     return holds_ ? Eigen::Vector3d((1.0 - gain_) * force_) : Eigen::Vector3d::Zero();
   }
   [[nodiscard]] double gain() const noexcept { return gain_; }
+  /// Storage of the spring [J].
+  [[nodiscard]] double stored() const noexcept { return gain_ * stored_; }
   [[nodiscard]] double stiffness() const noexcept { return gain_ * spring_.stiffness; }
   [[nodiscard]] double viscosity() const noexcept { return gain_ * spring_.viscosity; }
   /// Grip point on the body [m, S].

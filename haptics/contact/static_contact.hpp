@@ -96,12 +96,16 @@ class StaticContactOf {
   /// The grab of a probe.
   [[nodiscard]] Grab& grab(std::size_t probe) noexcept { return grabs_[probe]; }
   [[nodiscard]] const Grab& grab(std::size_t probe) const noexcept { return grabs_[probe]; }
-  [[nodiscard]] bool grabs() const noexcept { return std::ranges::any_of(grabs_, &Grab::holds); }
+  /// The first grab that holds a body; null: none.
+  [[nodiscard]] const Grab* held() const noexcept {
+    const auto holds = std::ranges::find_if(grabs_, &Grab::holds);
+    return holds == grabs_.end() ? nullptr : &*holds;
+  }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
-  /// Storage of the walls' springs [J].
+  /// Storage of the springs of walls and grabs [J].
   [[nodiscard]] double stored() const noexcept {
     double sum = 0.0;
-    for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->stored();
+    for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->stored() + grabs_[i].stored();
     return sum;
   }
   /// Whether a probe touches an object with a mass.

@@ -125,10 +125,10 @@ struct ToolState {
 struct ServoSnapshot : AccountList {
   std::chrono::nanoseconds time{0};
   std::uint64_t step = 0;
-  Eigen::Vector3d device = Eigen::Vector3d::Zero();               ///< [m], measured: the handle,
-                                                                  ///< or the tool's first probe
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();                  ///< [m], surface contact point,
-                                                                  ///< outside the objects
+  Eigen::Vector3d device = Eigen::Vector3d::Zero();  ///< [m], measured: the handle,
+                                                     ///< or the tool's first probe
+  /// [m], surface contact point, outside the objects; the grip point of a held body
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s], of the SCP, filtered
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();         ///< [m/s^2], of the SCP, filtered
   Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], measured or filtered
@@ -142,9 +142,9 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
-  bool grabs = false;    ///< it holds a body
-  bool enabled = false;  ///< operator switch held, no trip pending, and not stopped
-  bool stopped = false;  ///< the software stop held the force at zero in this step
+  std::uint16_t held_body = 0;  ///< number of the body that it holds, plus 1; 0: none
+  bool enabled = false;         ///< operator switch held, no trip pending, and not stopped
+  bool stopped = false;         ///< the software stop held the force at zero in this step
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   /// [J], absorbed from the hand + guaranteed damping + received from hands and bodies - given to

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "reckon/haptics/bodies/body_world.hpp"
-#include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/body_springs.hpp"
 #include "reckon/pdu/seconds.hpp"
 
@@ -20,21 +19,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Share of a body's stiffness limit for a grab beside the wall, and of the viscosity limit for a
-// held force.
-constexpr double kSpringShare = 0.5;
-constexpr double kViscousShare = 0.1;
-
 // An upper bound of the length, at most 1.8 times as long, without a square root.
 double most_length(const Vector3d& v) noexcept { return v.cwiseAbs().sum(); }
-
-// Limits a spring to what device and body can take.
-GrabSpring held_by(GrabSpring spring, double mass, double period, double cap) {
-  spring.stiffness = std::min(
-      {spring.stiffness, kGrabOverWalls * cap, kSpringShare * stiffest_push(mass, period)});
-  spring.viscosity = std::min(spring.viscosity, kViscousShare * mass / period);
-  return spring;
-}
 
 }  // namespace
 
@@ -138,15 +124,19 @@ template <int axes>
 void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, std::size_t body,
                                          EnergyLedger& ledger) noexcept {
   const BodyState& state = world_->states()[body];
-  for (std::size_t probe = 0; probe < contacts.probes(); ++probe) {
-    const ContactResult& touched = contacts.walls(probe).result();
-    if (touched.objects.empty() || !touched.objects[state.object].in_contact) continue;
-    const ObjectContact& contact = touched.objects[state.object];
-    const Vector3d way = state.drawn + state.drawn_turn.cross(contact.scp - state.position);
-    const double paid =
-        world_->take_from_guest(contacts.walls(probe).gain() * contact.force.dot(way));
+  const auto pay = [&](const Vector3d& point, const Vector3d& force) {
+    const Vector3d way = state.drawn + state.drawn_turn.cross(point - state.position);
+    const double paid = world_->take_from_guest(force.dot(way));
     ledger.book(paid);
     work_ -= paid;
+  };
+  for (std::size_t probe = 0; probe < contacts.probes(); ++probe) {
+    const Grab& grab = contacts.grab(probe);
+    if (grab.holds() && grab.body() == body) pay(grab.point(), grab.spring_force());
+    const WallContact& walls = contacts.walls(probe);
+    if (walls.result().objects.empty()) continue;
+    const ObjectContact& contact = walls.result().objects[state.object];
+    if (contact.in_contact) pay(contact.scp, walls.gain() * contact.force);
   }
 }
 
@@ -226,18 +216,8 @@ template <int axes>
 void PressedBodiesOf<axes>::press_held(const Grab& grab, std::size_t probe,
                                        const Vector3d& velocity) noexcept {
   world_->touch(static_cast<std::uint32_t>(grab.body()));
-  BodySpring spring;
-  spring.body = grab.body();
-  spring.point = grab.point();
-  spring.force = -grab.spring_force();
-  spring.normal = Vector3d::UnitZ();
-  spring.stiffness = grab.stiffness();
-  spring.velocity = velocity;
+  BodySpring spring = spring_of(grab, velocity, pad_);
   spring.probe = probe;
-  spring.grips = true;
-  spring.viscosity = grab.viscosity();
-  spring.drag = grab.viscosity() * (velocity - grab.point_velocity());
-  spring.turning = grab.viscosity() * pad_ * pad_;
   const std::size_t number = world_->press(hand_, spring);
   if (number != BodyWorld::kNoPush)
     pushes_.push_back({number, probe, world_->states()[spring.body].object, true});

@@ -37,7 +37,9 @@ PressingHands::PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan>
       plan_(std::move(plan)),
       radius_(config.contact_radius),
       patch_(config.patch_radius),
+      pad_(std::max(config.patch_radius, config.probe_radius)),
       period_(pdu::to_seconds(config.period)),
+      grab_(config.grab),
       number_(world.add_guest(*this)) {
   for (Hand& hand : slots_)
     hand.walls.emplace(*plan_, std::numeric_limits<double>::infinity(), radius_);
@@ -65,6 +67,7 @@ PressingHands::Hand* PressingHands::slot_of(const RemoteHand& hand) noexcept {
   free->is_used = free->restarts = true;
   free->given = hand.given_to_us;
   free->ledger = {};
+  free->grab = {};
   free->ledger.borrow(kLoan);
   return &*free;
 }
@@ -157,7 +160,8 @@ void PressingHands::move(Hand& hand, nanoseconds now) noexcept {
   const double astray = kAstray + pose.velocity.norm() * (hand.delay + kSilent);
   const bool is_known = !std::exchange(hand.restarts, false) &&
                         (hand.place - there).norm() <= kTeleport &&
-                        (hand.walls->result().scp - pose.position).norm() <= astray;
+                        (hand.record.model.surface > 0 ||
+                         (hand.walls->result().scp - pose.position).norm() <= astray);
   if (is_known) {
     const Vector3d before = hand.place;
     hand.place += dt * pose.velocity;
@@ -170,6 +174,31 @@ void PressingHands::move(Hand& hand, nanoseconds now) noexcept {
     hand.walls->resume(pose.position, there, hand.ledger);
   }
   hand.walls->settle(dt, hand.ledger);
+  if (!is_known) hand.grab.release(hand.ledger);
+  hold_body(hand, pose, dt);
+}
+
+// The grip point is where the owner of the hand shows it.
+void PressingHands::hold_body(Hand& hand, const deadreckon::Pose& pose, double dt) noexcept {
+  const std::size_t held = hand.record.model.surface;
+  const bool may_hold =
+      held > 0 && held <= world_.states().size() && !world_.states()[held - 1].carried;
+  if (hand.grab.holds() && (!may_hold || hand.grab.body() != held - 1))
+    hand.grab.release(hand.ledger);
+  if (!may_hold) return;
+  const BodyState& body = world_.states()[held - 1];
+  if (hand.grab.holds()) {
+    hand.grab.place(body);
+  } else {
+    const PlannedObject& object = plan_->objects()[body.object];
+    const GrabSpring& spring = grab_.stiffness > 0 ? grab_ : object.grab;
+    if (!(spring.stiffness > 0)) return;
+    constexpr double kNoCap = std::numeric_limits<double>::infinity();
+    hand.grab.take(held - 1, held_by(spring, object.matter.mass, period_, kNoCap), pose.position,
+                   body);
+  }
+  hand.grab.move(hand.place, hand.ledger);
+  hand.grab.settle(dt, hand.ledger);
 }
 
 void PressingHands::press(std::size_t number) noexcept {
@@ -183,16 +212,28 @@ void PressingHands::press(std::size_t number) noexcept {
     const std::size_t push = world_.press(number_, spring);
     if (push == BodyWorld::kNoPush) return;
     const double stiffness = spring.gap > 0 ? 0.0 : spring.stiffness;
-    pushes_.push_back({push, number, index, spring.body, stiffness, spring.point});
+    pushes_.push_back({push, number, index, spring.body, stiffness, false, spring.point});
   };
   visit_body_springs(*hand.walls, is_body, hand.velocity, kSpringsAhead * period_, press);
+}
+
+void PressingHands::press_held(std::size_t number) noexcept {
+  const Hand& hand = slots_[number];
+  if (!hand.grab.holds()) return;
+  BodySpring spring = spring_of(hand.grab, hand.velocity, pad_);
+  spring.probe = number;
+  const std::size_t push = world_.press(number_, spring);
+  if (push == BodyWorld::kNoPush) return;
+  const std::uint32_t object = world_.states()[spring.body].object;
+  pushes_.push_back({push, number, object, spring.body, spring.stiffness, true, spring.point});
 }
 
 // The bodies get the whole predicted springs.
 void PressingHands::hold() noexcept {
   for (const Push& push : pushes_) {
     const Hand& hand = slots_[push.hand];
-    Vector3d rest = -hand.walls->effects_of(push.object);
+    Vector3d rest = Vector3d::Zero();
+    if (!push.grips) rest = -hand.walls->effects_of(push.object);
     if (push.stiffness > 0) {
       const double mass = plan_->objects()[push.object].matter.mass;
       const Vector3d apart = hand.velocity - world_.states()[push.body].velocity_at(push.point);
@@ -212,6 +253,7 @@ void PressingHands::step(nanoseconds now, bool frozen) noexcept {
       if (!slots_[i].is_used) continue;
       move(slots_[i], now);
       press(i);
+      press_held(i);
     }
     world_.foresee(number_, period_);
     for (Hand& hand : slots_) {

@@ -14,6 +14,7 @@
 
 #include "reckon/haptics/bodies/body_guest.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/contact/grab.hpp"
 #include "reckon/haptics/contact/wall_contact.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
@@ -30,7 +31,9 @@ class PressingLedger final : public EnergyLedger {
 
 /// Each remote hand is dead-reckoned and touches the bodies as our own hands do: by the springs,
 /// friction and effects of the scene. Without energy in its ledger its springs become soft. A
-/// damper between hand and body calms each contact.
+/// damper between hand and body calms each contact. A hand that holds a body, as its force model
+/// states by the number of the surface, pulls it by the spring of the scene's hands, at the point
+/// where its peer shows it.
 ///
 /// A prediction over a long delay makes two hands at one body swing, because each answers the
 /// other's predicted answer. So a hand is predicted from the arrival of its state on, and over at
@@ -47,7 +50,7 @@ class PressingHands final : public BodyGuest {
   static constexpr double kMostAhead = 0.02;  ///< [s]; less from a delay of 50 ms on, 0 at 100 ms
 
   /// @param world without a step so far; this outlives its last step @param plan not null
-  /// @param config of the servos: period, radii
+  /// @param config of the servos: period, radii, and the spring that holds a body
   PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan> plan,
                 const ServoConfig& config);
 
@@ -68,6 +71,7 @@ class PressingHands final : public BodyGuest {
     double given = 0.0;  // [J], stated and booked
     PressingLedger ledger;
     std::optional<WallContact> walls;
+    Grab grab;
     Eigen::Vector3d place = Eigen::Vector3d::Zero();     // [m], of the handle
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s]
   };
@@ -76,7 +80,8 @@ class PressingHands final : public BodyGuest {
     std::size_t hand = 0;
     std::uint32_t object = 0;
     std::size_t body = 0;
-    double stiffness = 0.0;  // [N/m]; 0: it does not touch the body yet
+    double stiffness = 0.0;  // [N/m], of a wall; 0: it does not touch the body yet
+    bool grips = false;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
   };
 
@@ -88,13 +93,16 @@ class PressingHands final : public BodyGuest {
   [[nodiscard]] deadreckon::Pose predicted(const Hand& hand,
                                            std::chrono::nanoseconds now) const noexcept;
   void move(Hand& hand, std::chrono::nanoseconds now) noexcept;
+  void hold_body(Hand& hand, const deadreckon::Pose& pose, double dt) noexcept;
   void press(std::size_t hand) noexcept;
+  void press_held(std::size_t hand) noexcept;
   void hold() noexcept;
 
   BodyWorld& world_;
   std::shared_ptr<const EffectPlan> plan_;
-  double radius_, patch_, period_;  // [m], [m], [s]
-  std::size_t number_;              // of the guest in the world
+  double radius_, patch_, pad_, period_;  // [m], [m], [m], [s]
+  GrabSpring grab_;
+  std::size_t number_;  // of the guest in the world
   TripleBuffer<HandList> hands_;
   bool is_fresh_ = false;  // hands_ has a list that was not read
   bool is_any_ = false;

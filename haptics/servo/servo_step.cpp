@@ -286,24 +286,32 @@ void ServoStepOf<axes>::write() noexcept {
 }
 
 template <int axes>
+void ServoStepOf<axes>::note_bodies() noexcept {
+  if (pressed_.bodies().empty()) return;
+  if (static_.touches_others_body(*plan_)) tally_.bodies += step_.dt;
+  if (static_.touches_body(*plan_)) tally_.at_bodies += step_.dt;
+  if (static_.held() != nullptr) tally_.grabbed += step_.dt;
+  tally_.body_energy = pressed_.work() + static_.stored();
+}
+
+template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
-  if (static_.touches_others_body(*plan_)) tally_.bodies += step_.dt;
-  if (static_.touches_body(*plan_)) tally_.at_bodies += step_.dt;
-  if (!pressed_.bodies().empty()) tally_.body_energy = pressed_.work() + static_.stored();
-  const bool grabs = static_.grabs();
-  if (grabs) tally_.grabbed += step_.dt;
+  note_bodies();
   // Others feel the hand at the first probe.
   const ContactResult& first = axes == 3 ? mesh : static_.walls().result();
-  const Vector3d scp = first.in_contact ? first.scp : step_.probe;
+  const Grab* const held = static_.held();
+  const bool touches = first.in_contact || held != nullptr;
+  const Vector3d surface = first.in_contact ? first.scp : step_.probe;
+  const Vector3d scp = held != nullptr ? held->point() : surface;
   scp_motion_.add(scp, pdu::to_seconds(step_.now));
   ServoSnapshot& out = snapshots_.write_slot();
   out.time = step_.now;
   out.step = count_;
   out.device = step_.probe;
   out.scp = scp;
-  out.velocity = first.in_contact ? scp_motion_.velocity() : step_.velocity;
+  out.velocity = touches ? scp_motion_.velocity() : step_.velocity;
   out.acceleration = scp_motion_.acceleration();
   out.device_velocity = step_.velocity;
   out.device_acceleration = handle_.acceleration();
@@ -315,7 +323,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.mesh_normal = mesh.normal;
   out.mesh_patch = mesh.in_contact ? mesh.objects[mesh.deepest].patch : 0;
   out.in_mesh_contact = mesh.in_contact;
-  out.grabs = grabs;
+  out.held_body = held == nullptr ? 0 : static_cast<std::uint16_t>(held->body() + 1);
   out.spring_share = held_.springs;
   out.crowd_share = springs_.crowd_share();
   out.extra_share = held_.extra;

@@ -58,6 +58,7 @@ class ServoStepOf final : public ServoCore {
   [[nodiscard]] Force keep_rate(const Load& load, const Force& held) noexcept;
   void soften(const Load& load, double held) noexcept;
   void write() noexcept;
+  void note_bodies() noexcept;
   void publish(bool enabled) noexcept;
   [[nodiscard]] double newtons(const Force& force) const noexcept {
     return tool_.force(force).norm();

@@ -74,6 +74,7 @@ OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& i
       counted_(wiring.counters),
       watch_(parts.notices),
       approach_(wiring.bodies, parts.touch),
+      meetings_(wiring.bodies),
       pressing_(wiring.bodies, wiring.pressing, parts.touch) {
   if (is_on_) parts_.assured.set_user(this);
 }
@@ -159,11 +160,22 @@ double OwnershipStage::delay_to(std::uint32_t epoch) const noexcept {
   return std::clamp(0.5 * pdu::to_seconds(known->round_trip), 0.0, kMostDelay);
 }
 
-// Requests the bodies that a hand touches or will touch.
+// Of two owners whose bodies will meet, one gets both: the one whose hand holds its body, else the
+// senior.
+bool OwnershipStage::should_unite(std::size_t body) noexcept {
+  const Roll& roll = protocol_.acts().decided().roll;
+  const std::size_t other = roll.index_of(owner_of(body).owner);
+  if (other == Roll::kNone) return false;
+  return is_busy(meetings_.own_of(body)) || roll.index_of(epoch_) < other;
+}
+
+// Requests the bodies that a hand touches or will touch, and those that a body of ours will meet.
 void OwnershipStage::ask_ahead() noexcept {
-  if (!approach_.look(states())) return;
+  static_cast<void>(approach_.look(states()));
+  meetings_.look(states(), pass_.now);
   for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
-    const double time = approach_.time_to(i);
+    double time = approach_.time_to(i);
+    if (meetings_.time_to(i) < time && should_unite(i)) time = meetings_.time_to(i);
     const bool is_near = time <= kAhead + kDelays * kMostDelay && may_take(i, epoch_);
     if (is_near && time <= kAhead + kDelays * delay_to(owner_of(i).owner))
       reached_until_[i] = pass_.now + kTurnsBack;

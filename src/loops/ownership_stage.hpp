@@ -14,6 +14,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/peer/loops/assured_stage.hpp"
 #include "reckon/peer/loops/body_hand_overs.hpp"
+#include "reckon/peer/loops/body_meetings.hpp"
 #include "reckon/peer/loops/body_stage.hpp"
 #include "reckon/peer/loops/hand_approach.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
@@ -114,6 +115,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
                   const Arrival& arrival) noexcept;
   void ask_ahead() noexcept;
   void choose_copies() noexcept;
+  [[nodiscard]] bool should_unite(std::size_t body) noexcept;
   [[nodiscard]] double delay_to(std::uint32_t epoch) const noexcept;
   void take_events() noexcept;
   void name_owners() noexcept;
@@ -133,6 +135,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   OwnershipCounters counted_;
   OwnershipWatch watch_;
   HandApproach approach_;
+  BodyMeetings meetings_;
   PressingPublisher pressing_;
   Pass pass_;
   ObjectSet kept_;     // by the program

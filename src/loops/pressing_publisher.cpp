@@ -9,7 +9,14 @@
 
 namespace reckon::peer {
 
+namespace {
+
 using std::chrono::nanoseconds;
+
+// A hand at a body states its place at least each 60 ms; one that is silent for longer has failed.
+constexpr nanoseconds kHandFails = std::chrono::milliseconds(500);
+
+}  // namespace
 
 void PressingPublisher::search(std::span<const haptics::BodyState> bodies,
                                const RemoteEntities& remote, nanoseconds now) noexcept {
@@ -47,7 +54,7 @@ void PressingPublisher::publish(std::span<const haptics::BodyState> bodies,
   slot.count = 0;
   for (const Found& found : std::span(found_).first(count_)) {
     const RemoteEntity* row = remote.find(found.id);
-    if (row == nullptr || !row->haptic || now >= row->valid_until) continue;
+    if (row == nullptr || !row->haptic || now - row->last_heard > kHandFails) continue;
     slot.hands[slot.count] = predictors_of(*row);
     slot.hands[slot.count++].given_to_us = touch_.body_energy_of(row->id);
   }

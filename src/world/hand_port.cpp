@@ -29,6 +29,10 @@ constexpr double kSliding = 0.01;
 // The same for a hand at a body, for all directions. Its faster motion is the answer to the other
 // hands at that body, and is not predicted.
 constexpr double kBodySmoothing = 0.08;
+// For a hand at a body without another hand nearby: greatest error of its handle over kHandleMiss,
+// and longest silence.
+constexpr double kAlone = 10.0;
+constexpr std::chrono::milliseconds kAlonePeriod{300};
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // A hand that slides at this speed [m/s] or faster is sent by its thresholds only. Begin and end of
@@ -77,7 +81,8 @@ pdu::EntityType hand_type() noexcept {
 void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   trend_.note(snapshot.time, snapshot.velocity);
-  at_body_ = snapshot.tally.at_bodies > std::exchange(at_bodies_, snapshot.tally.at_bodies);
+  at_body_ = snapshot.tally.at_bodies > std::exchange(at_bodies_, snapshot.tally.at_bodies) ||
+             snapshot.held_body > 0;
   note_touch(entity);
   smooth_velocity();
   read_accounts(entity.id());
@@ -86,6 +91,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
     touch->move_point(orientation().conjugate() * (snapshot.device - snapshot.scp));
     touch->soften(snapshot.softening);
+    if (touch->hold(snapshot.held_body)) entity.felt_event();
   }
   consider_accounts(entity);
   if (touching_) felt_at_ = snapshot.time;
@@ -125,14 +131,16 @@ void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
 }
 
 // At a body, the peers that simulate it compute the force of this hand from the place of its
-// handle.
+// handle. Without another hand nearby, nobody feels the difference.
 void HandPort::keep_handle(OwnedEntity& entity) const noexcept {
   if (entity.is_frozen() || entity.touch() == nullptr) return;
-  const deadreckon::Pose truth{servo().scp, orientation()};
   const nanoseconds silence = servo().time - entity.last_built();
   if (silence < kAtBodyGap) return;
-  if (silence >= kAtBodyPeriod ||
-      entity.touch()->point_miss(truth, pdu::to_seconds(servo().time)) > kHandleMiss)
+  const bool is_alone = servo().count == 0;
+  const double most = is_alone ? kAlone * kHandleMiss : kHandleMiss;
+  const nanoseconds longest = is_alone ? kAlonePeriod : kAtBodyPeriod;
+  const deadreckon::Pose truth{servo().scp, orientation()};
+  if (silence >= longest || entity.touch()->point_miss(truth, pdu::to_seconds(servo().time)) > most)
     entity.felt_event();
 }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"
@@ -76,6 +77,11 @@ class TouchSide {
   [[nodiscard]] double point_miss(const deadreckon::Pose& truth, double now) const noexcept;
   /// Moves the model's point within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
+
+  /// Sets the surface that it holds; 0: none. @return whether that is new
+  bool hold(std::uint16_t surface) noexcept {
+    return std::exchange(model_.surface, surface) != surface;
+  }
 
   /// Softens the model to this share of its original stiffness, (0, 1], so that others feel the
   /// same stiffness that our device can show.

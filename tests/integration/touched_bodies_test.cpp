@@ -4,6 +4,9 @@
 // carry and lift it.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+
 #include "reckon/tests/integration/two_peers_one_body.hpp"
 #include "reckon/tests/support/soak.hpp"
 
@@ -62,6 +65,25 @@ OneBody lifted() {
     };
   };
   body.laws = {law(-1, 0.0), law(1, 0.5)};
+  return body;
+}
+
+/// The first hand holds a body of 0.5 kg by a spring and lifts it; the second presses its side.
+OneBody held() {
+  OneBody body;
+  body.mass = 0.5;
+  body.is_heavy = true;
+  body.grab = 200;
+  body.seconds = 10.0;
+  const auto law = [](double side, double later) {
+    return [=](double t) {
+      const double apart = 0.09 - 0.06 * eased(t, 0.2 + later, 0.9 + later);
+      haptics::HandTarget target = target_at(side * apart, 0.04 + 0.12 * eased(t, 3, 5));
+      target.buttons = side < 0 && t > 2.5 ? 1 : 0;
+      return target;
+    };
+  };
+  body.laws = {law(-1, 0.0), law(1, 0.3)};
   return body;
 }
 
@@ -131,6 +153,103 @@ TEST(TouchedBodies, AreLiftedByTwoPeers) {
       }
     }
   }
+}
+
+// The first hand holds the body; the second one presses a copy that hangs at the first.
+TEST(TouchedBodies, ArePressedWhileAnotherHolds) {
+  const OneBodyRun truth(held());
+  for (const double delay : {0.0003, 0.02, 0.05}) {
+    for (int seed = 1; seed <= seeds(); ++seed) {
+      const OneBodyRun run(held(), {delay, 0.0, static_cast<std::uint64_t>(seed)});
+      SCOPED_TRACE(testing::Message() << delay << ' ' << seed);
+      EXPECT_LE(run.steady_error(truth), 0.06);
+      EXPECT_GT(run.steps().back().place.z(), 0.06);
+      EXPECT_GE(run.least_energy(), -2 * haptics::PressingHands::kLoan);
+    }
+  }
+}
+
+/// Two cubes of two peers slide at each other. @return their velocities afterwards [m/s]
+std::array<double, 2> hit(const std::array<double, 2>& speeds, std::size_t peers,
+                          const peer::ImpairmentLaw& law) {
+  const std::string smooth = with(cubes_scene(2), "plane = [0, 0, 1]",
+                                  "plane = [0, 0, 1]\nbody_friction = 0.0\nrestitution = 0.0");
+  OwnersExercise exercise(peers, smooth);
+  exercise.network().impair(law);
+  exercise.start_all();
+  exercise.run(3000);
+  if (peers > 1) {
+    exercise.owners(1).acquire(1);
+    EXPECT_LT(exercise.run_until([&] { return exercise.simulates(1, 1); }, 3000), 3000u);
+    exercise.run(500);
+    exercise.owners(1).divest(1);
+  }
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    haptics::BodyOrder order{haptics::BodyAct::place, i};
+    order.state.position = {i == 0 ? -speeds[0] : speeds[1], 0, 0.02};
+    order.state.velocity = {i == 0 ? speeds[0] : -speeds[1], 0, 0};
+    EXPECT_TRUE(exercise.owners(peers > 1 ? i : 0).order(order));
+  }
+  exercise.run(1500);
+  std::array<double, 2> out{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t owner = peers > 1 && exercise.simulates(1, i) ? 1 : 0;
+    out[i] = exercise.body(owner, i).velocity.x();
+  }
+  return out;
+}
+
+// S1-05: one owner gets both before they meet.
+TEST(TouchedBodies, OfTwoOwnersMeetAtOne) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(0.2, 1.0);
+  int wrong = 0;
+  const int hits = tries(12, 400);
+  for (int i = 0; i < hits; ++i) {
+    const std::array speeds{any(random), any(random)};
+    const auto delay = milliseconds(std::array{1, 20, 50, 100}[static_cast<std::size_t>(i) % 4]);
+    const auto truth = hit(speeds, 1, {});
+    const auto found = hit(speeds, 2, line_of(delay, delay / 5, i % 8 < 4 ? 0.0 : 0.3));
+    const double most = 0.01 * (speeds[0] + speeds[1]);
+    EXPECT_LT(found[0], found[1] + most) << "passed through: " << i;
+    if (std::abs(found[0] - truth[0]) > most || std::abs(found[1] - truth[1]) > most) ++wrong;
+  }
+  EXPECT_LE(wrong, hits / 100);
+}
+
+// The owner fails while hands of two peers press the body.
+TEST(TouchedBodies, AreFeltAgainAfterTheirOwner) {
+  const auto law = [](double side) {
+    return [side](double t) {
+      const double when = side < 0 ? 4.0 : 5.0;
+      return target_at(side * (0.06 - 0.05 * eased(t, when, when + 0.5)), 0.01);
+    };
+  };
+  OwnersExercise exercise(3, cubes_scene(1));
+  exercise.network().impair(line_of(milliseconds(5), {}, 0.0));
+  exercise.start_with_hand(0, 1, law(-1));
+  exercise.start_with_hand(1, 2, law(1));
+  exercise.start(2, 3);
+  const auto felt = [&] {
+    exercise.peer(1).views().update();
+    return exercise.peer(1).views().read().servo().force.norm();
+  };
+  exercise.run(8000);
+  ASSERT_TRUE(exercise.simulates(0, 0));
+  ASSERT_GT(felt(), 1.0) << "squeezed by two peers";
+  exercise.kill(0);
+  const auto has_it = [&] { return exercise.simulates(1, 0); };
+  double most = 0.0;
+  const std::size_t took = exercise.run_until(
+      [&] {
+        most = std::max(most, felt());
+        return has_it();
+      },
+      6000);
+  EXPECT_LE(took, 5000u);
+  EXPECT_LT(most, 6.0);
+  exercise.run(1000);
+  EXPECT_LT(felt(), 0.5) << "only friction is left: the hand has pushed it away";
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct OneBody {
   double drag = 0.0;       ///< [N s/m]
   bool is_heavy = false;   ///< it lies on a floor; else there is no weight
   double seconds = 5.0;    ///< length of the run
+  double grab = 0.0;       ///< [N/m], of hands that hold it
   std::array<haptics::HandScript, 2> laws{};
 
   [[nodiscard]] double half() const { return 0.5 * side; }
@@ -57,10 +58,12 @@ struct OneBodyLine {
 }
 
 inline std::string OneBody::scene() const {
-  std::string text = "[scene]\ngravity = \"0 0 " + std::string(is_heavy ? "-9.81" : "0") +
-                     " m/s2\"\n[hand]\nk1 = \"300 N/m\"\npatch_radius = \"10 mm\"\n"
-                     "[[operator]]\npassive = true\n[[device]]\npeer = 1\noperator = 1\n"
-                     "[[device]]\npeer = 2\noperator = 1\n";
+  const std::string weight = is_heavy ? "-9.81" : "0";
+  std::string text = "[scene]\ngravity = \"0 0 " + weight + " m/s2\"\n[hand]\nk1 = \"300 N/m\"\n";
+  text += "patch_radius = \"10 mm\"\n";
+  if (grab > 0) text += "grab_viscosity = 2\ngrab_stiffness = " + std::to_string(grab) + "\n";
+  text += "[[operator]]\npassive = true\n[[device]]\npeer = 1\noperator = 1\n";
+  text += "[[device]]\npeer = 2\noperator = 1\n";
   if (is_heavy)
     text +=
         "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nbody_friction = 0.6\n"

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When moving bodies of this peer will meet bodies of others.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
+
+namespace reckon::peer {
+
+/// Thread of the model loop; no allocation. 5 ns for each pair of a moving body of ours and one of
+/// another peer, kLook apart.
+class BodyMeetings {
+ public:
+  static constexpr std::chrono::milliseconds kLook{10};
+
+  /// @param world may be null; then call nothing
+  explicit BodyMeetings(const haptics::BodyWorld* world) noexcept : world_(world) {}
+
+  void look(std::span<const haptics::BodyState> bodies, std::chrono::nanoseconds now) noexcept;
+  /// Time until a body of ours meets this one of another peer [s]; infinite: none does soon.
+  [[nodiscard]] double time_to(std::size_t body) const noexcept { return met_[body].time; }
+  /// The body of ours that meets it.
+  [[nodiscard]] std::size_t own_of(std::size_t body) const noexcept { return met_[body].own; }
+
+ private:
+  struct Meeting {
+    double time = std::numeric_limits<double>::infinity();
+    std::uint32_t own = 0;
+  };
+
+  const haptics::BodyWorld* world_;
+  std::array<Meeting, kMostSharedBodies> met_{};
+  std::chrono::nanoseconds looked_{-kLook};
+};
+
+}  // namespace reckon::peer
