@@ -237,6 +237,15 @@ void PressedBodiesOf<axes>::press(std::size_t probe, std::uint32_t object,
 }
 
 template <int axes>
+bool PressedBodiesOf<axes>::touches_copy(const StaticContactOf<axes>& contacts) const noexcept {
+  for (std::size_t probe = 0; world_ && probe < contacts.probes(); ++probe) {
+    for (const std::uint32_t index : contacts.walls(probe).result().touched)
+      if (body_of_[index] != kNoBody && world_->states()[body_of_[index]].copied) return true;
+  }
+  return false;
+}
+
+template <int axes>
 void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double springs,
                                  double effects) noexcept {
   for (const Push& push : pushes_) {

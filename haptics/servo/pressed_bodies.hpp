@@ -54,6 +54,8 @@ class PressedBodiesOf {
   /// the contacts' effects. If the energy for a change within the period is short, the hand does
   /// not get the change, but the bodies do: their springs are conservative.
   void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
+  /// Whether a probe touches a copy of another peer's body.
+  [[nodiscard]] bool touches_copy(const StaticContactOf<axes>& contacts) const noexcept;
   /// States of the bodies; empty without a world.
   [[nodiscard]] std::span<const BodyState> bodies() const noexcept {
     return world_ ? world_->states() : std::span<const BodyState>();

@@ -288,7 +288,8 @@ void ServoStepOf<axes>::write() noexcept {
 template <int axes>
 void ServoStepOf<axes>::note_bodies() noexcept {
   if (pressed_.bodies().empty()) return;
-  if (static_.touches_others_body(*plan_)) tally_.bodies += step_.dt;
+  if (static_.touches_others_body(*plan_) || pressed_.touches_copy(static_))
+    tally_.bodies += step_.dt;
   if (static_.touches_body(*plan_)) tally_.at_bodies += step_.dt;
   if (static_.held() != nullptr) tally_.grabbed += step_.dt;
   tally_.body_energy = pressed_.work() + static_.stored();

@@ -71,6 +71,10 @@ def squeezes(reckon):
         hands, summary, text = run(reckon, squeeze_of(edge, 2), 2, 2)
         for hand, rows in sorted(hands.items()):
             most = max(abs(float(row["hand_fx_N"])) for row in rows)
+            felt = abs(forces(rows)[-1][0])
+            print(f"cube of {1e3 * edge:.0f} mm between two peers, hand {hand}: {felt:.3f} N, right {RIGHT:.3f} N")
+            if abs(felt - RIGHT) > 0.02 * RIGHT:
+                faults.append(f"two peers, cube of {1e3 * edge:.0f} mm, hand {hand} feels {felt:.3f} of {RIGHT:.3f} N")
             if most > 1e-3:
                 faults.append(f"two peers, cube of {1e3 * edge:.0f} mm, hand {hand} feels {most:.3f} N of the other")
         touched = [hand["touching_bodies_s"] for hand in summary["hands"]]
