@@ -32,7 +32,7 @@ class CopiedBodies {
   void remove(std::uint32_t body) noexcept;
   /// Moves the copies towards their owners' poses of `now`. @param gap [s] since the last call
   void draw(std::chrono::nanoseconds now, double gap) noexcept;
-  /// Calls visit(body, way [m], turn [rad]) for each copy that the last draw() has moved.
+  /// Calls visit(body, way [m], turn [rad]) for each copy, with its motion in the last draw().
   void each_drawn(auto&& visit) const {
     for (const Copy& copy : copies_) visit(copy.body, copy.way, copy.turn);
   }

@@ -39,8 +39,8 @@ class PressingLedger final : public EnergyLedger {
 /// other's predicted answer. So a hand is predicted from the arrival of its state on, and over at
 /// most kMostAhead of the delay.
 ///
-/// Servo thread; allocates at construction only. 1.5 us for a hand near a body; without a hand, a
-/// step takes some ns.
+/// Servo thread; allocates at construction only. A step costs a contact search for each hand near a
+/// body, and nothing but a look at the list without one.
 class PressingHands final : public BodyGuest {
  public:
   /// Hands that press at the same time; the others are left out.

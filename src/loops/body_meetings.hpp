@@ -15,8 +15,8 @@
 
 namespace reckon::peer {
 
-/// Thread of the model loop; no allocation. 5 ns for each pair of a moving body of ours and one of
-/// another peer, kLook apart.
+/// Thread of the model loop; no allocation. Every kLook it looks at each pair of a moving body of
+/// ours and a body of another peer.
 class BodyMeetings {
  public:
   static constexpr std::chrono::milliseconds kLook{10};

@@ -33,10 +33,10 @@ double time_to_contact(const ApproachingHand& hand, const haptics::ObjectMotion&
   return enters <= leaves ? enters : kInfinity;
 }
 
-bool HandApproach::look(std::span<const haptics::BodyState> bodies) noexcept {
+void HandApproach::look(std::span<const haptics::BodyState> bodies) noexcept {
   std::array<ApproachingHand, kMaxDevices> room;
   const std::span<const ApproachingHand> hands(room.data(), touch_.copy_hands(room));
-  if (hands.empty()) return false;
+  if (hands.empty()) return;
   times_.fill(kInfinity);
   for (std::size_t i = 0; i < std::min(bodies.size(), times_.size()); ++i) {
     const Eigen::AlignedBox3d& box = world_->box(i);
@@ -49,7 +49,6 @@ bool HandApproach::look(std::span<const haptics::BodyState> bodies) noexcept {
       if (time <= kSoon) times_[i] = std::min(times_[i], time);
     }
   }
-  return true;
 }
 
 }  // namespace reckon::peer

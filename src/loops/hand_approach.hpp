@@ -22,7 +22,7 @@ namespace reckon::peer {
 [[nodiscard]] double time_to_contact(const ApproachingHand& hand, const haptics::ObjectMotion& body,
                                      const Eigen::AlignedBox3d& box) noexcept;
 
-/// Thread of the model loop; no allocation. Some ns for each body and hand.
+/// Thread of the model loop; no allocation. O(bodies x hands).
 class HandApproach {
  public:
   static constexpr double kAside = 0.05;  ///< [s]
@@ -34,8 +34,8 @@ class HandApproach {
     times_.fill(std::numeric_limits<double>::infinity());
   }
 
-  /// Looks at the present hands. @param bodies of the world  @return false: this peer has no hand
-  bool look(std::span<const haptics::BodyState> bodies) noexcept;
+  /// Looks at the present hands. @param bodies of the world
+  void look(std::span<const haptics::BodyState> bodies) noexcept;
   /// Time until a hand touches a body [s]; infinite: none does within kSoon.
   [[nodiscard]] double time_to(std::size_t body) const noexcept {
     return body < times_.size() ? times_[body] : std::numeric_limits<double>::infinity();

@@ -171,7 +171,7 @@ bool OwnershipStage::should_unite(std::size_t body) noexcept {
 
 // Requests the bodies that a hand touches or will touch, and those that a body of ours will meet.
 void OwnershipStage::ask_ahead() noexcept {
-  static_cast<void>(approach_.look(states()));
+  approach_.look(states());
   meetings_.look(states(), pass_.now);
   for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
     double time = approach_.time_to(i);

@@ -16,9 +16,8 @@
 
 namespace reckon::peer {
 
-/// Hands of Reckon peers only. Looks for hands kSearch apart, and for their updates in each pass:
-/// some ns for each hand found, 0.1 us for each felt entity in a search. Thread of the model loop;
-/// no allocation.
+/// Hands of Reckon peers only. Searches all felt entities and bodies every kSearch, and reads the
+/// updates of the hands found in each pass. Thread of the model loop; no allocation.
 class PressingPublisher {
  public:
   static constexpr std::chrono::milliseconds kSearch{50};

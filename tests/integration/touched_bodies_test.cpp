@@ -34,7 +34,7 @@ OneBody pushed(double mass) {
   return body;
 }
 
-/// Both hands press it from two sides at one time, and then carry it 40 mm if told to.
+/// Both hands press it from two sides at one time. With `carries`, they then move it by 40 mm.
 OneBody pressed(bool carries) {
   OneBody body;
   body.drag = 2.0;
