@@ -117,6 +117,10 @@ void append_error(std::string& out, const NumbersSample& sample, const ShownThre
   error.end();
 }
 
+std::shared_ptr<const std::string> shared_text(std::string&& message) {
+  return std::make_shared<const std::string>(std::move(message));
+}
+
 }  // namespace
 
 void ViewStage::set_touch(const std::vector<TouchHand>& hands) {
@@ -217,6 +221,7 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   }
   if (const HandFrame* frame = hands_at(time); frame != nullptr && !frame->twins.empty())
     object.array("twin", frame->twins, append_twin);
+  if (watcher.may_push) append_network(object.member("network"), options_.controls->network());
   if (options_.raw_bit_per_s > 0) object.decimals("raw_bit_per_s", options_.raw_bit_per_s, 0);
   object.value("watchers", watchers_).end();
   return out;
@@ -224,31 +229,25 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
 
 // Text for every tab, even a slow one: sent once, or as the answer to a request.
 ViewStage::Text ViewStage::next_text(Watcher& watcher) {
-  const auto text = [](std::string&& message) {
-    return std::make_shared<const std::string>(std::move(message));
-  };
   if (!std::exchange(watcher.greeted, true)) {
     watcher.knows_origin = frame_.has_value();
-    return text(hello(watcher));
+    return shared_text(hello(watcher));
   }
   if (!watcher.knows_touch && touch_) {
     watcher.knows_touch = true;
     return touch_;
   }
-  if (!std::exchange(watcher.knows_state, true)) return text(play_message(watcher));
-  if (!watcher.answer.empty()) return text(std::exchange(watcher.answer, {}));
+  if (!std::exchange(watcher.knows_state, true)) return shared_text(play_message(watcher));
+  if (!watcher.answer.empty()) return shared_text(std::exchange(watcher.answer, {}));
   if (watcher.under_way.size() >= watcher.credit) return nullptr;
   return next_regular_text(watcher);
 }
 
 // Regular text: only for a tab that draws its pictures.
 ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
-  const auto text = [](std::string&& message) {
-    return std::make_shared<const std::string>(std::move(message));
-  };
   if (!watcher.knows_origin && frame_) {
     watcher.knows_origin = true;
-    return text(origin_message());
+    return shared_text(origin_message());
   }
   if (watcher.epoch != history_.roster().epoch()) {
     watcher.epoch = history_.roster().epoch();
@@ -258,7 +257,7 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   watcher.notes = std::max(watcher.notes, first_note_);
   if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
   if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
-    return text(numbers_message(watcher));
+    return shared_text(numbers_message(watcher));
   const HandFrame* frame = hands_at(shown_time(watcher));
   const bool looks = std::exchange(watcher.owners_tick, numbers_tick_) != numbers_tick_;
   if (looks && frame != nullptr && frame->owners != watcher.owners && frame->owners)

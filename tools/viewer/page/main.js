@@ -134,6 +134,7 @@ class Page {
       numbers: () => {
         moment.numbers = message;
         byId('twins').hidden = !message.twin;
+        this.network.follow(message.network);
         if (message.span && this.source instanceof Server) this.timeLine.setSpan(message.span);
       },
       bodies: () => {

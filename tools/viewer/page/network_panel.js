@@ -3,6 +3,7 @@
 // Controls for delay, jitter, loss and an outage of the demo's own impairment.
 
 const FIELDS = { delay: 'ms', jitter: 'ms', loss: '%' };
+const SETTLED = 1000; // [ms] after which the program has what this tab has sent
 
 export class NetworkPanel {
   constructor(tell, say) {
@@ -24,6 +25,11 @@ export class NetworkPanel {
     this.write();
   }
 
+  // Shows what another tab has set.
+  follow(network) {
+    if (network && performance.now() - (this.sent ?? -Infinity) > SETTLED) this.show(network);
+  }
+
   toggleOutage() {
     this.out = !this.out;
     this.send();
@@ -38,6 +44,7 @@ export class NetworkPanel {
   }
 
   send() {
+    this.sent = performance.now();
     this.write();
     const { delay, jitter, loss } = this.inputs;
     this.tell('network', {
