@@ -66,7 +66,8 @@ def moved(states):
 def viewed(setup):
     """Three peers, the third with a page; the first is killed, and the world goes on."""
     scene = setup.folder / "cubes.toml"
-    scene.write_text((setup.scenes / "cubes.toml").read_text() + HANDS)
+    text = (setup.scenes / "cubes.toml").read_text()
+    scene.write_text(text[:text.rindex("[[device]]")] + HANDS)  # the first hand is the only one of the first peer
     programs = [Wire([setup.reckon, "inspect", "--iface", "lo", "--json"])]
     try:
         wire, peers = programs[0], []

@@ -25,6 +25,21 @@ std::vector<std::size_t> first_hands(const Exercise& exercise) {
   return first;
 }
 
+/// Owner of each body, by the peer that knows its last change.
+std::vector<peer::BodyOwnerView> newest_owners(const Exercise& exercise) {
+  std::vector<peer::BodyOwnerView> newest;
+  for (std::size_t i = 0; i < exercise.size(); ++i) {
+    const peer::PeerView& view = exercise.view(i);
+    newest.resize(std::max(newest.size(), view.body_owner_count));
+    for (std::size_t k = 0; k < view.body_owner_count; ++k) {
+      const bool is_known = newest[k].owner != pdu::SimulationAddress{};
+      if (!is_known || view.body_owners[k].version > newest[k].version)
+        newest[k] = view.body_owners[k];
+    }
+  }
+  return newest;
+}
+
 SelfViewOptions self_view_options(const DemoPageOptions& options, ViewControls& controls) {
   SelfViewOptions page;
   page.kind = "demo";
@@ -74,7 +89,7 @@ void DemoPage::show(Exercise& exercise) {
     (void)bodies->published().update();
     view_.hands().take_bodies(bodies->published().read().bodies);
   }
-  view_.hands().take_owners(exercise.view(0));
+  view_.hands().take_owners(newest_owners(exercise), exercise.view(0).bodies_rest);
   controls_.set_rests(exercise.view(0).bodies_rest);
   for (std::size_t i = 0; i < exercise.size(); ++i)
     for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)

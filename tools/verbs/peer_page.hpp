@@ -54,7 +54,7 @@ class PeerPage {
       (void)bodies->published().update();
       hands.take_bodies(bodies->published().read().bodies);
     }
-    hands.take_owners(view);
+    hands.take_owners(std::span(view.body_owners).first(view.body_owner_count), view.bodies_rest);
     controls_.set_rests(view.bodies_rest);
     mark_pointers(hands);
     view_.show_hands();

@@ -68,13 +68,12 @@ void OwnHands::take_bodies(std::span<const haptics::BodyState> bodies) {
     bodies_.push_back({body.position.cast<float>(), body.orientation, body.carried});
 }
 
-void OwnHands::take_owners(const peer::PeerView& view) {
-  const auto owners = std::span(view.body_owners).first(view.body_owner_count);
-  if (owners.empty() || (owners_text_ != nullptr && rests_ == view.bodies_rest &&
-                         std::ranges::equal(owners, owners_)))
+void OwnHands::take_owners(std::span<const peer::BodyOwnerView> owners, bool rests) {
+  if (owners.empty() ||
+      (owners_text_ != nullptr && rests_ == rests && std::ranges::equal(owners, owners_)))
     return;
   owners_.assign(owners.begin(), owners.end());
-  rests_ = view.bodies_rest;
+  rests_ = rests;
   owners_text_ = std::make_shared<const std::string>(bodies_message(owners, rests_));
 }
 
@@ -86,8 +85,28 @@ std::vector<TouchHand> OwnHands::names() const {
   return names;
 }
 
+void OwnHands::note_bodies() {
+  for (Hand& hand : hands_) {
+    const haptics::ServoTally& tally = hand.step.tally;
+    const double at_bodies = tally.at_bodies + tally.grabbed;
+    hand.is_at_others = std::exchange(hand.at_others, tally.bodies) < tally.bodies;
+    hand.is_at_body = std::exchange(hand.at_bodies, at_bodies) < at_bodies || hand.is_at_others;
+  }
+}
+
+// Whether the network may change the force of a body on this hand: another peer moves the body, or
+// a hand of another peer presses a body too, which may be the same.
+bool OwnHands::shares_body(std::size_t index) const {
+  const Hand& own = hands_[index];
+  return own.is_at_others ||
+         (own.is_at_body && std::ranges::any_of(hands_, [&own](const Hand& other) {
+            return other.peer != own.peer && other.is_at_body;
+          }));
+}
+
 // [N], as in DemoMeasurement: the others' full models at the true positions of their devices.
 std::optional<double> OwnHands::true_force(std::size_t index) const {
+  if (shares_body(index)) return std::nullopt;
   const ServoSnapshot& own = hands_[index].step;
   Eigen::Vector3d sum = own.mesh_force;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
@@ -95,8 +114,12 @@ std::optional<double> OwnHands::true_force(std::size_t index) const {
     deadreckon::Pose pose;
     pose.position = hands_[i].step.device;
     pose.velocity = hands_[i].step.device_velocity;
-    sum += deadreckon::evaluate(to_force_model(hand_), pose, own.device, own.device_velocity,
-                                hand_.radius);
+    const Eigen::Vector3d force = deadreckon::evaluate(to_force_model(hand_), pose, own.device,
+                                                       own.device_velocity, hand_.radius);
+    // A body between two hands separates them.
+    if (!force.isZero(0.0) && (hands_[index].is_at_body || hands_[i].is_at_body))
+      return std::nullopt;
+    sum += force;
   }
   // The true state of entities without a hand is unknown here.
   for (std::size_t k = 0; k < own.count; ++k)
@@ -145,6 +168,7 @@ HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all
   HandFrame frame;
   frame.bodies = bodies_;
   frame.owners = owners_text_;
+  note_bodies();
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandMark& hand = frame.hands.emplace_back(mark(i));
     frame.ids.push_back(hands_[i].id);

@@ -47,8 +47,8 @@ class OwnHands {
   /// Sets the poses of the scene's bodies.
   void take_bodies(std::span<const haptics::BodyState> bodies);
 
-  /// Sets the owners of the bodies, as a peer knows them.
-  void take_owners(const peer::PeerView& view);
+  /// Sets the owners of the bodies. @param rests see PeerView::bodies_rest
+  void take_owners(std::span<const peer::BodyOwnerView> owners, bool rests);
 
   [[nodiscard]] std::size_t size() const noexcept { return hands_.size(); }
   /// The constant properties of the hands.
@@ -66,10 +66,14 @@ class OwnHands {
     std::optional<TwinFeeling> twin;
     double limit = 0;  // [N]
     haptics::ServoSnapshot step;
-    double rate_limited = 0;  // [s], total at the last call of frame()
+    double rate_limited = 0;              // [s], total at the last call of frame()
+    double at_bodies = 0, at_others = 0;  // [s], the same, at bodies of all peers and of others
+    bool is_at_body = false, is_at_others = false;  // since the last call of frame()
     std::uint64_t force_drops = 0;
   };
   [[nodiscard]] HandMark mark(std::size_t index);
+  void note_bodies();
+  [[nodiscard]] bool shares_body(std::size_t index) const;
   [[nodiscard]] std::optional<double> true_force(std::size_t index) const;
 
   peer::HandModel hand_;

@@ -23,7 +23,7 @@ class Pace : public testing::Test {
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
   // The trace of a run of three seconds; its JSON in `summary`.
   std::string traced(const std::string& pace, std::string& summary) const {
-    const auto run = run_reckon({"demo", cubes_, "--peers", "1", "--simulated-time", "--for", "3s",
+    const auto run = run_reckon({"demo", cubes_, "--peers", "2", "--simulated-time", "--for", "3s",
                                  "--json", "--pace", pace, "--trace", file("t.csv")});
     EXPECT_EQ(run.status, 0) << run.err;
     summary = run.out;

@@ -48,5 +48,36 @@ TEST(OwnHands, AreMarkedWhereTheirForceIsStopped) {
   EXPECT_EQ(flags(false, false), kHandLetGo);
 }
 
+// A body that another peer moves, or that hands of two peers press, can depend on the network; a
+// body between two hands separates them.
+TEST(OwnHands, KnowNoTrueForceOfASharedBody) {
+  peer::HandModel model;
+  model.radius = 0.01;
+  model.k1 = 300;
+  OwnHands hands{model};
+  hands.add(0, {});
+  hands.add(1, {});
+  haptics::ServoSnapshot step[2];
+  step[1].device.x() = 1;
+  const auto known = [&] {
+    for (std::size_t i = 0; i < 2; ++i) hands.take(i, step[i]);
+    const HandFrame frame = hands.frame(0ns, true);
+    return std::pair((frame.hands[0].flags & kHandTrueForce) != 0,
+                     (frame.hands[1].flags & kHandTrueForce) != 0);
+  };
+  EXPECT_EQ(known(), std::pair(true, true));
+  step[0].tally.at_bodies = 0.01;
+  EXPECT_EQ(known(), std::pair(true, true)) << "a hand presses a body of its peer alone";
+  step[0].tally.at_bodies = 0.02;
+  step[1].tally.bodies = 0.01;
+  EXPECT_EQ(known(), std::pair(false, false)) << "both press a body";
+  step[1].tally.bodies = 0.02;
+  EXPECT_EQ(known(), std::pair(true, false)) << "a hand presses a body of the other peer";
+  step[1].device.x() = 0.015;
+  EXPECT_EQ(known(), std::pair(true, true)) << "they press each other";
+  step[0].tally.at_bodies = 0.03;
+  EXPECT_EQ(known(), std::pair(false, false)) << "a body may be between them";
+}
+
 }  // namespace
 }  // namespace reckon::tools

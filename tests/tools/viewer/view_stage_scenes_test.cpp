@@ -149,7 +149,7 @@ TEST(ViewStage, ReportsOwnersOfBodiesWhenTheyChange) {
   view.body_owners[0] = {{1, 2}, true, 77, peer::version_of(1, 3), 3, peer::OwnerChange::granted};
   OwnHands hands{peer::HandModel{}};
   const auto show = [&] {
-    hands.take_owners(view);
+    hands.take_owners(std::span(view.body_owners).first(view.body_owner_count), view.bodies_rest);
     HandFrame frame = hands.frame({}, false);
     frame.time = live.now;
     live.stage.take_hands(std::move(frame));

@@ -16,6 +16,7 @@ import { drawnFollowed } from './drawn_followed.js';
 import { drawnFloor } from './drawn_floor.js';
 import { drawnDepth } from './drawn_depth.js';
 import { drawnSolids } from './drawn_solids.js';
+import { drawnOwners } from './drawn_owners.js';
 import { drawnRegions } from './drawn_regions.js';
 import { drawnPatches } from './drawn_patches.js';
 import { drawnHandGhosts } from './drawn_hand_ghosts.js';
@@ -27,5 +28,5 @@ import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
   drawnGround, drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
-  drawnFloor, drawnDepth, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
+  drawnFloor, drawnDepth, drawnSolids, drawnOwners, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
 ];

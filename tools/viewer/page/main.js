@@ -377,7 +377,7 @@ class Page {
     window.reckon = {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.status.age, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, target: this.stage.view('world').orbit.goal.target.toArray(), kind: moment.hello.kind,
-      numbers: moment.numbers, yours: this.hand.index, tour: this.tour.step, window: this.plots.window, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
+      numbers: moment.numbers, yours: this.hand.index, tour: this.tour.step, window: this.plots.window, minute: () => this.minute(), placeOf: (index) => this.placeOf(index), owners: moment.owners.map(({ owner }) => moment.handOfPeer(owner)?.index), bodies: moment.bodies, pointerAt: (place) => [...this.stage.placeOf('touch', place), this.hand.depthTo(place)],
       boxes: () => [...moment.roster.keys()].map((slot) => this.stage.boxOf(moment, slot)).filter(Boolean), auto: this.stage.auto.on, scale: this.stage.scaleBar.length,
       shares: this.share >= 1, depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };

@@ -112,6 +112,15 @@ export class Moment {
   // The owner of the body of the scene that an entity is, by its ID; else undefined.
   ownerOf(row) { return row?.id?.startsWith(BODY_ID) ? this.owners[Number(row.id.slice(BODY_ID.length)) - 1] : undefined; }
 
+  // The first hand of this program that belongs to a peer.
+  handOfPeer(peer) { return this.hands.find(({ slot }) => this.roster.get(slot)?.peer === peer); }
+
+  // Whether more than one peer owns bodies, or could.
+  get ownersDiffer() {
+    const peers = [...this.owners.map(({ owner }) => owner), ...this.hands.map(({ slot }) => this.roster.get(slot)?.peer)];
+    return this.owners.length > 0 && new Set(peers.filter(Boolean)).size > 1;
+  }
+
   // Radius of an entity [m]: of its force model, or of the body of the scene that it is; else null.
   radiusOf(row) {
     const body = row && this.bodyOf(row);

@@ -25,10 +25,11 @@ export function picture({ time = 0, number = 1, entities = [], hands = [], conta
     view.setFloat32(at + 56, speed, true);
     view.setFloat32(at + 60, age, true);
   });
-  hands.forEach(({ index = 0, flags: of = 0, patch = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
+  hands.forEach(({ index = 0, flags: of = 0, slot = 0, patch = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
     const at = 32 + 64 * entities.length + 72 * i;
     view.setUint16(at, index, true);
     view.setUint16(at + 2, of, true);
+    view.setUint16(at + 4, slot, true);
     view.setUint16(at + 6, patch, true);
     position.forEach((x, k) => view.setFloat32(at + 8 + 4 * k, x, true));
     force.forEach((x, k) => view.setFloat32(at + 32 + 4 * k, x, true));

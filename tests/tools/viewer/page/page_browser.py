@@ -335,7 +335,7 @@ def rest(reckon, scenes):
             page.open(started.address)
             page.wait("document.querySelectorAll('#table tbody tr:not([hidden])').length >= 6", "six cubes")
             page.driver.execute_script("[...document.querySelectorAll('#table tbody tr')].find((row) => row.textContent.startsWith('cube')).click()")
-            page.wait("document.getElementById('card').textContent.includes('founded')", "the card of a cube says who owns it")
+            page.wait("document.getElementById('card').textContent.includes('hand-overs')", "the card of a cube says who owns it")
             page.wait("window.reckon.numbers.peers !== undefined", "the owner is received")
         finally:
             owner.kill()

@@ -56,6 +56,24 @@ test('A sentence says what is seen', () => {
   assert.equal(sentence(new Moment(), 'world', null), '');
 });
 
+test('Owners of bodies are told apart by the hands of their peers', () => {
+  const moment = momentOf({ hands: [{ index: 0, slot: 0 }, { index: 1, slot: 1 }] }, { solids: [{ ...floor, body: 0 }] });
+  moment.hello = { kind: 'demo' };
+  moment.owners = [{ owner: '1:2' }];
+  moment.roster = new Map([[0, { peer: '1:1' }], [1, { peer: '1:1' }]]);
+  assert.equal(moment.handOfPeer('1:2'), undefined, 'a peer without a hand here');
+  assert.equal(moment.ownersDiffer, true);
+  moment.roster.set(1, { peer: '1:2' });
+  assert.equal(moment.handOfPeer('1:2').index, 1);
+  assert.match(sentence(moment, 'touch', null), /A body has the colour of the hand whose program simulates it\./);
+  moment.roster = new Map([[0, { peer: '1:2' }]]);
+  assert.equal(moment.ownersDiffer, false, 'one peer owns all');
+  moment.owners = [];
+  moment.roster.set(1, { peer: '1:1' });
+  assert.equal(moment.ownersDiffer, false, 'owners are fixed');
+  assert.doesNotMatch(sentence(moment, 'touch', null), /colour/);
+});
+
 test('An entity is the body of its ID, whoever owns it', () => {
   const moment = new Moment();
   moment.owners = [{ owner: '1:1' }, { owner: '1:2' }];
