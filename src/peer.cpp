@@ -191,7 +191,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               sends_bodies() ? std::uint8_t{1} : options.scene_peer,
               options.chain_secret,
               !devices.empty() || options.scene_peer > 0,
-              owns_}) {
+              owns_,
+              options.requests_at_touch}) {
   add_hands(options, devices);
   const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
   if (sends_bodies() || (bodies_ != nullptr && !scene.network.interop)) model_.add_bodies(next);

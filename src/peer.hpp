@@ -55,6 +55,9 @@ struct PeerOptions {
   /// The first peer of a scene owns its bodies at once. False: it first looks for 1.2 s whether
   /// other peers own them.
   bool founds = true;
+  /// Requests a body only when a hand touches it, as other systems do; false: before the touch, so
+  /// that the hand finds the body at its own peer. For comparison.
+  bool requests_at_touch = false;
   bool transfer = true;  ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()

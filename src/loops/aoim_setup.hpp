@@ -29,10 +29,11 @@ struct ModelIdentity {
   std::uint32_t started;  ///< UTC second of the start; the older of two peers keeps a disputed
                           ///< address
   bool haptic;            ///< it has devices
-  std::uint8_t scene_peer = 0;  ///< number of the peer in the scene, from 1; 0: none
-  aoim::ChainLink secret{};     ///< proves this epoch, random
-  bool may_own = false;         ///< bodies of the scene
-  bool founds = false;          ///< see OwnershipConfig::founds_at_once
+  std::uint8_t scene_peer = 0;     ///< number of the peer in the scene, from 1; 0: none
+  aoim::ChainLink secret{};        ///< proves this epoch, random
+  bool may_own = false;            ///< bodies of the scene
+  bool founds = false;             ///< see OwnershipConfig::founds_at_once
+  bool requests_at_touch = false;  ///< see PeerOptions
 };
 
 /// The rows of tiers by distance with their own groups, except kept ones, the nearest first; else

@@ -3,6 +3,7 @@
 #include "reckon/peer/loops/ownership_stage.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/reckon/assured_record.hpp"
@@ -68,6 +69,7 @@ OwnershipStage::OwnershipStage(const ModelWiring& wiring, const ModelIdentity& i
       epoch_(identity.epoch),
       parts_(parts),
       is_on_(wiring.bodies != nullptr && !wiring.scene.network.interop && has_bodies(wiring.scene)),
+      requests_at_touch_(identity.requests_at_touch),
       protocol_(config_of(wiring, identity), *this),
       hand_overs_(wiring.bodies, protocol_, {parts.bodies, parts.owned, parts.remote},
                   identity.epoch),
@@ -169,12 +171,18 @@ bool OwnershipStage::should_unite(std::size_t body) noexcept {
   return is_busy(meetings_.own_of(body)) || roll.index_of(epoch_) < other;
 }
 
+// [s], until a hand touches a body, as far as that is a reason to request it.
+double OwnershipStage::time_to_touch(std::size_t body) const noexcept {
+  if (!requests_at_touch_) return approach_.time_to(body);
+  return states()[body].touched ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
 // Requests the bodies that a hand touches or will touch, and those that a body of ours will meet.
 void OwnershipStage::ask_ahead() noexcept {
   approach_.look(states());
   meetings_.look(states(), pass_.now);
   for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
-    double time = approach_.time_to(i);
+    double time = time_to_touch(i);
     if (meetings_.time_to(i) < time && should_unite(i)) time = meetings_.time_to(i);
     const bool is_near = time <= kAhead + kDelays * kMostDelay && may_take(i, epoch_);
     if (is_near && time <= kAhead + kDelays * delay_to(owner_of(i).owner))

@@ -113,6 +113,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
   void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
                   const Arrival& arrival) noexcept;
+  [[nodiscard]] double time_to_touch(std::size_t body) const noexcept;
   void ask_ahead() noexcept;
   void choose_copies() noexcept;
   [[nodiscard]] bool should_unite(std::size_t body) noexcept;
@@ -130,6 +131,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   std::uint32_t epoch_;
   Parts parts_;
   bool is_on_;
+  bool requests_at_touch_;
   Ownership protocol_;
   BodyHandOvers hand_overs_;
   OwnershipCounters counted_;

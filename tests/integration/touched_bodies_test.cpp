@@ -108,6 +108,16 @@ TEST(TouchedBodies, AreOwnedBeforeTheTouch) {
   }
 }
 
+TEST(TouchedBodies, AreRequestedAtTheTouchByOption) {
+  for (const double delay : {0.0003, 0.02, 0.05}) {
+    const OneBodyRun run(pushed(1.0), {delay, 0.0, 1, true});
+    SCOPED_TRACE(testing::Message() << delay);
+    EXPECT_EQ(run.touch_of(1).second, 0u) << "ms before the touch";
+    EXPECT_EQ(run.steps().back().owner, 1);
+    expect_one_owner(run);
+  }
+}
+
 TEST(TouchedBodies, ArePressedByTwoPeers) {
   const OneBodyRun truth(pressed(false));
   for (const auto& [delay, bar] : {std::pair(0.02, 0.05), {0.05, 0.12}, {0.1, 0.4}}) {

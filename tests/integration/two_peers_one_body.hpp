@@ -49,6 +49,7 @@ struct OneBodyLine {
   double delay = 0.0;  ///< [s], one way, +-15 %
   double loss = 0.0;
   std::uint64_t seed = 1;
+  bool requests_at_touch = false;  ///< see PeerOptions
 };
 
 /// Target that moves smoothly from 0 to 1 between two times.
@@ -132,6 +133,7 @@ inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneB
     own.started =
         static_cast<std::uint32_t>(std::chrono::duration_cast<seconds>(clock_.utc_now()).count());
     own.scene_peer = static_cast<std::uint8_t>(i + 1);
+    own.requests_at_touch = line.requests_at_touch;
     const std::span<const peer::PeerDevice> all(devices);
     peers_.push_back(std::make_unique<peer::Peer>(scene_, own, network_.link(i),
                                                   peers == 1 ? all : all.subspan(i, 1)));
