@@ -42,6 +42,14 @@ def circle(text):
     return {"RMS position error": 1e6 * rms["auto", "cubic"], "the same vehicle": 1e3 * rms["rvw+adaptive", "cubic"]}
 
 
+def body_owner(text):
+    share = {row["setting"]: 100 * row["error_share"] for row in objects(text) if row["kind"] == "touch"}
+    return {
+        "a hand pushes 1 kg": share["push, 50 ms, before touch"],
+        "this error": share["push, 50 ms, fixed"],
+    }
+
+
 def stability(text):
     modes = {row["mode"]: row for row in objects(text) if row["kind"] == "mode"}
     ours, rival = modes["reckon"], modes["passivity_controller"]
@@ -64,6 +72,7 @@ ROWS = {
     "demo scenes/two_hands.toml": ("--json", demo),
     "SlowPress": ("", presses),
     "accuracy --circle": ("--json", circle),
+    "--touch --axis owner": ("--json", body_owner),
     "bench stability": ("--json", stability),
     "--for 10min": ("--json", least_energy),
     "reckon figures": ("--json --out build/readme_figures", figures),

@@ -31,7 +31,7 @@ TOTAL = {
     "src": 53000,
     "tools": 41000,
     "python": 2500,
-    "bench": 37500,
+    "bench": 38000,
     "tests": 143500,
 }
 # Class -> lines of function bodies, data members.

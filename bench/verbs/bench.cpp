@@ -51,7 +51,8 @@ constexpr std::array kStudies{
         "reckon bench accuracy --against rvw:1m scenes/truck_track.csv\n"
         "reckon bench accuracy --circle\n"
         "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
-        "reckon bench accuracy --touch --axis order,precision --report touch.html",
+        "reckon bench accuracy --touch --axis order,precision --report touch.html\n"
+        "reckon bench accuracy --touch --axis owner --seeds 9 --plot owner.svg",
         accuracy_study},
     StudyKind{"latency",
               "latency of a touch between two peers with threads and sockets, and of a bare "

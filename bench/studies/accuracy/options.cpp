@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "reckon/bench/studies/sweep/values.hpp"
-#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/notation/units.hpp"
 
@@ -16,6 +15,7 @@ namespace reckon::bench {
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 1000;
+constexpr double kMostTouchDelay = 1;               // [s]
 constexpr double kLeastRate = 20, kMostRate = 500;  // [Hz]
 
 constexpr unsigned bit(AccuracyMode mode) { return static_cast<unsigned>(mode); }
@@ -51,8 +51,8 @@ std::string refusal(AccuracyMode mode, std::string_view flag) {
       return fmt::format("--trace is one run of one pose: remove {}", flag);
     case AccuracyMode::touch:
       return fmt::format(
-          "--touch has fixed cases and allows only --axis, --seed, --json, --csv, --plot and "
-          "--report: remove {}",
+          "--touch has fixed cases and allows only --axis, --seed, --seeds, --delay, --loss, "
+          "--json, --csv, --plot and --report: remove {}",
           flag);
     case AccuracyMode::forces:
       return fmt::format("--force: {} is for poses; add --pose, or remove it", flag);
@@ -150,6 +150,12 @@ std::vector<deadreckon::ConvergenceCurve> curves_of(const BenchOptions& options)
   return curves;
 }
 
+std::uint64_t seeds_of(const BenchOptions& options) {
+  const std::uint64_t seeds = options.seeds.value_or(1);
+  if (seeds >= 1 && seeds <= kMostSeeds) return seeds;
+  throw tools::UsageError(fmt::format("--seeds: {} is not from 1 to {}", seeds, kMostSeeds));
+}
+
 template <typename Rows>
 std::string names_of(const Rows& rows) {
   std::string names;
@@ -196,7 +202,7 @@ std::vector<Flag> BenchOptions::flags() {
       {"--converge", &converge, kOfPoses, "duration of convergence (100ms)"},
       {"--converge-longest", &converge_longest, kOfPoses,
        "longest convergence, for large errors; equal to --converge: the same for all errors (1s)"},
-      {"--seeds", &seeds, kPoses | kBoth | kAgainst | kCircle,
+      {"--seeds", &seeds, kPoses | kBoth | kAgainst | kCircle | kTouch,
        "number of runs, with seeds from --seed on; results are medians (1; with --circle 20)"},
       {"--against", &against, kAgainst,
        "MODEL:LENGTH; number of updates that --models (auto) need for the same p99 error"},
@@ -220,7 +226,8 @@ AccuracyMode BenchOptions::checked_mode(std::span<const std::string> given) {
   only_for("FILE", kOfPoses);
   only_for("--json", kTables | kAgainst | kCircle | kTouch);
   only_for("--for", kTables | kAgainst | kTrace);
-  for (const char* name : {"--delay", "--jitter", "--loss"}) only_for(name, kOfPoses | kForces);
+  only_for("--jitter", kOfPoses | kForces);
+  for (const char* name : {"--delay", "--loss"}) only_for(name, kOfPoses | kForces | kTouch);
   only_for("--csv", kPoses | kForces | kTouch);
   only_for("--report", kTables | kTouch);
   check_modes(rows, bit(mode), given, [&](std::string_view flag) { return refusal(mode, flag); });
@@ -267,6 +274,15 @@ Baseline read_baseline(const std::string& text) {
           length_of(std::string_view(text).substr(colon + 1), "--against")};
 }
 
+TouchConditions read_touch_conditions(const BenchOptions& options) {
+  TouchConditions conditions{options.first_seed(), seeds_of(options)};
+  if (options.delay) conditions.delay = pdu::to_seconds(*options.delay);
+  if (conditions.delay && !(*conditions.delay > 0 && *conditions.delay <= kMostTouchDelay))
+    throw tools::UsageError("--delay: with --touch above 0 and at most 1s");
+  conditions.loss = share_of(options.loss, 0.99, "--loss");
+  return conditions;
+}
+
 AccuracyGrid read_conditions(const BenchOptions& options) {
   AccuracyGrid grid;
   grid.models = read_models(options.models);
@@ -286,9 +302,7 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   grid.network.law = peer::delayed_by(options.delay ? pdu::to_seconds(*options.delay) : 0, jitter,
                                       share_of(options.loss, 0.99, "--loss"));
   grid.network.seed = options.first_seed();
-  grid.seeds = options.seeds.value_or(1);
-  if (grid.seeds < 1 || grid.seeds > kMostSeeds)
-    throw tools::UsageError(fmt::format("--seeds: {} is not from 1 to {}", grid.seeds, kMostSeeds));
+  grid.seeds = seeds_of(options);
   if (jitter > 0 && grid.network.law.delay.count() == 0)
     throw tools::UsageError(
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");

@@ -13,6 +13,7 @@
 #include "reckon/bench/studies/accuracy/study.hpp"
 #include "reckon/bench/studies/contact/contact_study.hpp"
 #include "reckon/bench/studies/frame/study.hpp"
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/bench/studies/tracks/motions.hpp"
 
 namespace reckon::bench {
@@ -71,6 +72,9 @@ struct Baseline {
 /// every 60 ms, and at most every 2 ms. kContactSendings if `words` is empty.
 [[nodiscard]] std::vector<ContactSending> read_sendings(std::span<const std::string> words);
 [[nodiscard]] Baseline read_baseline(const std::string& text);
+
+/// Seeds, delay and loss of the study of touch, checked.
+[[nodiscard]] TouchConditions read_touch_conditions(const BenchOptions& options);
 
 /// All settings except thresholds, checked. The default heartbeat is 5 s, and none for files.
 [[nodiscard]] AccuracyGrid read_conditions(const BenchOptions& options);

@@ -227,7 +227,7 @@ class AccuracyStudy final : public Study {
   StudyOutput run(const StudyCall& call) override {
     const AccuracyMode mode = options_.checked_mode(call.given);
     if (mode == AccuracyMode::touch)
-      return run_touch_study(options_.axes, options_.first_seed(), options_.json, call);
+      return run_touch_study(options_.axes, read_touch_conditions(options_), options_.json, call);
     const AccuracyGrid grid = read_conditions(options_);
     switch (mode) {
       case AccuracyMode::trace:

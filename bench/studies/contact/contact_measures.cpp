@@ -56,14 +56,16 @@ ForceError error_size(std::vector<double> errors, std::span<const double> wanted
   ForceError size;
   size.samples = errors.size();
   if (errors.empty()) return size;
-  double squares = 0;
+  double squares = 0, wanted_squares = 0;
   std::size_t noticed = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     squares += errors[i] * errors[i];
+    wanted_squares += wanted[i] * wanted[i];
     noticed += errors[i] > std::max(kLeastFelt, kWeberShare * wanted[i]);
   }
   const auto count = static_cast<double>(errors.size());
   size.rms = std::sqrt(squares / count);
+  if (wanted_squares > 0) size.share = std::sqrt(squares / wanted_squares);
   size.noticed = static_cast<double>(noticed) / count;
   size.p50 = quantile(errors, 0.5);
   size.p99 = quantile(errors, 0.99);

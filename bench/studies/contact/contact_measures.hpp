@@ -23,6 +23,7 @@ struct ForceError {
   double p50 = 0, p99 = 0, max = 0, rms = 0;
   double noticed = 0;       ///< share of the time in which a person may notice it
   std::size_t samples = 0;  ///< in contact, felt or true; 0: they did not touch
+  double share = 0;         ///< RMS divided by the RMS of the wanted force; 0 if that is 0
 };
 
 /// Size of errors relative to the wanted forces, both [N] and of equal length; empty: no samples.

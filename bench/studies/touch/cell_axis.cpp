@@ -43,7 +43,7 @@ TouchSetting setting_of(double cell, double radius, std::uint64_t seed) {
 
 }  // namespace
 
-TouchCase cell_case(std::uint64_t seed) {
+TouchCase cell_case(const TouchConditions& conditions) {
   TouchCase made;
   made.truth =
       "two hands of 20 mm and 300 N/m that sweep through each other, 5 ms of delay: 300 N/m x the "
@@ -60,8 +60,9 @@ TouchCase cell_case(std::uint64_t seed) {
   for (const Choice& choice :
        {Choice{100, 2}, Choice{1, 2}, Choice{1, 0.1}, Choice{0.05, 0.1}, Choice{0.05, 0.05},
         Choice{0.02, 0.02}, Choice{0.005, 0.02}, Choice{0.005, 0.01}})
-    runs.push_back(std::async(std::launch::async,
-                              [=] { return setting_of(choice.cell, choice.radius, seed); }));
+    runs.push_back(std::async(std::launch::async, [=] {
+      return setting_of(choice.cell, choice.radius, conditions.seed);
+    }));
   for (auto& run : runs) made.settings.push_back(run.get());
   return made;
 }

@@ -205,10 +205,10 @@ class Bench {
 
 }  // namespace
 
-TouchCase effects_case(std::uint64_t seed) {
+TouchCase effects_case(const TouchConditions& conditions) {
   auto samples = std::make_shared<std::vector<haptics::DeviceSample>>();
   for (std::size_t i = 0; i < kSteps; ++i)
-    samples->push_back(reading(1e-3 * static_cast<double>(i), seed));
+    samples->push_back(reading(1e-3 * static_cast<double>(i), conditions.seed));
   const TemporaryFile file(slab());
   constexpr double kAny = std::numeric_limits<double>::infinity();
   struct Choice {

@@ -159,8 +159,8 @@ TouchSetting setting_of(std::string_view name, double rate, const Targets& targe
 
 }  // namespace
 
-TouchCase integrator_case(std::uint64_t seed) {
-  const double phase = phase_of(seed, 1);
+TouchCase integrator_case(const TouchConditions& conditions) {
+  const double phase = phase_of(conditions.seed, 1);
   TouchCase made;
   made.truth = fmt::format(
       "tool of {0} kg, {1} N s/m, moved at 3 Hz in a wall of {3} N/m by a hand of {2} N/m: "

@@ -122,10 +122,10 @@ TouchSetting setting_of(std::string name, const StateSpace& sampled,
 
 }  // namespace
 
-TouchCase order_case(std::uint64_t seed) {
+TouchCase order_case(const TouchConditions& conditions) {
   const SecondOrderSystem body = checked(sheet());
   const BodyReduction reduction(body);
-  const auto probe = std::make_shared<const std::vector<double>>(motion(seed));
+  const auto probe = std::make_shared<const std::vector<double>>(motion(conditions.seed));
   TouchCase made;
   made.truth = fmt::format(
       "sheet of {0} x {0} masses through {1} N/m, pressed to 3.3 mm at 2 and 12 Hz: all {2} states",

@@ -104,8 +104,8 @@ auto nearest_on(std::shared_ptr<const SurfaceMesh> mesh, double precision) {
 
 }  // namespace
 
-TouchCase precision_case(std::uint64_t seed) {
-  const auto places = std::make_shared<const std::vector<Place>>(stroke(seed));
+TouchCase precision_case(const TouchConditions& conditions) {
+  const auto places = std::make_shared<const std::vector<Place>>(stroke(conditions.seed));
   TouchCase made;
   made.truth =
       fmt::format("torus of {} and {} mm, {} N/m, stroked {} mm deep without friction: closed form",

@@ -116,8 +116,8 @@ class Evaluator {
 
 }  // namespace
 
-TouchCase quantisation_case(std::uint64_t seed) {
-  const double phase = phase_of(seed, 1);
+TouchCase quantisation_case(const TouchConditions& conditions) {
+  const double phase = phase_of(conditions.seed, 1);
   TouchCase made;
   made.truth = fmt::format(
       "a hand of {} N/m that oscillates in a probe at 2 Hz, 1 to 7 mm deep, an update (DRM 4) "

@@ -10,6 +10,7 @@
 
 #include "reckon/bench/plots/html_page.hpp"
 #include "reckon/bench/plots/log_axis.hpp"
+#include "reckon/bench/plots/log_plot.hpp"
 #include "reckon/bench/plots/sortable_page.hpp"
 #include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/bench/studies/frame/study_watch.hpp"
@@ -26,13 +27,15 @@ constexpr std::string_view kLegend =
     "Errors in mN against the truth of the axis. FELT: share of the time with an error that a "
     "person may notice, above 10 % of the force and 50 mN; ! above 1 %. NS: one millisecond of "
     "touch, a servo step at 1 kHz; median of interleaved blocks, then their 10 and 90 % quantiles. "
-    "OF 1 ms: share of the servo's time. <: another row of the axis is no slower and no less "
-    "accurate; =: equal to another.";
+    "OF 1 ms: share of the servo's time. OF FORCE: RMS of the error over RMS of the true force, "
+    "median of the seeds; WORST: greatest of the seeds. <: another row of the axis is no slower "
+    "and no less accurate; =: equal to another.";
 
 // Sizes of the picture and of the area inside the axes.
 constexpr double kWidth = 760, kHeight = 470;
 constexpr double kLeft = 84, kRight = 740, kTop = 40, kBottom = 400;
 constexpr double kLeastShown = 1e-6;  // [N]: smaller values are drawn on the axis
+constexpr double kLeastShare = 1e-4;  // of the force: smaller errors are drawn here
 
 /// A shape in a square of 12 around the origin and a colour, by the index of the axis in its list.
 struct Mark {
@@ -62,7 +65,7 @@ constexpr std::string_view kStyle =
 struct TouchReport {
   std::string command;    ///< as typed
   std::string processor;  ///< that the times were measured on
-  std::uint64_t seed = 1;
+  TouchConditions conditions;
   std::vector<TouchResult> results;
 };
 
@@ -74,6 +77,15 @@ std::string millinewtons(double newtons) {
 /// Short also if a block was interrupted.
 std::string time_text(double ns) {
   return ns < 9999.5 ? number_text(ns) : fmt::format("{:.0f}us", 1e-3 * ns);
+}
+
+std::string percent(double share) {
+  if (share > 0 && share < kLeastShare) return fmt::format("<{:g} %", 100 * kLeastShare);
+  return fmt::format("{:.2g} %", 100 * share);
+}
+
+bool is_delayed(const TouchResult& result) {
+  return !result.rows.empty() && result.rows.front().delayed;
 }
 
 /// All rows of all axes, each with its axis.
@@ -88,7 +100,8 @@ std::vector<AxisRow> rows_of(std::span<const TouchResult> results) {
   return rows;
 }
 
-Fields axis_row_fields(const AxisRow& of) {
+/// @param over_network the table has the error as a share of the force; else details of the time
+Fields row_fields(const AxisRow& of, bool over_network) {
   const auto& [axis, row] = of;
   const TouchCost& cost = row.cost;
   const bool timed = cost.median > 0;
@@ -96,6 +109,7 @@ Fields axis_row_fields(const AxisRow& of) {
   Fields fields("touch");
   fields.value("axis", axis == nullptr ? "" : axis->axis)
       .value("setting", Value::quoted(row.setting))
+      .value("delay_s", row.delayed ? std::optional(row.delayed->delay) : std::nullopt)
       .word("SETTING", row.setting)
       .page_word("setting", html_escaped(row.setting));
   const auto error = [&](std::string_view name, std::string title, std::string_view page_title,
@@ -106,14 +120,23 @@ Fields axis_row_fields(const AxisRow& of) {
   error("error_rms_n", "RMS", "RMS [mN]", row.error.rms);
   error("error_p99_n", "P99", "99 % [mN]", row.error.p99);
   error("error_max_n", "MAX", "max [mN]", row.error.max);
+  const auto share = [&](std::string_view name, std::string title, std::string_view page_title,
+                         double value) {
+    fields.value(name, value).page(page_title, value, html_escaped(percent(value)));
+    if (over_network) fields.cell(std::move(title), percent(value));
+  };
+  share("error_share", "OF FORCE", "of force", row.error.share);
+  share("error_share_worst", "WORST", "worst", row.worst);
   fields.value("noticed", row.error.noticed)
       .value("felt", row.is_felt())
       .cell("FELT", noticed + (row.is_felt() ? " !" : ""))
       .page("felt", row.error.noticed, noticed)
-      .cell("NS", timed ? time_text(cost.median) : "-")
-      .cell("10 % TO 90 %",
-            cost.low > 0 ? time_text(cost.low) + " to " + time_text(cost.high) : "-")
-      .cell("OF 1 ms", timed ? fmt::format("{:.1g} %", 100 * cost.median / kServoBudget) : "-");
+      .cell("NS", timed ? time_text(cost.median) : "-");
+  if (!over_network)
+    fields
+        .cell("10 % TO 90 %",
+              cost.low > 0 ? time_text(cost.low) + " to " + time_text(cost.high) : "-")
+        .cell("OF 1 ms", timed ? fmt::format("{:.1g} %", 100 * cost.median / kServoBudget) : "-");
   const auto time = [&](std::string_view name, std::string_view page_title, double ns) {
     fields.value(name, ns).page(page_title, ns, ns > 0 ? number_text(ns) : "-");
   };
@@ -126,12 +149,16 @@ Fields axis_row_fields(const AxisRow& of) {
   return fields.word("", beaten_mark(row.beaten)).page_word("dominated by", html_escaped(by));
 }
 
+Fields axis_row_fields(const AxisRow& of) { return row_fields(of, false); }
+
 std::string axis_text(const TouchResult& result) {
   std::string text = fmt::format("{}: {}\n", result.axis, result.meaning);
   text += wrapped("Truth: " + result.truth + ".", kTextColumns) + '\n';
   if (result.largest > 0) text += fmt::format("Up to {} N.\n", number_text(result.largest));
-  return text + table_of(rows_of({&result, 1}), axis_row_fields) +
-         wrapped(result.remark, kTextColumns) + "\n\n";
+  const bool over_network = is_delayed(result);
+  const auto fields_of = [&](const AxisRow& row) { return row_fields(row, over_network); };
+  return text + table_of(rows_of({&result, 1}), fields_of) + wrapped(result.remark, kTextColumns) +
+         "\n\n";
 }
 
 std::string touch_text(const TouchReport& report) {
@@ -140,14 +167,18 @@ std::string touch_text(const TouchReport& report) {
   text += wrapped(kLegend, kTextColumns) + '\n';
   for (const LeftOutAxis& axis : left_out_axes())
     text += wrapped(fmt::format("Left out: {}: {}.", axis.name, axis.why), kTextColumns) + '\n';
-  return text + fmt::format("seed {}; {}\n", report.seed, report.processor);
+  return text + fmt::format("seed {}, {} seed{}, loss {}; {}\n", report.conditions.seed,
+                            report.conditions.seeds, report.conditions.seeds == 1 ? "" : "s",
+                            percent(report.conditions.loss), report.processor);
 }
 
 std::string touch_json(const TouchReport& report) {
   std::string text = Fields("touch_study")
                          .json("command", report.command)
                          .json("processor", report.processor)
-                         .json("seed", report.seed)
+                         .json("seed", report.conditions.seed)
+                         .json("seeds", report.conditions.seeds)
+                         .json("loss", report.conditions.loss)
                          .json("budget_ns", kServoBudget)
                          .json("least_felt_n", kLeastFelt)
                          .json("weber", kWeberShare)
@@ -230,7 +261,43 @@ void append_legend(std::string& out, std::span<const TouchResult> results) {
   }
 }
 
-std::string touch_svg(std::span<const TouchResult> results) {
+/// Index of a word in a list of distinct words; appends a new one.
+std::size_t index_in(std::vector<std::string_view>& words, std::string_view word) {
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) words.push_back(word);
+  return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
+}
+
+/// The error against the delay: a colour for each rule, a line style for each touch.
+std::string delay_svg(const TouchResult& result) {
+  LogPlot plot{"Force error: " + result.meaning,
+               "",
+               "delay of the network, one way [ms]",
+               "error of the forces [% of the true force]",
+               {},
+               {}};
+  std::vector<std::string_view> rules, touches;
+  for (const TouchRow& row : result.rows) {
+    const std::size_t rule = index_in(rules, row.delayed->rule);
+    const std::size_t touch = index_in(touches, row.delayed->touch);
+    if (rule == plot.curves.size()) plot.curves.push_back({std::string(row.delayed->rule), {}});
+    plot.curves[rule].points.push_back(
+        {1e3 * row.delayed->delay, 100 * std::max(row.error.share, kLeastShare),
+         fmt::format("{}: {}, worst {}", row.setting, percent(row.error.share), percent(row.worst)),
+         touch});
+  }
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    plot.note += fmt::format("{}: {}; ", touches[i], LogPlot::dash_name(i));
+  plot.note +=
+      fmt::format("below {}: on the line of {}", percent(kLeastShare), percent(kLeastShare));
+  return log_plot_svg(plot);
+}
+
+/// Axes over a network have a picture of their own.
+std::string touch_svg(std::span<const TouchResult> all) {
+  if (all.size() == 1 && is_delayed(all.front())) return delay_svg(all.front());
+  std::vector<TouchResult> results(all.begin(), all.end());
+  std::erase_if(results, is_delayed);
   const Axes axes = axes_of(results);
   std::string inside(kStyle);
   tools::append_svg_text(
@@ -290,15 +357,19 @@ std::vector<const TouchAxis*> axes_asked(const std::vector<std::string>& words) 
 
 }  // namespace
 
-StudyOutput run_touch_study(const std::vector<std::string>& words, std::uint64_t seed, bool json,
-                            const StudyCall& call) {
+StudyOutput run_touch_study(const std::vector<std::string>& words, TouchConditions conditions,
+                            bool json, const StudyCall& call) {
   const tools::Console& console = call.console;
   const auto axes = axes_asked(words);
-  TouchReport report{call.command, processor_name(), seed, {}};
+  if ((conditions.delay || conditions.loss > 0) &&
+      std::ranges::none_of(axes, [](const TouchAxis* axis) { return axis->has_network; }))
+    throw tools::UsageError("--delay, --loss: no axis of this run uses them; add --axis owner");
+  conditions.go_on = [&] { return !console.stopped(); };
+  TouchReport report{call.command, processor_name(), conditions, {}};
   StudyWatch watch(console);
   for (const TouchAxis* axis : axes) {
     if (!watch.of("axes", axis->name)(report.results.size(), axes.size())) break;
-    report.results.push_back(run_touch_axis(*axis, seed, true, [&] { return !console.stopped(); }));
+    report.results.push_back(run_touch_axis(*axis, conditions, true));
   }
   if (console.stopped())
     fmt::print(console.err, "stopped after {} of {} axes; the last one may lack settings\n",

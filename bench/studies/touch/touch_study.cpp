@@ -31,6 +31,7 @@ constexpr std::array kAxes{
     TouchAxis{"effects", "effects of the plan, each on and off", effects_case},
     TouchAxis{"cell", "cells and radius of the area of interest", cell_case},
     TouchAxis{"quantisation", "numbers and times as rounded on the wire", quantisation_case},
+    TouchAxis{"owner", "owner of a body that two peers touch", owner_case, true},
 };
 
 constexpr std::array kLeftOut{
@@ -62,13 +63,20 @@ bool errs_no_more(const TouchRow& one, const TouchRow& other) {
          shown(one.error.max) <= shown(other.error.max);
 }
 
+/// Rows of an axis over a network compare only with the same touch and delay.
+bool are_rivals(const TouchRow& one, const TouchRow& other) {
+  if (!one.delayed || !other.delayed) return true;
+  return one.delayed->touch == other.delayed->touch && one.delayed->delay == other.delayed->delay;
+}
+
 /// The row that dominates row `at`: of several the one with the least error, then the fastest.
 std::optional<Beaten> beaten(std::span<const TouchRow> rows, std::size_t at) {
   std::optional<Beaten> best;
   const TouchRow& row = rows[at];
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TouchRow& other = rows[i];
-    if (i == at || is_faster(row, other) || !errs_no_more(other, row)) continue;
+    if (i == at || !are_rivals(row, other)) continue;
+    if (is_faster(row, other) || !errs_no_more(other, row)) continue;
     const bool equal = !is_faster(other, row) && errs_no_more(row, other);
     if (equal && i > at) continue;
     const auto key = [](const TouchRow& of) {
@@ -77,6 +85,32 @@ std::optional<Beaten> beaten(std::span<const TouchRow> rows, std::size_t at) {
     if (!best || key(other) < key(rows[best->by])) best = Beaten{i, equal};
   }
   return best;
+}
+
+ForceError error_of(const TouchCase& made, std::size_t setting) {
+  const TouchSetting& of = made.settings[setting];
+  return of.error ? *of.error : touch_error(made.force, of.forces);
+}
+
+/// Sets the errors of the rows to the medians of all seeds. @param first the case of the first seed
+void set_errors(std::vector<TouchRow>& rows, const TouchAxis& axis, const TouchCase& first,
+                TouchConditions conditions) {
+  std::vector<std::vector<ForceError>> errors(rows.size());
+  const auto take = [&](const TouchCase& made) {
+    for (std::size_t i = 0; i < rows.size(); ++i) errors[i].push_back(error_of(made, i));
+  };
+  take(first);
+  for (std::uint64_t i = 1; i < conditions.seeds && (!conditions.go_on || conditions.go_on());
+       ++i) {
+    ++conditions.seed;
+    if (const TouchCase next = axis.make(conditions); next.settings.size() == rows.size())
+      take(next);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::ranges::sort(errors[i], {}, &ForceError::share);
+    rows[i].error = errors[i][(errors[i].size() - 1) / 2];
+    rows[i].worst = errors[i].back().share;
+  }
 }
 
 void mark_rows(std::vector<TouchRow>& rows) {
@@ -122,18 +156,16 @@ void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>
   }
 }
 
-TouchResult run_touch_axis(const TouchAxis& axis, std::uint64_t seed, bool timed,
-                           const std::function<bool()>& go_on) {
-  TouchCase made = axis.make(seed);
-  if (timed) measure_costs(made.settings, go_on);
+TouchResult run_touch_axis(const TouchAxis& axis, const TouchConditions& conditions, bool timed) {
+  TouchCase made = axis.make(conditions);
+  if (timed) measure_costs(made.settings, conditions.go_on);
   TouchResult result{
       std::string(axis.name), std::string(axis.meaning), made.truth, made.remark, 0, {}};
   for (const Vector3d& force : made.force) result.largest = std::max(result.largest, force.norm());
-  for (TouchSetting& setting : made.settings)
-    result.rows.push_back({setting.name,
-                           setting.error ? *setting.error : touch_error(made.force, setting.forces),
-                           timed ? setting.cost : TouchCost{},
-                           {}});
+  for (const TouchSetting& setting : made.settings)
+    result.rows.push_back(
+        {setting.name, {}, 0, timed ? setting.cost : TouchCost{}, {}, setting.delayed});
+  set_errors(result.rows, axis, made, conditions);
   mark_rows(result.rows);
   return result;
 }

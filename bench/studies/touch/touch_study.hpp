@@ -30,6 +30,12 @@ struct TouchCost {
   double low = 0, high = 0;  ///< 10 and 90 % of the blocks are below; 0: not known
 };
 
+/// A setting of an axis over a network: the picture has a line for each way of touching and rule.
+struct DelayedTouch {
+  std::string_view touch, rule;
+  double delay = 0;  ///< [s], one way
+};
+
 /// One way to compute the forces of an axis.
 struct TouchSetting {
   std::string name;
@@ -39,6 +45,7 @@ struct TouchSetting {
   std::function<double(std::size_t steps)> run;
   std::optional<ForceError> error = {};  ///< instead of `forces`, if the truth differs
   TouchCost cost = {};
+  std::optional<DelayedTouch> delayed = {};  ///< compared with settings of its touch and delay only
 };
 
 /// The settings that an axis compares.
@@ -49,10 +56,20 @@ struct TouchCase {
   std::vector<TouchSetting> settings;
 };
 
+/// What all cases of a run have in common.
+struct TouchConditions {
+  std::uint64_t seed = 1;
+  std::uint64_t seeds = 1;           ///< number of runs, with seeds from `seed` on
+  std::optional<double> delay = {};  ///< [s], instead of all delays; see TouchAxis::has_network
+  double loss = 0;                   ///< share of the datagrams; the same
+  std::function<bool()> go_on = {};  ///< false ends a case early, with the settings so far
+};
+
 /// One axis. The case is the same for the same seed, except for costs.
 struct TouchAxis {
   std::string_view name, meaning;
-  TouchCase (*make)(std::uint64_t seed);
+  TouchCase (*make)(const TouchConditions& conditions);
+  bool has_network = false;  ///< uses the delay and the loss of the conditions
 };
 
 /// The list of axes.
@@ -66,9 +83,11 @@ struct LeftOutAxis {
 
 struct TouchRow {
   std::string setting;
-  ForceError error;
+  ForceError error;  ///< median of the seeds, by ForceError::share
+  double worst = 0;  ///< greatest share of the seeds
   TouchCost cost;
   std::optional<Beaten> beaten;  ///< by another row of the axis, see run_touch_axis()
+  std::optional<DelayedTouch> delayed = {};
   /// Whether a person may notice the error in more than 1 % of the time.
   [[nodiscard]] bool is_felt() const noexcept { return error.noticed > 0.01; }
 };
@@ -87,24 +106,26 @@ struct TouchResult {
 /// setting. The only part of the study that is not deterministic. @param go_on false ends it early.
 void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>& go_on = {});
 
-/// Errors, and costs if `timed`; then marks dominated rows: another row has no greater error (p99
-/// and greatest, to 1 uN) and no greater time, and is better in one of them. Times within 10 %
-/// count as equal.
-[[nodiscard]] TouchResult run_touch_axis(const TouchAxis& axis, std::uint64_t seed, bool timed,
-                                         const std::function<bool()>& go_on = {});
+/// Errors of all seeds, and costs of the first one if `timed`; then marks dominated rows: another
+/// row has no greater error (p99 and greatest, to 1 uN) and no greater time, and is better in one
+/// of them. Times within 10 % count as equal.
+[[nodiscard]] TouchResult run_touch_axis(const TouchAxis& axis, const TouchConditions& conditions,
+                                         bool timed);
 
 /// `reckon bench accuracy --touch`. @param axes words with names separated by commas; empty: all
-/// @throws UsageError for an unknown axis
-[[nodiscard]] StudyOutput run_touch_study(const std::vector<std::string>& axes, std::uint64_t seed,
-                                          bool json, const StudyCall& call);
+/// @throws UsageError for an unknown axis, and for a delay or a loss without an axis that uses it
+[[nodiscard]] StudyOutput run_touch_study(const std::vector<std::string>& axes,
+                                          TouchConditions conditions, bool json,
+                                          const StudyCall& call);
 
 // The axes, one file each.
-[[nodiscard]] TouchCase order_case(std::uint64_t seed);
-[[nodiscard]] TouchCase precision_case(std::uint64_t seed);
-[[nodiscard]] TouchCase integrator_case(std::uint64_t seed);
-[[nodiscard]] TouchCase effects_case(std::uint64_t seed);
-[[nodiscard]] TouchCase cell_case(std::uint64_t seed);
-[[nodiscard]] TouchCase quantisation_case(std::uint64_t seed);
+[[nodiscard]] TouchCase order_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase precision_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase integrator_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase effects_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase cell_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase quantisation_case(const TouchConditions& conditions);
+[[nodiscard]] TouchCase owner_case(const TouchConditions& conditions);
 
 /// The `number`th angle for a seed, 0 to 2 pi [rad].
 [[nodiscard]] double phase_of(std::uint64_t seed, unsigned number);

@@ -286,6 +286,9 @@ TEST_F(BenchAccuracy, ExplainsAWrongValueAndItsRemedy) {
       {{"--touch", "--axis", "ordre"}, "did you mean 'order'?"},
       {{"--touch", "--axis", "energy port"}, "energy port is left out: "},
       {{"--touch", "--force"}, "remove --force"},
+      {{"--touch", "--axis", "order", "--delay", "5ms"}, "add --axis owner"},
+      {{"--touch", "--delay", "2s"}, "at most 1s"},
+      {{"--touch", "--jitter", "10%"}, "remove --jitter"},
       {{"--touch", "--plot", "/no/such/folder/a.svg"}, "cannot be written"},
       {{"/no/such/file.csv"}, "/no/such/file.csv"},
   };

@@ -33,7 +33,7 @@ TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
   const test::ScratchFolder folder;
   const std::string csv = folder.file("touch.csv"), page = folder.file("touch.html"),
                     picture = folder.file("touch.svg");
-  const auto all = touch({"--csv", csv, "--report", page, "--plot", picture});
+  const auto all = touch({"--delay", "50ms", "--csv", csv, "--report", page, "--plot", picture});
   ASSERT_EQ(all.status, 0) << all.err;
   for (const std::string& line : all.lines()) EXPECT_LE(tools::text_width(line), 100U) << line;
   for (const TouchAxis& axis : touch_axes()) {
@@ -50,6 +50,27 @@ TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
   const auto titles = cells_of(lines_of(content(csv)).front());
   for (const std::string& line : lines_of(content(csv)))
     EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
+}
+
+TEST(BenchTouch, DrawsTheErrorByDelayAndRule) {
+  const test::ScratchFolder folder;
+  const std::string picture = folder.file("owner.svg");
+  const auto result = run_bench({"bench", "accuracy", "--touch", "--axis", "owner", "--delay",
+                                 "20ms", "--seeds", "2", "--json", "--plot", picture});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* needed : {"fixed", "first hand", "before touch", "push: solid", "one way [ms]"})
+    EXPECT_THAT(content(picture), HasSubstr(needed));
+  EXPECT_EQ(unbalanced(content(picture)), "");
+  int rows = 0;
+  for (const std::string& line : result.lines()) {
+    const json row = json::parse(line);
+    if (row["kind"] != "touch") continue;
+    ++rows;
+    EXPECT_EQ(row["delay_s"], 0.02);
+    EXPECT_LE(row["error_share"], row["error_share_worst"]);
+    EXPECT_GT(row["step_ns"].get<double>(), 0);
+  }
+  EXPECT_EQ(rows, 4 * 3);
 }
 
 TEST(BenchTouch, WritesOneJsonObjectPerSetting) {

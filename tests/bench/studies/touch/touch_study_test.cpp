@@ -16,10 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-TouchResult result_of(std::string_view name, std::uint64_t seed = 1) {
+TouchResult result_of(std::string_view name, const TouchConditions& conditions) {
   const auto axes = touch_axes();
-  return run_touch_axis(*std::ranges::find(axes, name, &TouchAxis::name), seed, false);
+  return run_touch_axis(*std::ranges::find(axes, name, &TouchAxis::name), conditions, false);
 }
+
+TouchResult result_of(std::string_view name) { return result_of(name, {}); }
 
 std::map<std::string, ForceError> errors_of(const TouchResult& result) {
   std::map<std::string, ForceError> errors;
@@ -35,6 +37,7 @@ TEST(TouchError, ErrorUsesTheVectorAndItsThresholds) {
   EXPECT_DOUBLE_EQ(error.noticed, 0.5);
   EXPECT_DOUBLE_EQ(error.max, 0.11);
   EXPECT_NEAR(error.rms, std::sqrt((0.0081 + 0.0121 + 0.0016 + 0.0036) / 4), 1e-15);
+  EXPECT_NEAR(error.share, std::sqrt((0.0081 + 0.0121 + 0.0016 + 0.0036) / 2), 1e-15);
 }
 
 // Two independent computations: coordinates of all masses, and modes of a projected body.
@@ -155,9 +158,36 @@ TEST(TouchQuantisation, IsWithinTheUnitsOfTheWire) {
   EXPECT_GT(errors.at("location float32, geocentric").max, 1);
 }
 
+TEST(TouchOwner, EarlierOwnershipLowersTheError) {
+  const auto errors = errors_of(result_of("owner", {.seeds = 3, .delay = 0.05}));
+  const auto share = [&](const std::string& touch, const std::string& rule) {
+    return errors.at(touch + ", 50 ms, " + rule).share;
+  };
+  for (const char* touch : {"push", "hold", "catch"}) {
+    EXPECT_LT(share(touch, "before touch"), 1e-3) << touch;
+    EXPECT_GT(share(touch, "first hand"), 5e-3) << touch;
+    EXPECT_LT(share(touch, "first hand"), 0.6 * share(touch, "fixed")) << touch;
+  }
+  EXPECT_GT(share("push", "fixed"), 0.1);
+  // One of the two hands is at the other peer, whoever owns the body.
+  for (const char* rule : {"first hand", "before touch"})
+    EXPECT_NEAR(share("squeeze", rule), share("squeeze", "fixed"), 0.02) << rule;
+}
+
+TEST(TouchOwner, LossReachesTheForces) {
+  const auto error = [](double loss) {
+    const auto errors = errors_of(result_of("owner", {.delay = 0.02, .loss = loss}));
+    return errors.at("squeeze, 20 ms, fixed").rms;
+  };
+  EXPECT_GT(error(0.5), 1.3 * error(0));
+}
+
 TEST(TouchStudy, IsReproducibleForASeed) {
-  for (const char* axis : {"order", "precision", "integrator", "effects", "quantisation"}) {
-    const TouchResult one = result_of(axis), again = result_of(axis), other = result_of(axis, 2);
+  for (const char* axis :
+       {"order", "precision", "integrator", "effects", "quantisation", "owner"}) {
+    const TouchConditions first{.delay = 0.05}, second{.seed = 2, .delay = 0.05};
+    const TouchResult one = result_of(axis, first), again = result_of(axis, first),
+                      other = result_of(axis, second);
     bool differs = false;
     for (std::size_t i = 0; i < one.rows.size(); ++i) {
       EXPECT_EQ(one.rows[i].error.rms, again.rows[i].error.rms) << axis;
@@ -176,7 +206,7 @@ TouchSetting made(const char* name, double error, double ns) {
 }
 
 TEST(TouchStudy, SlowerAndLessExactRowsAreDominated) {
-  const TouchAxis axis{"made", "made", [](std::uint64_t) {
+  const TouchAxis axis{"made", "made", [](const TouchConditions&) {
                          TouchCase of;
                          of.settings = {
                              made("best", 0.1, 100),           made("slower", 0.1, 150),
@@ -184,7 +214,7 @@ TEST(TouchStudy, SlowerAndLessExactRowsAreDominated) {
                              made("quick and rough", 0.3, 50), made("slow and fine", 0.01, 500)};
                          return of;
                        }};
-  const TouchResult result = run_touch_axis(axis, 1, true);
+  const TouchResult result = run_touch_axis(axis, {}, true);
   const auto beaten_by = [&](std::size_t row) {
     const auto& beaten = result.rows[row].beaten;
     return beaten ? result.rows[beaten->by].setting + (beaten->equal ? " =" : "") : "";
@@ -195,6 +225,36 @@ TEST(TouchStudy, SlowerAndLessExactRowsAreDominated) {
   EXPECT_EQ(beaten_by(3), "best =") << "5 % of time is no difference";
   EXPECT_EQ(beaten_by(4), "");
   EXPECT_EQ(beaten_by(5), "");
+}
+
+TEST(TouchStudy, DelaysAreNoRivals) {
+  const TouchAxis axis{"made", "made", [](const TouchConditions&) {
+                         TouchCase of;
+                         of.settings = {made("near", 0.1, 100), made("far", 0.2, 100),
+                                        made("far, other rule", 0.3, 100)};
+                         of.settings[0].delayed = DelayedTouch{"push", "one", 0.01};
+                         of.settings[1].delayed = DelayedTouch{"push", "one", 0.05};
+                         of.settings[2].delayed = DelayedTouch{"push", "other", 0.05};
+                         return of;
+                       }};
+  const TouchResult result = run_touch_axis(axis, {}, true);
+  EXPECT_FALSE(result.rows[0].beaten);
+  EXPECT_FALSE(result.rows[1].beaten);
+  ASSERT_TRUE(result.rows[2].beaten);
+  EXPECT_EQ(result.rows[2].beaten->by, 1U);
+}
+
+TEST(TouchStudy, SeedsGiveMedianAndWorst) {
+  const TouchAxis axis{"made", "made", [](const TouchConditions& conditions) {
+                         TouchCase of;
+                         of.settings = {made("one", 0, 1)};
+                         of.settings[0].error->share = conditions.seed == 5 ? 0.9 : 0.1;
+                         if (conditions.seed == 6) of.settings[0].error->share = 0.2;
+                         return of;
+                       }};
+  const TouchResult result = run_touch_axis(axis, {.seed = 4, .seeds = 3}, false);
+  EXPECT_EQ(result.rows[0].error.share, 0.2);
+  EXPECT_EQ(result.rows[0].worst, 0.9);
 }
 
 }  // namespace
