@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/servo/pressing_hands.hpp"
 #include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 
@@ -15,6 +16,9 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       most_unfelt_(counters.make_level(
           "hands_unfelt",
           "most bodies near a hand at once that were not felt, because the servo was full")),
+      most_unpressed_(counters.make_level(
+          "hands_unpressed",
+          "most hands of other peers at once that did not press the bodies near them")),
       table_full_{counters.make("table_full", "entities refused because the state table was full")},
       write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},
       read_waits_{counters.make("read_waits",
@@ -29,7 +33,7 @@ NoticeCondition::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) no
   return condition.turn(grew, now);
 }
 
-void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
+void LimitWatch::look(std::size_t unfelt, std::size_t unpressed, const aoim::SourceAddress& crowder,
                       const pdu::EntityId& refused, std::chrono::nanoseconds now,
                       haptics::SpscRing<Notice>& out) noexcept {
   using Turn = NoticeCondition::Turn;
@@ -50,6 +54,11 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
   if (crowds == Turn::ends)
     static_cast<void>(
         out.push(make_end(NoticeKind::crowded, "all bodies near a hand are felt again")));
+  most_unpressed_.set(std::max<std::uint64_t>(most_unpressed_.value(), unpressed));
+  report(NoticeKind::crowded, unpressed_.turn(unpressed > 0, now),
+         "more than {} hands of other peers are near the bodies of this peer: the farthest ones do "
+         "not press them",
+         "all hands near the bodies of this peer press them again", haptics::PressingHands::kMost);
   report(NoticeKind::table_full, table_full_.turn(now),
          "the table of remote entities is full with {} rows: further ones are not shown; raise "
          "[network] entities",

@@ -20,15 +20,18 @@ namespace reckon::peer {
 /// Watches the counts of one peer. One thread; allocates only at set-up.
 class LimitWatch {
  public:
-  /// Makes the counter hands_unfelt. `counters` outlives it. @param capacity rows of the table
+  /// Makes the counters hands_unfelt and hands_unpressed. `counters` outlives it. @param capacity
+  /// rows of the table
   LimitWatch(std::size_t capacity, Counters& counters);
 
   /// Call it some times a second.
   /// @param unfelt bodies nearby that a servo omits now, the largest number of all servos.
+  /// @param unpressed hands of other peers near bodies that do not press them now.
   /// @param crowder host of most of the bodies nearby.
   /// @param refused owner of the last refused force model.  @param out receives notices.
-  void look(std::size_t unfelt, const aoim::SourceAddress& crowder, const pdu::EntityId& refused,
-            std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+  void look(std::size_t unfelt, std::size_t unpressed, const aoim::SourceAddress& crowder,
+            const pdu::EntityId& refused, std::chrono::nanoseconds now,
+            haptics::SpscRing<Notice>& out) noexcept;
 
  private:
   /// A counter that increases while something is lost or delayed.
@@ -40,8 +43,8 @@ class LimitWatch {
   };
 
   std::size_t capacity_;
-  Counter& most_unfelt_;
-  NoticeCondition unfelt_;
+  Counter &most_unfelt_, &most_unpressed_;
+  NoticeCondition unfelt_, unpressed_;
   Growing table_full_, write_overflow_, read_waits_, models_refused_, sealed_;
 };
 

@@ -95,6 +95,8 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
                                   : haptics::ObjectMotion{};
   }
 
+  /// See PressingPublisher::left_out().
+  [[nodiscard]] std::size_t unpressed() const noexcept { return pressing_.left_out(); }
   /// Writes the owners.
   void show(PeerView& view) const noexcept;
 
@@ -113,7 +115,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
   void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
                   const Arrival& arrival) noexcept;
-  [[nodiscard]] double time_to_touch(std::size_t body) const noexcept;
+[[nodiscard]] double time_to_touch(std::size_t body) const noexcept;
   void ask_ahead() noexcept;
   void choose_copies() noexcept;
   [[nodiscard]] bool should_unite(std::size_t body) noexcept;

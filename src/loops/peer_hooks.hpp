@@ -31,7 +31,8 @@ class OwnedEntity;
 struct WatchedPeer {
   const RemoteEntities& remote;
   aoim::AreaOfInterestManager& aoim;
-  std::size_t unfelt;                  ///< most bodies nearby that a servo omits now
+  std::size_t unfelt;     ///< most bodies nearby that a servo omits now
+  std::size_t unpressed;  ///< hands near bodies that do not press them, see PressingPublisher
   const aoim::SourceAddress& crowder;  ///< host of most of the bodies nearby
   std::chrono::nanoseconds now;
   haptics::SpscRing<Notice>& notices;  ///< for the user

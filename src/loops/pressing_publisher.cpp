@@ -21,7 +21,7 @@ constexpr nanoseconds kHandFails = std::chrono::milliseconds(500);
 
 void PressingPublisher::search(std::span<const haptics::BodyState> bodies,
                                const RemoteEntities& remote, nanoseconds now) noexcept {
-  count_ = 0;
+  count_ = left_out_ = 0;
   remote.visit_felt([&](const RemoteEntity& row) {
     if (row.epoch == 0 || row.type.kind != pdu::EntityKind::life_form) return;
     const Eigen::Vector3d place = row.motion(now).position;
@@ -36,8 +36,12 @@ void PressingPublisher::search(std::span<const haptics::BodyState> bodies,
     const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count_);
     const auto at = std::find_if(found_.begin(), end,
                                  [&](const Found& found) { return found.distance > least; });
+    if (count_ < found_.size()) {
+      ++count_;
+    } else {
+      ++left_out_;
+    }
     if (at == found_.end()) return;
-    if (count_ < found_.size()) ++count_;
     std::copy_backward(at, found_.begin() + static_cast<std::ptrdiff_t>(count_) - 1,
                        found_.begin() + static_cast<std::ptrdiff_t>(count_));
     *at = {row.id, least};

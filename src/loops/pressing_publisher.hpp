@@ -11,13 +11,15 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/haptics/servo/pressing_hands.hpp"
 #include "reckon/peer/loops/touch_stage.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer {
 
-/// Hands of Reckon peers only. Searches all felt entities and bodies every kSearch, and reads the
-/// updates of the hands found in each pass. Thread of the model loop; no allocation.
+/// The nearest hands, of Reckon peers only, as many as PressingHands has room for. Searches all
+/// felt entities and bodies every kSearch, and reads the updates of the hands found in each pass.
+/// Thread of the model loop; no allocation.
 class PressingPublisher {
  public:
   static constexpr std::chrono::milliseconds kSearch{50};
@@ -31,6 +33,8 @@ class PressingPublisher {
 
   void publish(std::span<const haptics::BodyState> bodies, const RemoteEntities& remote,
                std::chrono::nanoseconds now) noexcept;
+  /// Hands near bodies that do not press them, because there are too many.
+  [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
 
  private:
   struct Found {
@@ -44,8 +48,8 @@ class PressingPublisher {
   haptics::TripleBuffer<haptics::HandList>* out_;
   const TouchStage& touch_;
   std::chrono::nanoseconds searched_{-kSearch};
-  std::array<Found, haptics::kMaxRemoteHands> found_{};
-  std::size_t count_ = 0;
+  std::array<Found, haptics::PressingHands::kMost> found_{};
+  std::size_t count_ = 0, left_out_ = 0;
   haptics::HandList sent_;
 };
 

@@ -30,9 +30,10 @@ struct Wall {
   std::string_view counter;
   std::string_view sentence;
 };
-constexpr std::array<Wall, 6> kWalls{{
+constexpr std::array<Wall, 7> kWalls{{
     {"models_refused", "{} force models were refused: their values are impossible"},
     {"hands_unfelt", "{} bodies near a hand were not felt: a servo has room for 32"},
+    {"hands_unpressed", "{} hands near bodies did not press them: a peer has room for 8"},
     {"table_full", "{} updates of entities that had no room in the table"},
     {"write_overflow", "{} datagrams dropped, because the ring to the network was full"},
     {"stale_datagrams", "{} datagrams dropped, because they waited for more than 1 s"},

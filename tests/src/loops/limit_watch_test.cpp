@@ -24,9 +24,10 @@ constexpr aoim::SourceAddress kCrowder{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF
 class LimitWatchTest : public testing::Test {
  protected:
   /// The notices within this time, at 20 checks a second.
-  std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0) {
+  std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0,
+                               std::size_t unpressed = 0) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
-      watch_.look(unfelt, kCrowder, {7, 8, 9}, now_, notices_);
+      watch_.look(unfelt, unpressed, kCrowder, {7, 8, 9}, now_, notices_);
     std::vector<std::string> told;
     for (; notices_.front() != nullptr; notices_.pop())
       told.emplace_back(notices_.front()->text.data());
@@ -47,6 +48,12 @@ TEST_F(LimitWatchTest, ReportsUnfeltHandsOnceAndTheirEndOnce) {
   EXPECT_THAT(run(seconds(1), 1), IsEmpty());
   EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the maximum
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("felt again")));
+}
+
+TEST_F(LimitWatchTest, ReportsHandsThatDoNotPress) {
+  EXPECT_THAT(run(seconds(1), 0, 2), ElementsAre(HasSubstr("more than 8 hands of other peers")));
+  EXPECT_EQ(counters_.find("hands_unpressed")->value(), 2U);
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("press them again")));
 }
 
 TEST_F(LimitWatchTest, ReportsAFullTableAndFullRings) {
