@@ -208,6 +208,7 @@ ConversionError from_wire(const pdu::HapticRecord& record, ForceModel& out) noex
   model.point = vector(record.point);
   model.normal = vector(record.normal);
   model.surface = record.surface;
+  model.grip = record.grip_stiffness;
   model.validity = 1e-3 * record.validity_ms;
 
   if (record.order != 0) return Error::kind_unknown;
@@ -232,6 +233,7 @@ ConversionError to_wire(const ForceModel& model, pdu::HapticRecord& record) noex
   record.point = wire_vector(model.point);
   record.normal = wire_vector(model.normal);
   record.surface = model.surface;
+  record.grip_stiffness = model.grip;
   const double milliseconds = std::ceil(1e3 * model.validity - 1e-6);
   record.validity_ms =
       static_cast<std::uint16_t>(std::clamp(milliseconds, 0.0, kLongestValidity_ms));

@@ -211,7 +211,8 @@ Peer::Pressed Peer::pressed_of(const PeerOptions& options,
     config.patch_radius = scene_.hand.patch_radius;
     config.probe_radius = scene_.hand.radius;
     config.grab = scene_.hand.grab;
-    out.others = std::make_unique<haptics::PressingHands>(*bodies_, out.plan, config);
+    out.others =
+        std::make_unique<haptics::PressingHands>(*bodies_, out.plan, config, options.body_loan);
   }
   if (bodies_ != nullptr && devices.empty())
     out.handless = std::make_unique<SteppedBodies>(*bodies_);

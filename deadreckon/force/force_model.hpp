@@ -34,6 +34,7 @@ struct ForceModel {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< Centre or contact point, body axes [m].
   Eigen::Vector3d normal = -Eigen::Vector3d::UnitZ();  ///< Outwards, body axes, unit (body up).
   std::uint16_t surface = 0;                           ///< Identity of the touched surface.
+  std::uint16_t grip = 0;  ///< Stiffness of the spring that holds it [N/m]; 0: not stated.
   double validity = 0;  ///< Seconds for which the coefficients hold after the update.
 };
 

@@ -25,6 +25,16 @@ void Grab::take(std::size_t body, const GrabSpring& spring, const Vector3d& prob
   place_ = motion.orientation.conjugate() * (probe - motion.position);
 }
 
+void Grab::stiffen(double stiffness, EnergyLedger& ledger) noexcept {
+  if (!holds_ || stiffness == spring_.stiffness) return;
+  const double before = booked(), factor = stiffness / spring_.stiffness;
+  spring_.stiffness = stiffness;
+  force_ *= factor;
+  stored_ *= factor;
+  lent_ *= factor;
+  ledger.book(before - booked());
+}
+
 void Grab::release(EnergyLedger& ledger) noexcept {
   if (!holds_) return;
   // The energy lent for the body's motion is no storage.

@@ -24,6 +24,8 @@ class Grab {
   /// @param probe [m, S]  @param motion of the body
   void take(std::size_t body, const GrabSpring& spring, const Eigen::Vector3d& probe,
             const ObjectMotion& motion) noexcept;
+  /// Changes the stiffness [N/m] > 0 of the spring that holds a body, and books the change.
+  void stiffen(double stiffness, EnergyLedger& ledger) noexcept;
   /// Releases the body; the energy of the spring is lost.
   void release(EnergyLedger& ledger) noexcept;
   [[nodiscard]] bool holds() const noexcept { return holds_; }

@@ -121,6 +121,12 @@ struct ToolState {
   std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], positions
 };
 
+/// The body that a hand holds.
+struct HeldBody {
+  std::uint16_t number = 0;  ///< among the moving objects, plus 1; 0: it holds none
+  double stiffness = 0.0;    ///< [N/m], of the spring between them
+};
+
 /// Published result of one servo step.
 struct ServoSnapshot : AccountList {
   std::chrono::nanoseconds time{0};
@@ -142,7 +148,7 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
-  std::uint16_t held_body = 0;  ///< number of the body that it holds, plus 1; 0: none
+  HeldBody held;
   bool enabled = false;         ///< operator switch held, no trip pending, and not stopped
   bool stopped = false;         ///< the software stop held the force at zero in this step
   ToolState tool;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -115,9 +116,17 @@ void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes
     contacts.place(number, world_->states()[body], world_->state_before(body));
   };
   reach_ = reach_of(tool, contacts);
-  for (const std::uint32_t body : world_->near(hand_, reach_, period)) put(body);
-  for (std::size_t probe = 0; probe < tool.size(); ++probe)
-    if (contacts.grab(probe).holds()) put(contacts.grab(probe).body());
+  const std::span<const std::uint32_t> near = world_->near(hand_, reach_, period);
+  for (const std::uint32_t body : near) put(body);
+  for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+    const Grab& grab = contacts.grab(probe);
+    const auto is_held = [&](std::size_t before) {
+      return contacts.grab(before).holds() && contacts.grab(before).body() == grab.body();
+    };
+    if (!grab.holds() || std::ranges::find(near, grab.body()) != near.end()) continue;
+    const auto earlier = std::views::iota(std::size_t{0}, probe);
+    if (std::ranges::none_of(earlier, is_held)) put(grab.body());
+  }
 }
 
 template <int axes>
@@ -126,7 +135,9 @@ void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, 
   const BodyState& state = world_->states()[body];
   const auto pay = [&](const Vector3d& point, const Vector3d& force) {
     const Vector3d way = state.drawn + state.drawn_turn.cross(point - state.position);
-    const double paid = world_->take_from_guest(force.dot(way));
+    // It gives the others no more than it has: a long way releases less than the force times it.
+    const double most = std::max(0.0, ledger.level());
+    const double paid = world_->take_from_guest(std::max(force.dot(way), -most));
     ledger.book(paid);
     work_ -= paid;
   };
@@ -157,7 +168,7 @@ void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>
   const bool is_pressed = (pressed & buttons_) != 0;
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     Grab& grab = contacts.grab(probe);
-    const bool is_gone = grab.holds() && !world_->states()[grab.body()].is_owned();
+    const bool is_gone = grab.holds() && world_->states()[grab.body()].carried;
     if (is_gone || grab.tears() || (grab.holds() && by_[probe] && !is_pressed))
       grab.release(ledger);
     if (!grab.holds()) take(tool, contacts, probe, is_pressed);
@@ -173,7 +184,7 @@ void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>
   double most = 0.0;
   for (const std::uint32_t object : touched.touched) {
     const std::uint32_t i = body_of_[object];
-    if (i == kNoBody || !states[i].is_owned()) continue;
+    if (i == kNoBody || states[i].carried) continue;
     const double force = touched.objects[object].force.norm();
     const Hold& hold = holds_[i];
     const bool by_button = pressed && hold.by_button.stiffness > 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -32,13 +33,14 @@ constexpr double kReachAhead = 0.3;  // [s], of motion that a search covers
 }  // namespace
 
 PressingHands::PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan> plan,
-                             const ServoConfig& config)
+                             const ServoConfig& config, double loan)
     : world_(world),
       plan_(std::move(plan)),
       radius_(config.contact_radius),
       patch_(config.patch_radius),
       pad_(std::max(config.patch_radius, config.probe_radius)),
       period_(pdu::to_seconds(config.period)),
+      loan_(loan),
       grab_(config.grab),
       number_(world.add_guest(*this)) {
   for (Hand& hand : slots_)
@@ -68,7 +70,7 @@ PressingHands::Hand* PressingHands::slot_of(const RemoteHand& hand) noexcept {
   free->given = hand.given_to_us;
   free->ledger = {};
   free->grab = {};
-  free->ledger.borrow(kLoan);
+  free->ledger.borrow(loan_);
   return &*free;
 }
 
@@ -143,7 +145,8 @@ void PressingHands::settle() noexcept {
 }
 
 deadreckon::Pose PressingHands::predicted(const Hand& hand, nanoseconds now) const noexcept {
-  const double ahead = std::clamp(kLessAhead * (kFarDelay - hand.delay), 0.0, kMostAhead);
+  const double most = hand.record.model.surface > 0 ? 0.0 : kMostAhead;
+  const double ahead = std::clamp(kLessAhead * (kFarDelay - hand.delay), 0.0, most);
   const double age = pdu::to_seconds(now - hand.record.state_time);
   return deadreckon::extrapolate(hand.record.state, age - std::max(0.0, hand.delay - ahead));
 }
@@ -171,6 +174,12 @@ void PressingHands::move(Hand& hand, nanoseconds now) noexcept {
   } else {
     hand.place = there;
     hand.velocity = pose.velocity;
+    // A hand that was not here has bodies where it left them.
+    const std::span<const BodyState> states = world_.states();
+    for (std::uint32_t i = 0; i < states.size(); ++i) {
+      hand.walls->set_carried(i, states[i].carried);
+      hand.walls->place(i, states[i], states[i]);
+    }
     hand.walls->resume(pose.position, there, hand.ledger);
   }
   hand.walls->settle(dt, hand.ledger);
@@ -187,16 +196,15 @@ void PressingHands::hold_body(Hand& hand, const deadreckon::Pose& pose, double d
     hand.grab.release(hand.ledger);
   if (!may_hold) return;
   const BodyState& body = world_.states()[held - 1];
-  if (hand.grab.holds()) {
-    hand.grab.place(body);
-  } else {
-    const PlannedObject& object = plan_->objects()[body.object];
-    const GrabSpring& spring = grab_.stiffness > 0 ? grab_ : object.grab;
-    if (!(spring.stiffness > 0)) return;
-    constexpr double kNoCap = std::numeric_limits<double>::infinity();
-    hand.grab.take(held - 1, held_by(spring, object.matter.mass, period_, kNoCap), pose.position,
-                   body);
-  }
+  const PlannedObject& object = plan_->objects()[body.object];
+  GrabSpring spring = grab_.stiffness > 0 ? grab_ : object.grab;
+  if (hand.record.model.grip > 0) spring.stiffness = hand.record.model.grip;
+  if (!(spring.stiffness > 0)) return;
+  constexpr double kNoCap = std::numeric_limits<double>::infinity();
+  spring = held_by(spring, object.matter.mass, period_, kNoCap);
+  if (!hand.grab.holds()) hand.grab.take(held - 1, spring, pose.position, body);
+  hand.grab.place(body);
+  hand.grab.stiffen(spring.stiffness, hand.ledger);
   hand.grab.move(hand.place, hand.ledger);
   hand.grab.settle(dt, hand.ledger);
 }

@@ -37,7 +37,7 @@ class PressingLedger final : public EnergyLedger {
 ///
 /// A prediction over a long delay makes two hands at one body swing, because each answers the
 /// other's predicted answer. So a hand is predicted from the arrival of its state on, and over at
-/// most kMostAhead of the delay.
+/// most kMostAhead of the delay; not at all while it holds a body.
 ///
 /// Servo thread; allocates at construction only. A step costs a contact search for each hand near a
 /// body, and nothing but a look at the list without one.
@@ -45,14 +45,15 @@ class PressingHands final : public BodyGuest {
  public:
   /// Hands that press at the same time; the others are left out.
   static constexpr std::size_t kMost = 8;
-  /// Loan of a hand [J].
+  /// Usual loan of a hand [J].
   static constexpr double kLoan = 0.02;
   static constexpr double kMostAhead = 0.02;  ///< [s]; less from a delay of 50 ms on, 0 at 100 ms
 
   /// @param world without a step so far; this outlives its last step @param plan not null
   /// @param config of the servos: period, radii, and the spring that holds a body
-  PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan> plan,
-                const ServoConfig& config);
+  /// @param loan of each hand [J]; infinity: no ledger limits it
+  PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
+                double loan = kLoan);
 
   void step(std::chrono::nanoseconds now, bool frozen) noexcept override;
   [[nodiscard]] bool is_pending() noexcept override;
@@ -100,7 +101,7 @@ class PressingHands final : public BodyGuest {
 
   BodyWorld& world_;
   std::shared_ptr<const EffectPlan> plan_;
-  double radius_, patch_, pad_, period_;  // [m], [m], [m], [s]
+  double radius_, patch_, pad_, period_, loan_;  // [m], [m], [m], [s], [J]
   GrabSpring grab_;
   std::size_t number_;  // of the guest in the world
   TripleBuffer<HandList> hands_;

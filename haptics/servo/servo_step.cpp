@@ -324,7 +324,9 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.mesh_normal = mesh.normal;
   out.mesh_patch = mesh.in_contact ? mesh.objects[mesh.deepest].patch : 0;
   out.in_mesh_contact = mesh.in_contact;
-  out.held_body = held == nullptr ? 0 : static_cast<std::uint16_t>(held->body() + 1);
+  out.held = held == nullptr
+                 ? HeldBody{}
+                 : HeldBody{static_cast<std::uint16_t>(held->body() + 1), held->stiffness()};
   out.spring_share = held_.springs;
   out.crowd_share = springs_.crowd_share();
   out.extra_share = held_.extra;

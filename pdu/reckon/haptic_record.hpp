@@ -30,7 +30,7 @@ struct HapticRecord {
   std::uint8_t flags = 0;         ///< none in version 1: sent as 0, ignored on reception
   std::uint16_t surface = 0;      ///< surface id in the scene; 0 = not stated
   std::uint16_t validity_ms = 0;  ///< [ms], validity after the Entity State's time
-  std::uint16_t padding = 0;
+  std::uint16_t grip_stiffness = 0;  ///< [N/m], of the spring that holds `surface`; 0 = not stated
   float k1 = 0.0F;       ///< linear stiffness [N/m]
   float k3 = 0.0F;       ///< cubic stiffness [N/m^3]
   float damping = 0.0F;  ///< [N s/m]
@@ -52,7 +52,7 @@ constexpr void fields(auto& visitor, Is<HapticRecord> auto& record) {
   visitor("flags", record.flags);
   visitor("surface", record.surface);
   visitor("validity_ms", record.validity_ms);
-  visitor("padding", record.padding);
+  visitor("grip_stiffness", record.grip_stiffness);
   visitor("k1", record.k1);
   visitor("k3", record.k3);
   visitor("damping", record.damping);

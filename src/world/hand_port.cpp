@@ -82,7 +82,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   trend_.note(snapshot.time, snapshot.velocity);
   at_body_ = snapshot.tally.at_bodies > std::exchange(at_bodies_, snapshot.tally.at_bodies) ||
-             snapshot.held_body > 0;
+             snapshot.held.number > 0;
   note_touch(entity);
   smooth_velocity();
   read_accounts(entity.id());
@@ -91,7 +91,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
     touch->move_point(orientation().conjugate() * (snapshot.device - snapshot.scp));
     touch->soften(snapshot.softening);
-    if (touch->hold(snapshot.held_body)) entity.felt_event();
+    if (touch->hold(snapshot.held.number, snapshot.held.stiffness)) entity.felt_event();
   }
   consider_accounts(entity);
   if (touching_) felt_at_ = snapshot.time;
@@ -136,7 +136,7 @@ void HandPort::keep_handle(OwnedEntity& entity) const noexcept {
   if (entity.is_frozen() || entity.touch() == nullptr) return;
   const nanoseconds silence = servo().time - entity.last_built();
   if (silence < kAtBodyGap) return;
-  const bool is_alone = servo().count == 0;
+  const bool is_alone = servo().count == 0 && servo().held.number == 0;
   const double most = is_alone ? kAlone * kHandleMiss : kHandleMiss;
   const nanoseconds longest = is_alone ? kAlonePeriod : kAtBodyPeriod;
   const deadreckon::Pose truth{servo().scp, orientation()};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -78,8 +79,10 @@ class TouchSide {
   /// Moves the model's point within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
 
-  /// Sets the surface that it holds; 0: none. @return whether that is new
-  bool hold(std::uint16_t surface) noexcept {
+  /// Sets the surface that it holds; 0: none. @param stiffness of the spring that holds it [N/m]
+  /// @return whether the surface is new
+  bool hold(std::uint16_t surface, double stiffness) noexcept {
+    model_.grip = static_cast<std::uint16_t>(std::clamp(std::round(stiffness), 0.0, 65535.0));
     return std::exchange(model_.surface, surface) != surface;
   }
 

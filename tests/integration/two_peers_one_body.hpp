@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +26,8 @@ struct OneBody {
   double mass = 1.0;       ///< [kg]
   double stiffness = 500;  ///< [N/m]
   double side = 0.08;      ///< [m], of the cube
+  double length = 0.0;     ///< [m], along x; 0: the side
+  double hand = 300;       ///< [N/m], of the people's hands
   double drag = 0.0;       ///< [N s/m]
   bool is_heavy = false;   ///< it lies on a floor; else there is no weight
   double seconds = 5.0;    ///< length of the run
@@ -31,6 +35,12 @@ struct OneBody {
   std::array<haptics::HandScript, 2> laws{};
 
   [[nodiscard]] double half() const { return 0.5 * side; }
+  [[nodiscard]] Eigen::Vector3d inertia() const {
+    const double along = length > 0 ? length : side;
+    return mass / 12 *
+           Eigen::Vector3d(2 * side * side, along * along + side * side,
+                           along * along + side * side);
+  }
   [[nodiscard]] std::string scene() const;
 };
 
@@ -49,7 +59,10 @@ struct OneBodyLine {
   double delay = 0.0;  ///< [s], one way, +-15 %
   double loss = 0.0;
   std::uint64_t seed = 1;
-  bool requests_at_touch = false;  ///< see PeerOptions
+  bool requests_at_touch = false;               ///< see PeerOptions
+  double loan = haptics::PressingHands::kLoan;  ///< [J], see PeerOptions::body_loan
+  double late = 0.0;                            ///< share of the servo steps that are left out
+  std::array<double, 2> outage{};               ///< [s], from and to
 };
 
 /// Target that moves smoothly from 0 to 1 between two times.
@@ -70,7 +83,8 @@ inline std::string OneBody::scene() const {
         "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nbody_friction = 0.6\n"
         "surface = {stiffness = \"500 N/m\"}\n";
   const std::string edge = std::to_string(1e3 * side);
-  text += "[[object]]\nname = \"cube\"\nbox = \"" + edge + " " + edge + " " + edge +
+  const std::string along = length > 0 ? std::to_string(1e3 * length) : edge;
+  text += "[[object]]\nname = \"cube\"\nbox = \"" + along + " " + edge + " " + edge +
           " mm\"\nposition = [0, 0, " + std::to_string(is_heavy ? half() : 0.0) +
           "]\nmass = " + std::to_string(mass) +
           "\nbody_friction = 0.6\nbody_drag = " + std::to_string(drag) +
@@ -92,9 +106,16 @@ class OneBodyRun {
   /// The same of the mean forces of the last second, of the worse hand.
   [[nodiscard]] double steady_error(const OneBodyRun& truth) const;
   [[nodiscard]] double peak() const;
+  /// Greatest change of the second hand's force within a millisecond [N], in the 50 ms after its
+  /// peer gets the body.
+  [[nodiscard]] double step_at_change() const;
+  /// Way of the body within the second from `begin` [s] on, up and down [m].
+  [[nodiscard]] double swing(double begin) const;
   [[nodiscard]] double least_energy() const {
     return std::ranges::min(steps_, {}, &OneBodyStep::energy).energy;
   }
+  /// Least energy of the port of a hand, with what it may have lost by late steps [J].
+  [[nodiscard]] double least_port(std::size_t hand);
   /// Time of the first force on a hand [ms], and since when its peer has owned the body then.
   [[nodiscard]] std::pair<std::size_t, std::size_t> touch_of(std::size_t hand) const;
 
@@ -115,10 +136,13 @@ class OneBodyRun {
 inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneBodyLine& line)
     : network_({.links = 2, .seed = line.seed}, clock_), scene_(scene_of(body.scene())) {
   const auto delay = nanoseconds(std::llround(1e9 * line.delay));
-  network_.impair(line_of(delay * 85 / 100, delay * 3 / 10, line.loss));
+  const auto impair = [&](double loss) {
+    network_.impair(line_of(delay * 85 / 100, delay * 3 / 10, loss));
+  };
+  impair(line.loss);
   for (std::size_t i = 0; i < 2; ++i) {
     haptics::SimulatedDeviceConfig config;
-    config.hand_stiffness = 300;
+    config.hand_stiffness = body.hand;
     config.max_force = 20;
     config.start = body.laws[i](0).position;
     const auto late = [law = body.laws[i]](double t) { return law(std::max(0.0, t - kBegin)); };
@@ -134,16 +158,24 @@ inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneB
         static_cast<std::uint32_t>(std::chrono::duration_cast<seconds>(clock_.utc_now()).count());
     own.scene_peer = static_cast<std::uint8_t>(i + 1);
     own.requests_at_touch = line.requests_at_touch;
+    own.body_loan = line.loan;
     const std::span<const peer::PeerDevice> all(devices);
     peers_.push_back(std::make_unique<peer::Peer>(scene_, own, network_.link(i),
                                                   peers == 1 ? all : all.subspan(i, 1)));
     peers_.back()->start(clock_.now());
   }
   const auto count = static_cast<std::size_t>(1000 * (kBegin + body.seconds));
+  std::mt19937 random(static_cast<std::uint32_t>(line.seed));
+  std::bernoulli_distribution is_late(line.late);
   for (std::size_t i = 0; i < count; ++i) {
     clock_.advance(milliseconds(1));
+    const double time = 1e-3 * static_cast<double>(i) - kBegin;
+    if (line.outage[1] > 0) {
+      const bool is_cut = time >= line.outage[0] && time < line.outage[1];
+      impair(is_cut ? 1.0 : line.loss);
+    }
     for (const auto& peer : peers_) {
-      peer->servo_step(clock_.now());
+      if (!is_late(random)) peer->servo_step(clock_.now());
       peer->read_step(clock_.now());
       peer->model_step(clock_.now(), clock_.utc_now());
       peer->write_step();
@@ -162,6 +194,8 @@ inline void OneBodyRun::record(const OneBody& body) {
     step.place = state.position;
     step.turned = state.orientation;
     step.energy = -0.5 * body.mass * state.velocity.squaredNorm();
+    const Eigen::Vector3d turning = state.orientation.conjugate() * state.turn_rate;
+    step.energy -= 0.5 * turning.cwiseAbs2().dot(body.inertia());
     if (body.is_heavy) step.energy -= body.mass * 9.81 * (state.position.z() - body.half());
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -199,6 +233,29 @@ inline double OneBodyRun::peak() const {
   for (const OneBodyStep& step : steps_)
     for (const Eigen::Vector3d& force : step.force) most = std::max(most, force.norm());
   return most;
+}
+
+inline double OneBodyRun::least_port(std::size_t hand) {
+  const bool is_alone = peers_.size() == 1;
+  peer::Peer& peer = *peers_[is_alone ? 0 : hand];
+  peer.views().update();
+  const haptics::ServoSnapshot& servo = peer.views().read().hands[is_alone ? hand : 0].servo;
+  return servo.port_energy_min + servo.late_cost;
+}
+
+inline double OneBodyRun::step_at_change() const {
+  const auto at = std::ranges::find(steps_, 1, &OneBodyStep::owner);
+  double most = 0.0;
+  for (auto step = at; step != steps_.end() && step < at + 50; ++step)
+    most = std::max(most, (step->force[1] - (step - 1)->force[1]).norm());
+  return most;
+}
+
+inline double OneBodyRun::swing(double begin) const {
+  const auto from = steps_.begin() + std::lround(1000 * begin);
+  const auto height = [](const OneBodyStep& step) { return step.place.z(); };
+  const auto [least, most] = std::ranges::minmax(std::span(from, 1000), {}, height);
+  return height(most) - height(least);
 }
 
 inline std::pair<std::size_t, std::size_t> OneBodyRun::touch_of(std::size_t hand) const {

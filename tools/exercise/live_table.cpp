@@ -79,7 +79,7 @@ bool is_cut(const haptics::ServoSnapshot& servo) {
 // grabs.
 bool is_felt(const haptics::ServoSnapshot& servo) {
   constexpr double kLeastShown = 0.005;  // [N]
-  return servo.in_mesh_contact || servo.held_body > 0 || servo.force.norm() >= kLeastShown;
+  return servo.in_mesh_contact || servo.held.number > 0 || servo.force.norm() >= kLeastShown;
 }
 
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {

@@ -20,6 +20,7 @@ struct UnitRow {
 constexpr std::array kUnits{
     UnitRow{"WorldCoordinates", "", "m"},
     UnitRow{"EulerAngles", "", "rad"},
+    UnitRow{"HapticRecord", "grip_stiffness", "N/m"},
     UnitRow{"HapticRecord", "k1", "N/m"},
     UnitRow{"HapticRecord", "k3", "N/m^3"},
     UnitRow{"HapticRecord", "damping", "N s/m"},

@@ -43,7 +43,7 @@ ToolMark tool_mark(std::uint16_t index, const ServoSnapshot& step) {
 }
 
 bool is_in_contact(const ServoSnapshot& step) {
-  return step.in_mesh_contact || step.held_body > 0 ||
+  return step.in_mesh_contact || step.held.number > 0 ||
          std::any_of(step.contacts.begin(),
                      step.contacts.begin() + static_cast<std::ptrdiff_t>(step.count), touches);
 }

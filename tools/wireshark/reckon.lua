@@ -615,7 +615,7 @@ local OWN = {
     { "flags", 9, 1, "u8" },
     { "surface", 10, 2, "u16" },
     { "validity_ms", 12, 2, "u16" },
-    { "padding", 14, 2, "u16" },
+    { "grip_stiffness", 14, 2, "u16" },
     { "k1", 16, 4, "f32" },
     { "k3", 20, 4, "f32" },
     { "damping", 24, 4, "f32" },

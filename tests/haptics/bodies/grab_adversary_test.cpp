@@ -115,12 +115,12 @@ TEST(Grab, MakesNoEnergyUnderForceLimits) {
         const double loss = devices[s]->damping_loss();
         if (touches[s]) damped[s] += loss - before[s];
         before[s] = loss;
-        touches[s] = step.in_mesh_contact || step.held_body > 0 || !step.force.isZero(0.0);
+        touches[s] = step.in_mesh_contact || step.held.number > 0 || !step.force.isZero(0.0);
         taken += devices[s]->port_work() + damped[s];
         allowed += step.loan_most + step.late_cost + step.encoder_allowance;
         loan = std::max(loan, step.loan_most);
         touched += touches[s] ? 1 : 0;
-        grabbed += step.held_body > 0 ? 1 : 0;
+        grabbed += step.held.number > 0 ? 1 : 0;
         ASSERT_GE(step.port_energy_min, -1e-9 - step.late_cost) << "seed " << seed;
       }
       held += grabbed > 0 ? kT : 0.0;

@@ -81,12 +81,12 @@ TEST(Grab, BodyHangsBelowTheHandByItsWeight) {
   std::optional<double> begun;
   for (int i = 0; i < 8'000; ++i) {
     const ServoSnapshot& step = rig.step();
-    if (step.held_body > 0 && !begun) begun = step.device.z() - rig.body().position.z();
+    if (step.held.number > 0 && !begun) begun = step.device.z() - rig.body().position.z();
     ASSERT_GE(step.port_energy_min, -1e-9 - step.loan_most);
   }
   ASSERT_TRUE(begun);
   const ServoSnapshot& last = rig.step();
-  EXPECT_EQ(last.held_body, 1);
+  EXPECT_EQ(last.held.number, 1);
   EXPECT_GT(rig.body().position.z(), 0.1);
   const double sag = last.device.z() - rig.body().position.z() - *begun;
   EXPECT_NEAR(sag, kMass * 9.81 / kSpring, 0.01 * kMass * 9.81 / kSpring);
@@ -109,7 +109,7 @@ TEST(Grab, NeedsTheButtonAndReleasesTheBody) {
   }
   EXPECT_GT(highest, 0.15);
   EXPECT_NEAR(rig.body().position.z(), kHalf, 1e-4);
-  EXPECT_EQ(rig.step().held_body, 0);
+  EXPECT_EQ(rig.step().held.number, 0);
 
   const auto other = [](double t) {
     HandTarget out = lifts(t);
@@ -117,7 +117,7 @@ TEST(Grab, NeedsTheButtonAndReleasesTheBody) {
     return out;
   };
   Rig idle(cube_on_floor(0.1), device_at({0, 0, 0.05}), holding(250, 0.5), other);
-  for (int i = 0; i < 4'000; ++i) EXPECT_EQ(idle.step().held_body, 0);
+  for (int i = 0; i < 4'000; ++i) EXPECT_EQ(idle.step().held.number, 0);
   EXPECT_NEAR(idle.body().position.z(), kHalf, 1e-4);
 }
 
@@ -218,18 +218,18 @@ TEST(Grab, StickingBodyIsTornOffAtItsLimit) {
   bool stuck = false;
   for (int i = 0; i < 4'000; ++i) {
     const ServoSnapshot& step = rig.step();
-    stuck |= step.held_body > 0;
+    stuck |= step.held.number > 0;
     most = std::max(most, -step.force.z());
   }
   EXPECT_TRUE(stuck);
   EXPECT_NEAR(most, 1.5, 0.05);
-  EXPECT_EQ(rig.step().held_body, 0);
+  EXPECT_EQ(rig.step().held.number, 0);
   EXPECT_NEAR(rig.body().position.z(), kHalf, 1e-4);
 
   scene.objects[0].grab.most = 8.0;
   Rig held(scene, device_at({0, 0, 0.05}), ServoConfig{}, lift);
   for (int i = 0; i < 4'000; ++i) held.step();
-  EXPECT_EQ(held.step().held_body, 1);
+  EXPECT_EQ(held.step().held.number, 1);
   EXPECT_GT(held.body().position.z(), 0.1);
 }
 
@@ -237,12 +237,12 @@ TEST(Grab, StickingBodyIsTornOffAtItsLimit) {
 TEST(Grab, CutForceReleasesTheBody) {
   Rig rig(cube_on_floor(0.1), device_at({0, 0, 0.05}), holding(250, 0.5), lifts);
   for (int i = 0; i < 3'000; ++i) rig.step();
-  ASSERT_EQ(rig.step().held_body, 1);
+  ASSERT_EQ(rig.step().held.number, 1);
   rig.device.plug(false);
   for (int i = 0; i < 100; ++i) rig.step();
   rig.device.plug(true);
   for (int i = 0; i < 2'000; ++i) rig.step();
-  EXPECT_EQ(rig.step().held_body, 0) << "the button is still pressed, but nothing is touched";
+  EXPECT_EQ(rig.step().held.number, 0) << "the button is still pressed, but nothing is touched";
   EXPECT_NEAR(rig.body().position.z(), kHalf, 1e-4);
 }
 
@@ -251,7 +251,7 @@ TEST(Grab, HoldsBodiesOnly) {
   Scene scene = cube_on_floor(0.1);
   scene.objects[0].matter.mass = 0.0;
   Rig rig(scene, device_at({0, 0, 0.05}), holding(250, 0.5), lifts);
-  for (int i = 0; i < 4'000; ++i) EXPECT_EQ(rig.step().held_body, 0);
+  for (int i = 0; i < 4'000; ++i) EXPECT_EQ(rig.step().held.number, 0);
 }
 
 // Two probes of a turning tool hold a bar at both ends, and turn it.
@@ -289,7 +289,7 @@ TEST(Grab, TurningToolTurnsTheHeldBody) {
     ASSERT_GE(servo.snapshots().read().port_energy_min, -1e-9);
   }
   const double turned = Eigen::AngleAxisd(world->states()[0].orientation).angle();
-  EXPECT_TRUE(servo.snapshots().read().held_body > 0);
+  EXPECT_TRUE(servo.snapshots().read().held.number > 0);
   EXPECT_NEAR(turned, 0.8, 0.03);
 }
 

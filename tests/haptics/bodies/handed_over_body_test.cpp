@@ -80,13 +80,13 @@ HandTarget shoves(double t) {
 TEST(HandedOverBody, IsReleasedByTheHand) {
   Rig rig(lifts);
   for (int i = 0; i < 2'000; ++i) ASSERT_GE(rig.step().port_energy_min, -1e-9);
-  ASSERT_EQ(rig.step().held_body, 1);
+  ASSERT_EQ(rig.step().held.number, 1);
   const double height = rig.cube().position.z();
   ASSERT_GT(height, 0.05);
   rig.world->disown(0);
-  EXPECT_EQ(rig.step().held_body, 0);
+  EXPECT_EQ(rig.step().held.number, 0);
   for (int i = 0; i < 500; ++i) ASSERT_GE(rig.step().port_energy_min, -1e-9);
-  EXPECT_EQ(rig.step().held_body, 0) << "a hand holds only bodies of its own peer";
+  EXPECT_EQ(rig.step().held.number, 0) << "a hand holds only bodies that its peer simulates";
   EXPECT_NEAR(rig.cube().position.z(), height, 1e-3);
   rig.world->own(0, rig.cube());
   for (int i = 0; i < 100; ++i) ASSERT_GE(rig.step().port_energy_min, -1e-9);

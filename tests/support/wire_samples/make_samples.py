@@ -107,7 +107,7 @@ def attribute():
     s.octets("set 1: entity 100:7:3, 2 records", struct.pack(">4H", 100, 7, 3, 2))
     s.octets("haptic: type, length", struct.pack(">IH", 0x48415001, 72))
     s.octets("version, kind, order, flags", bytes((1, 2, 3, 0)))
-    s.octets("surface, validity ms, padding", struct.pack(">3H", 17, 12000, 0))
+    s.octets("surface, validity ms, grip stiffness", struct.pack(">3H", 17, 12000, 170))
     s.octets("k1 k3 damping mass", struct.pack(">4f", 800.0, 2.5e6, 1.5, 0.25))
     s.octets("point", struct.pack(">3f", 0.01, -0.02, 0.03))
     s.octets("normal", struct.pack(">3f", 0.0, 0.0, -1.0))
@@ -125,7 +125,7 @@ def attribute():
     s.values["attribute_record_sets"] = [
         {"entity_id": ids(100, 7, 3), "number_of_attribute_records": 2, "attribute_records": [
             {"record_type": 0x48415001, "record_length": 72, "version": 1, "kind": 2, "order": 3,
-             "flags": 0, "surface": 17, "validity_ms": 12000, "padding": 0, "k1": 800.0, "k3": 2.5e6,
+             "flags": 0, "surface": 17, "validity_ms": 12000, "grip_stiffness": 170, "k1": 800.0, "k3": 2.5e6,
              "damping": 1.5, "mass": 0.25, "point": xyz(0.01, -0.02, 0.03), "normal": xyz(0, 0, -1),
              "static_friction": 0.5, "kinetic_friction": 0.25, "restitution": 0.75, "radius": 0.0625},
             {"record_type": 0x48415003, "record_length": 24, "counterpart": ids(200, 1, 9),
