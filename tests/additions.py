@@ -133,7 +133,7 @@ THINGS = [
     ("study", "euler", {"bench/studies/euler/README.md": "# euler\n\nThe study of a step's error.\n", "bench/studies/euler/study.cpp": STUDY}, STUDIES, [
         (STUDIES, "std::unique_ptr<Study> latency_study();", "std::unique_ptr<Study> euler_study();\nstd::unique_ptr<Study> latency_study();"),
         (STUDIES, "kStudies{\n", 'kStudies{\n    StudyKind{"euler", "error of a step", "", "reckon bench euler --json", euler_study},\n'),
-        ("bench/" + CMAKE, "  studies/force/", "  studies/euler/study.cpp\n  studies/force/")]),
+        ("bench/" + CMAKE, " studies/force/", " studies/euler/study.cpp\n  studies/force/")]),
     ("effect", "molasses", {"haptics/effects/molasses.hpp": EFFECT}, EFFECTS, [
         (EFFECTS, "#include <type_traits>\n", '#include <type_traits>\n#include "reckon/haptics/effects/molasses.hpp"\n'),
         (EFFECTS, "TapVibration>;", "TapVibration, Molasses>;"),
