@@ -177,8 +177,9 @@ bool BodyEngine::obey(const BodyOrder& order, ObjectMotion& was) noexcept {
   if (order.body < book_.now().size()) was = slots.motion_of(order.body);
   if (!ordered_.admits(order)) return false;
   const bool goes_on = copied_.contains(order.body) && order.act != BodyAct::follow;
-  const bool is_put = !goes_on && (order.act == BodyAct::own || order.act == BodyAct::place ||
-                                   order.act == BodyAct::copy);
+  const bool begins = order.act == BodyAct::own || order.act == BodyAct::adopt ||
+                      order.act == BodyAct::place || order.act == BodyAct::copy;
+  const bool is_put = begins && !goes_on;
   if (is_put) wake_near(order.body);
   const bool is_left = order.act == BodyAct::disown || order.act == BodyAct::follow;
   ordered_.carry_out(order, is_left ? slots.slot_of(order.body) : slot_for(order.body));

@@ -25,14 +25,15 @@ enum class BodyAct : std::uint8_t {
   place,   ///< puts it into `state`, and wakes it
   copy,    ///< simulates a copy of it, from `state` on, and draws that to the mover's poses
   follow,  ///< ends the copy: its mover carries the body
+  adopt,   ///< `own` of a body that nobody simulates: a copy gets the velocities of `state`
 };
 
-/// An order to one body. Except for `own`, `copy` and `follow`, an order to a body that this peer
+/// An order to one body. Except for `own`, `adopt`, `copy` and `follow`, an order to a body that this peer
 /// does not own has no effect.
 struct BodyOrder {
   BodyAct act = BodyAct::wake;
   std::uint32_t body = 0;
-  ObjectMotion state{};                               ///< for `own`, `copy`, `place`; frame S
+  ObjectMotion state{};                               ///< for `own`, `adopt`, `copy`, `place`; frame S
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s], S
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m], S, where the impulse acts
   double delay = 0.0;                                 ///< [s], of the mover's poses; for `copy`

@@ -44,7 +44,7 @@ void CopiedBodies::draw(std::chrono::nanoseconds now, double gap) noexcept {
     const Eigen::AngleAxisd turn(turned * here.orientation.conjugate());
     copy.way = share * (there.position - here.position);
     copy.turn = turn.angle() * turn.axis();
-    body.shift(copy.way, turned);
+    is_lost ? body.start(there) : body.shift(copy.way, turned);
   }
 }
 

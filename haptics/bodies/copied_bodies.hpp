@@ -13,13 +13,14 @@
 namespace reckon::haptics {
 
 /// A copy is pushed like an owned body, and drawn to its owner's poses: its distance to them decays
-/// within kDelays times their delay. The draw changes its pose and no velocity. Servo thread;
+/// within kDelays times their delay. The draw changes its pose and no velocity, because the same
+/// hands push both. Servo thread;
 /// allocates at construction only.
 class CopiedBodies {
  public:
   static constexpr double kDelays = 4.0;
   static constexpr double kLeast = 0.08;  ///< [s], time constant of the draw without a delay
-  /// Farther from the owner's pose than this, the copy is put there [m].
+  /// Farther from the owner's pose than this [m], the copy is put there, with the owner's velocity.
   static constexpr double kFarthest = 0.05;
 
   /// Both outlive this.

@@ -30,6 +30,7 @@ bool OrderedBodies::admits(const BodyOrder& order) const noexcept {
   const bool is_owned = !kind.is_carried && !is_copied;
   switch (order.act) {
     case BodyAct::own:
+    case BodyAct::adopt:
       return kind.can_be_owned && is_usable(order.state);
     case BodyAct::copy:
       return kind.can_be_owned && !is_owned && is_usable(order.state);
@@ -62,6 +63,13 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
     if (has_slot) slots_[slot].strike(order.impulse, order.point);
   } else if (order.act == BodyAct::own && is_copied) {
     copied_.remove(order.body);
+  } else if (order.act == BodyAct::adopt && is_copied) {
+    // The copy stays where its hands feel it, but it may have fallen or been pushed for long.
+    copied_.remove(order.body);
+    ObjectMotion state = slots_.motion_of(order.body);
+    state.velocity = order.state.velocity;
+    state.turn_rate = order.state.turn_rate;
+    if (has_slot) slots_[slot].start(state);
   } else if (order.act == BodyAct::copy && is_copied) {
     copied_.add(order.body, order.delay);
   } else if (order.act != BodyAct::copy || has_slot) {

@@ -147,7 +147,9 @@ haptics::BodyOrder BodyHandOvers::order_for(std::size_t body, haptics::BodyAct a
   haptics::BodyOrder order;
   order.body = static_cast<std::uint32_t>(body);
   order.act = act;
-  if (act == haptics::BodyAct::own || act == haptics::BodyAct::copy) {
+  const bool begins = act == haptics::BodyAct::own || act == haptics::BodyAct::adopt ||
+                      act == haptics::BodyAct::copy;
+  if (begins) {
     order.state = granted_[body] ? granted_motion(body)
                                  : stages_.bodies.motion_now(body, stages_.remote, pass_.now);
   }
@@ -160,7 +162,7 @@ std::optional<haptics::BodyAct> BodyHandOvers::act_for(
     std::size_t body, const haptics::BodyState& state) const noexcept {
   if (protocol_.owns(body, pass_.now)) {
     if (state.is_owned() || !can_own(body)) return std::nullopt;
-    return haptics::BodyAct::own;
+    return granted_[body] ? haptics::BodyAct::own : haptics::BodyAct::adopt;
   }
   if (state.is_owned()) return haptics::BodyAct::disown;
   if (state.copied && !copies(body)) return haptics::BodyAct::follow;

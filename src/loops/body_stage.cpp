@@ -106,7 +106,13 @@ void BodyStage::note_place(std::size_t body, const pdu::EntityState& state) noex
 haptics::ObjectMotion BodyStage::motion_now(std::size_t body, const RemoteEntities& remote,
                                             nanoseconds now) const noexcept {
   const RemoteEntity* row = remote.find(body_id(body));
-  if (row != nullptr) return motion_of(row->shown(now));
+  if (row != nullptr) {
+    deadreckon::Pose pose = row->predicted(now);
+    const deadreckon::Pose shown = row->shown(pose, now);
+    pose.position = shown.position;
+    pose.orientation = shown.orientation;
+    return motion_of(pose);
+  }
   haptics::ObjectMotion motion = states()->bodies[body];
   if (!stated_[body]) return motion;
   deadreckon::Pose pose;
