@@ -3,7 +3,8 @@
 // A peer with the simulated hands of a scene that prints its forces fifty times a second:
 //   feeler SCENE INTERFACE OPERATOR NAME SECONDS
 // A JSON line each time: seconds since the start, force [N] of the hand with the greatest force,
-// and position [m] of the first remote entity, if any; lines with "notice"; then the losses of the
+// force [N] on the own first hand and the servo's time of it [s], number of owned bodies, and
+// position [m] of the first remote entity, if any; lines with "notice"; then the losses of the
 // link, and the last line of `reckon peer --json`.
 #include <fmt/format.h>
 
@@ -28,6 +29,9 @@ void tell(const peer::PeerView& view, double seconds) {
   for (std::size_t i = 0; i < view.count; ++i) force = std::max(force, view.rows[i].force_n);
   fmt::print("{{\"seconds\":{:.4f},\"entities\":{},\"force\":{:.4f}", seconds, view.entities,
              force);
+  const Eigen::Vector3d& felt = view.servo().force;
+  fmt::print(",\"felt\":[{:.4f},{:.4f},{:.4f}],\"felt_s\":{:.4f},\"bodies\":{}", felt.x(), felt.y(),
+             felt.z(), pdu::to_seconds(view.servo().time - view.started), view.bodies);
   if (view.count > 0) {
     const Eigen::Vector3d& place = view.rows[0].position;
     fmt::print(",\"place\":[{:.5f},{:.5f},{:.5f}]", place.x(), place.y(), place.z());
