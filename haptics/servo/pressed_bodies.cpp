@@ -135,9 +135,10 @@ void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, 
   const BodyState& state = world_->states()[body];
   const auto pay = [&](const Vector3d& point, const Vector3d& force) {
     const Vector3d way = state.drawn + state.drawn_turn.cross(point - state.position);
-    // It gives the others no more than it has: a long way releases less than the force times it.
-    const double most = std::max(0.0, ledger.level());
-    const double paid = world_->take_from_guest(std::max(force.dot(way), -most));
+    // It gives the others no more than it has, and the rest later.
+    const double wanted = force.dot(way) - owed_;
+    const double paid = world_->take_from_guest(std::max(wanted, -std::max(0.0, ledger.level())));
+    owed_ = wanted < 0 ? paid - wanted : 0.0;
     ledger.book(paid);
     work_ -= paid;
   };

@@ -104,6 +104,7 @@ class PressedBodiesOf {
   bool foresaw_ = false;     // the last step had a push
   std::vector<Gift> gifts_;  // by push of the last period
   double work_ = 0.0;
+  double owed_ = 0.0;  // [J], to the hands of other peers
 };
 
 }  // namespace reckon::haptics
