@@ -26,6 +26,7 @@ HapticRecord sphere() {
   record.order = 3;
   record.surface = 17;
   record.validity_ms = 12000;
+  record.grip_stiffness = 170;
   record.k1 = 800.0F;
   record.k3 = 2.5e6F;
   record.damping = 1.5F;

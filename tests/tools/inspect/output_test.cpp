@@ -123,7 +123,7 @@ TEST(InspectJson, WritesForceModelsAndEnergyAccounts) {
       R"({"frame":1,"pdu":2,"offset":144,"time":0.000000000,"type":"attribute","type_number":72,)"
       R"("length":136,"status":"ok","id":"1:2:3","haptic":[{"id":"1:2:3","record_type":1212239873,)"
       R"("record_length":72,"version":1,"kind":2,"order":0,"flags":0,"surface":0,)"
-      R"("validity_ms":12000,"padding":0,"k1":800,"k3":0,"damping":2,"mass":0,)"
+      R"("validity_ms":12000,"grip_stiffness":0,"k1":800,"k3":0,"damping":2,"mass":0,)"
       R"("point":{"x":0,"y":0,"z":0},"normal":{"x":0,"y":0,"z":0},"static_friction":0.4,)"
       R"("kinetic_friction":0.3,"restitution":0,"radius":0.02}],"energy":[{"id":"1:2:3",)"
       R"("record_type":1212239875,"record_length":24,)"
