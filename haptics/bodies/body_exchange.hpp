@@ -28,12 +28,12 @@ enum class BodyAct : std::uint8_t {
   adopt,   ///< `own` of a body that nobody simulates: a copy gets the velocities of `state`
 };
 
-/// An order to one body. Except for `own`, `adopt`, `copy` and `follow`, an order to a body that this peer
-/// does not own has no effect.
+/// An order to one body. Except for `own`, `adopt`, `copy` and `follow`, an order to a body that
+/// this peer does not own has no effect.
 struct BodyOrder {
   BodyAct act = BodyAct::wake;
   std::uint32_t body = 0;
-  ObjectMotion state{};                               ///< for `own`, `adopt`, `copy`, `place`; frame S
+  ObjectMotion state{};  ///< for `own`, `adopt`, `copy`, `place`; frame S
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s], S
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m], S, where the impulse acts
   double delay = 0.0;                                 ///< [s], of the mover's poses; for `copy`

@@ -64,7 +64,7 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
   } else if (order.act == BodyAct::own && is_copied) {
     copied_.remove(order.body);
   } else if (order.act == BodyAct::adopt && is_copied) {
-    // The copy stays where its hands feel it, but it may have fallen or been pushed for long.
+    // Keeps the pose, so that no force jumps. The draw never corrects the copy's velocity.
     copied_.remove(order.body);
     ObjectMotion state = slots_.motion_of(order.body);
     state.velocity = order.state.velocity;

@@ -174,7 +174,7 @@ void PressingHands::move(Hand& hand, nanoseconds now) noexcept {
   } else {
     hand.place = there;
     hand.velocity = pose.velocity;
-    // A hand that was not here has bodies where it left them.
+    // The walls of a hand that was away still have the bodies at their old poses.
     const std::span<const BodyState> states = world_.states();
     for (std::uint32_t i = 0; i < states.size(); ++i) {
       hand.walls->set_carried(i, states[i].carried);

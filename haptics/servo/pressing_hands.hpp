@@ -37,7 +37,7 @@ class PressingLedger final : public EnergyLedger {
 ///
 /// A prediction over a long delay makes two hands at one body swing, because each answers the
 /// other's predicted answer. So a hand is predicted from the arrival of its state on, and over at
-/// most kMostAhead of the delay; not at all while it holds a body.
+/// most kMostAhead of the delay; no part of it while it holds a body.
 ///
 /// Servo thread; allocates at construction only. A step costs a contact search for each hand near a
 /// body, and nothing but a look at the list without one.
@@ -45,7 +45,7 @@ class PressingHands final : public BodyGuest {
  public:
   /// Hands that press at the same time; the others are left out.
   static constexpr std::size_t kMost = 8;
-  /// Usual loan of a hand [J].
+  /// Default loan of a hand [J].
   static constexpr double kLoan = 0.02;
   static constexpr double kMostAhead = 0.02;  ///< [s]; less from a delay of 50 ms on, 0 at 100 ms
 

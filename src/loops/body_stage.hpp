@@ -49,8 +49,8 @@ class BodyStage {
 
   /// Notes where its owner states a body, also beyond the radius of interest.
   void note_place(std::size_t body, const pdu::EntityState& state) noexcept;
-  /// Motion of a body as this peer knows it: as shown, but with the dead-reckoned velocity, without that
-  /// of the convergence; else as last stated or simulated.
+  /// Motion of a body as this peer knows it: as shown, but with the dead-reckoned velocity, without
+  /// that of the convergence; else as last stated or simulated.
   [[nodiscard]] haptics::ObjectMotion motion_now(std::size_t body, const RemoteEntities& remote,
                                                  std::chrono::nanoseconds now) const noexcept;
 

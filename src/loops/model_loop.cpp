@@ -287,9 +287,9 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
-  const std::size_t unfelt = touch_.show(view);
   watches_.look(remote_, aoim_.presence().id(), pass_.now);
-  hooks_.look({remote_, aoim_, unfelt, ownership_.unpressed(), touch_.crowder(), pass_.now, watches_.notices()});
+  hooks_.look({remote_, aoim_, touch_.show(view), ownership_.unpressed(), touch_.crowder(),
+               pass_.now, watches_.notices()});
   view.own = own_id();
   view.owned = owned_.ours();
   view.peers = aoim_.presence().peers().size();

@@ -115,7 +115,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   [[nodiscard]] std::span<const haptics::BodyState> states() const noexcept;
   void note_claim(std::size_t body, const Tenure& stated, const pdu::OwnershipRecord& record,
                   const Arrival& arrival) noexcept;
-[[nodiscard]] double time_to_touch(std::size_t body) const noexcept;
+  [[nodiscard]] double time_to_touch(std::size_t body) const noexcept;
   void ask_ahead() noexcept;
   void choose_copies() noexcept;
   [[nodiscard]] bool should_unite(std::size_t body) noexcept;

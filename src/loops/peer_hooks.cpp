@@ -52,7 +52,8 @@ PeerHooks custom_effects(const ModelWiring& wiring) {
 PeerHooks limits(const ModelWiring& wiring) {
   const auto watch = std::make_shared<LimitWatch>(wiring.scene.network.entities, wiring.counters);
   return {.look = [watch](const WatchedPeer& peer) {
-    watch->look(peer.unfelt, peer.unpressed, peer.crowder, peer.remote.last_refused(), peer.now, peer.notices);
+    watch->look(peer.unfelt, peer.unpressed, peer.crowder, peer.remote.last_refused(), peer.now,
+                peer.notices);
   }};
 }
 

@@ -108,7 +108,7 @@ OneBody held() {
   return body;
 }
 
-/// Each hand holds an end of a bar of 1 kg by a spring of 150 N/m. They lift it at 3 to 5 s.
+/// Each hand holds an end of a bar of 1 kg by a spring of 150 N/m. They lift it from 3.2 to 5.2 s.
 /// @param apart [s], when the first hand releases it
 OneBody held_bar(double apart) {
   OneBody body;
@@ -236,7 +236,7 @@ TEST(TouchedBodies, AreHeldByTwoPeers) {
   const OneBodyRun truth(bar);
   Share share;
   const double sag = 1.0 * 9.81 / (2 * bar.grab);
-  const double top = 0.16 - 9.81 / 2 / bar.hand;  // of the handles
+  const double top = 0.16 - 9.81 / 2 / bar.hand;  // [m], of both handles
   for (const double delay : {0.0003, 0.02, 0.05, 0.1}) {
     for (const double loss : {0.0, 0.3}) {
       for (int seed = 1; seed <= seeds(); ++seed) {

@@ -23,7 +23,7 @@ class Drawn {
  public:
   explicit Drawn(int number) : random_(static_cast<std::uint32_t>(number)), number_(number) {}
 
-  /// Pushes from both sides in turn; a press; a carry; a lift by friction; two that hold; one that
+  /// Repeated pushes from both sides; a press; a carry; a lift by friction; two that hold; one that
   /// holds and one that presses; strokes across the line of the press.
   OneBody scene() {
     const int kind = number_ % kScenes;
@@ -117,7 +117,7 @@ TEST_P(TouchedEnergy, IsNotMadeByHandsOfTwoPeers) {
   EXPECT_LE(beyond, tries(1, runs * 3 / 100)) << "runs with less than the loans";
 }
 
-// The same runs without ledgers fail.
+// Five of these runs without ledgers make more than 0.3 J.
 TEST(TouchedEnergyWithoutLedgers, IsMade) {
   double least = 0.0;
   for (const int number : {21, 42, 56, 79, 84})
