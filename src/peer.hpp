@@ -59,7 +59,7 @@ struct PeerOptions {
   /// that the hand finds the body at its own peer. For comparison.
   bool requests_at_touch = false;
   /// Energy that a hand of another peer may put into the bodies here beyond the energy which its
-  /// peer states [J]. A great value switches the ledgers off, for comparison.
+  /// peer states [J]. A large value disables the ledgers, for comparison.
   double body_loan = 0.02;
   bool transfer = true;  ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);

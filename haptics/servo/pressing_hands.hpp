@@ -51,7 +51,7 @@ class PressingHands final : public BodyGuest {
 
   /// @param world without a step so far; this outlives its last step @param plan not null
   /// @param config of the servos: period, radii, and the spring that holds a body
-  /// @param loan of each hand [J]; infinity: no ledger limits it
+  /// @param loan of each hand [J]; a large value disables the ledgers
   PressingHands(BodyWorld& world, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
                 double loan = kLoan);
 
