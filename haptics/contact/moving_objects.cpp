@@ -10,6 +10,14 @@ namespace reckon::haptics {
 
 using Eigen::Vector3d;
 
+bool jumps(const ObjectMotion& now, const ObjectMotion& before) noexcept {
+  constexpr double kWay = 0.03, kTurn = 0.5, kMotion = 0.01;  // [m], [rad], [s]
+  const double speed = std::max(now.velocity.norm(), before.velocity.norm());
+  if ((now.position - before.position).norm() > kWay + kMotion * speed) return true;
+  const double rate = std::max(now.turn_rate.norm(), before.turn_rate.norm());
+  return now.orientation.angularDistance(before.orientation) > kTurn + kMotion * rate;
+}
+
 bool MovingObject::is_outside(const Vector3d& p_S) const noexcept {
   static const QueryShape point = QueryShape::sphere(0.0);
   return measure_pair(point, {p_S}, solid, {now.position, now.orientation}).distance.least > 0.0;
@@ -43,6 +51,10 @@ void MovingObjects::place(std::uint32_t body, const ObjectMotion& motion,
   moving.motion = motion;
   // It has not moved.
   if (was_met && !moving.is_moved()) return;
+  if (!moving.pushed.isZero(0.0) && jumps(motion, moving.before)) {
+    moving.before = motion;
+    moving.pushed.setZero();
+  }
   moving.now.place(motion.position, motion.orientation.toRotationMatrix());
 }
 
@@ -73,7 +85,8 @@ double MovingObjects::carried_work(std::span<const ObjectContact> contacts) cons
     if (was && contact.in_contact) {
       sum += work;
     } else {
-      sum += std::min(work, contact.in_contact ? contact.stored_energy : 0.0);
+      const double least = jumps(moving.motion, moving.before) ? 0.0 : work;
+      sum += std::min(std::max(work, least), contact.in_contact ? contact.stored_energy : 0.0);
     }
   }
   return sum;

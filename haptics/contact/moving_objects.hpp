@@ -17,6 +17,10 @@
 
 namespace reckon::haptics {
 
+/// Whether an object was put elsewhere between two steps: its way or turn is longer than that of
+/// 10 ms of its motion by 30 mm or 0.5 rad. Then it does no work on what touched it.
+[[nodiscard]] bool jumps(const ObjectMotion& now, const ObjectMotion& before) noexcept;
+
 /// A moving object.
 struct MovingObject {
   std::uint32_t object = 0;  ///< index in the plan

@@ -119,6 +119,11 @@ void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes
   const std::span<const std::uint32_t> near = world_->near(hand_, reach_, period);
   for (const std::uint32_t body : near) put(body);
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+    // A body that was put elsewhere may be far from the hand that touched it.
+    for (const std::uint32_t object : contacts.walls(probe).result().touched) {
+      const std::uint32_t body = body_of_[object];
+      if (body != kNoBody && std::ranges::find(near, body) == near.end()) put(body);
+    }
     const Grab& grab = contacts.grab(probe);
     const auto is_held = [&](std::size_t before) {
       return contacts.grab(before).holds() && contacts.grab(before).body() == grab.body();
@@ -148,7 +153,8 @@ void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, 
     const WallContact& walls = contacts.walls(probe);
     if (walls.result().objects.empty()) continue;
     const ObjectContact& contact = walls.result().objects[state.object];
-    if (contact.in_contact) pay(contact.scp, walls.gain() * contact.force);
+    if (contact.in_contact && !jumps(state, world_->state_before(body)))
+      pay(contact.scp, walls.gain() * contact.force);
   }
 }
 

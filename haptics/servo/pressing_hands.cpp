@@ -18,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kCalm = 1.0;       // damper of a contact, over sqrt(K m)
+// Damper of a contact, over sqrt(K m); more for each second of delay beyond kCalmDelay [s].
+constexpr double kCalm = 1.0, kCalmer = 10.0, kCalmDelay = 0.05;
 constexpr double kFollow = 0.005;   // [s], in which a new prediction is reached
 constexpr double kSmoothing = 0.2;  // weight of a new delay
 constexpr double kFarDelay = 0.1;   // [s], from which on no delay is predicted
@@ -139,8 +140,15 @@ HandReach PressingHands::reach() const noexcept {
   return reach;
 }
 
+// A body returns what a hand could not pay for.
 void PressingHands::settle() noexcept {
-  for (const Push& push : pushes_) slots_[push.hand].ledger.book(-world_.work(push.number));
+  for (const Push& push : pushes_) {
+    EnergyLedger& ledger = slots_[push.hand].ledger;
+    const double work = world_.work(push.number);
+    ledger.book(-work);
+    const double debt = std::min(work, ledger.debt());
+    if (debt > 0) ledger.book(world_.take_back(push.body, debt));
+  }
   pushes_.clear();
 }
 
@@ -153,10 +161,14 @@ deadreckon::Pose PressingHands::predicted(const Hand& hand, nanoseconds now) con
 
 // A new prediction is reached within some ms, so that it strikes nothing.
 void PressingHands::move(Hand& hand, nanoseconds now) noexcept {
-  for (const std::uint32_t i : world_.near(number_, reach_, period_)) {
-    hand.walls->set_carried(i, world_.states()[i].carried);
-    hand.walls->place(i, world_.states()[i], world_.state_before(i));
-  }
+  const auto put = [&](std::uint32_t body) {
+    hand.walls->set_carried(body, world_.states()[body].carried);
+    hand.walls->place(body, world_.states()[body], world_.state_before(body));
+  };
+  std::ranges::for_each(world_.near(number_, reach_, period_), put);
+  // A body that was put elsewhere may be far from the hand that touched it.
+  for (const std::uint32_t object : hand.walls->result().touched)
+    if (body_of_[object] != kNoBody) put(body_of_[object]);
   const deadreckon::Pose pose = predicted(hand, now);
   const Vector3d there = pose.position + pose.orientation * hand.record.model.point;
   const double dt = last_ > nanoseconds(0) ? pdu::to_seconds(now - last_) : period_;
@@ -244,8 +256,11 @@ void PressingHands::hold() noexcept {
     if (!push.grips) rest = -hand.walls->effects_of(push.object);
     if (push.stiffness > 0) {
       const double mass = plan_->objects()[push.object].matter.mass;
-      const Vector3d apart = hand.velocity - world_.states()[push.body].velocity_at(push.point);
-      rest += kCalm * std::sqrt(push.stiffness * mass) * apart;
+      const Vector3d moves = world_.states()[push.body].velocity_at(push.point);
+      const double share = kCalm + kCalmer * std::max(0.0, hand.delay - kCalmDelay);
+      const Vector3d calm = share * std::sqrt(push.stiffness * mass) * (hand.velocity - moves);
+      // Without energy it only brakes the body.
+      if (hand.ledger.level() > 0 || calm.dot(moves) < 0) rest += calm;
     }
     world_.hold(push.number, 1.0, rest);
   }

@@ -115,6 +115,34 @@ TEST(HandedOverBody, IsNotPushedWhereItIsPut) {
   EXPECT_LT(rig.cube().velocity.head<2>().norm(), 1e-6);
 }
 
+// By its owner, while the hand touches it, or a copy of it.
+TEST(HandedOverBody, LeavesTheHandWhenPutElsewhere) {
+  for (const bool copied : {false, true}) {
+    SCOPED_TRACE(copied);
+    Rig rig(shoves);
+    rig.world->disown(0);
+    rig.step();
+    if (copied) rig.world->order({BodyAct::copy, 0, rig.cube()});
+    while (rig.step().force.norm() < 0.3) ASSERT_LT(rig.now, std::chrono::seconds(5));
+    ASSERT_EQ(rig.cube().copied, copied);
+    rig.mover->of(0).position.x() += 0.2;
+    for (int i = 0; i < 20; ++i) rig.step();
+    EXPECT_LT(rig.step().force.norm(), 0.01);
+    EXPECT_LT(rig.cube().velocity.head<2>().norm(), 0.01) << "nobody pushes it";
+    EXPECT_GE(rig.step().port_energy_min, -1e-9);
+  }
+}
+
+TEST(HandedOverBody, CostsNothingWhenPutAroundTheHand) {
+  Rig rig([](double) { return HandTarget{{0.012, 0, 0.087}}; });
+  rig.world->disown(0);
+  for (int i = 0; i < 100; ++i) rig.step();
+  ObjectMotion& motion = rig.mover->of(0);
+  motion.position.z() = 0.0855;
+  motion.orientation = Eigen::AngleAxisd(2.3, Vector3d(1, 2, 3).normalized());
+  for (int i = 0; i < 1000; ++i) ASSERT_GE(rig.step().port_energy_min, -1e-9) << i;
+}
+
 // Slowly, so that the springs of hand and cube are in balance.
 TEST(HandedOverBody, LiftsAHandByTheCorrectForce) {
   Rig rig([](double) { return HandTarget{{0, 0, 0.037}}; });
