@@ -32,7 +32,7 @@ TOTAL = {
     "tools": 41000,
     "python": 2500,
     "bench": 38000,
-    "tests": 143500,
+    "tests": 144000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {

@@ -23,9 +23,10 @@ enum class BodyAct : std::uint8_t {
   wake,    ///< makes it active
   push,    ///< gives it an impulse, and wakes it
   place,   ///< puts it into `state`, and wakes it
-  copy,    ///< simulates a copy of it, from `state` on, and draws that to the mover's poses
+  copy,    ///< simulates a copy of it, from `state` on, and draws that to the mover's poses;
+           ///< a copy gets another delay
   follow,  ///< ends the copy: its mover carries the body
-  adopt,   ///< `own` of a body that nobody simulates: a copy gets the velocities of `state`
+  adopt,   ///< `own` of a body that nobody simulates: a drawn copy gets the velocities of `state`
 };
 
 /// An order to one body. Except for `own`, `adopt`, `copy` and `follow`, an order to a body that
@@ -36,7 +37,8 @@ struct BodyOrder {
   ObjectMotion state{};  ///< for `own`, `adopt`, `copy`, `place`; frame S
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s], S
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m], S, where the impulse acts
-  double delay = 0.0;                                 ///< [s], of the mover's poses; for `copy`
+  /// Of the mover's poses [s], for `copy`; infinite: the copy does not follow them.
+  double delay = 0.0;
 };
 
 /// The answer to each `disown` of a transaction.

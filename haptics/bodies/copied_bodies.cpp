@@ -3,6 +3,7 @@
 #include "reckon/haptics/bodies/copied_bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reckon::haptics {
 
@@ -13,6 +14,11 @@ CopiedBodies::CopiedBodies(BodySlots& slots, CarriedObjects& carried)
 
 bool CopiedBodies::contains(std::uint32_t body) const noexcept {
   return std::ranges::find(copies_, body, &Copy::body) != copies_.end();
+}
+
+bool CopiedBodies::is_drawn(std::uint32_t body) const noexcept {
+  const auto known = std::ranges::find(copies_, body, &Copy::body);
+  return known != copies_.end() && !std::isinf(known->time);
 }
 
 void CopiedBodies::add(std::uint32_t body, double delay) noexcept {
@@ -34,7 +40,7 @@ void CopiedBodies::draw(std::chrono::nanoseconds now, double gap) noexcept {
     copy.way.setZero();
     copy.turn.setZero();
     const std::size_t slot = slots_.slot_of(copy.body);
-    if (slot == BodySlots::kNone) continue;
+    if (slot == BodySlots::kNone || !is_drawn(copy.body)) continue;
     const ObjectMotion there = carried_.motion_of(copy.body, now);
     RigidBody& body = slots_[slot];
     const ObjectMotion here = body.motion();

@@ -28,7 +28,9 @@ class CopiedBodies {
 
   [[nodiscard]] bool empty() const noexcept { return copies_.empty(); }
   [[nodiscard]] bool contains(std::uint32_t body) const noexcept;
-  /// @param delay of the owner's poses [s]
+  /// Whether it follows its owner's poses.
+  [[nodiscard]] bool is_drawn(std::uint32_t body) const noexcept;
+  /// @param delay of the owner's poses [s]; infinite: they are not followed
   void add(std::uint32_t body, double delay) noexcept;
   void remove(std::uint32_t body) noexcept;
   /// Moves the copies towards their owners' poses of `now`. @param gap [s] since the last call

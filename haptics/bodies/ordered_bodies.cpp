@@ -61,7 +61,8 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
     if (has_slot) slots_[slot].wake();
   } else if (order.act == BodyAct::push) {
     if (has_slot) slots_[slot].strike(order.impulse, order.point);
-  } else if (order.act == BodyAct::own && is_copied) {
+  } else if (is_copied && (order.act == BodyAct::own ||
+                           (order.act == BodyAct::adopt && !copied_.is_drawn(order.body)))) {
     copied_.remove(order.body);
   } else if (order.act == BodyAct::adopt && is_copied) {
     // Keeps the pose, so that no force jumps. The draw never corrects the copy's velocity.

@@ -3,6 +3,7 @@
 #include "reckon/peer/loops/body_hand_overs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/random/split_mix.hpp"
@@ -166,7 +167,8 @@ std::optional<haptics::BodyAct> BodyHandOvers::act_for(
   }
   if (state.is_owned()) return haptics::BodyAct::disown;
   if (state.copied && !copies(body)) return haptics::BodyAct::follow;
-  const bool begins = !state.copied && copies(body) && !granted_[body] &&
+  const bool begins = copies(body) && !granted_[body] &&
+                      (!state.copied || std::isinf(delays_[body]) != undrawn_[body]) &&
                       stages_.remote.find(body_id(body)) != nullptr;
   return begins ? std::optional(haptics::BodyAct::copy) : std::nullopt;
 }
@@ -181,7 +183,9 @@ void BodyHandOvers::send_changes() noexcept {
     const std::uint64_t serial = world_->exchange().send(std::span(orders).first(count));
     for (const haptics::BodyOrder& order : std::span(orders).first(count)) {
       sent_[order.body] = serial;
-      if (serial != 0 && order.act == haptics::BodyAct::own) granted_.reset(order.body);
+      if (serial == 0) continue;
+      if (order.act == haptics::BodyAct::copy) undrawn_[order.body] = std::isinf(order.delay);
+      if (order.act == haptics::BodyAct::own) granted_.reset(order.body);
     }
     count = 0;
     return serial != 0;
@@ -209,7 +213,7 @@ void BodyHandOvers::doubt_left(nanoseconds now) noexcept {
 
 void BodyHandOvers::doubt_silent(nanoseconds now) noexcept {
   for (const Voter& voter : protocol_.acts().decided().roll.voters()) {
-    if (!protocol_.is_silent(voter, kSilentOwner, now)) continue;
+    if (!protocol_.is_silent(voter.epoch, kSilentOwner, now)) continue;
     for (std::size_t i = 0; i < protocol_.table().size(); ++i) {
       if (protocol_.tenure(i).owner != voter.epoch) continue;
       const RemoteEntity* row = stages_.remote.find(body_id(i));

@@ -46,7 +46,7 @@ class BodyHandOvers {
   void take_answers(const Pass& pass) noexcept;
   void note(const OwnershipEvent& event) noexcept;
   /// While another peer owns a body, the world simulates a copy of it. @param delay of its states
-  /// [s]; < 0: no copy
+  /// [s]; infinite: the copy is not drawn to them; < 0: no copy
   void copy(std::size_t body, double delay) noexcept { delays_[body] = delay; }
   [[nodiscard]] bool copies(std::size_t body) const noexcept { return delays_[body] >= 0.0; }
   /// After the events of a pass.
@@ -87,6 +87,7 @@ class BodyHandOvers {
   std::uint32_t epoch_;
   Pass pass_;
   std::array<double, kMostOwnable> delays_ = none();  // of copies
+  ObjectSet undrawn_;                                 // copies, as ordered last
   ObjectSet granted_;                                 // gained in the state of a grant
   std::array<std::uint64_t, kMostOwnable> sent_{};    // serial of the last order to a body
   std::array<Nanoseconds, kMostOwnable> left_at_{};   // shown by its last state here; 0: not

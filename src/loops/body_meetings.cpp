@@ -10,6 +10,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr double kMoves = 0.01;  // [m/s]
+constexpr double kBeside = 0.1;  // [s], until a felt copy meets a body that is then copied too
 
 }  // namespace
 
@@ -18,9 +19,11 @@ void BodyMeetings::look(std::span<const haptics::BodyState> bodies,
   if (now - looked_ < kLook) return;
   looked_ = now;
   met_.fill({});
+  beside_.reset();
   const std::size_t count = std::min(bodies.size(), met_.size());
   for (std::uint32_t own = 0; own < count; ++own) {
-    if (!bodies[own].is_owned() || !bodies[own].awake) continue;
+    const bool is_felt = bodies[own].copied && bodies[own].touched;
+    if (!(bodies[own].is_owned() || is_felt) || !bodies[own].awake) continue;
     const double size = 0.5 * world_->box(own).sizes().norm();
     for (std::size_t other = 0; other < count; ++other) {
       if (bodies[other].is_owned()) continue;
@@ -29,10 +32,14 @@ void BodyMeetings::look(std::span<const haptics::BodyState> bodies,
           size + 0.5 * world_->box(other).sizes().norm() + HandApproach::kSoon * velocity.norm();
       const bool is_far =
           (bodies[own].position - bodies[other].position).squaredNorm() > reach * reach;
-      if (is_far || velocity.norm() < kMoves) continue;
+      if (other == own || is_far || (!is_felt && velocity.norm() < kMoves)) continue;
       const ApproachingHand body{bodies[own].position, bodies[own].velocity, size};
       const double time = time_to_contact(body, bodies[other], world_->box(other));
-      if (time < met_[other].time) met_[other] = {time, own};
+      if (is_felt) {
+        if (time < kBeside) beside_.set(other);
+      } else if (time < met_[other].time) {
+        met_[other] = {time, own};
+      }
     }
   }
 }

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When moving bodies of this peer will meet bodies of others.
+// When moving bodies of this peer, and copies at its hands, will meet bodies of others.
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@
 namespace reckon::peer {
 
 /// Thread of the model loop; no allocation. Every kLook it looks at each pair of a moving body of
-/// ours and a body of another peer.
+/// ours, or a copy that our hand touches, and a body of another peer.
 class BodyMeetings {
  public:
   static constexpr std::chrono::milliseconds kLook{10};
@@ -29,6 +30,8 @@ class BodyMeetings {
   [[nodiscard]] double time_to(std::size_t body) const noexcept { return met_[body].time; }
   /// The body of ours that meets it.
   [[nodiscard]] std::size_t own_of(std::size_t body) const noexcept { return met_[body].own; }
+  /// Whether it meets a copy that our hand touches.
+  [[nodiscard]] bool is_beside(std::size_t body) const noexcept { return beside_[body]; }
 
  private:
   struct Meeting {
@@ -38,6 +41,7 @@ class BodyMeetings {
 
   const haptics::BodyWorld* world_;
   std::array<Meeting, kMostSharedBodies> met_{};
+  std::bitset<kMostSharedBodies> beside_;
   std::chrono::nanoseconds looked_{-kLook};
 };
 

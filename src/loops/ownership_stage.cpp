@@ -3,11 +3,9 @@
 #include "reckon/peer/loops/ownership_stage.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/reckon/assured_record.hpp"
-#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 
 namespace reckon::peer {
@@ -18,23 +16,6 @@ using std::chrono::nanoseconds;
 
 // Between two steps of the protocol while nothing arrives.
 constexpr nanoseconds kStep = milliseconds(20);
-// A body is requested when a hand will touch it within kAhead [s] plus kDelays times the least
-// delay of its owner: the request, the grant, and their jitter.
-constexpr double kAhead = 0.06;
-constexpr double kDelays = 4.0;
-constexpr double kUnknownDelay = 0.05;  // [s], before the first exchange of times
-constexpr double kMostDelay = 0.25;     // [s]
-// A hand that will touch a body within this time keeps it [s].
-constexpr double kArrives = 0.06;
-// The request ends so long after the hand has turned away.
-constexpr nanoseconds kTurnsBack = milliseconds(200);
-// A copy of a body begins when a hand will touch it within this time [s], and ends so long after
-// the hand has left it. A copy follows its owner well at delays below kMostCopied [s].
-constexpr double kCopied = 0.1;
-constexpr nanoseconds kCopyEnds = milliseconds(200);
-constexpr double kMostCopied = 0.11;
-// The least time between two changes of owner if hands of both peers approach a body.
-constexpr nanoseconds kKeeps = milliseconds(300);
 
 std::size_t moving_in(const SceneFile& scene) {
   const auto moving = std::ranges::count_if(scene.scene.objects, [](const auto& object) {
@@ -142,62 +123,6 @@ void OwnershipStage::note_claim(std::size_t body, const Tenure& stated,
 
 // Questions of the protocol
 
-bool OwnershipStage::may_take(std::size_t object, std::uint32_t epoch) {
-  if (epoch == epoch_) return hand_overs_.can_own(object);
-  const auto id = parts_.aoim.presence().id_of(epoch);
-  const auto source = parts_.aoim.presence().source_of(epoch);
-  return id && source && parts_.remote.touch().admits(*id, true, *source);
-}
-
-bool OwnershipStage::is_busy(std::size_t object) {
-  if (kept_[object] || (object < states().size() && states()[object].touched)) return true;
-  const bool is_new = reached_[object] && pass_.now - gained_at_[object] < kKeeps;
-  return is_new || approach_.time_to(object) < kArrives;
-}
-
-// [s], the least.
-double OwnershipStage::delay_to(std::uint32_t epoch) const noexcept {
-  const auto known = parts_.time.peers().difference(epoch, pass_.now);
-  if (!known) return kUnknownDelay;
-  return std::clamp(0.5 * pdu::to_seconds(known->round_trip), 0.0, kMostDelay);
-}
-
-// Of two owners whose bodies will meet, one gets both: the one whose hand holds its body, else the
-// senior.
-bool OwnershipStage::should_unite(std::size_t body) noexcept {
-  const Roll& roll = protocol_.acts().decided().roll;
-  const std::size_t other = roll.index_of(owner_of(body).owner);
-  if (other == Roll::kNone) return false;
-  return is_busy(meetings_.own_of(body)) || roll.index_of(epoch_) < other;
-}
-
-// [s], until a hand touches a body, as far as that is a reason to request it.
-double OwnershipStage::time_to_touch(std::size_t body) const noexcept {
-  if (!requests_at_touch_) return approach_.time_to(body);
-  return states()[body].touched ? 0.0 : std::numeric_limits<double>::infinity();
-}
-
-// Requests the bodies that a hand touches or will touch, and those that a body of ours will meet.
-void OwnershipStage::ask_ahead() noexcept {
-  approach_.look(states());
-  meetings_.look(states(), pass_.now);
-  for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
-    double time = time_to_touch(i);
-    if (meetings_.time_to(i) < time && should_unite(i)) time = meetings_.time_to(i);
-    const bool is_near = time <= kAhead + kDelays * kMostDelay && may_take(i, epoch_);
-    if (is_near && time <= kAhead + kDelays * delay_to(owner_of(i).owner))
-      reached_until_[i] = pass_.now + kTurnsBack;
-    const bool is_reached = pass_.now < reached_until_[i];
-    if (is_reached == reached_[i]) continue;
-    reached_[i] = is_reached;
-    if (is_reached) {
-      protocol_.ask(i);
-    } else if (!kept_[i]) {
-      protocol_.withdraw(i);
-    }
-  }
-}
-
 // Bodies of other owners stay with them.
 ObjectSet OwnershipStage::company_of(std::size_t object) {
   ObjectSet company;
@@ -226,23 +151,6 @@ std::uint64_t OwnershipStage::host_of(std::uint32_t epoch) {
 }
 
 // Events
-
-// While a body belongs to another peer, a hand that touches it feels a copy, unless the delay is
-// too long for it. The choice holds for a contact.
-void OwnershipStage::choose_copies() noexcept {
-  for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
-    const bool is_felt = states()[i].touched || approach_.time_to(i) < kCopied;
-    if (is_felt) felt_at_[i] = pass_.now;
-    const bool was = hand_overs_.copies(i);
-    const bool goes_on = is_felt || (was && pass_.now - felt_at_[i] < kCopyEnds);
-    if (!goes_on || protocol_.owns(i, pass_.now) || !hand_overs_.can_own(i)) {
-      hand_overs_.copy(i, -1.0);
-      continue;
-    }
-    const double delay = delay_to(owner_of(i).owner);
-    if (was || delay < kMostCopied) hand_overs_.copy(i, delay);
-  }
-}
 
 void OwnershipStage::take_events() noexcept {
   for (const OwnershipEvent& event : protocol_.events()) {

@@ -119,6 +119,7 @@ class OwnershipStage final : public AssuredUser, private OwnershipUser {
   void ask_ahead() noexcept;
   void choose_copies() noexcept;
   [[nodiscard]] bool should_unite(std::size_t body) noexcept;
+  [[nodiscard]] bool meets_senior(std::size_t object) const noexcept;
   [[nodiscard]] double delay_to(std::uint32_t epoch) const noexcept;
   void take_events() noexcept;
   void name_owners() noexcept;

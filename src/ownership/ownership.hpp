@@ -86,10 +86,9 @@ class Ownership {
   /// Voters of the last decided act that were received within the time of a lease, and this peer.
   [[nodiscard]] std::size_t received_voters(Nanoseconds now) const noexcept;
   /// Whether no round of this voter has arrived for `patience`.
-  [[nodiscard]] bool is_silent(const Voter& voter, Nanoseconds patience,
+  [[nodiscard]] bool is_silent(std::uint32_t voter, Nanoseconds patience,
                                Nanoseconds now) const noexcept {
-    return voter.epoch != core_.config.epoch &&
-           now - core_.leases.silent_since(voter.epoch) > patience;
+    return voter != core_.config.epoch && now - core_.leases.silent_since(voter) > patience;
   }
   /// Whether this peer votes in the last decided act.
   [[nodiscard]] bool is_voter() const noexcept {

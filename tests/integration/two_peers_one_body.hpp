@@ -32,6 +32,7 @@ struct OneBody {
   bool is_heavy = false;   ///< it lies on a floor; else there is no weight
   double seconds = 5.0;    ///< length of the run
   double grab = 0.0;       ///< [N/m], of hands that hold it
+  double beside = 0.0;     ///< [m], along x: place of a second such body; 0: none
   std::array<haptics::HandScript, 2> laws{};
 
   [[nodiscard]] double half() const { return 0.5 * side; }
@@ -49,10 +50,12 @@ struct OneBodyStep {
   std::array<Eigen::Vector3d, 2> force{};  ///< on the hands [N]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
-  int owner = -1;  ///< peer that simulates it; -1: none
-  int owners = 0;  ///< peers that do
-  double energy =
-      0.0;  ///< work of both hands and loss in their devices, minus that of the body [J]
+  int owner = -1;                  ///< peer that simulates it; -1: none
+  int owners = 0;                  ///< peers that do
+  std::array<double, 2> stated{};  ///< energy that a hand states to have put into bodies [J]
+  /// Work of both hands, loss in their devices, and loans of their ports, minus the energy of the
+  /// body [J].
+  double energy = 0.0;
 };
 
 struct OneBodyLine {
@@ -63,6 +66,9 @@ struct OneBodyLine {
   double loan = haptics::PressingHands::kLoan;  ///< [J], see PeerOptions::body_loan
   double late = 0.0;                            ///< share of the servo steps that are left out
   std::array<double, 2> outage{};               ///< [s], from and to
+  int failing = -1;                             ///< peer that is killed; -1: none
+  double fails_at = 0.0;                        ///< [s]
+  double alone_at = 1e9;                        ///< [s], when the user lets peer 1 go on alone
 };
 
 /// Target that moves smoothly from 0 to 1 between two times.
@@ -84,12 +90,16 @@ inline std::string OneBody::scene() const {
         "surface = {stiffness = \"500 N/m\"}\n";
   const std::string edge = std::to_string(1e3 * side);
   const std::string along = length > 0 ? std::to_string(1e3 * length) : edge;
-  text += "[[object]]\nname = \"cube\"\nbox = \"" + along + " " + edge + " " + edge +
-          " mm\"\nposition = [0, 0, " + std::to_string(is_heavy ? half() : 0.0) +
-          "]\nmass = " + std::to_string(mass) +
-          "\nbody_friction = 0.6\nbody_drag = " + std::to_string(drag) +
-          "\nsurface = {stiffness = " + std::to_string(stiffness) +
-          "}\nfriction = {static = 0.9, kinetic = 0.8}\n";
+  const auto add = [&](const std::string& name, double x) {
+    text += "[[object]]\nname = \"" + name + "\"\nbox = \"" + along + " " + edge + " " + edge +
+            " mm\"\nposition = [" + std::to_string(x) + ", 0, " +
+            std::to_string(is_heavy ? half() : 0.0) + "]\nmass = " + std::to_string(mass) +
+            "\nbody_friction = 0.6\nbody_drag = " + std::to_string(drag) +
+            "\nsurface = {stiffness = " + std::to_string(stiffness) +
+            "}\nfriction = {static = 0.9, kinetic = 0.8}\n";
+  };
+  add("cube", 0.0);
+  if (beside > 0) add("other", beside);
   return text;
 }
 
@@ -111,19 +121,21 @@ class OneBodyRun {
   [[nodiscard]] double step_at_change() const;
   /// Way of the body within the second from `begin` [s] on, up and down [m].
   [[nodiscard]] double swing(double begin) const;
-  [[nodiscard]] double least_energy() const {
-    return std::ranges::min(steps_, {}, &OneBodyStep::energy).energy;
-  }
+  /// Least energy of the hands and the body [J], without what is on the line: a hand of the other
+  /// peer has stated it, and has taken it back since.
+  [[nodiscard]] double least_energy() const;
   /// Least energy of the port of a hand, with what it may have lost by late steps [J].
   [[nodiscard]] double least_port(std::size_t hand);
   /// Time of the first force on a hand [ms], and since when its peer has owned the body then.
   [[nodiscard]] std::pair<std::size_t, std::size_t> touch_of(std::size_t hand) const;
 
  private:
-  static constexpr double kBegin = 3.0;  // [s], of the laws
+  static constexpr double kBegin = 3.0;           // [s], of the laws
+  static constexpr std::ptrdiff_t kStated = 600;  // [ms], age of a statement that counts, at most
 
   OneBodyRun(const OneBody& body, std::size_t peers, const OneBodyLine& line);
   void record(const OneBody& body);
+  [[nodiscard]] const haptics::ServoSnapshot& servo_of(std::size_t hand);
 
   peer::ManualClock clock_{seconds(1), std::chrono::hours(1)};
   peer::SimulatedNetwork network_;
@@ -174,7 +186,11 @@ inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneB
       const bool is_cut = time >= line.outage[0] && time < line.outage[1];
       impair(is_cut ? 1.0 : line.loss);
     }
+    if (line.failing >= 0 && time >= line.fails_at)
+      peers_[static_cast<std::size_t>(line.failing)].reset();
+    if (std::abs(time - line.alone_at) < 5e-4) peers_[1]->model().ownership().go_alone();
     for (const auto& peer : peers_) {
+      if (!peer) continue;
       if (!is_late(random)) peer->servo_step(clock_.now());
       peer->read_step(clock_.now());
       peer->model_step(clock_.now(), clock_.utc_now());
@@ -187,6 +203,7 @@ inline OneBodyRun::OneBodyRun(const OneBody& body, std::size_t peers, const OneB
 inline void OneBodyRun::record(const OneBody& body) {
   OneBodyStep& step = steps_.emplace_back();
   for (std::size_t i = 0; i < peers_.size(); ++i) {
+    if (!peers_[i]) continue;
     const haptics::BodyState& state = peers_[i]->bodies()->states()[0];
     if (!state.is_owned()) continue;
     step.owner = static_cast<int>(i);
@@ -201,6 +218,10 @@ inline void OneBodyRun::record(const OneBody& body) {
   for (std::size_t i = 0; i < 2; ++i) {
     step.force[i] = hands_[i]->force();
     step.energy += hands_[i]->port_work() + hands_[i]->damping_loss();
+    if (i >= peers_.size() || !peers_[i]) continue;
+    const haptics::ServoSnapshot& servo = servo_of(i);
+    step.stated[i] = servo.tally.body_energy;
+    step.energy += servo.loan + servo.source_energy() + servo.encoder_allowance + servo.late_cost;
   }
 }
 
@@ -235,12 +256,29 @@ inline double OneBodyRun::peak() const {
   return most;
 }
 
-inline double OneBodyRun::least_port(std::size_t hand) {
+inline const haptics::ServoSnapshot& OneBodyRun::servo_of(std::size_t hand) {
   const bool is_alone = peers_.size() == 1;
   peer::Peer& peer = *peers_[is_alone ? 0 : hand];
   peer.views().update();
-  const haptics::ServoSnapshot& servo = peer.views().read().hands[is_alone ? hand : 0].servo;
+  return peer.views().read().hands[is_alone ? hand : 0].servo;
+}
+
+inline double OneBodyRun::least_port(std::size_t hand) {
+  const haptics::ServoSnapshot& servo = servo_of(hand);
   return servo.port_energy_min + servo.late_cost;
+}
+
+inline double OneBodyRun::least_energy() const {
+  double least = steps_.front().energy;
+  for (auto step = steps_.begin(); step != steps_.end(); ++step) {
+    if (step->energy > least || step->owner < 0) continue;
+    const std::size_t other = step->owner == 0 ? 1 : 0;
+    const auto from = step - std::min(step - steps_.begin(), kStated);
+    const auto stated = [other](const OneBodyStep& one) { return one.stated[other]; };
+    const double most = stated(std::ranges::max(std::ranges::subrange(from, step + 1), {}, stated));
+    least = std::min(least, step->energy + most - step->stated[other]);
+  }
+  return least;
 }
 
 inline double OneBodyRun::step_at_change() const {
