@@ -21,6 +21,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/queries/pair_query.hpp"
+#include "reckon/haptics/servo/pressing_hands.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/hands_in_a_pile.hpp"
 
@@ -33,10 +34,11 @@ namespace test = reckon::test;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kPeriod{1'000'000};
-constexpr double kEdge = 0.04;      // [m], edge of a cube
-constexpr double kStiffness = 400;  // [N/m], of the cubes
-constexpr double kGrip = 300;       // [N/m], of the hand
-constexpr double kWanted = 0.005;   // [m], target depth of the hand in the cube
+constexpr double kEdge = 0.04;         // [m], edge of a cube
+constexpr double kStiffness = 400;     // [N/m], of the cubes
+constexpr double kGrip = 300;          // [N/m], of the hand
+constexpr double kWanted = 0.005;      // [m], target depth of the hand in the cube
+constexpr double kOthersDeep = 0.001;  // [m], of hands of other peers
 
 Scene row_of(std::size_t cubes, double mass) {
   Scene scene;
@@ -254,9 +256,10 @@ BENCHMARK(hands_in_a_pile)
     ->Args({27, 4})
     ->Iterations(1);
 
-/// A hand that presses a cube, or the floor beside it, and cubes that sleep out of its reach.
+/// A hand that presses a cube, or the floor beside it; cubes that sleep out of its reach; and hands
+/// of other peers that press the sides of the cube.
 struct Sleeping {
-  Sleeping(std::size_t cubes, std::size_t asleep, bool at_cube) {
+  Sleeping(std::size_t cubes, std::size_t asleep, bool at_cube, std::size_t others = 0) {
     Scene scene = row_of(cubes, 0.05);
     for (std::size_t i = 0; i < asleep; ++i) {
       SceneObject cube = row_of(1, 0.05).objects.back();
@@ -274,8 +277,23 @@ struct Sleeping {
       return HandTarget{{x, 0, std::max(goal, 1.5 * kEdge - 0.1 * t)}};
     });
     plan = std::make_shared<const EffectPlan>(scene);
-    servo.emplace(*device, plan, ServoConfig{}, make_bodies(*plan, scene));
+    const auto world = make_bodies(*plan, scene);
+    if (others > 0) pressing.emplace(*world, plan, ServoConfig{});
+    servo.emplace(*device, plan, ServoConfig{}, world);
+    if (others > 0) press(others);
     for (int i = 0; i < 3000; ++i) step();
+  }
+  void press(std::size_t others) {
+    HandList& list = pressing->hands().write_slot();
+    list.count = others;
+    for (std::size_t i = 0; i < others; ++i) {
+      RemoteHand& hand = list.hands[i];
+      hand.id = {1, static_cast<std::uint16_t>(i + 2), 1};
+      hand.state_time = now;
+      const double side = i % 2 == 0 ? 1 : -1, along = 0.004 * static_cast<double>(i / 2);
+      hand.state.position = {side * (0.5 * kEdge - kOthersDeep), along, 0.5 * kEdge};
+    }
+    pressing->hands().publish();
   }
   double step() {  // [us]
     const double begin = cpu_ns();
@@ -288,6 +306,7 @@ struct Sleeping {
   }
   std::optional<SimulatedDevice> device;
   std::shared_ptr<const EffectPlan> plan;
+  std::optional<PressingHands> pressing;
   std::optional<ServoLoop> servo;
   nanoseconds now{1'000'000'000};
 };
@@ -319,6 +338,19 @@ void beside_those_asleep(benchmark::State& state) {
 BENCHMARK(beside_those_asleep)
     ->ArgNames({"asleep", "at_cube"})
     ->ArgsProduct({{0, 60, 1000, 10'000}, {0, 1}});
+
+// The same beside a cube that hands of other peers press too. Argument: number of those hands.
+void beside_hands_of_others(benchmark::State& state) {
+  Sleeping with(1, 0, true, static_cast<std::size_t>(state.range(0)));
+  Sleeping without(1, 0, true);
+  std::vector<double> times, bare;
+  for (auto _ : state) times.push_back(with.step()), bare.push_back(without.step());
+  state.counters["median_us"] = median_of_means(times);
+  state.counters["bare_median_us"] = median_of_means(bare);
+  state.counters["median_ratio"] = median_of_means(times) / median_of_means(bare);
+  state.counters["force_off_n"] = std::abs(with.force() - without.force());
+}
+BENCHMARK(beside_hands_of_others)->ArgName("others")->Arg(1)->Arg(2)->Arg(8);
 
 BENCHMARK(pile_falls)->ArgName("boxes")->Arg(10)->Arg(30)->Arg(60)->Iterations(1);
 
