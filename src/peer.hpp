@@ -55,8 +55,7 @@ struct PeerOptions {
   /// The first peer of a scene owns its bodies at once. False: it first looks for 1.2 s whether
   /// other peers own them.
   bool founds = true;
-  /// Requests a body only when a hand touches it, as other systems do; false: before the touch, so
-  /// that the hand finds the body at its own peer. For comparison.
+  /// Requests a body when a hand touches it; false: before the touch. For comparison.
   bool requests_at_touch = false;
   /// Energy that a hand of another peer may put into the bodies here beyond the energy which its
   /// peer states [J]. A large value disables the ledgers, for comparison.

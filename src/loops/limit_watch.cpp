@@ -15,10 +15,11 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
     : capacity_(capacity),
       most_unfelt_(counters.make_level(
           "hands_unfelt",
-          "most bodies near a hand at once that were not felt, because the servo was full")),
+          "greatest number of bodies near a hand at once that its full servo left out")),
       most_unpressed_(counters.make_level(
           "hands_unpressed",
-          "most hands of other peers at once that did not press the bodies near them")),
+          "greatest number of hands of other peers at once that were near bodies of this peer and "
+          "did not press them")),
       table_full_{counters.make("table_full", "entities refused because the state table was full")},
       write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},
       read_waits_{counters.make("read_waits",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the user when a peer reaches its limits (hands that a servo takes, rows of the state
+// Reports to the user when a peer reaches its limits (hands at a servo, rows of the state
 // table, rings), refuses force models, or receives sealed datagrams without a key.
 #pragma once
 
@@ -25,8 +25,8 @@ class LimitWatch {
   LimitWatch(std::size_t capacity, Counters& counters);
 
   /// Call it some times a second.
-  /// @param unfelt bodies nearby that a servo omits now, the largest number of all servos.
-  /// @param unpressed hands of other peers near bodies that do not press them now.
+  /// @param unfelt nearby bodies that a servo omits now, the largest number of all servos.
+  /// @param unpressed hands of other peers that are near bodies and do not press them now.
   /// @param crowder host of most of the bodies nearby.
   /// @param refused owner of the last refused force model.  @param out receives notices.
   void look(std::size_t unfelt, std::size_t unpressed, const aoim::SourceAddress& crowder,

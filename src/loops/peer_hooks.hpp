@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Mechanisms that watch a peer or act on what it receives and sends, called at their hooks. A new
-// one is a file and a row of THE list in peer_hooks.cpp.
+// Hooks for mechanisms that watch a peer, or act on its received and sent data. A new mechanism is
+// a file and a row of THE list in peer_hooks.cpp.
 #pragma once
 
 #include <chrono>
@@ -31,8 +31,8 @@ class OwnedEntity;
 struct WatchedPeer {
   const RemoteEntities& remote;
   aoim::AreaOfInterestManager& aoim;
-  std::size_t unfelt;     ///< most bodies nearby that a servo omits now
-  std::size_t unpressed;  ///< hands near bodies that do not press them, see PressingPublisher
+  std::size_t unfelt;     ///< nearby bodies that a servo omits now; largest number of all servos
+  std::size_t unpressed;  ///< see PressingPublisher::left_out()
   const aoim::SourceAddress& crowder;  ///< host of most of the bodies nearby
   std::chrono::nanoseconds now;
   haptics::SpscRing<Notice>& notices;  ///< for the user
@@ -68,11 +68,11 @@ struct LeavingDatagram {
 struct PeerHooks {
   /// Called some twenty times a second.
   std::function<void(const WatchedPeer&)> look = nullptr;
-  /// Called for each datagram of this exercise that is read, and for each that is sent.
+  /// Called for each received and each sent datagram of this exercise.
   std::function<void(std::span<const std::byte>)> received = nullptr, sent = nullptr;
 
   /// `refuse`: the PDU is not decoded. The area-of-interest manager has read its control PDUs.
-  /// A state that a leader relays is asked for, too.
+  /// Called also for each state that a leader relays.
   std::function<Verdict(const ArrivingPdu&)> arriving = nullptr;
   /// `hold`: the update waits, and is considered again at the entity's next change, or in 0.1 s.
   /// Final states do not wait.

@@ -17,23 +17,23 @@
 
 namespace reckon::peer {
 
-/// The nearest hands, of Reckon peers only, as many as PressingHands has room for. Searches all
-/// felt entities and bodies every kSearch, and reads the updates of the hands found in each pass.
+/// Publishes the nearest hands of other Reckon peers, up to PressingHands::kMost. Searches all felt
+/// entities and bodies every kSearch; each publish() reads the newest updates of the found hands.
 /// Thread of the model loop; no allocation.
 class PressingPublisher {
  public:
   static constexpr std::chrono::milliseconds kSearch{50};
   static constexpr double kReach = 0.3;  ///< [m], between hand and body
 
-  /// @param world, out may be null: nothing is published  @param touch has the energies of hands;
-  /// all outlive this
+  /// All outlive this. @param world, out may be null: then nothing is published  @param touch
+  /// source of the energy accounts of hands
   PressingPublisher(const haptics::BodyWorld* world, haptics::TripleBuffer<haptics::HandList>* out,
                     const TouchStage& touch) noexcept
       : world_(world), out_(out), touch_(touch) {}
 
   void publish(std::span<const haptics::BodyState> bodies, const RemoteEntities& remote,
                std::chrono::nanoseconds now) noexcept;
-  /// Hands near bodies that do not press them, because there are too many.
+  /// Number of hands that are near bodies and do not press them, beyond PressingHands::kMost.
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
 
  private:

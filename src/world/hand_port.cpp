@@ -26,11 +26,11 @@ constexpr double kContactSmoothing = 0.05;
 // by three at twice the speed. In this case the motion along the normal follows the shape of the
 // other hand instead of the spring.
 constexpr double kSliding = 0.01;
-// The same for a hand at a body, for all directions. Its faster motion is the answer to the other
-// hands at that body, and is not predicted.
+// The same for a hand that touches or holds a body, for all directions. Its faster motion answers
+// the other hands at that body, and is not predicted.
 constexpr double kBodySmoothing = 0.08;
-// For a hand at a body without another hand nearby: greatest error of its handle over kHandleMiss,
-// and longest silence.
+// For a hand that touches a body, holds none, and has no hand of another peer nearby: greatest
+// error of its handle over kHandleMiss, and longest silence.
 constexpr double kAlone = 10.0;
 constexpr std::chrono::milliseconds kAlonePeriod{300};
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
@@ -130,8 +130,8 @@ void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
     entity.consider_accounts(now, accounts());
 }
 
-// At a body, the peers that simulate it compute the force of this hand from the place of its
-// handle. Without another hand nearby, nobody feels the difference.
+// The peers that simulate a body compute the force of a hand at it from the place of the handle. If
+// no other hand is nearby and the hand holds no body, nobody feels an error of this place.
 void HandPort::keep_handle(OwnedEntity& entity) const noexcept {
   if (entity.is_frozen() || entity.touch() == nullptr) return;
   const nanoseconds silence = servo().time - entity.last_built();

@@ -40,7 +40,7 @@ class HandPort {
   /// accounts of the hand name the body, which informs its owner of the contact.
   static constexpr std::chrono::milliseconds kBodyPeriod{100};
 
-  /// Shortest and longest silence of a hand that touches a body.
+  /// Shortest and longest silence of a hand that touches or holds a body.
   static constexpr std::chrono::milliseconds kAtBodyGap{5}, kAtBodyPeriod{60};
   /// Greatest error of the handle of such a hand at its peers [m]: 40 mN at 400 N/m.
   static constexpr double kHandleMiss = 1e-4;
@@ -101,7 +101,7 @@ class HandPort {
   bool touching_ = false;
   bool presses_body_ = false;  // a remote one without a device
   double at_bodies_ = 0.0;     // [s], see ServoTally
-  bool at_body_ = false;       // it touches one of the scene, of any owner
+  bool at_body_ = false;       // it touches or holds one of the scene, of any owner
 };
 
 }  // namespace reckon::peer

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer with the simulated hands of a scene that prints its forces fifty times a second:
+// A peer with the simulated hands of a scene. Prints JSON lines:
 //   feeler SCENE INTERFACE OPERATOR NAME SECONDS
-// A JSON line each time: seconds since the start, force [N] of the hand with the greatest force,
-// force [N] on the own first hand and the servo's time of it [s], number of owned bodies, and
-// position [m] of the first remote entity, if any; lines with "notice"; then the losses of the
-// link, and the last line of `reckon peer --json`.
+// Fifty lines a second: time since the start [s], number of remote entities, greatest force of a
+// remote entity on an own hand [N], force on the first own hand [N] with its servo time [s], number
+// of owned bodies, and position of the first remote entity [m], if any. A line for each notice. At
+// the end, the losses of the link and the last line of `reckon peer --json`.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Three peers of the scene cubes on one host, the third with a page. The first, which owns the cubes, is killed: the
+"""Three peers of the scene cubes on one host, the third with a page. The first, which owns the cubes, is killed. The
 others own them within 5 s, and their hands push them. owners_viewed.py viewed --reckon PROGRAM --scenes FOLDER"""
 import argparse
 import json
@@ -17,10 +17,10 @@ from testbed import PeerProgram, Program, check
 
 CUBES = 6
 TOGETHER = 4.0  # [s] until all three vote
-ADOPTED = 5.0   # [s] after the kill
-PUSHED = 15.0   # [s] after that
-FAR = 0.005     # [m] that a cube moves
-# A hand of each survivor that crosses the box where cubes lie, and comes to them 9 s after its start.
+ADOPTED = 5.0   # [s], greatest time from the kill to the adoption
+PUSHED = 15.0   # [s], greatest time from the adoption to the push
+FAR = 0.005     # [m], least motion of a pushed cube
+# Each survivor has a hand that crosses the box, and reaches the cubes 9 s after its start.
 HANDS = """
 [[operator]]
 sweep = {from = "105 -60 25 mm", to = "-105 60 25 mm", period = "30 s"}
@@ -31,7 +31,7 @@ class Wire(Program):
     """`reckon inspect`: owners and places of the cubes."""
 
     def cubes(self, since):
-        """{cube: [(owner's epoch, place)]} of the states since then [s after its start]."""
+        """{cube: [(epoch of its owner, place [m])]}, by the states from `since` on [s after the start of this program]."""
         found, place = {}, {}
         for when, text in list(self.lines):
             row = json.loads(text)
@@ -71,7 +71,7 @@ def viewed(setup):
     programs = [Wire([setup.reckon, "inspect", "--iface", "lo", "--json"])]
     try:
         wire, peers = programs[0], []
-        time.sleep(1)  # it hears the first states
+        time.sleep(1)  # `inspect` joins before the first states are sent
         for number in (1, 2, 3):
             words = [setup.reckon, "peer", scene, "--iface", "lo", "--operator", number, "--name", f"P{number}", "--events", "--json"]
             peers.append(PeerProgram([*map(str, words), *(["--view=0"] if number == 3 else [])]))

@@ -25,7 +25,7 @@ std::vector<std::size_t> first_hands(const Exercise& exercise) {
   return first;
 }
 
-/// Owner of each body, by the peer that knows its last change.
+/// The owner of each body with the highest version among all peers.
 std::vector<peer::BodyOwnerView> newest_owners(const Exercise& exercise) {
   std::vector<peer::BodyOwnerView> newest;
   for (std::size_t i = 0; i < exercise.size(); ++i) {

@@ -193,16 +193,16 @@ std::string mapping_text(const peer::DeviceConfig& device) {
   return text;
 }
 
-/// How its button holds bodies, if there are any.
+/// How its button holds bodies.
 std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
                     const haptics::ServoLoop& servo) {
-  if (device.peer > 1) return "only those that its peer owns; at the start the first peer has all";
   if (!(scene.hand.grab.stiffness > 0)) return "no: set grab_stiffness of [hand]";
   std::string text = fmt::format("while button {} is pressed, by {}", device.grab_button,
                                  about(servo.grab_stiffness(), "N/m"));
   if (servo.grab_stiffness() < scene.hand.grab.stiffness)
     text += fmt::format(" of the requested {}: the limit of the device or the lightest body",
                         peer::format_quantity(scene.hand.grab.stiffness, "N/m"));
+  if (device.peer > 1) text += "; only bodies that its peer simulates, as owner or as a copy";
   return text;
 }
 

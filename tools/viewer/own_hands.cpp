@@ -94,8 +94,8 @@ void OwnHands::note_bodies() {
   }
 }
 
-// Whether the network may change the force of a body on this hand: another peer moves the body, or
-// a hand of another peer presses a body too, which may be the same.
+// Whether the network may change the force of a body on this hand: another peer simulates the body,
+// or a hand of another peer is at a body, which may be the same one.
 bool OwnHands::shares_body(std::size_t index) const {
   const Hand& own = hands_[index];
   return own.is_at_others ||
@@ -116,7 +116,7 @@ std::optional<double> OwnHands::true_force(std::size_t index) const {
     pose.velocity = hands_[i].step.device_velocity;
     const Eigen::Vector3d force = deadreckon::evaluate(to_force_model(hand_), pose, own.device,
                                                        own.device_velocity, hand_.radius);
-    // A body between two hands separates them.
+    // A body may be between the two hands; then they do not feel each other.
     if (!force.isZero(0.0) && (hands_[index].is_at_body || hands_[i].is_at_body))
       return std::nullopt;
     sum += force;

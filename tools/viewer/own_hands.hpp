@@ -67,7 +67,7 @@ class OwnHands {
     double limit = 0;  // [N]
     haptics::ServoSnapshot step;
     double rate_limited = 0;              // [s], total at the last call of frame()
-    double at_bodies = 0, at_others = 0;  // [s], the same, at bodies of all peers and of others
+    double at_bodies = 0, at_others = 0;  // [s], the same: at bodies of any peer, of other peers
     bool is_at_body = false, is_at_others = false;  // since the last call of frame()
     std::uint64_t force_drops = 0;
   };

@@ -278,7 +278,7 @@ TouchConditions read_touch_conditions(const BenchOptions& options) {
   TouchConditions conditions{options.first_seed(), seeds_of(options)};
   if (options.delay) conditions.delay = pdu::to_seconds(*options.delay);
   if (conditions.delay && !(*conditions.delay > 0 && *conditions.delay <= kMostTouchDelay))
-    throw tools::UsageError("--delay: with --touch above 0 and at most 1s");
+    throw tools::UsageError("--delay: must be above 0 and at most 1s with --touch");
   conditions.loss = share_of(options.loss, 0.99, "--loss");
   return conditions;
 }

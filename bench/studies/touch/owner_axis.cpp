@@ -22,7 +22,7 @@ using Forces = std::vector<Eigen::Vector3d>;
 
 constexpr std::array kOneWayDelays{0.0003, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1};  // [s]
 
-/// Of the samples in contact, felt or true.
+/// Of the samples with a felt or a true force.
 ForceError error_in_contact(const Forces& truth, const Forces& felt) {
   Forces wanted, got;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -75,9 +75,10 @@ TouchCase owner_case(const TouchConditions& conditions) {
   for (const BodyTouch& touch : body_touches())
     made.remark += fmt::format("{}: {}. ", touch.name, touch.meaning);
   made.remark +=
-      "fixed: the first peer owns the body for ever; first hand: a peer requests it when its hand "
-      "touches it; before touch: it requests it before, by the time to contact, as peers do. NS: "
-      "CPU time of a servo step of a peer in contact, mean of both, with its simulated device.";
+      "fixed: the first peer owns the body for ever; first hand: a peer requests the body when its "
+      "hand touches it; before touch: a peer requests it before, by the time to contact (the rule "
+      "of peers). NS: CPU time of a servo step in contact, with a simulated device; mean of both "
+      "peers.";
   std::vector<Forces> truths;
   for (const BodyTouch& touch : body_touches()) truths.push_back(run_body_touch(touch, 1).forces);
   const std::vector<OwnerRun> runs = runs_of(conditions);

@@ -293,7 +293,7 @@ std::string delay_svg(const TouchResult& result) {
   return log_plot_svg(plot);
 }
 
-/// Axes over a network have a picture of their own.
+/// An axis over a network is drawn only if it is the only one.
 std::string touch_svg(std::span<const TouchResult> all) {
   if (all.size() == 1 && is_delayed(all.front())) return delay_svg(all.front());
   std::vector<TouchResult> results(all.begin(), all.end());
@@ -309,6 +309,14 @@ std::string touch_svg(std::span<const TouchResult> all) {
   for (const TouchResult& result : results) append_marks(inside, result, axes);
   append_legend(inside, results);
   return tools::svg_picture(inside, kWidth, kHeight);
+}
+
+/// Names the axis that touch_svg() leaves out; else empty.
+std::string plot_note(std::span<const TouchResult> results) {
+  const auto axis = std::ranges::find_if(results, is_delayed);
+  if (results.size() == 1 || axis == results.end()) return {};
+  return fmt::format("--plot leaves out the axis {0}: plot it alone, with --axis {0}\n",
+                     axis->axis);
 }
 
 void append_result(std::string& out, const TouchResult& result) {
@@ -376,7 +384,8 @@ StudyOutput run_touch_study(const std::vector<std::string>& words, TouchConditio
                report.results.size(), axes.size());
   return {json ? touch_json(report) : touch_text(report),
           csv_of(rows_of(report.results), axis_row_fields), touch_svg(report.results),
-          touch_page(report)};
+          touch_page(report),
+          std::ranges::count(call.given, "--plot") > 0 ? plot_note(report.results) : ""};
 }
 
 }  // namespace reckon::bench

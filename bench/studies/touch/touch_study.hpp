@@ -59,9 +59,10 @@ struct TouchCase {
 /// What all cases of a run have in common.
 struct TouchConditions {
   std::uint64_t seed = 1;
-  std::uint64_t seeds = 1;           ///< number of runs, with seeds from `seed` on
-  std::optional<double> delay = {};  ///< [s], instead of all delays; see TouchAxis::has_network
-  double loss = 0;                   ///< share of the datagrams; the same
+  std::uint64_t seeds = 1;  ///< number of runs, with seeds from `seed` on
+  /// For axes with TouchAxis::has_network. Delay [s], one way; none: each delay of the axis.
+  std::optional<double> delay = {};
+  double loss = 0;                   ///< share of the datagrams, for the same axes
   std::function<bool()> go_on = {};  ///< false ends a case early, with the settings so far
 };
 

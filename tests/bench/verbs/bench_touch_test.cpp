@@ -24,6 +24,7 @@ using test::lines_of;
 using test::run_bench;
 using test::unbalanced;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
   const auto touch = [](std::vector<std::string> words) {
@@ -35,6 +36,7 @@ TEST(BenchTouch, ShowsTheCostOfAccuracyInTheServo) {
                     picture = folder.file("touch.svg");
   const auto all = touch({"--delay", "50ms", "--csv", csv, "--report", page, "--plot", picture});
   ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_THAT(all.err, HasSubstr("--plot leaves out the axis owner"));
   for (const std::string& line : all.lines()) EXPECT_LE(tools::text_width(line), 100U) << line;
   for (const TouchAxis& axis : touch_axes()) {
     EXPECT_THAT(all.out, HasSubstr(std::string(axis.name) + ": "));
@@ -58,6 +60,7 @@ TEST(BenchTouch, DrawsTheErrorByDelayAndRule) {
   const auto result = run_bench({"bench", "accuracy", "--touch", "--axis", "owner", "--delay",
                                  "20ms", "--seeds", "2", "--json", "--plot", picture});
   ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("leaves out")));
   for (const char* needed : {"fixed", "first hand", "before touch", "push: solid", "one way [ms]"})
     EXPECT_THAT(content(picture), HasSubstr(needed));
   EXPECT_EQ(unbalanced(content(picture)), "");

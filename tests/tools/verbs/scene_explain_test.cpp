@@ -266,6 +266,21 @@ TEST(SceneExplain, PrintsTheForceRateLimitOfEachDevice) {
   EXPECT_THAT(grows["1 device 3 C"], StartsWith("up to 1.9 kN/s of the requested 5 kN/s"));
 }
 
+TEST(SceneExplain, PrintsWhichBodiesAHandHolds) {
+  auto holds = facts(std::string(kOperator) +
+                         "[hand]\ngrab_stiffness = 100\n"
+                         "[[object]]\nname = \"cube\"\nbox = \"40 40 40 mm\"\nmass = 1\n"
+                         "surface = { stiffness = 500 }\n"
+                         "[[device]]\npeer = 1\n[[device]]\npeer = 2\ngrab_button = 1\n",
+                     "holds bodies");
+  ASSERT_EQ(holds.size(), 2U);
+  EXPECT_THAT(holds.begin()->second, StartsWith("while button 0 is pressed, by "));
+  EXPECT_THAT(holds.begin()->second, Not(HasSubstr("copy")));
+  EXPECT_THAT(holds.rbegin()->second, StartsWith("while button 1 is pressed, by "));
+  EXPECT_THAT(holds.rbegin()->second,
+              HasSubstr("only bodies that its peer simulates, as owner or as a copy"));
+}
+
 TEST(SceneExplain, PrintsTheContactShapeOfAHand) {
   const TemporaryScene ball("[hand]\ncontact_radius = \"2 mm\"\n"), point("");
   EXPECT_THAT(run_reckon({"scene", "explain", ball.path()}).out,

@@ -48,9 +48,9 @@ TEST(OwnHands, AreMarkedWhereTheirForceIsStopped) {
   EXPECT_EQ(flags(false, false), kHandLetGo);
 }
 
-// A body that another peer moves, or that hands of two peers press, can depend on the network; a
-// body between two hands separates them.
-TEST(OwnHands, KnowNoTrueForceOfASharedBody) {
+// The force of a body that another peer simulates, or that hands of two peers press, depends on the
+// network. A body may be between two hands.
+TEST(OwnHands, HideTrueForceAtSharedBodies) {
   peer::HandModel model;
   model.radius = 0.01;
   model.k1 = 300;

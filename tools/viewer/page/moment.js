@@ -115,10 +115,13 @@ export class Moment {
   // The first hand of this program that belongs to a peer.
   handOfPeer(peer) { return this.hands.find(({ slot }) => this.roster.get(slot)?.peer === peer); }
 
+  // The peers of this program's hands.
+  get handPeers() { return new Set(this.hands.map(({ slot }) => this.roster.get(slot)?.peer).filter(Boolean)); }
+
   // Whether more than one peer owns bodies, or could.
   get ownersDiffer() {
-    const peers = [...this.owners.map(({ owner }) => owner), ...this.hands.map(({ slot }) => this.roster.get(slot)?.peer)];
-    return this.owners.length > 0 && new Set(peers.filter(Boolean)).size > 1;
+    const owners = this.owners.map(({ owner }) => owner).filter(Boolean);
+    return this.owners.length > 0 && new Set([...owners, ...this.handPeers]).size > 1;
   }
 
   // Radius of an entity [m]: of its force model, or of the body of the scene that it is; else null.

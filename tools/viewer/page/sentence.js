@@ -17,15 +17,26 @@ export function sentence(moment, large, held) {
   return large === 'touch' ? touchSentence(moment) : worldSentence(moment);
 }
 
-function touchSentence({ hands, hello, count, touch, ownersDiffer }) {
+// [ms], greatest delay at which two hands of two programs lift and shake a cube of 50 g.
+const LIFTED = 50;
+const ROUNDED = 1 / 16; // share by which a measured delay may be rounded up
+
+function ownersSentence({ ownersDiffer, handPeers, numbers }) {
+  if (!ownersDiffer) return '';
+  const colour = ' A body has the colour of the hand whose program simulates it.';
+  const isLong = numbers.peers?.delay_ms?.median > LIFTED * (1 + ROUNDED);
+  return handPeers.size > 1 && isLong ? `${colour} The delay is above ${LIFTED}\u00a0ms: two hands may drop what they lift.` : colour;
+}
+
+function touchSentence(moment) {
+  const { hands, hello, count, touch } = moment;
   if (!hands.length) return `${many(count, 'object that can be felt', 'objects that can be felt')}, as received from the network. An arrow is a force between two of them.`;
   const arrow = 'An arrow is the force that a hand feels.';
   if (hello.kind !== 'demo') return `${many(hands.length, 'hand', 'hands')} of this program, and everything that can be felt near. ${arrow}`;
   const what = touch.solids.some(({ body }) => body !== undefined) ? 'objects that they move' : touch.solids.length ? 'the solids here' : 'each other';
   const others = touch.solids.length && hands.length > 1 ? `${what} and each other` : what;
   const who = hands.length === 1 ? 'One hand touches' : `${many(hands.length, '', 'hands')}, each in a program of its own, touch`;
-  const owners = ownersDiffer ? ' A body has the colour of the hand whose program simulates it. Up to a delay of 50\u00a0ms two hands can lift and shake a cube of 50\u00a0g.' : '';
-  return `${who} ${others} over a simulated network. ${arrow}${owners}`;
+  return `${who} ${others} over a simulated network. ${arrow}${ownersSentence(moment)}`;
 }
 
 function worldSentence({ count }) {

@@ -60,7 +60,7 @@ export const TERMS = {
   floor: 'A grid; the label is the side of a square. A drop line shows above which place a hand is.',
   'drop lines': 'A line down to the grid and a shadow there: how near a hand is. The thin line of your own hand ends at the nearest surface.',
   solids: 'An object of the scene that hands feel.',
-  owners: 'The program that simulates this body: in the colour of its hand, or grey if it has no hand here. A hand that comes to a body gets it; a ring shows the change.',
+  owners: 'The program that simulates this body, by the colour of its hand; grey if it has no hand here. The program whose hand approaches a body gets it; a ring shows the change.',
   regions: 'Space with an effect on a hand inside it, such as honey or wind.',
   patches: 'A part of a surface with a feel of its own. The touched one has the colour of the hand.',
   'predicted hand': 'Where the other programs predict this hand.',

@@ -174,7 +174,7 @@ TEST(TouchOwner, EarlierOwnershipLowersTheError) {
     EXPECT_NEAR(share("squeeze", rule), share("squeeze", "fixed"), 0.02) << rule;
 }
 
-TEST(TouchOwner, LossReachesTheForces) {
+TEST(TouchOwner, LossRaisesTheForceError) {
   const auto error = [](double loss) {
     const auto errors = errors_of(result_of("owner", {.delay = 0.02, .loss = loss}));
     return errors.at("squeeze, 20 ms, fixed").rms;
@@ -227,7 +227,7 @@ TEST(TouchStudy, SlowerAndLessExactRowsAreDominated) {
   EXPECT_EQ(beaten_by(5), "");
 }
 
-TEST(TouchStudy, DelaysAreNoRivals) {
+TEST(TouchStudy, RowsOfOtherDelaysDoNotDominate) {
   const TouchAxis axis{"made", "made", [](const TouchConditions&) {
                          TouchCase of;
                          of.settings = {made("near", 0.1, 100), made("far", 0.2, 100),

@@ -180,5 +180,16 @@ TEST(InspectOwners, ListsFormerAndNewOwners) {
               HasSubstr(",65534:1:4,00000b0b,1:1,2.0,adopted"));
 }
 
+// The owner of the body continues with a higher version.
+TEST(InspectOwners, RefusedGrantIsNoChange) {
+  test::CaptureBuilder capture;
+  capture.add(stated(kOurs, peer::version_of(2, 4)), kStart);
+  capture.add(sent(grant_of(1)), kStart + 1s);
+  capture.add(sent(peer::GrantRefusal{{}, 17}, true), kStart + 2s);
+  capture.add(stated(kOurs, peer::version_of(2, 6)), kStart + 3s);
+  EXPECT_THAT(run_reckon({"inspect", capture.path(), "owners"}).lines(),
+              ElementsAre(HasSubstr("FROM"), HasSubstr("granted"), "1 change of owner"));
+}
+
 }  // namespace
 }  // namespace reckon::tools

@@ -9,11 +9,13 @@ import time
 
 from page_driver import ActionChains, browser, expect, needs_browser, program, shows_no_fault
 
-CUBE = 2  # beside the stack, in front of no other cube
-ASIDE, DEEP, FAR = 0.06, 0.012, 0.005  # [m], of the hand beside the cube, into it, and of a cube that was pushed
-AWAY = ([-0.02, -0.06, 0.15], [-0.09, -0.09, 0.1])  # on the way of no cube
+CUBE = 2  # index of a bottom cube of the stack; no other cube is in its way along y
+ASIDE = 0.06  # [m], from the centre of the cube to the hand before the push
+DEEP = 0.012  # [m], from the side of the cube to the target inside it
+FAR = 0.005  # [m], least motion of a pushed cube
+AWAY = ([-0.02, -0.06, 0.15], [-0.09, -0.09, 0.1])  # [m], places of the second hand away from all cubes
 WHEEL = 0.2  # pixels of depth for each pixel of the wheel
-PATIENCE = 20  # [s]
+PATIENCE = 20  # [s], time-out of a motion
 
 
 class Tab:

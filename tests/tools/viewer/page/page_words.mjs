@@ -56,7 +56,7 @@ test('A sentence says what is seen', () => {
   assert.equal(sentence(new Moment(), 'world', null), '');
 });
 
-test('Owners of bodies are told apart by the hands of their peers', () => {
+test('The page shows owners only if several peers can own bodies', () => {
   const moment = momentOf({ hands: [{ index: 0, slot: 0 }, { index: 1, slot: 1 }] }, { solids: [{ ...floor, body: 0 }] });
   moment.hello = { kind: 'demo' };
   moment.owners = [{ owner: '1:2' }];
@@ -65,13 +65,28 @@ test('Owners of bodies are told apart by the hands of their peers', () => {
   assert.equal(moment.ownersDiffer, true);
   moment.roster.set(1, { peer: '1:2' });
   assert.equal(moment.handOfPeer('1:2').index, 1);
-  assert.match(sentence(moment, 'touch', null), /A body has the colour of the hand whose program simulates it\./);
+  assert.match(sentence(moment, 'touch', null), /A body has the colour of the hand whose program simulates it\.$/);
   moment.roster = new Map([[0, { peer: '1:2' }]]);
   assert.equal(moment.ownersDiffer, false, 'one peer owns all');
   moment.owners = [];
   moment.roster.set(1, { peer: '1:1' });
   assert.equal(moment.ownersDiffer, false, 'owners are fixed');
   assert.doesNotMatch(sentence(moment, 'touch', null), /colour/);
+});
+
+test('A sentence warns of a long delay between the hands of two peers', () => {
+  const moment = momentOf({ hands: [{ index: 0, slot: 0 }, { index: 1, slot: 1 }] }, { solids: [{ ...floor, body: 0 }] });
+  const warns = (peers, median) => {
+    moment.roster = new Map(peers.map((peer, slot) => [slot, { peer }]));
+    moment.numbers = { peers: { delay_ms: median && { median } } };
+    return /above 50\u00a0ms/.test(sentence(moment, 'touch', null));
+  };
+  moment.hello = { kind: 'demo' };
+  moment.owners = [{ owner: '1:2' }];
+  assert.equal(warns(['1:1', '1:2'], 60), true);
+  assert.equal(warns(['1:1', '1:2'], 53), false, '50 ms, rounded up');
+  assert.equal(warns(['1:1', '1:2']), false, 'the delay is unknown');
+  assert.equal(warns(['1:1', '1:1'], 60), false, 'both hands have one peer');
 });
 
 test('An entity is the body of its ID, whoever owns it', () => {
