@@ -23,8 +23,8 @@ enum class BodyAct : std::uint8_t {
   wake,    ///< makes it active
   push,    ///< gives it an impulse, and wakes it
   place,   ///< puts it into `state`, and wakes it
-  copy,    ///< simulates a copy of it, from `state` on, and draws that to the mover's poses;
-           ///< a copy gets another delay
+  copy,    ///< simulates a copy of it, from `state` on, and moves that to the mover's poses;
+           ///< if it is copied: sets `delay`
   follow,  ///< ends the copy: its mover carries the body
   adopt,   ///< `own` of a body that nobody simulates: a drawn copy gets the velocities of `state`
 };

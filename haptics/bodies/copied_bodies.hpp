@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies of other peers that are simulated here too, while a hand of this peer touches them.
+// Bodies of other peers that are simulated here too, at hands of this peer.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 namespace reckon::haptics {
 
 /// A copy is pushed like an owned body, and drawn to its owner's poses: its distance to them decays
-/// within kDelays times their delay. The draw changes its pose and no velocity, because the same
-/// hands push both. Servo thread;
+/// with the time constant kLeast + kDelays x their delay. The draw changes its pose and no
+/// velocity, because the same hands push both. Servo thread;
 /// allocates at construction only.
 class CopiedBodies {
  public:

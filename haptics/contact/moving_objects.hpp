@@ -17,8 +17,8 @@
 
 namespace reckon::haptics {
 
-/// Whether an object was put elsewhere between two steps: its way or turn is longer than that of
-/// 10 ms of its motion by 30 mm or 0.5 rad. Then it does no work on what touched it.
+/// Whether an object was put elsewhere between two steps: it moved by 30 mm, or turned by 0.5 rad,
+/// more than in 10 ms of its motion. Then it leaves what touched it.
 [[nodiscard]] bool jumps(const ObjectMotion& now, const ObjectMotion& before) noexcept;
 
 /// A moving object.

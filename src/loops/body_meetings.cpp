@@ -10,7 +10,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr double kMoves = 0.01;  // [m/s]
-constexpr double kBeside = 0.1;  // [s], until a felt copy meets a body that is then copied too
+constexpr double kBeside = 0.1;  // [s]; bodies that felt copies meet within it are copied too
 
 }  // namespace
 

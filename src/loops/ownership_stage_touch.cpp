@@ -29,11 +29,13 @@ constexpr double kCopied = 0.1;
 constexpr nanoseconds kCopyEnds = milliseconds(200);
 constexpr double kMostCopied = 0.11;
 // An owner without a message for kOwnerFails has failed: a copy of its body goes on undrawn. After
-// kNotAdopted nobody will adopt the body.
+// kNotAdopted the copy ends.
 constexpr nanoseconds kOwnerFails = milliseconds(500), kNotAdopted = milliseconds(6000);
 constexpr double kUndrawn = std::numeric_limits<double>::infinity();  // [s], delay of such a copy
 // The least time between two changes of owner if hands of both peers approach a body.
 constexpr nanoseconds kKeeps = milliseconds(300);
+
+constexpr double kAtHand = 0.02;  // [m], from a body to a hand of another peer that is at it
 
 }  // namespace
 
@@ -59,8 +61,8 @@ double OwnershipStage::delay_to(std::uint32_t epoch) const noexcept {
   return std::clamp(0.5 * pdu::to_seconds(known->round_trip), 0.0, kMostDelay);
 }
 
-// Of two owners whose bodies will meet, one gets both: the one whose hand is at its body; of two
-// with hands, or without, the senior.
+// Of two owners whose bodies will meet, one gets both: the one whose hand is at its body; if both
+// or neither have one, the one that joined first.
 bool OwnershipStage::should_unite(std::size_t body) noexcept {
   const Roll& roll = protocol_.acts().decided().roll;
   const std::size_t other = roll.index_of(owner_of(body).owner);
@@ -68,14 +70,24 @@ bool OwnershipStage::should_unite(std::size_t body) noexcept {
   return is_busy(meetings_.own_of(body)) || roll.index_of(epoch_) < other;
 }
 
-// Whether a body of ours will meet one of a senior, which requests ours.
+// Whether a body of ours will meet one at a hand of a senior, which requests ours.
 bool OwnershipStage::meets_senior(std::size_t object) const noexcept {
   const Roll& roll = protocol_.acts().decided().roll;
   const std::uint32_t asker = protocol_.asker_of(object);
   if (asker == 0 || !(roll.index_of(asker) < roll.index_of(epoch_))) return false;
   for (std::size_t i = 0; i < std::min(protocol_.table().size(), states().size()); ++i) {
-    const bool meets = meetings_.own_of(i) == object && owner_of(i).owner == asker;
-    if (meets && meetings_.time_to(i) <= kAhead + kDelays * delay_to(asker)) return true;
+    const bool meets = meetings_.own_of(i) == object && owner_of(i).owner == asker &&
+                       meetings_.time_to(i) <= kAhead + kDelays * delay_to(asker);
+    if (!meets) continue;
+    bool is_at_hand = false;
+    parts_.remote.visit_felt([&](const RemoteEntity& row) {
+      if (row.epoch != asker || row.type.kind != pdu::EntityKind::life_form) return;
+      const haptics::BodyState& body = states()[i];
+      const Eigen::Vector3d apart = row.motion(pass_.now).position - body.position;
+      const Eigen::Vector3d local = body.orientation.conjugate() * apart;
+      is_at_hand |= world_->box(i).exteriorDistance(local) <= kAtHand;
+    });
+    if (is_at_hand) return true;
   }
   return false;
 }
@@ -123,7 +135,7 @@ void OwnershipStage::choose_copies() noexcept {
       continue;
     }
     const double delay = delay_to(owner);
-    // A copy whose owner fails goes on by itself until this peer adopts the body.
+    // A copy whose owner fails goes on by itself until a peer adopts the body.
     const bool is_left = protocol_.is_silent(owner, kOwnerFails, pass_.now);
     if (was || delay < kMostCopied) hand_overs_.copy(i, was && is_left ? kUndrawn : delay);
   }

@@ -13,8 +13,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A hand at a body states its place at least every 300 ms. A hand that is silent for longer than
-// this has failed.
+// A hand at a body states its place at least every 300 ms. After this time of silence it has
+// failed.
 constexpr nanoseconds kHandFails = std::chrono::milliseconds(500);
 
 }  // namespace

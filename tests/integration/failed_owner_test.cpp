@@ -48,7 +48,7 @@ TEST(TouchedBodies, ArePushedOnAfterTheirOwner) {
 
 // The first peer owns the body, and fails. The second has no majority: nobody adopts the body until
 // its user lets it go on alone.
-TEST(TouchedBodies, AreFeltAgainByTheUsersWord) {
+TEST(TouchedBodies, MoveAgainAfterGoAlone) {
   OneBody body;
   body.drag = 50.0;
   body.seconds = 14.0;
@@ -70,7 +70,7 @@ TEST(TouchedBodies, AreFeltAgainByTheUsersWord) {
       const auto word = static_cast<std::size_t>(1000 * alone_at);
       EXPECT_EQ(run.steps()[word - 10].owner, -1);
       EXPECT_EQ(run.steps()[word + 1000].owner, 1);
-      // As a copy for 6 s after the failure, then as a wall that stands.
+      // A copy for 6 s after the failure, then a wall at rest.
       const std::size_t wall = alone_at < 9.5 ? 12500 : 9000;
       for (std::size_t i = 6000; i < wall; i += 10) {
         const Vector3d off = run.steps()[i].force[1] - truth.steps()[i].force[1];

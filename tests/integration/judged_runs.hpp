@@ -16,7 +16,7 @@ namespace reckon::test {
 /// Seeds of each line.
 [[nodiscard]] inline int seeds() { return tries(1, 60); }
 
-/// Runs, of which 97 % keep a bar; judged at its end.
+/// Expects at its end that 97 % of the runs pass.
 class Share {
  public:
   Share() = default;

@@ -18,7 +18,7 @@ from testbed import check
 
 LATER = 1.3  # [s], about: peer 2 starts this long after peer 1, which then owns the body
 SPEED = 0.05  # [m/s], of a pushing hand
-SLOW, THICK = 0.005, 50  # [m/s], [N s/m], of a hand that stays at the body, and of the body
+SLOW, THICK = 0.005, 50  # [m/s], [N s/m], slow push after the kill, and drag of the body
 DRAG = 20  # [N s/m], of the pushed body
 STEADY = 0.02  # greatest error of the median force within a second, as a share of the true force
 CURVE = 0.05  # greatest error of the force over time, as a share of the greatest true force
@@ -166,7 +166,7 @@ def killed_while_pressed(setup):
         pictures = touch.peers[0].samples(killed)
         adopted = next((s["at"] for s in pictures if s["bodies"]), math.inf) - killed
         left = statistics.median(abs(s["felt"][0]) for s in pictures if GONE < s["at"] - killed < GONE + 1)
-        print(f"  {left:.3f} N remain of the other hand; adopted after {adopted:.2f} s")
+        print(f"  {left:.3f} N remain on the hand; adopted after {adopted:.2f} s")
         check(left <= LEFT and adopted <= ADOPTED, "the force remains, or no peer adopts the body")
         check(touch.owners() == 3, "peer 1, peer 2 and peer 1 did not own the body in turn")
 

@@ -3,6 +3,7 @@
 // Two bodies of two owners meet: one peer gets both before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -87,6 +88,35 @@ TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
       SCOPED_TRACE(testing::Message() << delay << ' ' << seed);
       share.note(run.steady_error(truth) <= 0.05 && run.peak() <= 1.5 * truth.peak(), delay, 0.0,
                  seed);
+    }
+  }
+}
+
+// Only the second peer has a hand: it holds one cube, and pushes the other by it.
+TEST(TouchedBodies, OfTwoOwnersGoToTheHand) {
+  OneBody cubes;
+  cubes.mass = 0.2;
+  cubes.side = 0.04;
+  cubes.beside = 0.12;
+  cubes.drag = 5.0;
+  cubes.grab = 200;
+  cubes.seconds = 5.0;
+  cubes.laws = {[](double) { return target_at(1.0); },
+                [](double t) {
+                  haptics::HandTarget target =
+                      target_at(0.2 - 0.065 * eased(t, 0.2, 1.2) - 0.05 * std::max(0.0, t - 2));
+                  target.buttons = t > 0.6 ? 1 : 0;
+                  return target;
+                }};
+  const OneBodyRun truth(cubes);
+  Share share;
+  for (const double delay : {0.0003, 0.02, 0.05}) {
+    for (int seed = 1; seed <= seeds(); ++seed) {
+      const OneBodyRun run(cubes, {delay, 0.0, static_cast<std::uint64_t>(seed)});
+      SCOPED_TRACE(testing::Message() << delay << ' ' << seed);
+      const bool is_right = run.steps().back().owner == 1 && run.error(truth) <= 0.05;
+      share.note(is_right, delay, 0.0, seed);
+      expect_one_owner(run);
     }
   }
 }

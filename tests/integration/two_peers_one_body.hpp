@@ -121,8 +121,8 @@ class OneBodyRun {
   [[nodiscard]] double step_at_change() const;
   /// Way of the body within the second from `begin` [s] on, up and down [m].
   [[nodiscard]] double swing(double begin) const;
-  /// Least energy of the hands and the body [J], without what is on the line: a hand of the other
-  /// peer has stated it, and has taken it back since.
+  /// Least energy of the hands, minus that of the body, plus what is on the line [J]: stated by the
+  /// hand of the other peer within kStated, then taken back.
   [[nodiscard]] double least_energy() const;
   /// Least energy of the port of a hand, with what it may have lost by late steps [J].
   [[nodiscard]] double least_port(std::size_t hand);

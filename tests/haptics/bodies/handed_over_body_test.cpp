@@ -115,7 +115,7 @@ TEST(HandedOverBody, IsNotPushedWhereItIsPut) {
   EXPECT_LT(rig.cube().velocity.head<2>().norm(), 1e-6);
 }
 
-// By its owner, while the hand touches it, or a copy of it.
+// The owner moves it; the hand touches it or a copy.
 TEST(HandedOverBody, LeavesTheHandWhenPutElsewhere) {
   for (const bool copied : {false, true}) {
     SCOPED_TRACE(copied);
