@@ -14,8 +14,8 @@ namespace reckon::haptics {
 
 /// A copy is pushed like an owned body, and drawn to its owner's poses: its distance to them decays
 /// with the time constant kLeast + kDelays x their delay. The draw changes its pose and no
-/// velocity, because the same hands push both. Servo thread;
-/// allocates at construction only.
+/// velocity, because the same hands push both. Copies that touch are drawn together: by the mean of
+/// their ways, and apart only for what exceeds 1 mm. Servo thread; allocates at construction only.
 class CopiedBodies {
  public:
   static constexpr double kDelays = 4.0;
@@ -28,6 +28,10 @@ class CopiedBodies {
 
   [[nodiscard]] bool empty() const noexcept { return copies_.empty(); }
   [[nodiscard]] bool contains(std::uint32_t body) const noexcept;
+  /// Whether a copy is near enough to its owner's pose to move there smoothly.
+  [[nodiscard]] static bool is_near(const ObjectMotion& copy, const ObjectMotion& owner) noexcept {
+    return (owner.position - copy.position).norm() <= kFarthest;
+  }
   /// Whether it follows its owner's poses.
   [[nodiscard]] bool is_drawn(std::uint32_t body) const noexcept;
   /// @param delay of the owner's poses [s]; infinite: they are not followed

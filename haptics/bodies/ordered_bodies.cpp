@@ -21,6 +21,11 @@ bool is_usable(const ObjectMotion& state) {
          std::abs(state.orientation.norm() - 1.0) <= kUnit;
 }
 
+ObjectMotion normalized(ObjectMotion state) {
+  state.orientation.normalize();
+  return state;
+}
+
 }  // namespace
 
 bool OrderedBodies::admits(const BodyOrder& order) const noexcept {
@@ -61,8 +66,12 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
     if (has_slot) slots_[slot].wake();
   } else if (order.act == BodyAct::push) {
     if (has_slot) slots_[slot].strike(order.impulse, order.point);
-  } else if (is_copied && (order.act == BodyAct::own ||
-                           (order.act == BodyAct::adopt && !copied_.is_drawn(order.body)))) {
+  } else if (order.act == BodyAct::own && is_copied) {
+    copied_.remove(order.body);
+    // Its hand may have moved the copy far away while no state of the owner arrived.
+    if (has_slot && !CopiedBodies::is_near(slots_.motion_of(order.body), order.state))
+      slots_[slot].start(normalized(order.state));
+  } else if (order.act == BodyAct::adopt && is_copied && !copied_.is_drawn(order.body)) {
     copied_.remove(order.body);
   } else if (order.act == BodyAct::adopt && is_copied) {
     // Keeps the pose, so that no force jumps. The draw never corrects the copy's velocity.
@@ -77,8 +86,7 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
     slots_.set_carried(order.body, false);
     carried_.remove(order.body);
     if (order.act == BodyAct::copy) copied_.add(order.body, order.delay);
-    ObjectMotion state = order.state;
-    state.orientation.normalize();
+    const ObjectMotion state = normalized(order.state);
     has_slot ? slots_[slot].start(state) : slots_.lie(order.body, state);
   }
 }

@@ -20,6 +20,7 @@ void BodyMeetings::look(std::span<const haptics::BodyState> bodies,
   looked_ = now;
   met_.fill({});
   beside_.reset();
+  note_company(bodies);
   const std::size_t count = std::min(bodies.size(), met_.size());
   for (std::uint32_t own = 0; own < count; ++own) {
     const bool is_felt = bodies[own].copied && bodies[own].touched;
@@ -42,6 +43,27 @@ void BodyMeetings::look(std::span<const haptics::BodyState> bodies,
       }
     }
   }
+}
+
+void BodyMeetings::note_company(std::span<const haptics::BodyState> bodies) noexcept {
+  std::array<ObjectSet, kMostSharedBodies> islands{};
+  const std::size_t count = std::min(bodies.size(), companies_.size());
+  for (std::size_t i = 0; i < count; ++i)
+    if (bodies[i].is_owned() && bodies[i].island < count) islands[bodies[i].island].set(i);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (bodies[i].island >= count) continue;
+    const ObjectSet& island = islands[bodies[i].island];
+    if (island.count() > 1 && island[i]) companies_[i] = {island, looked_};
+  }
+}
+
+ObjectSet BodyMeetings::company_of(std::size_t body,
+                                   std::span<const haptics::BodyState> bodies) const noexcept {
+  ObjectSet company;
+  if (body >= companies_.size() || looked_ - companies_[body].seen >= kParts) return company;
+  for (std::size_t i = 0; i < std::min(bodies.size(), company.size()); ++i)
+    company[i] = companies_[body].bodies[i] && bodies[i].is_owned();
+  return company;
 }
 
 }  // namespace reckon::peer

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When moving bodies of this peer, and copies at its hands, will meet bodies of others.
+// When moving bodies of this peer, and copies at its hands, will meet bodies of others, and which
+// bodies of this peer touch one another.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <span>
 
 #include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/peer/ownership/messages.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
 
 namespace reckon::peer {
@@ -32,8 +34,20 @@ class BodyMeetings {
   [[nodiscard]] std::size_t own_of(std::size_t body) const noexcept { return met_[body].own; }
   /// Whether it meets a copy that our hand touches.
   [[nodiscard]] bool is_beside(std::size_t body) const noexcept { return beside_[body]; }
+  /// Bodies of ours that touch one, directly or through others, or did so within kParts. A body
+  /// under pressure sleeps for single steps, and bodies part for single steps.
+  [[nodiscard]] ObjectSet company_of(std::size_t body,
+                                     std::span<const haptics::BodyState> bodies) const noexcept;
 
  private:
+  static constexpr std::chrono::milliseconds kParts{300};
+
+  void note_company(std::span<const haptics::BodyState> bodies) noexcept;
+
+  struct Company {
+    ObjectSet bodies;
+    std::chrono::nanoseconds seen{-kParts};
+  };
   struct Meeting {
     double time = std::numeric_limits<double>::infinity();
     std::uint32_t own = 0;
@@ -42,6 +56,7 @@ class BodyMeetings {
   const haptics::BodyWorld* world_;
   std::array<Meeting, kMostSharedBodies> met_{};
   std::bitset<kMostSharedBodies> beside_;
+  std::array<Company, kMostSharedBodies> companies_{};
   std::chrono::nanoseconds looked_{-kLook};
 };
 

@@ -125,15 +125,7 @@ void OwnershipStage::note_claim(std::size_t body, const Tenure& stated,
 
 // Bodies of other owners stay with them.
 ObjectSet OwnershipStage::company_of(std::size_t object) {
-  ObjectSet company;
-  std::array<std::uint32_t, kMostHoldings + 1> island{};
-  const haptics::BodyStates* all = parts_.bodies.states();
-  if (all == nullptr || object >= all->bodies.size()) return company;
-  const std::size_t count = all->copy_island(object, island);
-  for (const std::uint32_t body : std::span(island).first(count)) {
-    if (body < company.size() && all->bodies[body].is_owned()) company.set(body);
-  }
-  return company;
+  return meetings_.company_of(object, states());
 }
 
 bool OwnershipStage::is_any_awake() {

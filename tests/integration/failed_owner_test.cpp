@@ -78,7 +78,7 @@ TEST(TouchedBodies, MoveAgainAfterGoAlone) {
       }
       if (wall > word) continue;
       EXPECT_GT(run.steps()[word].force[1].x(), 4.0);
-      EXPECT_LT(run.steps()[word + 2000].force[1].x(), 0.27) << "N, of the drag";
+      EXPECT_LT(run.steps()[word + 1900].force[1].x(), 0.27) << "N, of the drag";
     }
   }
 }

@@ -236,6 +236,28 @@ TEST(Ownership, OfATowerPassesTogether) {
                 1e-3);
 }
 
+// The bodies sleep for a step each second. The lower one stays with the hand on the upper one.
+TEST(Ownership, OfAPressedTowerStays) {
+  const std::string scene =
+      with(cubes_scene(2), "position = [0.100000, 0, 0.020000]", "position = [0, 0, 0.06]");
+  OwnersExercise exercise(2, scene);
+  exercise.start_with_hand(0, 1, [](double t) {
+    haptics::HandTarget target;
+    target.position = {0, 0, 0.12 - 0.05 * std::min(1.0, t)};
+    return target;
+  });
+  exercise.start(1, 2);
+  exercise.run(2500);
+  exercise.owners(1).acquire(0);
+  std::size_t slept = 0;
+  for (int t = 0; t < 5000; ++t) {
+    exercise.step();
+    slept += exercise.body(0, 0).awake ? 0 : 1;
+    ASSERT_TRUE(exercise.simulates(0, 0)) << t;
+  }
+  EXPECT_GT(slept, 0u);
+}
+
 TEST(Ownership, OfManyBodiesChangesAtLoss) {
   OwnersExercise exercise(4, cubes_scene(20));
   exercise.network().impair(line_of(milliseconds(5), milliseconds(5), 0.1));

@@ -62,15 +62,15 @@ TEST(TouchedBodies, OfTwoOwnersMeetAtOne) {
   EXPECT_LE(wrong, hits / 100);
 }
 
-// Each hand holds a cube of its own peer. They bring the cubes together and press them.
-TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
+/// Each hand holds a cube of its own peer. They bring the cubes together and press them.
+OneBody two_holders(double time) {
   OneBody cubes;
   cubes.mass = 0.2;
   cubes.side = 0.04;
   cubes.beside = 0.12;
   cubes.drag = 1.0;
   cubes.grab = 200;
-  cubes.seconds = 7.0;
+  cubes.seconds = time;
   const auto law = [](double side) {
     return [side](double t) {
       const double out = 0.14 - 0.065 * eased(t, 0.2, 1.2) - 0.055 * eased(t, 2, 3.5);
@@ -80,6 +80,11 @@ TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
     };
   };
   cubes.laws = {law(-1), law(1)};
+  return cubes;
+}
+
+TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
+  const OneBody cubes = two_holders(7.0);
   const OneBodyRun truth(cubes);
   Share share;
   for (const double delay : {0.0003, 0.02, 0.05}) {
@@ -89,6 +94,17 @@ TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
       share.note(run.steady_error(truth) <= 0.05 && run.peak() <= 1.5 * truth.peak(), delay, 0.0,
                  seed);
     }
+  }
+}
+
+// The copies of both cubes are drawn to poses that overlap by up to two thresholds.
+TEST(TouchedBodies, KeepTheForceOfTwoHolders) {
+  const OneBody cubes = two_holders(25.0);
+  const OneBodyRun truth(cubes);
+  for (int seed = 1; seed <= tries(2, 20); ++seed) {
+    const OneBodyRun run(cubes,
+                         {seed % 2 == 0 ? 0.02 : 0.05, 0.0, static_cast<std::uint64_t>(seed)});
+    EXPECT_LE(run.steady_error(truth), 0.1) << seed;
   }
 }
 

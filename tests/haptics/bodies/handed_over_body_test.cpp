@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 #include <utility>
@@ -130,6 +131,27 @@ TEST(HandedOverBody, LeavesTheHandWhenPutElsewhere) {
     EXPECT_LT(rig.step().force.norm(), 0.01);
     EXPECT_LT(rig.cube().velocity.head<2>().norm(), 0.01) << "nobody pushes it";
     EXPECT_GE(rig.step().port_energy_min, -1e-9);
+  }
+}
+
+// The hand moves a copy while no state of the owner arrives. Then its peer gets the body.
+TEST(HandedOverBody, IsWhereItsOwnerHadIt) {
+  for (const bool far : {false, true}) {
+    SCOPED_TRACE(far);
+    Rig rig(shoves);
+    rig.world->disown(0);
+    rig.step();
+    BodyOrder copy{BodyAct::copy, 0, rig.cube()};
+    copy.delay = std::numeric_limits<double>::infinity();
+    rig.world->order(copy);
+    const double way = far ? 0.055 : 0.03;
+    while (rig.cube().position.x() < way) {
+      rig.step();
+      ASSERT_LT(rig.now, std::chrono::seconds(5));
+    }
+    rig.world->order({BodyAct::own, 0, {{0, 0, kHalf}, Eigen::Quaterniond::Identity()}});
+    for (int i = 0; i < 5; ++i) EXPECT_GE(rig.step().port_energy_min, -1e-9);
+    EXPECT_NEAR(rig.cube().position.x(), far ? 0.0 : way, 0.002);
   }
 }
 
