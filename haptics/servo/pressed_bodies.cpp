@@ -142,7 +142,7 @@ void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, 
     const Vector3d way = state.drawn + state.drawn_turn.cross(point - state.position);
     // It gives the others no more than it has, and the rest later.
     const double wanted = force.dot(way) - owed_;
-    const double paid = world_->take_from_guest(std::max(wanted, -std::max(0.0, ledger.level())));
+    const double paid = world_->take_from_guest(std::max(wanted, -ledger.givable()));
     owed_ = wanted < 0 ? paid - wanted : 0.0;
     ledger.book(paid);
     work_ -= paid;
