@@ -287,22 +287,24 @@ void Federate::go_alone() { participation_->joined.peer().go_alone(); }
 
 // Interactions ------------------------------------------------------------------------------------
 
-MessageHandle Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
-                                    const std::optional<Eigen::Vector3d>& place,
-                                    Delivery delivery) {
+MessageHandle Federate::send_octets(const SendOptions& sending, std::span<const std::byte> octets,
+                                    const std::optional<Eigen::Vector3d>& place) {
+  const pdu::PduType type = sending.type;
   const auto& published = participation_->published_interactions;
   if (std::find(published.begin(), published.end(), type) == published.end())
     throw std::logic_error("PDU type " + std::to_string(static_cast<int>(type)) +
                            " is not published: call publish<pdu::Type>() first");
-  const bool is_assured = delivery == Delivery::assured;
+  const bool is_assured = sending.delivery == Delivery::assured;
+  const bool is_ordered = sending.order != Order::none;
+  check_order(sending.delivery, sending.order);
   if (is_assured)
     check_assured(type, octets.size(), participation_->options().scene->network.interop);
   Wishes& wishes = participation_->wishes();
   std::optional<aoim::Position> at;
   if (place) at = to_position(*place);
   const MessageHandle message{is_assured ? ++participation_->messages : 0};
-  wishes.said.push_back(
-      {wishes.octets.size(), octets.size(), at, is_assured ? message_tag(message, type) : 0});
+  wishes.said.push_back({wishes.octets.size(), octets.size(), at,
+                         is_assured ? message_tag(message, type) : 0, is_ordered});
   wishes.octets.insert(wishes.octets.end(), octets.begin(), octets.end());
   return message;
 }

@@ -197,15 +197,18 @@ class Federate {
   /// Sends any PDU, with exercise and timestamp filled in. A PDU with a world location (Fire,
   /// Detonation) goes to peers that can sense the place, any other PDU to all peers.
   /// An assured one goes to all joined peers whatever its place, and on_undelivered() reports each
-  /// peer that does not get it. Peers take it once, but not in the order of sending. resign() ends
-  /// the repeats.
+  /// peer that does not get it. Peers take it once: as it arrives, or with Order::per_source in the
+  /// order in which this federate sent those interactions. resign() ends the repeats.
   ///
   ///   const peer::MessageHandle shot = federate.send(fire, peer::Delivery::assured);
+  ///   federate.send(door_opens, peer::Delivery::assured, peer::Order::per_source);
   ///
-  /// @throws std::logic_error if its type is not published; for an assured one also as
-  /// check_assured() does: interop scene, Entity State, Attribute, more than 1,200 octets
+  /// @throws std::logic_error if its type is not published, or if an order is given with
+  /// Delivery::best_effort; for an assured one also as check_assured() does: interop scene, Entity
+  /// State, Attribute, more than 1,200 octets
   template <pdu::Pdu T>
-  MessageHandle send(T message, Delivery delivery = Delivery::best_effort) {
+  MessageHandle send(T message, Delivery delivery = Delivery::best_effort,
+                     Order order = Order::none) {
     message.header.exercise_id = exercise();
     std::optional<Eigen::Vector3d> place;
     if constexpr (requires { message.location_in_world_coordinates; }) {
@@ -214,7 +217,7 @@ class Federate {
     }
     std::vector<std::byte> octets(pdu::wire_size(message));
     octets.resize(pdu::encode(message, octets));
-    return send_octets(T::kPduType, octets, place, delivery);
+    return send_octets({T::kPduType, delivery, order}, octets, place);
   }
 
   /// Interactions that were lost because step() was not called: at most 8 MiB of them are pending.
@@ -253,8 +256,13 @@ class Federate {
   void subscribe_interaction(
       pdu::PduType type,
       std::function<void(std::span<const std::byte>, const InteractionSender&)> callback);
-  MessageHandle send_octets(pdu::PduType type, std::span<const std::byte> octets,
-                            const std::optional<Eigen::Vector3d>& place, Delivery delivery);
+  struct SendOptions {
+    pdu::PduType type;
+    Delivery delivery;
+    Order order;
+  };
+  MessageHandle send_octets(const SendOptions& sending, std::span<const std::byte> octets,
+                            const std::optional<Eigen::Vector3d>& place);
   [[nodiscard]] std::uint8_t exercise() const noexcept;
   [[nodiscard]] RemoteObject object_at(std::size_t index) const noexcept;
   [[nodiscard]] Eigen::Vector3d scene_position(const Eigen::Vector3d& world) const noexcept;

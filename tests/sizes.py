@@ -28,11 +28,11 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 41000,
-    "src": 53000,
+    "src": 53500,
     "tools": 41000,
     "python": 2500,
     "bench": 38000,
-    "tests": 144000,
+    "tests": 144500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {

@@ -18,7 +18,8 @@
 namespace reckon::haptics {
 
 enum class BodyAct : std::uint8_t {
-  own,     ///< this peer simulates the body, from `state` on; a copy goes on from where it is
+  own,     ///< this peer simulates the body, from `state` on; a copy within 50 mm of it
+           ///< goes on from where it is
   disown,  ///< its mover carries it; it stands in its last state until its mover moves it
   wake,    ///< makes it active
   push,    ///< gives it an impulse, and wakes it

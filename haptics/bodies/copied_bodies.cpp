@@ -9,9 +9,9 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kApart = 0.001;  // [m], error of two stated poses to each other
+constexpr double kDeviation = 0.001;  // [m], from the mean offset, without a correction
 
-struct Island {
+struct IslandOffset {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // [m], of the ways of its copies
   double copies = 0.0;
 };
@@ -46,17 +46,17 @@ void CopiedBodies::remove(std::uint32_t body) noexcept {
   std::erase_if(copies_, [body](const Copy& copy) { return copy.body == body; });
 }
 
-// Each owner's pose may be wrong by a threshold. Copies that touch are drawn by their mean way, and
-// apart only for what exceeds that error: else a draw presses them together against their hands.
+// Stated poses of two touching bodies may overlap by their errors. Separate corrections would press
+// the copies into each other, against their hands.
 void CopiedBodies::draw(std::chrono::nanoseconds now, double gap) noexcept {
-  std::array<Island, BodySlots::kMost> islands{};
+  std::array<IslandOffset, BodySlots::kMost> islands{};
   for (Copy& copy : copies_) {
     copy.way.setZero();
     copy.turn.setZero();
     const std::size_t slot = slots_.slot_of(copy.body);
     if (slot == BodySlots::kNone || !is_drawn(copy.body)) continue;
     copy.way = carried_.motion_of(copy.body, now).position - slots_[slot].motion().position;
-    Island& island = islands[slots_[slot].island];
+    IslandOffset& island = islands[slots_[slot].island];
     if (!(copy.way.norm() <= kFarthest)) continue;
     island.sum += copy.way;
     island.copies += 1.0;
@@ -66,13 +66,14 @@ void CopiedBodies::draw(std::chrono::nanoseconds now, double gap) noexcept {
     if (slot == BodySlots::kNone || !is_drawn(copy.body)) continue;
     const ObjectMotion there = carried_.motion_of(copy.body, now);
     RigidBody& body = slots_[slot];
-    const Island& island = islands[body.island];
+    const IslandOffset& island = islands[body.island];
     const ObjectMotion here = body.motion();
     const bool is_lost = !is_near(here, there);
     const double share = is_lost ? 1.0 : std::min(1.0, gap / copy.time);
     if (!is_lost && island.copies > 1.0) {
-      const Eigen::Vector3d mean = island.sum / island.copies, apart = copy.way - mean;
-      copy.way = mean + apart * std::max(0.0, 1.0 - kApart / std::max(kApart, apart.norm()));
+      const Eigen::Vector3d mean = island.sum / island.copies, deviation = copy.way - mean;
+      copy.way = mean + deviation * std::max(0.0, 1.0 - kDeviation /
+                                                            std::max(kDeviation, deviation.norm()));
     }
     copy.way *= share;
     const Eigen::Quaterniond turned = here.orientation.slerp(share, there.orientation);

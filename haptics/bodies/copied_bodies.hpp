@@ -14,8 +14,9 @@ namespace reckon::haptics {
 
 /// A copy is pushed like an owned body, and drawn to its owner's poses: its distance to them decays
 /// with the time constant kLeast + kDelays x their delay. The draw changes its pose and no
-/// velocity, because the same hands push both. Copies that touch are drawn together: by the mean of
-/// their ways, and apart only for what exceeds 1 mm. Servo thread; allocates at construction only.
+/// velocity, because the same hands push both. Copies that touch share one correction, the mean of
+/// their offsets; each has one of its own for what deviates by more than 1 mm. Servo thread;
+/// allocates at construction only.
 class CopiedBodies {
  public:
   static constexpr double kDelays = 4.0;
@@ -28,7 +29,7 @@ class CopiedBodies {
 
   [[nodiscard]] bool empty() const noexcept { return copies_.empty(); }
   [[nodiscard]] bool contains(std::uint32_t body) const noexcept;
-  /// Whether a copy is near enough to its owner's pose to move there smoothly.
+  /// Whether a copy is within kFarthest of its owner's pose.
   [[nodiscard]] static bool is_near(const ObjectMotion& copy, const ObjectMotion& owner) noexcept {
     return (owner.position - copy.position).norm() <= kFarthest;
   }

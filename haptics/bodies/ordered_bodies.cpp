@@ -68,7 +68,7 @@ void OrderedBodies::carry_out(const BodyOrder& order, std::size_t slot) noexcept
     if (has_slot) slots_[slot].strike(order.impulse, order.point);
   } else if (order.act == BodyAct::own && is_copied) {
     copied_.remove(order.body);
-    // Its hand may have moved the copy far away while no state of the owner arrived.
+    // A hand of this peer may have moved the copy far away while no state of the owner arrived.
     if (has_slot && !CopiedBodies::is_near(slots_.motion_of(order.body), order.state))
       slots_[slot].start(normalized(order.state));
   } else if (order.act == BodyAct::adopt && is_copied && !copied_.is_drawn(order.body)) {

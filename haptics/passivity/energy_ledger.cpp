@@ -46,12 +46,12 @@ void EnergyLedger::wait(double dt) noexcept {
   oscillations_.wait(dt);
 }
 
-double EnergyLedger::givable() const noexcept {
+double EnergyLedger::greatest_gift() const noexcept {
   return std::min(kMostGift * std::max(0.0, level_), spendable());
 }
 
 double EnergyLedger::give(double wanted) noexcept {
-  const double gift = wanted > 0 ? std::min(givable(), wanted) : 0.0;
+  const double gift = wanted > 0 ? std::min(greatest_gift(), wanted) : 0.0;
   level_ -= gift;
   receivable_ = std::min(kReceivedAtOnce, receivable_ + gift);
   return gift;

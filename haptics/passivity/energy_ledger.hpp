@@ -50,9 +50,9 @@ class EnergyLedger {
   [[nodiscard]] double receivable() const noexcept;
   /// Advances time by `dt` [s]: both accounts refill.
   void wait(double dt) noexcept;
-  /// Energy for a gift [J]: at most 0.9 E, without the energy that pays for pending forces.
-  [[nodiscard]] double givable() const noexcept;
-  /// Takes `wanted` [J] for a gift, at most givable(). @return the energy taken [J].
+  /// Greatest gift now [J]: 0.9 E, or E minus the energy of pending forces if that is less.
+  [[nodiscard]] double greatest_gift() const noexcept;
+  /// Takes `wanted` [J] for a gift, at most greatest_gift(). @return the energy taken [J].
   double give(double wanted) noexcept;
   /// Adds a loan: energy that nobody put in, and which is repaid. The caller bounds it. @param
   /// energy [J] >= 0

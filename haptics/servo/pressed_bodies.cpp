@@ -140,9 +140,9 @@ void PressedBodiesOf<axes>::pay_for_draw(const StaticContactOf<axes>& contacts, 
   const BodyState& state = world_->states()[body];
   const auto pay = [&](const Vector3d& point, const Vector3d& force) {
     const Vector3d way = state.drawn + state.drawn_turn.cross(point - state.position);
-    // It gives the others no more than it has, and the rest later.
+    // Gives now what no pending force needs, and owes the rest.
     const double wanted = force.dot(way) - owed_;
-    const double paid = world_->take_from_guest(std::max(wanted, -ledger.givable()));
+    const double paid = world_->take_from_guest(std::max(wanted, -ledger.greatest_gift()));
     owed_ = wanted < 0 ? paid - wanted : 0.0;
     ledger.book(paid);
     work_ -= paid;

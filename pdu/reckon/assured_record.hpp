@@ -24,6 +24,9 @@ inline constexpr std::size_t kMostAssured = 1200;
 inline constexpr std::uint8_t kAssuredPdu = 1;
 /// The record is sent once, without acknowledgement; its sequence has no meaning.
 inline constexpr std::uint8_t kAssuredOnce = 2;
+/// In a record with a PDU and in its mark: receivers deliver it after the earlier records of its
+/// sender with this bit.
+inline constexpr std::uint8_t kAssuredOrdered = 4;
 
 struct AssuredRecord {
   static constexpr PduType kPduType = PduType::assured_record;
@@ -34,8 +37,10 @@ struct AssuredRecord {
   PduHeader header = header_of<AssuredRecord>();
   SimulationAddress simulation;  ///< of the sender
   AssuredKind kind = AssuredKind::none;
-  std::uint8_t flags = 0;  ///< kAssuredPdu, kAssuredOnce
-  std::uint16_t padding = 0;
+  std::uint8_t flags = 0;  ///< kAssuredPdu, kAssuredOnce, kAssuredOrdered
+  /// Sequence of this record minus that of its predecessor; 0: none. A receiver delivers the
+  /// predecessor first, if that is for it too.
+  std::uint16_t predecessor_distance = 0;
   std::uint32_t epoch = 0;     ///< of the sender, as in its trailers
   std::uint32_t sequence = 0;  ///< of the record; in an acknowledgement the highest received
   OctetBlock<std::uint16_t> content;
@@ -48,7 +53,7 @@ constexpr void fields(auto& visitor, Is<AssuredRecord> auto& pdu) {
   visitor("simulation_address", pdu.simulation);
   visitor("kind", pdu.kind);
   visitor("flags", pdu.flags);
-  visitor("padding", pdu.padding);
+  visitor("predecessor_distance", pdu.predecessor_distance);
   visitor("epoch", pdu.epoch);
   visitor("sequence", pdu.sequence);
   visitor.count("number_of_addressees", pdu.addressees, AssuredRecord::Addressees{});

@@ -33,6 +33,12 @@ void check_assured(pdu::PduType type, std::size_t octets, bool interop) {
                             std::to_string(pdu::kMostAssured) + " at most, so send several");
 }
 
+void check_order(Delivery delivery, Order order) {
+  if (delivery == Delivery::assured || order == Order::none) return;
+  throw std::logic_error(
+      "only assured interactions have an order: send with Delivery::assured, or without an order");
+}
+
 void report_undelivered(std::span<const Undelivered> undelivered,
                         const std::function<void(const UndeliveredMessage&)>& callback) {
   while (callback && !undelivered.empty()) {

@@ -21,6 +21,15 @@ enum class Delivery : std::uint8_t {
   assured,      ///< repeated until each joined peer has acknowledged it, for 5 s at most
 };
 
+/// Order in which peers take assured interactions.
+enum class Order : std::uint8_t {
+  none,  ///< as they arrive
+  /// Peers take the interactions of one sender with this order in the order of sending. A lost
+  /// interaction delays the later ones until its repeat arrives or it fails, after 5 s at most.
+  /// Other interactions do not wait.
+  per_source,
+};
+
 /// An assured interaction that was sent; number 0: one by best effort.
 struct MessageHandle {
   std::uint64_t number = 0;
@@ -46,6 +55,9 @@ struct UndeliveredMessage {
 /// @throws std::logic_error in an interop scene and for a type that cannot be assured (Entity
 /// State, Attribute, experimental), std::length_error for a PDU that is too long
 void check_assured(pdu::PduType type, std::size_t octets, bool interop);
+
+/// @throws std::logic_error for an order of an interaction by best effort
+void check_order(Delivery delivery, Order order);
 
 /// Calls back once for each message, with the peers that follow each other in `undelivered`.
 void report_undelivered(std::span<const Undelivered> undelivered,

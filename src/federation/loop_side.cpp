@@ -56,7 +56,8 @@ void LoopSide::send(Wishes& wishes, ModelLoop& loop) {
     const std::span<std::byte> octets = std::span(wishes.octets).subspan(wish.offset, wish.size);
     pdu::store_big_endian(octets.data() + kTimestampOffset, loop.time().stamp(loop.pass().utc));
     if (wish.assured != 0)
-      loop.assured().send(octets, wish.assured, loop.pass());
+      loop.assured().send(octets, wish.assured, wish.ordered ? pdu::kAssuredOrdered : 0,
+                          loop.pass());
     else
       static_cast<void>(loop.send(octets, wish.place));
   }

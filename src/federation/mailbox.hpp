@@ -49,6 +49,7 @@ struct Wishes {
     std::size_t offset, size;  ///< of the PDU in `octets`
     std::optional<aoim::Position> place;
     std::uint64_t assured = 0;  ///< tag of an assured message; 0: best effort
+    bool ordered = false;       ///< see Order::per_source
   };
   struct Own {
     std::uint32_t body;

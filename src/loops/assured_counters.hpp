@@ -15,6 +15,8 @@ struct AssuredCounters {
         undelivered(
             counters.make("assured_undelivered", "addressees that did not get an assured record")),
         taken(counters.make("assured_in", "assured records taken")),
+        held(counters.make("assured_held_in",
+                           "arrivals of records held until an earlier one arrives, also repeats")),
         doubled(counters.make("assured_doubled_in", "assured records received again, dropped")),
         refused(counters.make("assured_refused",
                               "assured records and acknowledgements of no member, of another "
@@ -25,6 +27,7 @@ struct AssuredCounters {
   Counter& repeated;
   Counter& undelivered;
   Counter& taken;
+  Counter& held;
   Counter& doubled;
   Counter& refused;
   Counter& unknown;

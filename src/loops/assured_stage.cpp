@@ -61,7 +61,8 @@ AssuredStage::AssuredStage(const ModelWiring& wiring, std::uint32_t epoch,
       notices_(notices),
       counted_(wiring.counters),
       sent_(kMostPeers),
-      received_(kMostPeers) {
+      received_(kMostPeers),
+      held_arrivals_(HeldRecords::kMost) {
   joined_.reserve(kMostPeers);
   addressees_.reserve(sizeof(std::uint32_t) * kMostPeers);
 }
@@ -81,14 +82,15 @@ std::optional<std::uint32_t> AssuredStage::send_to_joined(const AssuredContent& 
   return joined_.empty() ? std::nullopt : sent_.add(content, joined_, pass.now);
 }
 
-void AssuredStage::send(std::span<const std::byte> pdu, std::uint64_t tag,
+void AssuredStage::send(std::span<const std::byte> pdu, std::uint64_t tag, std::uint8_t flags,
                         const Pass& pass) noexcept {
   find_joined();
   if (joined_.empty()) {
     static_cast<void>(aoim_.send(aoim::kEverybody, aoim::PduPayload{pdu}, {}, pass.now));
     return;
   }
-  const AssuredContent content{pdu::AssuredKind::record, pdu::kAssuredPdu, pdu, tag};
+  const auto record_flags = static_cast<std::uint8_t>(pdu::kAssuredPdu | flags);
+  const AssuredContent content{pdu::AssuredKind::record, record_flags, pdu, tag};
   if (sent_.add(content, joined_, pass.now)) return;
   for (const std::uint32_t epoch : joined_)
     note_undelivered({tag, epoch, aoim_.presence().id_of(epoch).value_or(aoim::PeerId{}),
@@ -101,6 +103,7 @@ void AssuredStage::step(const Pass& pass) noexcept {
     sent_.give_up(pass.now, *this);
     for (DueRecord due; sent_.take_due(pass.now, due);) transmit(due);
   }
+  if (!held_.empty()) held_.expire(pass.now);
   for (DueReceipt due; received_.owes() && received_.take_receipt(due);) acknowledge(due);
 }
 
@@ -128,6 +131,7 @@ void AssuredStage::transmit(const DueRecord& due) noexcept {
   (due.is_first ? counted_.sent : counted_.repeated).add();
   pdu::AssuredRecord record = record_of(due.content.kind, due.sequence);
   record.flags = due.content.flags;
+  record.predecessor_distance = due.predecessor_distance;
   record.addressees = store_addressees(due.missing);
   if (due.is_first && holds_pdu(record)) return transmit_marked(due, record);
   record.content = pdu::OctetBlock<std::uint16_t>::of(due.content.octets);
@@ -146,7 +150,7 @@ void AssuredStage::transmit_marked(const DueRecord& due,
   static_cast<void>(pdu::store_record(mark, content));
   pdu::AssuredRecord marking = record;
   marking.kind = pdu::AssuredKind::mark;
-  marking.flags = 0;
+  marking.flags &= pdu::kAssuredOrdered;
   marking.content = pdu::OctetBlock<std::uint16_t>::of(content);
   const std::size_t room = aoim_.aggregator().room(aoim::kBaseGroup);
   if (pdu::wire_size(marking) + octets.size() > room) marking.addressees = {};
@@ -263,6 +267,8 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   // A marked PDU is for everybody.
   if (!is_for_us && record.kind != pdu::AssuredKind::mark)
     return received_.follow(record.epoch, record.sequence, arrival.now), false;
+  if (is_pdu && (is_for_us ? hold_if_early(record, update, arrival) : is_late(record)))
+    return false;
   const AssuredNovelty novelty = received_.take(record.epoch, record.sequence, arrival.now);
   if (novelty == AssuredNovelty::refused) return counted_.refused.add(), false;
   if (is_for_us) received_.owe(record.epoch, arrival.is_unicast);
@@ -272,6 +278,51 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   if (is_pdu) return true;
   conclude(update,
            is_users && user_->take_record({record.epoch, record.kind, record.content.bytes}));
+  return false;
+}
+
+// An ordered PDU for others, which nobody repeats to us.
+bool AssuredStage::is_late(const pdu::AssuredRecord& record) const noexcept {
+  return (record.flags & pdu::kAssuredOrdered) != 0 &&
+         received_.has_later(record.epoch, record.sequence);
+}
+
+// Holds an ordered PDU while its predecessor is missing. The sender repeats it. A repeat names no
+// predecessor that every addressee has, or that the sender has given up.
+bool AssuredStage::hold_if_early(const pdu::AssuredRecord& record, const Inbound& update,
+                                 const Arrival& arrival) noexcept {
+  const std::uint32_t predecessor = record.sequence - record.predecessor_distance;
+  if (record.predecessor_distance == 0 || received_.needs_no_wait(record.epoch, predecessor)) {
+    if (!held_.empty()) held_.drop(record.epoch, record.sequence);
+    return false;
+  }
+  const std::size_t place =
+      held_.hold({record.epoch, record.sequence, predecessor, update.pdu.bytes}, arrival.now);
+  if (place == HeldRecords::kMost) return true;
+  counted_.held.add();
+  held_arrivals_[place] = arrival;
+  return true;
+}
+
+bool AssuredStage::take_held(const Pass& pass, HeldPdu& held) noexcept {
+  const auto is_due = [this](const HeldRecord& record) {
+    return received_.needs_no_wait(record.epoch, record.predecessor);
+  };
+  HeldRecord record;
+  is_held_ = false;
+  while (!held_.empty()) {
+    const std::size_t place = held_.take(is_due, record);
+    if (place == HeldRecords::kMost) return false;
+    if (received_.take(record.epoch, record.sequence, pass.now) != AssuredNovelty::fresh) continue;
+    received_.owe(record.epoch, false);
+    counted_.taken.add();
+    admitted_ = {record.epoch, record.sequence};
+    is_held_ = true;
+    held = {record.octets, held_arrivals_[place]};
+    held.arrival.now = pass.now;
+    held.arrival.utc = pass.utc;
+    return true;
+  }
   return false;
 }
 
@@ -287,6 +338,7 @@ void AssuredStage::drop(const aoim::PresenceEvent::Dropped& life) noexcept {
   gone_ = life;
   sent_.drop(life.epoch, *this);
   received_.drop(life.epoch);
+  held_.drop(life.epoch);
   gone_ = {};
 }
 

@@ -24,6 +24,7 @@
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/reliable/acknowledged_set.hpp"
+#include "reckon/peer/reliable/held_records.hpp"
 #include "reckon/peer/reliable/received_set.hpp"
 #include "reckon/peer/reliable/undelivered.hpp"
 #include "reckon/peer/world/arrival.hpp"
@@ -50,6 +51,12 @@ class AssuredUser {
   virtual void settle(const AssuredReport& report) noexcept = 0;
 };
 
+/// A PDU that has waited for an earlier one.
+struct HeldPdu {
+  std::span<const std::byte> octets;  ///< valid until the next admits()
+  Arrival arrival;
+};
+
 /// One thread; allocates only at construction.
 class AssuredStage final : private AssuredReports {
  public:
@@ -66,8 +73,9 @@ class AssuredStage final : private AssuredReports {
   /// Sends a standard PDU to all joined peers. Each that does not get it is reported to the watch,
   /// at once if the message is refused.
   /// @param pdu one standard PDU but no Entity State and no Attribute, at most pdu::kMostAssured
-  /// octets  @param tag not 0
-  void send(std::span<const std::byte> pdu, std::uint64_t tag, const Pass& pass) noexcept;
+  /// octets  @param tag not 0  @param flags kAssuredOrdered, or 0
+  void send(std::span<const std::byte> pdu, std::uint64_t tag, std::uint8_t flags,
+            const Pass& pass) noexcept;
   /// Sends a record of a user. Nothing if AcknowledgedSet::add refuses it.
   std::optional<std::uint32_t> send(const AssuredContent& content,
                                     std::span<const std::uint32_t> addressees,
@@ -89,8 +97,13 @@ class AssuredStage final : private AssuredReports {
   }
   /// Sets whether the PDU that was admitted last was accepted.
   void conclude(const Inbound& update, bool accepted) noexcept {
-    if (!accepted && !update.record.empty()) received_.refuse(admitted_.epoch, admitted_.sequence);
+    if (!accepted && (!update.record.empty() || is_held_))
+      received_.refuse(admitted_.epoch, admitted_.sequence);
   }
+  /// Removes a held PDU whose predecessor was delivered or has failed. Then deliver it, as an
+  /// update without a record, and call conclude(). @return false if there is none; call it until
+  /// then
+  [[nodiscard]] bool take_held(const Pass& pass, HeldPdu& held) noexcept;
   /// Forgets a peer that has gone.
   void drop(const aoim::PresenceEvent::Dropped& life) noexcept;
 
@@ -122,6 +135,9 @@ class AssuredStage final : private AssuredReports {
   void send_to_host(std::uint32_t epoch, pdu::AssuredRecord record) noexcept;
   [[nodiscard]] bool admits_record(const Inbound& update, const Arrival& arrival) noexcept;
   void take_receipt(const pdu::AssuredRecord& record) noexcept;
+  [[nodiscard]] bool is_late(const pdu::AssuredRecord& record) const noexcept;
+  [[nodiscard]] bool hold_if_early(const pdu::AssuredRecord& record, const Inbound& update,
+                                   const Arrival& arrival) noexcept;
   [[nodiscard]] bool is_from_member(const pdu::AssuredRecord& record,
                                     const Arrival& arrival) const noexcept;
   [[nodiscard]] bool names_us(const pdu::AssuredRecord& record) const noexcept;
@@ -137,6 +153,9 @@ class AssuredStage final : private AssuredReports {
   Nanoseconds active_until_{0};
   AcknowledgedSet sent_;
   ReceivedSet received_;
+  HeldRecords held_;
+  bool is_held_ = false;                // the PDU under judgement comes from held_
+  std::vector<Arrival> held_arrivals_;  // by place of held_
   Pass pass_;
   AssuredUser* user_ = nullptr;
   DeliveryWatch* watch_ = nullptr;

@@ -60,7 +60,7 @@ void BodyMeetings::note_company(std::span<const haptics::BodyState> bodies) noex
 ObjectSet BodyMeetings::company_of(std::size_t body,
                                    std::span<const haptics::BodyState> bodies) const noexcept {
   ObjectSet company;
-  if (body >= companies_.size() || looked_ - companies_[body].seen >= kParts) return company;
+  if (body >= companies_.size() || looked_ - companies_[body].seen >= kContactHold) return company;
   for (std::size_t i = 0; i < std::min(bodies.size(), company.size()); ++i)
     company[i] = companies_[body].bodies[i] && bodies[i].is_owned();
   return company;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When moving bodies of this peer, and copies at its hands, will meet bodies of others, and which
-// bodies of this peer touch one another.
+// Predicts contacts of this peer's bodies with bodies of others, and groups this peer's bodies by
+// contact.
 #pragma once
 
 #include <array>
@@ -34,19 +34,20 @@ class BodyMeetings {
   [[nodiscard]] std::size_t own_of(std::size_t body) const noexcept { return met_[body].own; }
   /// Whether it meets a copy that our hand touches.
   [[nodiscard]] bool is_beside(std::size_t body) const noexcept { return beside_[body]; }
-  /// Bodies of ours that touch one, directly or through others, or did so within kParts. A body
-  /// under pressure sleeps for single steps, and bodies part for single steps.
+  /// Owned bodies in contact with `body`, directly or through others, itself included. None: it had
+  /// no contact within kContactHold. That time covers single steps in which pressed bodies sleep or
+  /// separate.
   [[nodiscard]] ObjectSet company_of(std::size_t body,
                                      std::span<const haptics::BodyState> bodies) const noexcept;
 
  private:
-  static constexpr std::chrono::milliseconds kParts{300};
+  static constexpr std::chrono::milliseconds kContactHold{300};
 
   void note_company(std::span<const haptics::BodyState> bodies) noexcept;
 
   struct Company {
     ObjectSet bodies;
-    std::chrono::nanoseconds seen{-kParts};
+    std::chrono::nanoseconds seen{-kContactHold};
   };
   struct Meeting {
     double time = std::numeric_limits<double>::infinity();

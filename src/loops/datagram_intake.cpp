@@ -66,11 +66,15 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
       queued_(kFarAtOnce),
       admitted_(kFarAtOnce) {}
 
-void DatagramIntake::read(const Pass& pass, const aoim::PeerId& own,
+void DatagramIntake::read(const Pass& pass, const aoim::PeerId& own, AssuredStage& assured,
                           UpdateHandler& handler) noexcept {
   const Reading reading{pass, own, handler};
   if (urgent_ != nullptr) drain(*urgent_, reading);
   drain(inbound_, reading);
+  for (HeldPdu held; assured.take_held(pass, held);) {
+    for (const Inbound& update : decoder_.decode_held(held.octets, own))
+      handler.take_update(update, held.arrival);
+  }
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   counted_.lost.set(counts.lost);
   counted_.doubled.set(counts.duplicated);

@@ -12,6 +12,7 @@
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
+#include "reckon/peer/loops/assured_stage.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
@@ -37,9 +38,11 @@ class DatagramIntake {
   DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, TimeKeeper& time,
                  RemoteEntities& remote, const HookList& hooks, ModelCounters& counted);
 
-  /// Reads pending datagrams, beginning with urgent tiers. The number in a step is limited, so that
-  /// a flood does not delay the own hand's updates.  @param own the simulation of this peer
-  void read(const Pass& pass, const aoim::PeerId& own, UpdateHandler& handler) noexcept;
+  /// Reads pending datagrams, beginning with urgent tiers, then held PDUs whose turn has come. The
+  /// number of datagrams in a step is limited, so that a flood does not delay the own hand's
+  /// updates.  @param own the simulation of this peer
+  void read(const Pass& pass, const aoim::PeerId& own, AssuredStage& assured,
+            UpdateHandler& handler) noexcept;
   /// Reports pending datagrams to the tap as unread, at shutdown.
   void report_unread() noexcept;
   /// Drops the key states of this epoch.

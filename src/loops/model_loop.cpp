@@ -103,7 +103,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
 }
 
 void ModelLoop::read_sensors() noexcept {
-  intake_.read(pass_, owned_.simulation().simulation(), *this);
+  intake_.read(pass_, owned_.simulation().simulation(), assured_, *this);
   deliver_events(aoim_, *this, pass_.now);
   doubt_silent_peers();
   remote_.expire(pass_.now);

@@ -150,6 +150,24 @@ void AcknowledgedSet::give_up(nanoseconds now, AssuredReports& reports) noexcept
   });
 }
 
+// Distance to the nearest earlier ordered record that an addressee of this one lacks as well; 0 if
+// there is none. It is the same for all addressees. One that has taken the earlier record, or has
+// seen that it is for others, does not wait.
+std::uint16_t AcknowledgedSet::predecessor_distance_of(const Record& record) noexcept {
+  if ((record.flags & pdu::kAssuredOrdered) == 0) return 0;
+  const std::span<const std::uint64_t> missing = missing_of(record);
+  for (std::uint16_t back = 1; back < kMostInFlight; ++back) {
+    const Record& earlier = at(record.sequence - back);
+    const bool is_due = earlier.missing > 0 && earlier.sequence == record.sequence - back &&
+                        (earlier.flags & pdu::kAssuredOrdered) != 0;
+    if (!is_due) continue;
+    const std::span<const std::uint64_t> lacking = missing_of(earlier);
+    for (std::size_t word = 0; word < words_; ++word)
+      if ((missing[word] & lacking[word]) != 0) return back;
+  }
+  return 0;
+}
+
 // A late call sends once for all transmissions that it missed.
 bool AcknowledgedSet::take_due(nanoseconds now, DueRecord& due) noexcept {
   Record* found = nullptr;
@@ -173,6 +191,7 @@ bool AcknowledgedSet::take_due(nanoseconds now, DueRecord& due) noexcept {
     }
   }
   due.missing = missers_;
+  due.predecessor_distance = predecessor_distance_of(*found);
   return true;
 }
 

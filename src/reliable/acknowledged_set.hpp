@@ -23,7 +23,7 @@ namespace reckon::peer {
 /// A record to send.
 struct AssuredContent {
   pdu::AssuredKind kind = pdu::AssuredKind::record;
-  std::uint8_t flags = 0;             ///< of the PDU
+  std::uint8_t flags = 0;             ///< as in pdu::AssuredRecord
   std::span<const std::byte> octets;  ///< at most pdu::kMostAssured
   std::uint64_t tag = 0;              ///< for the sender, returned in each report
 };
@@ -34,6 +34,7 @@ struct DueRecord {
   AssuredContent content;                  ///< a view of the set, valid until its next call
   std::span<const std::uint32_t> missing;  ///< epochs of the addressees that lack it; likewise
   bool is_first = false;                   ///< not a repeat
+  std::uint16_t predecessor_distance = 0;  ///< see pdu::AssuredRecord
   bool is_for_hosts = false;               ///< also to each addressee's own address
 };
 
@@ -95,6 +96,7 @@ class AcknowledgedSet {
   }
   [[nodiscard]] std::span<std::uint64_t> missing_of(const Record& record) noexcept;
   [[nodiscard]] bool is_missing(const Record& record, std::size_t place) noexcept;
+  [[nodiscard]] std::uint16_t predecessor_distance_of(const Record& record) noexcept;
   void settle(Record& record, std::size_t place, AssuredOutcome outcome,
               AssuredReports& reports) noexcept;
   void settle_all(Record& record, AssuredOutcome outcome, AssuredReports& reports) noexcept;

@@ -71,11 +71,12 @@ bool ReceivedSet::reach(Sender& sender, std::uint32_t sequence, nanoseconds now)
     sender.has_far = true;
     sender.far = sequence;
     if (!agrees || now - sender.last < kIdle) return false;
-    sender.received = sender.refused = {};
+    sender.received = sender.refused = sender.for_others = {};
     sender.highest = sequence;
   } else if (ahead > 0) {
     shift(sender.received, static_cast<std::uint32_t>(ahead));
     shift(sender.refused, static_cast<std::uint32_t>(ahead));
+    shift(sender.for_others, static_cast<std::uint32_t>(ahead));
     sender.highest = sequence;
   }
   sender.has_far = false;
@@ -95,7 +96,24 @@ AssuredNovelty ReceivedSet::take(std::uint32_t epoch, std::uint32_t sequence,
 
 void ReceivedSet::follow(std::uint32_t epoch, std::uint32_t sequence, nanoseconds now) noexcept {
   Sender* sender = find_or_add(epoch, sequence, now);
-  if (sender != nullptr) static_cast<void>(reach(*sender, sequence, now));
+  if (sender == nullptr || !reach(*sender, sequence, now)) return;
+  set_bit(sender->for_others, sender->highest - sequence);
+}
+
+bool ReceivedSet::has_later(std::uint32_t epoch, std::uint32_t sequence) const noexcept {
+  const std::uint32_t place = places_.find(epoch);
+  return place != aoim::EpochIndex::kNone &&
+         static_cast<std::int32_t>(senders_[place].highest - sequence) > 0;
+}
+
+bool ReceivedSet::needs_no_wait(std::uint32_t epoch, std::uint32_t sequence) const noexcept {
+  const std::uint32_t place = places_.find(epoch);
+  if (place == aoim::EpochIndex::kNone) return false;
+  const Sender& sender = senders_[place];
+  const auto back = static_cast<std::int32_t>(sender.highest - sequence);
+  if (back < 0) return false;
+  const auto bit = static_cast<std::uint32_t>(back);
+  return bit >= kWindow || has_bit(sender.received, bit) || has_bit(sender.for_others, bit);
 }
 
 void ReceivedSet::refuse(std::uint32_t epoch, std::uint32_t sequence) noexcept {

@@ -45,6 +45,11 @@ class ReceivedSet {
   /// Takes a record of a sender; a new sender's window begins with it.
   [[nodiscard]] AssuredNovelty take(std::uint32_t epoch, std::uint32_t sequence,
                                     std::chrono::nanoseconds now) noexcept;
+  /// Whether no record waits for this one: it was taken, is for others, or is older than the
+  /// window.
+  [[nodiscard]] bool needs_no_wait(std::uint32_t epoch, std::uint32_t sequence) const noexcept;
+  /// Whether a later record of the sender has come.
+  [[nodiscard]] bool has_later(std::uint32_t epoch, std::uint32_t sequence) const noexcept;
   /// Notes that a record exists which is for others: the window follows it.
   void follow(std::uint32_t epoch, std::uint32_t sequence, std::chrono::nanoseconds now) noexcept;
   /// Marks a taken record as refused by the application.
@@ -67,7 +72,7 @@ class ReceivedSet {
     std::uint32_t far = 0;  ///< last record too far ahead
     bool has_far = false;
     bool owes = false, by_host = false;
-    Map received{}, refused{};
+    Map received{}, refused{}, for_others{};
     Nanoseconds last{};  ///< arrival of the last record within the window
   };
 

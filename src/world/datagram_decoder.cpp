@@ -57,6 +57,14 @@ std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> data
   return {staged_.data(), count_};
 }
 
+std::span<const Inbound> DatagramDecoder::decode_held(std::span<const std::byte> octets,
+                                                      const pdu::SimulationAddress& own) noexcept {
+  count_ = 0;
+  filter_ = nullptr;
+  take_nested(octets, own);
+  return {staged_.data(), count_};
+}
+
 void DatagramDecoder::leave_out(std::size_t overtaken, bool trailer) noexcept {
   pdus_.add(overtaken + (trailer ? 1 : 0));
   overtaken_.add(overtaken);

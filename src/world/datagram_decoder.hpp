@@ -81,6 +81,9 @@ class DatagramDecoder {
                                                 std::uint64_t overtaken = 0,
                                                 const KeySpeaker& speaker = {},
                                                 const PduFilter* filter = nullptr) noexcept;
+  /// Decodes a held PDU. It is not counted again.
+  [[nodiscard]] std::span<const Inbound> decode_held(std::span<const std::byte> octets,
+                                                     const pdu::SimulationAddress& own) noexcept;
   /// Forgets the key states of a peer whose epoch has ended.
   void forget_keys(std::uint32_t epoch) noexcept { restorer_.forget(epoch); }
   /// Counts this many overtaken states of a datagram that has nothing else but perhaps a trailer.

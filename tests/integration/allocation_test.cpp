@@ -104,7 +104,7 @@ TEST(Loops, AllocateNothingForAssuredMessages) {
   for (std::uint64_t tag = 1; tag <= 300; ++tag) {
     peer::ModelLoop& loop = loops.peer(tag % 2).model();
     const AllocationGuard guard;
-    loop.assured().send(fire, tag, loop.pass());
+    loop.assured().send(fire, tag, 0, loop.pass());
     model += guard.count();
     const LoopAllocations sum = loops.run(10);
     model += sum.read + sum.model + sum.write;

@@ -33,14 +33,6 @@ using ::testing::IsEmpty;
 using ::testing::Pair;
 using ::testing::SizeIs;
 
-peer::SceneFile open_country() {
-  peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
-  scene.network.interop = false;
-  scene.aoim.cell = 500.0;
-  scene.aoim.radius = 2000.0;
-  return scene;
-}
-
 pdu::Fire shot(std::uint32_t number, const pdu::EntityId& by = {1, 1, 900}) {
   pdu::Fire fire;
   fire.firing_entity_id = by;

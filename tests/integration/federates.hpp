@@ -19,6 +19,15 @@
 
 namespace reckon::test {
 
+/// A scene without objects, for peers of Reckon only.
+[[nodiscard]] inline peer::SceneFile open_country() {
+  peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
+  scene.network.interop = false;
+  scene.aoim.cell = 500.0;
+  scene.aoim.radius = 2000.0;
+  return scene;
+}
+
 class Federates {
  public:
   /// @param most that may join @param law of each direction between them
@@ -54,6 +63,8 @@ class Federates {
     return *federates_.back();
   }
 
+  /// Sets the law of all directions.
+  void impair(const peer::ImpairmentLaw& law) { network_.impair(law); }
   /// Sets the law of one direction.
   void impair(std::size_t sender, std::size_t receiver, const peer::ImpairmentLaw& law) {
     network_.impair(sender, receiver, law);

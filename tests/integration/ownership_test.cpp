@@ -236,7 +236,8 @@ TEST(Ownership, OfATowerPassesTogether) {
                 1e-3);
 }
 
-// The bodies sleep for a step each second. The lower one stays with the hand on the upper one.
+// Pressed bodies sleep for single steps. The lower one must stay with the peer whose hand presses
+// the upper one, even if another peer requests it.
 TEST(Ownership, OfAPressedTowerStays) {
   const std::string scene =
       with(cubes_scene(2), "position = [0.100000, 0, 0.020000]", "position = [0, 0, 0.06]");

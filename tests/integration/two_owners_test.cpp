@@ -97,14 +97,14 @@ TEST(TouchedBodies, ArePressedTogetherByTwoHolders) {
   }
 }
 
-// The copies of both cubes are drawn to poses that overlap by up to two thresholds.
-TEST(TouchedBodies, KeepTheForceOfTwoHolders) {
+// Stated poses of both cubes may overlap. Copies that follow them must not tire the hands.
+TEST(TouchedBodies, KeepPressingForTwentyFiveSeconds) {
   const OneBody cubes = two_holders(25.0);
   const OneBodyRun truth(cubes);
   for (int seed = 1; seed <= tries(2, 20); ++seed) {
     const OneBodyRun run(cubes,
                          {seed % 2 == 0 ? 0.02 : 0.05, 0.0, static_cast<std::uint64_t>(seed)});
-    EXPECT_LE(run.steady_error(truth), 0.1) << seed;
+    EXPECT_LE(run.steady_error(truth), seed % 2 == 0 ? 0.03 : 0.06) << seed;
   }
 }
 

@@ -134,8 +134,9 @@ TEST(HandedOverBody, LeavesTheHandWhenPutElsewhere) {
   }
 }
 
-// The hand moves a copy while no state of the owner arrives. Then its peer gets the body.
-TEST(HandedOverBody, IsWhereItsOwnerHadIt) {
+// The hand moves a copy that receives no states. Then its peer gets the body: a copy within 50 mm
+// keeps its pose, a farther one takes the granted pose.
+TEST(HandedOverBody, StartsAtTheGrantedPoseIfFar) {
   for (const bool far : {false, true}) {
     SCOPED_TRACE(far);
     Rig rig(shoves);

@@ -137,7 +137,7 @@ TEST_F(SealedPeer, AssuredMessageIsSealedForItsHost) {
   fire.header.exercise_id = 1;
   Octets octets(pdu::wire_size(fire));
   ASSERT_EQ(pdu::encode(fire, octets), octets.size());
-  sender.model().assured().send(octets, 7, sender.model().pass());
+  sender.model().assured().send(octets, 7, 0, sender.model().pass());
   peers.run(500ms);
   EXPECT_EQ(count("assured_in"), 1U) << "by unicast after 392 ms";
   peers.run(1s);
