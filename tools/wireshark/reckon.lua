@@ -785,7 +785,7 @@ local OWN = {
       [16] = "Ownership Round", [17] = "Ownership Proposal", [18] = "Ownership Vote",
       [19] = "Ownership Table", [20] = "Ownership Agreement", } },
     { "flags", 17, 1, "u8" },
-    { "padding", 18, 2, "u16" },
+    { "predecessor_distance", 18, 2, "u16" },
     { "epoch", 20, 4, "u32" },
     { "sequence", 24, 4, "u32" },
     { "number_of_addressees", 28, 2, "u16" },
