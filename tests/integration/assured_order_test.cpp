@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "reckon/pdu/management/comment.hpp"
 #include "reckon/pdu/warfare/fire.hpp"
 #include "reckon/tests/integration/federates.hpp"
 #include "reckon/tests/support/soak.hpp"
