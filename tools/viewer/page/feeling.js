@@ -41,12 +41,17 @@ export function slipSpeed(older, newer, index, touch) {
 
 export class Feeling {
   // `page` has hand, moment, newer and timeLine.
-  constructor(page) { this.page = page; }
+  constructor(page) {
+    this.page = page;
+    this.contacts = 0; // that began; while pictures are old, a contact neither ends nor begins
+    this.touched = false;
+  }
 
   // { newtons, slip, touches, onset }, or null while nothing is felt: no hand is held, the picture
   // stands, or it is old. `onset` counts the contacts that began.
   at(now) {
     const { hand, moment, newer, timeLine } = this.page;
+    if (!hand.held) this.touched = false;
     const felt = hand.held && timeLine.state === 'live' && now - newer.came < OLDEST ? newer.picture.hands.find(({ index }) => index === hand.index) : null;
     if (!felt) this.last = null;
     else if (this.picture !== newer.picture || !this.last) this.last = this.next(felt, moment.touch);
@@ -56,7 +61,8 @@ export class Feeling {
 
   next({ index, flags, newtons }, touch) {
     const touches = (flags & HAND_FLAGS.contact) !== 0;
-    const onset = (this.last?.onset ?? 0) + (touches && !(this.last?.touches ?? false) ? 1 : 0);
-    return { newtons, touches, onset, slip: this.last ? slipSpeed(this.picture, this.page.newer.picture, index, touch) : 0 };
+    if (touches && !this.touched) this.contacts += 1;
+    this.touched = touches;
+    return { newtons, touches, onset: this.contacts, slip: this.last ? slipSpeed(this.picture, this.page.newer.picture, index, touch) : 0 };
   }
 }

@@ -42,12 +42,15 @@ function attempt(call) {
 // Sends commands to one kind of motor: at the begin of a contact at once, else each `period`.
 // `start` returns whether the motor runs.
 export class Motor {
-  constructor(kind) { this.kind = kind; }
+  constructor(kind) {
+    this.kind = kind;
+    this.onset = 0; // of the last contact whose begin was shown
+  }
 
   // @param of the pad or browser that has the motor @param feeling of Feeling, or null: it stops
   play(of, feeling, now) {
     if (!of || !feeling) return this.stop();
-    const begins = feeling.onset !== (this.onset ?? 0) && !(now - this.began < ONSETS_APART);
+    const begins = feeling.onset !== this.onset && !(now - this.began < ONSETS_APART);
     if (!begins && now - this.at < this.kind.period) return undefined;
     if (begins) this.began = now;
     [this.onset, this.at] = [feeling.onset, now];
@@ -62,7 +65,7 @@ export class Motor {
 
   stop() {
     this.still();
-    this.onset = this.began = this.at = undefined;
+    this.began = this.at = undefined;
   }
 }
 

@@ -86,9 +86,9 @@ test('Rumble is renewed before it ends, and stopped once', () => {
   for (let now = 0; now <= 200; now += 10) rumble.play(pad, feeling, now);
   assert.deepEqual(got, [0.8, 0.8, 0.5, 0.5, 0.5]);
   for (let i = 0; i < 3; ++i) rumble.play(pad, null, 210);
-  rumble.play(pad, { ...feeling, newtons: 0, onset: 0 }, 220);
+  rumble.play(pad, { ...feeling, newtons: 0 }, 220);
   assert.deepEqual(got.slice(5), ['still'], 'and none where nothing is felt');
-  rumble.play(pad, { ...feeling, onset: 1 }, 225);
+  rumble.play(pad, { ...feeling, onset: 2 }, 225);
   assert.equal(got.length, 7, 'a contact does not wait');
 });
 
@@ -144,4 +144,22 @@ test('Nothing is felt in a picture that stands, is old, or has no held hand', ()
   for (const change of [{ timeLine: { state: 'paused' } }, { hand: { held: false, index: 0 } }, { hand: { held: true, index: 3 } }]) {
     assert.equal(new Feeling({ ...page, ...change }).at(200), null, JSON.stringify(change));
   }
+});
+
+test('A contact that lasts through old pictures begins once', () => {
+  const page = { hand: { held: true, index: 0 }, moment: { touch: { solids: [] } }, timeLine: { state: 'live' } };
+  const [feeling, rumble, { pad, got }] = [new Feeling(page), new Motor(RUMBLE), motors()];
+  const show = (picture, came, now) => {
+    page.newer = { picture, came };
+    rumble.play(pad, feeling.at(now), now);
+  };
+  show(pictureAt(1, 0), 0, 0);
+  show(pictureAt(1, 0), 0, 900);
+  show(pictureAt(2, 0), 1000, 1000);
+  show(pictureAt(2, 0), 1000, 1900);
+  page.hand.held = false;
+  show(pictureAt(3, 0), 2000, 2000);
+  page.hand.held = true;
+  show(pictureAt(3.1, 0), 2100, 2100);
+  assert.deepEqual(got, [0.8, 'still', 0.2, 'still', 0.8], 'and again for a hand that is taken anew');
 });
