@@ -80,6 +80,8 @@ struct FederateOptions {
   /// host may be in the list. Empty: the list of the scene, else multicast. Ignored with a link of
   /// the caller.
   std::vector<NamedPeer> peers;
+  /// With threads on a LAN with multicast: offers the files of the scene to peers that lack them.
+  bool offers_scene = false;
   /// Receives the fate of each datagram, see DatagramBalance; must outlive the federate.
   DatagramTap* tap = nullptr;
 };

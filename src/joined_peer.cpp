@@ -15,6 +15,7 @@
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/application_hold.hpp"
 #include "reckon/peer/network/site_number.hpp"
+#include "reckon/peer/objects/object_service.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/step_cost/step_check.hpp"
@@ -85,6 +86,17 @@ std::uint16_t JoinedPeer::application(std::uint16_t site) {
   return hold_ ? hold_->number() : options_.application.value_or(PeerOptions{}.application);
 }
 
+SealedLinkOptions JoinedPeer::sealing(const GroupAddress& base, std::uint16_t site) const {
+  const NetworkConfig& network = options_.scene->network;
+  SealedLinkOptions sealing;
+  sealing.key = load_group_key(network.key);
+  sealing.base = base;
+  sealing.site = site;
+  sealing.application = options_.application.value_or(PeerOptions{}.application);
+  sealing.places.exercise = network.exercise;
+  return sealing;
+}
+
 // The link that the peer uses: `link` itself, or a sealed link around it.
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene->network;
@@ -97,17 +109,40 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
     throw std::invalid_argument(
         "'interop' needs plain DIS, and a key seals it: remove one of them");
   network.group = sealed_group(network.group);
-  SealedLinkOptions sealing;
-  sealing.key = load_group_key(network.key);
-  sealing.base = network.group;
-  sealing.site = site;
-  sealing.application = options_.application.value_or(PeerOptions{}.application);
-  sealing.places.exercise = network.exercise;
+  SealedLinkOptions options = sealing(network.group, site);
   const bool is_listed = lan_ && !(options_.peers.empty() && network.peers.empty());
-  if (is_listed) sealing.places.listed = pool_of(*options_.scene);
-  sealing.tap = options_.tap;
-  sealed_ = std::make_unique<SealedLink>(link, std::move(sealing), *clock_);
+  if (is_listed) options.places.listed = pool_of(*options_.scene);
+  options.tap = options_.tap;
+  sealed_ = std::make_unique<SealedLink>(link, std::move(options), *clock_);
   return *sealed_;
+}
+
+// A failure is reported; the peer itself can do without.
+void JoinedPeer::offer_scene() {
+  const SceneFile& scene = *options_.scene;
+  const bool is_listed = !(options_.peers.empty() && scene.network.peers.empty());
+  if (!lan_ || objects_ || is_listed || scene.network.interop) return;
+  try {
+    ObjectExchangeOptions exchange;
+    exchange.base = scene.network.group;
+    exchange.exercise = scene.network.exercise;
+    exchange.epoch = std::random_device{}() | 1u;
+    exchange.seed = exchange.epoch;
+    exchange.simulation = {own_.site, own_.application};
+    const GroupAddress messages = object_messages_group(exchange.base);
+    LanLinkOptions lan = lan_options(options_);
+    lan.udp.tap = nullptr;
+    lan.udp.read_first.reset();
+    objects_lan_ = std::make_unique<LanLink>(lan, steady_);
+    if (sealed_)
+      objects_sealed_ =
+          std::make_unique<SealedLink>(objects_lan_->link(), sealing(messages, own_.site), steady_);
+    objects_ = std::make_unique<ObjectService>(sealed_ ? *objects_sealed_ : objects_lan_->link(),
+                                               steady_, scene, pool_of(scene).size(), exchange);
+  } catch (const std::exception& error) {
+    static_cast<void>(peer_->notices().push(
+        make_notice(NoticeKind::scene_not_offered, "the scene is not offered: {}", error.what())));
+  }
 }
 
 void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest) {
@@ -144,6 +179,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
     static_cast<void>(
         peer_->notices().push(make_notice(NoticeKind::number_held, "{}", hold_->report())));
   peer_->model().set_guest(guest);
+  own_ = {own.site, own.application};
   begun_ = clock_->now();
   peer_->start(begun_);
   if (roll) {
@@ -188,6 +224,7 @@ std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& o
 
 void JoinedPeer::run() {
   if (options_.loops != FederateLoops::threads) return;
+  if (options_.offers_scene) offer_scene();
   PeerThreadsOptions threads;
   threads.servo = options_.servo;
   threads_ = std::make_unique<PeerThreads>(*peer_, *clock_, threads);
@@ -225,6 +262,7 @@ void JoinedPeer::leave_bodies() noexcept {
 void JoinedPeer::resign() noexcept {
   if (resigned_) return;
   resigned_ = true;
+  objects_.reset();
   leave_bodies();
   stop_loops();
   peer_->stop(clock_->now(), clock_->utc_now());

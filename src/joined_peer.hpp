@@ -22,6 +22,7 @@
 namespace reckon::peer {
 
 class ApplicationHold;
+class ObjectService;
 class RollCall;
 
 /// A peer that has joined. Its link is open after construction. Its loops do not run before run(),
@@ -88,7 +89,9 @@ class JoinedPeer {
   void check_step_cost();
   void join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest);
   [[nodiscard]] std::uint16_t application(std::uint16_t site);
+  [[nodiscard]] SealedLinkOptions sealing(const GroupAddress& base, std::uint16_t site) const;
   [[nodiscard]] Link& sealed(Link& link, std::uint16_t site);
+  void offer_scene();
 
   FederateOptions options_;
   SteadyClock steady_;
@@ -98,6 +101,10 @@ class JoinedPeer {
   std::unique_ptr<SealedLink> sealed_;     // null if the scene has no key
   std::unique_ptr<Peer> peer_;
   std::unique_ptr<PeerThreads> threads_;
+  std::unique_ptr<LanLink> objects_lan_;  // null unless the scene is offered; the next two likewise
+  std::unique_ptr<SealedLink> objects_sealed_;
+  std::unique_ptr<ObjectService> objects_;
+  pdu::SimulationAddress own_;
   std::chrono::nanoseconds begun_{0};
   bool runs_ = false;  // on threads
   bool has_given_ = false, resigned_ = false;

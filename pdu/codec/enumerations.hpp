@@ -255,6 +255,11 @@ enum class AssuredKind : std::uint8_t {
   ownership_vote = 18,
   ownership_table = 19,
   ownership_agreement = 20,
+  object_query = 32,    ///< which objects make the scene with this hash?
+  object_offer = 33,    ///< the object that lists them
+  object_request = 34,  ///< chunks that its sender lacks
+  object_status = 35,   ///< the last serial of a server, and how many chunks it will send
+  object_chunk = 36,
 };
 
 /// 129 to 255: experimental by common use; these come last in a bundle.

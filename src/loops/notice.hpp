@@ -81,6 +81,7 @@ enum class NoticeKind : std::uint8_t {
   key,
   device,
   undelivered,
+  scene_not_offered,
 };
 
 enum class Severity : std::uint8_t { info, warning, error };

@@ -76,6 +76,7 @@ constexpr NoticeFacts kFacts[]{
     {"key", Severity::info, "changes of the key"},
     {"device", Severity::warning, "a device changed its state"},
     {"undelivered", Severity::warning, "an assured message did not reach a peer"},
+    {"scene-not-offered", Severity::info, "this peer does not offer the files of its scene"},
 };
 constexpr std::string_view kSeverities[]{"info", "warning", "error"};
 

@@ -164,36 +164,55 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
 SceneFileError::SceneFileError(const std::string& file, std::vector<SceneProblem> problems)
     : std::runtime_error(join_problems(file, problems)), problems_(std::move(problems)) {}
 
-SceneFile parse_scene_file(std::string_view text, const std::string& file,
-                           const std::filesystem::path& folder,
-                           const haptics::CustomEffects& effects) {
+namespace {
+
+SceneFile parse(std::string_view text, const std::string& file, const fs::path& folder,
+                SceneVocabulary vocabulary) {
   const haptics::LoadBudget budget;
   const toml::table document = parse_toml(text, file);
-  const SceneVocabulary vocabulary = vocabulary_of(effects);
   std::vector<SceneProblem> problems;
   SceneFile scene;
+  vocabulary.files = &scene.files;
   TomlReader reader(document, "", folder, vocabulary, problems);
   file_section().read(reader, scene);
   if (problems.empty()) check_pool(scene, problems);
   throw_problems(file, std::move(problems));
   if (scene.name.empty()) scene.name = fs::path(file).stem().string();
   scene.scene.name = scene.name;
-  scene.hash = scene_hash(scene);
+  scene.hash = scene.hash_in_file = scene_hash(scene);
   return scene;
 }
 
-SceneFile load_scene_file(const std::filesystem::path& path,
-                          const haptics::CustomEffects& effects) {
+SceneFile load(const fs::path& path, SceneVocabulary vocabulary) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw SceneFileError(
         path.string(),
         {{0, 0, "there is no such file; name a scene file, for example scenes/two_hands.toml"}});
   if (fs::is_directory(path, error)) throw SceneFileError(path.string(), {{0, 0, "is a folder"}});
-  SceneFile scene = parse_scene_file(read_bytes(path, kMostTomlOctets), path.string(),
-                                     path.parent_path(), effects);
+  SceneFile scene = parse(read_bytes(path, kMostTomlOctets), path.string(), path.parent_path(),
+                          std::move(vocabulary));
   scene.path = path;
   return scene;
+}
+
+}  // namespace
+
+SceneFile parse_scene_file(std::string_view text, const std::string& file,
+                           const std::filesystem::path& folder,
+                           const haptics::CustomEffects& effects) {
+  return parse(text, file, folder, vocabulary_of(effects));
+}
+
+SceneFile load_scene_file(const std::filesystem::path& path,
+                          const haptics::CustomEffects& effects) {
+  return load(path, vocabulary_of(effects));
+}
+
+SceneFile load_received_scene(const std::filesystem::path& path) {
+  SceneVocabulary vocabulary = vocabulary_of({});
+  vocabulary.is_confined = true;
+  return load(path, std::move(vocabulary));
 }
 
 }  // namespace reckon::peer

@@ -25,8 +25,9 @@ namespace reckon::peer {
 
 /// A whole scene file, checked: all numbers SI and in range, all paths absolute and readable.
 struct SceneFile {
-  std::string name;            ///< [scene] name, else the file's stem
-  std::filesystem::path path;  ///< as given; empty when parsed from text
+  std::string name;                          ///< [scene] name, else the file's stem
+  std::filesystem::path path;                ///< as given; empty when parsed from text
+  std::vector<std::filesystem::path> files;  ///< that it names, absolute, without its key
   OriginConfig origin;
   haptics::Scene scene;  ///< the objects and exactly the effects that the file declares
   std::vector<NodeConfig> node_tables;  ///< as written, copies not expanded
@@ -44,6 +45,7 @@ struct SceneFile {
   /// nodes, effects, cells and pool, the reading of accelerations. Comments, order of keys, units
   /// and settings of a single peer do not change it.
   std::uint64_t hash = 0;
+  std::uint64_t hash_in_file = 0;  ///< hash when it was read
 };
 
 /// One finding in a scene file.
@@ -70,6 +72,14 @@ class SceneFileError : public std::runtime_error {
 /// the same key
 [[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
                                         const haptics::CustomEffects& effects = {});
+
+/// The same for a scene that another peer sent: a file outside its folder is a problem, and its key
+/// is not read.
+[[nodiscard]] SceneFile load_received_scene(const std::filesystem::path& path);
+
+/// Whether a file is in a folder or below, by name alone.  @param file absolute, without ".."
+[[nodiscard]] bool is_within(const std::filesystem::path& file,
+                             const std::filesystem::path& folder);
 
 /// The same for text; `file` is its name in messages, and relative paths start at `folder`.
 [[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,

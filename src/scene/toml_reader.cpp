@@ -88,6 +88,11 @@ void throw_problems(const std::string& file, std::vector<SceneProblem> problems)
   throw SceneFileError(file, std::move(problems));
 }
 
+bool is_within(const fs::path& file, const fs::path& folder) {
+  const fs::path way = file.lexically_relative(fs::absolute(folder).lexically_normal());
+  return !way.empty() && way.is_relative() && *way.begin() != ".." && way != ".";
+}
+
 std::string read_bytes(const fs::path& path, std::size_t most_octets) {
   try {
     return haptics::read_input_file(path, most_octets);
@@ -275,17 +280,22 @@ void TomlReader::each_text(std::string_view key,
 // A file that cannot be opened is a problem; so is a device file, which may be endless.
 void TomlReader::read(std::string_view key, fs::path& target) {
   const std::string* said = text(key);
-  if (said == nullptr) return;
+  if (said == nullptr || (vocabulary_->is_confined && is_secret(key))) return;
   if (said->empty()) {
     return problem(key, fmt::format("'{}' is empty; write a file name", key));
   }
   const fs::path path = fs::absolute(folder_ / *said).lexically_normal();
+  if (vocabulary_->is_confined && !is_within(path, folder_))
+    return problem(key, fmt::format("'{}': {} is outside the folder of the scene, which a received "
+                                    "scene may not read",
+                                    key, *said));
   std::error_code error;
   if (!fs::is_regular_file(path, error) || ::access(path.c_str(), R_OK) != 0) {
     return problem(key, fmt::format("'{}': cannot read {}; relative names start at the folder of "
                                     "the scene file",
                                     key, path.string()));
   }
+  if (vocabulary_->files != nullptr && !is_secret(key)) vocabulary_->files->push_back(path);
   target = path;
 }
 

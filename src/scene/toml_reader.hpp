@@ -29,6 +29,9 @@ namespace reckon::peer {
 struct SceneVocabulary {
   std::vector<SceneKey> keys;      ///< scene_keys(), and the keys of `effects`
   haptics::CustomEffects effects;  ///< of the program, in the order of their keys
+  /// Receives each file that the scene names, but its key; null: none does.
+  std::vector<std::filesystem::path>* files = nullptr;
+  bool is_confined = false;  ///< a file outside the folder of the scene is a problem
 };
 
 /// @throws SceneFileError at the place where `text` is invalid TOML, or exceeds check_text_bounds()
@@ -133,6 +136,9 @@ class TomlReader {
   [[nodiscard]] Quantity parse(const std::string& text, const SceneKey& spec) const;
   [[nodiscard]] std::optional<double> in_range(double value, const toml::node& node,
                                                const SceneKey& spec);
+  [[nodiscard]] bool is_secret(std::string_view key) const {
+    return section_ == "network" && key == "key";
+  }
   void wrong_type(const toml::node& node, const SceneKey& spec);
   void refuse_unknown_keys();
   void add(const toml::source_region& where, std::string sentence);

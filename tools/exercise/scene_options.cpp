@@ -97,7 +97,9 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
   check_files_given(options);
   peer::SceneFile scene;
   try {
-    scene = peer::load_scene_file(scene_path(options.scene, shipped), options.effects);
+    scene = options.is_received
+                ? peer::load_received_scene(options.scene)
+                : peer::load_scene_file(scene_path(options.scene, shipped), options.effects);
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);
     check_files(scene, hands);

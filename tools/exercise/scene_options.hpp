@@ -23,6 +23,7 @@ struct SceneOptions {
   std::string iface;
   std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
+  bool is_received = false;          ///< from other peers: see peer::load_received_scene
   bool even_if_slow = false;         ///< see FederateOptions
   double pace = 0.0;                 ///< FederateOptions::body_pace; 0: absent
   haptics::CustomEffects effects{};  ///< of the program that reads the scene

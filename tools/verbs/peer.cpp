@@ -27,6 +27,7 @@
 #include "reckon/tools/metrics/metrics_server.hpp"
 #include "reckon/tools/metrics/peer_metrics.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/join_scene.hpp"
 #include "reckon/tools/verbs/page_address.hpp"
 #include "reckon/tools/verbs/peer_lines.hpp"
 #include "reckon/tools/verbs/peer_page.hpp"
@@ -60,10 +61,15 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
       "peer", "One peer on a LAN: its entities and simulated hands, as the scene defines them.",
       "reckon peer scenes/two_hands.toml --iface eth0\n"
       "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
+      "reckon peer --join --iface eth0\n"
       "reckon peer scenes/two_hands.toml --for 60s --json\n"
       "reckon peer scenes/two_hands.toml --iface eth0 --view\n"
       "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
-  line.word("SCENE", options.scene.scene, true, "scene file, the same for all peers");
+  line.word("SCENE", options.scene.scene, false,
+            "scene file, the same for all peers; not with --join");
+  line.flag("--join", options.join,
+            "get the scene from the peers that play it, instead of SCENE; with a value: their base "
+            "group, e.g. --join=239.192.5.0:3000");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
   line.option("--name", options.name,
@@ -293,6 +299,16 @@ void check_beacons(const std::string& list) {
   }
 }
 
+void check_join(const PeerVerbOptions& options) {
+  if (options.join.empty() == options.scene.scene.empty())
+    throw UsageError(options.join.empty()
+                         ? "write the scene file, for example scenes/two_hands.toml, or --join to "
+                           "get the scene from the peers that play it"
+                         : "--join gets the scene from other peers: leave SCENE out");
+  if (!options.join.empty() && !options.to.empty())
+    throw UsageError("--join needs multicast: give SCENE with --to");
+}
+
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -308,6 +324,8 @@ int run_peer(Arguments arguments, const Console& console) {
   (void)metrics_address(options.metrics);
   if (options.balance && *options.balance < kPeerLookEvery)
     throw UsageError("--balance: write at least 100ms");
+  check_join(options);
+  if (!options.join.empty()) join_scene(options.join, options.scene, console);
   return run(options, console);
 }
 

@@ -57,6 +57,7 @@ peer::FederateOptions RunningPeer::federate_options(const peer::SceneFile& scene
   own.name = options.name;
   own.scene = scene;
   own.loops = peer::FederateLoops::threads;
+  own.offers_scene = true;
   own.even_if_slow = options.scene.even_if_slow;
   own.body_pace = pace_of(options.scene);
   if (options.application) own.application = static_cast<std::uint16_t>(*options.application);

@@ -34,6 +34,7 @@ struct PeerVerbOptions {
   std::optional<std::chrono::nanoseconds> balance;
   std::string to;
   std::string follow;
+  std::string join;  ///< base group, or "true"; empty: the scene is given
   ViewSwitch view;
   std::string metrics, log;
 };
