@@ -28,11 +28,11 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 41000,
-    "src": 53500,
-    "tools": 41000,
+    "src": 55800,
+    "tools": 41400,
     "python": 2500,
     "bench": 38000,
-    "tests": 144500,
+    "tests": 146500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {

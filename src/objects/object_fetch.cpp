@@ -20,8 +20,8 @@ ObjectFetch::ObjectFetch(const ObjectHash& object, std::uint64_t size, ChunkStor
       checked_(layout_.blocks()),
       list_(layout_.blocks()),
       heard_(now - kServerGone),
-      asked_(now - kPeriod),
-      ask_at_(now) {
+      asked_(now),
+      ask_at_(now + timer_.draw(kLongestWait)) {
   block_.reserve(kBlockOctets);
   if (layout_.chunks() == 0) check_list();
 }

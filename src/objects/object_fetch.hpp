@@ -51,6 +51,11 @@ class ObjectFetch {
   /// @param size at most kMostObjectOctets  @param store outlives this
   ObjectFetch(const ObjectHash& object, std::uint64_t size, ChunkStore& store, std::uint64_t seed,
               std::chrono::nanoseconds now);
+  /// Stores how far it is, see ChunkStore::keep(). So does each request.
+  ~ObjectFetch() { store_.keep(received_); }
+  ObjectFetch(const ObjectFetch&) = delete;
+  ObjectFetch& operator=(const ObjectFetch&) = delete;
+
   /// Takes chunks of the data that are stored already; wrong ones are found and fetched again.
   void take_kept(const ChunkMap& kept);
 

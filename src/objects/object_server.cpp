@@ -93,8 +93,10 @@ void ObjectServer::advance(Nanoseconds now) {
   for (Served& served : served_) {
     if (served.waiting.until <= now)
       serve(served, served.waiting.request, served.waiting.missing, now);
-    if (served.serves && served.pending.count() == 0 && now - served.requested > kForgets)
-      stop(served);
+    if (!served.serves) continue;
+    if (served.pending.count() > 0 && now - served.requested > kUnwanted)
+      served.pending = ChunkMap(served.pending.chunks());
+    if (now - served.requested > kForgets) stop(served);
   }
   const double most = std::max(rate_ * seconds_of(kBurst), 2.0 * pdu::kChunkOctets);
   credit_ = std::min(most, credit_ + rate_ * seconds_of(now - credited_));

@@ -48,6 +48,8 @@ class ObjectServer {
   static constexpr std::chrono::milliseconds kStatusPeriod{100};
   /// Without chunks to send, the pauses between the status double from the first to the last.
   static constexpr std::chrono::milliseconds kFirstPause{5}, kLastPause{640};
+  /// Chunks are not sent if nobody has requested any for this time: all receivers have gone.
+  static constexpr std::chrono::seconds kUnwanted{1};
   /// A server forgets an object after this time without a request.
   static constexpr std::chrono::seconds kForgets{5};
   /// Most octets sent at once.

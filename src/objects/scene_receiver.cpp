@@ -95,6 +95,7 @@ bool SceneReceiver::has(const PackageFile& file) const {
 bool SceneReceiver::is_done(Running& one) const {
   check_state(*one.fetch, *one.store, one.file->path);
   if (one.fetch->state() != FetchState::complete) return false;
+  one.fetch.reset();
   static_cast<void>(one.store->finish());
   return true;
 }

@@ -282,10 +282,11 @@ class Testbed:
         """Limits the rate of a host's own cable, for example to "64kbit"; waiting frames are not dropped."""
         self.system(host, f"tc qdisc add dev e0 root tbf rate {rate} burst 3k limit 16m")
 
-    def lose(self, host, share):
-        """Drops one of `share` datagrams from the switch to a host on port 3000, at random."""
-        rules = f'oifname "p{host}" udp dport 3000 counter; oifname "p{host}" udp dport 3000 numgen random mod {share} == 0 counter drop'
-        self.system(SWITCH, f"nft 'table bridge t {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
+    def lose(self, host, share, ports="3000"):
+        """Drops one of `share` datagrams from the switch to a host on these ports, at random."""
+        sent = f'oifname "p{host}" udp dport {ports}'
+        rules = f"{sent} counter; {sent} numgen random mod {share} == 0 counter drop"
+        self.system(SWITCH, f"nft 'table bridge t{host} {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
 
     def forwarded_and_lost(self):
         """Frames that lose() has counted: total, and lost."""
