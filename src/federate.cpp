@@ -50,8 +50,7 @@ SceneHolder dis_exercise(std::uint8_t exercise, double latitude, double longitud
   SceneFile scene;
   scene.name = "DIS exercise " + std::to_string(exercise);
   scene.origin = {latitude, longitude, 0.0};
-  scene.aoim.radius = kFar;
-  scene.aoim.cell = kFar;
+  scene.aoim.radius = scene.aoim.cell = kFar;
   scene.network.interop = true;
   scene.network.exercise = exercise;
   return scene;
@@ -59,9 +58,8 @@ SceneHolder dis_exercise(std::uint8_t exercise, double latitude, double longitud
 
 // The joined peer, the declarations of the program, and its callbacks.
 struct Federate::Participation {
-  // Over a link of its own.
+  // Over a link of its own, or of the caller.
   explicit Participation(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
-  // Over a link of the caller's.
   Participation(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
       : joined(checked(given), link, time, epoch, &side) {
     begin();
@@ -120,6 +118,7 @@ struct Federate::Participation {
   JoinedPeer joined;
   FederateBodies bodies{side, *options().scene,
                         !options().devices.empty() || options().scene_peer > 0};
+  FederateRecords records{side, options().scene->network.interop};
   EntityNumbers numbers{given_already(joined.options())};
   std::vector<bool> alive;  // registered and not deleted, by number
   std::uint64_t dropped = 0, messages = 0;
@@ -283,6 +282,8 @@ FederateBodies& Federate::bodies() noexcept {
   return participation_->bodies;
 }
 
+FederateRecords& Federate::records() noexcept { return participation_->records; }
+
 void Federate::go_alone() { participation_->joined.peer().go_alone(); }
 
 // Interactions ------------------------------------------------------------------------------------
@@ -389,6 +390,7 @@ void Federate::call_back(News& news) {
     if (interaction != s.interactions.end()) interaction->second(octets, heard.sender);
   }
   s.bodies.call_back(news);
+  s.records.call_back(news);
   report_undelivered(news.undelivered, s.undelivered);
 }
 

@@ -22,6 +22,7 @@
 #include "reckon/peer/federation/delivery.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/federate_bodies.hpp"
+#include "reckon/peer/federation/federate_records.hpp"
 #include "reckon/peer/federation/remote_object.hpp"
 #include "reckon/peer/notation/entity_type_text.hpp"
 #include "reckon/peer/world/entity_description.hpp"
@@ -191,6 +192,11 @@ class Federate {
   /// Goes on without the other federates, if this one receives too few of them and its bodies
   /// therefore rest: it owns all bodies then. When they meet again, the older world counts.
   void go_alone();
+
+  // Records ---------------------------------------------------------------------------------------
+
+  /// Records that are equal at all federates, whoever joins, leaves or is cut off.
+  [[nodiscard]] FederateRecords& records() noexcept;
 
   // Interactions ----------------------------------------------------------------------------------
 

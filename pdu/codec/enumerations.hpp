@@ -255,6 +255,9 @@ enum class AssuredKind : std::uint8_t {
   ownership_vote = 18,
   ownership_table = 19,
   ownership_agreement = 20,
+  shared_record = 24,   ///< the latest version of one key of the shared records
+  record_serials = 25,  ///< what its sender has of each writer
+  record_request = 26,  ///< what its sender lacks
   object_query = 32,    ///< which objects make the scene with this hash?
   object_offer = 33,    ///< the object that lists them
   object_request = 34,  ///< chunks that its sender lacks

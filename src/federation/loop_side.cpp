@@ -26,6 +26,9 @@ void LoopSide::begin_pass(ModelLoop& loop) noexcept {
   grant(*wishes, loop);
   send(*wishes, loop);
   order_bodies(*wishes, loop.ownership());
+  for (const Wishes::Record& wish : wishes->records)
+    if (!loop.records().write(wish.key, wish.value, loop.pass()))
+      news_.letter().refused_records.push_back(wish.key);
   wishes->clear();
   wishes_.give_back();
 }
@@ -88,6 +91,17 @@ void LoopSide::note_bodies(std::vector<KnownBody>& bodies, const OwnershipStage&
     bodies[i] = {owners.motion_now(i), owners.owner_id_of(i), owners.asker_of(i), owners.owns(i)};
 }
 
+void LoopSide::note_records(ModelLoop& loop) {
+  RecordStage& stage = loop.records();
+  for (const std::string& key : stage.records().take_changes()) {
+    const SharedRecord record = *stage.records().find(key);
+    news_.letter().records.push_back({key,
+                                      {record.value.begin(), record.value.end()},
+                                      loop.peer_of(record.version.writer),
+                                      record.version.writer == stage.epoch()});
+  }
+}
+
 void LoopSide::receive(const pdu::PduHeader& header, std::span<const std::byte> octets,
                        const InteractionSender& sender) noexcept {
   if (!wanted_[static_cast<std::uint8_t>(header.pdu_type)].load(std::memory_order_relaxed)) return;
@@ -117,6 +131,7 @@ void LoopSide::end_pass(ModelLoop& loop) noexcept {
     }
   }
   if (reads_bodies_.load(std::memory_order_relaxed)) note_bodies(news.bodies, loop.ownership());
+  note_records(loop);
   news.now = loop.pass().now;
   news.utc = loop.pass().utc;
   news.simulation = loop.owned().simulation();

@@ -45,6 +45,7 @@ class LoopSide final : public ModelGuest {
   static void grant(Wishes& wishes, ModelLoop& loop);
   static void send(Wishes& wishes, ModelLoop& loop);
   void order_bodies(Wishes& wishes, OwnershipStage& owners);
+  void note_records(ModelLoop& loop);
   static void note_bodies(std::vector<KnownBody>& bodies, const OwnershipStage& owners);
 
   LetterBox<Wishes> wishes_;

@@ -11,9 +11,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/haptics/bodies/body_exchange.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
@@ -55,6 +57,11 @@ struct Wishes {
     std::uint32_t body;
     bool acquire;  ///< false: divest
   };
+  struct Record {
+    std::string key;
+    std::vector<std::byte> value;
+  };
+  std::vector<Record> records;
   std::vector<Register> registered;
   std::vector<Move> moved;
   std::vector<Appearance> appearances;
@@ -67,7 +74,7 @@ struct Wishes {
 
   [[nodiscard]] bool empty() const noexcept {
     return registered.empty() && moved.empty() && appearances.empty() && parts.empty() &&
-           removed.empty() && said.empty() && owned.empty() && orders.empty();
+           removed.empty() && said.empty() && owned.empty() && orders.empty() && records.empty();
   }
   void clear() noexcept {
     registered.clear();
@@ -79,6 +86,7 @@ struct Wishes {
     octets.clear();
     owned.clear();
     orders.clear();
+    records.clear();
   }
 };
 
@@ -93,6 +101,12 @@ struct News {
     pdu::EntityId id;
     Removal cause;
   };
+  struct Record {
+    std::string key;
+    std::vector<std::byte> value;
+    aoim::PeerId writer;
+    bool is_ours;
+  };
   std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was sent
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed
   std::vector<RemoteCopy> states;           ///< as of now
@@ -102,7 +116,9 @@ struct News {
   std::vector<std::byte> octets;
   std::vector<KnownBody> bodies;       ///< all moving objects as of now, if the program reads them
   std::vector<std::uint32_t> refused;  ///< bodies whose orders had no effect
-  std::uint64_t dropped = 0;           ///< PDUs lost so far because the program did not read
+  std::vector<Record> records;         ///< that have changed
+  std::vector<std::string> refused_records;  ///< keys of records without room
+  std::uint64_t dropped = 0;                 ///< PDUs lost so far because the program did not read
 
   void clear() noexcept {
     states.clear();
@@ -111,6 +127,8 @@ struct News {
     undelivered.clear();
     octets.clear();
     refused.clear();
+    records.clear();
+    refused_records.clear();
   }
 };
 

@@ -16,9 +16,6 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kMostPeers = aoim::PresenceConfig{}.capacity;
 constexpr nanoseconds kNoticeGap = std::chrono::seconds(1);
 
-// Further kinds belong to users.
-constexpr auto kFirstUserKind = pdu::AssuredKind::ownership_round;
-
 bool is_of_users(pdu::AssuredKind kind) noexcept {
   return kind == pdu::AssuredKind::record || kind >= pdu::AssuredKind::ownership_round;
 }
@@ -200,11 +197,17 @@ void AssuredStage::send_to_host(std::uint32_t epoch, pdu::AssuredRecord record) 
   outlet_.push(endpoint_of(*source), octets);
 }
 
+AssuredUser* AssuredStage::user_of(pdu::AssuredKind kind) const noexcept {
+  const bool is_shared =
+      kind >= pdu::AssuredKind::shared_record && kind <= pdu::AssuredKind::record_request;
+  return is_shared ? records_ : user_;
+}
+
 void AssuredStage::settle(const AssuredReport& report) noexcept {
   const bool is_users = report.kind != pdu::AssuredKind::record || report.tag == 0;
   if (report.outcome != AssuredOutcome::accepted) counted_.undelivered.add();
   if (is_users) {
-    if (user_ != nullptr) user_->settle(report);
+    if (AssuredUser* user = user_of(report.kind)) user->settle(report);
     return;
   }
   if (report.outcome == AssuredOutcome::accepted) return;
@@ -255,11 +258,13 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   if (is_users && !is_of_users(record.kind)) return counted_.unknown.add(), false;
   const bool is_for_us = record.addressees.empty() || names_us(record);
   if (is_users && (record.flags & pdu::kAssuredOnce) != 0) {
-    if (is_for_us && user_ != nullptr)
-      static_cast<void>(user_->take_record({record.epoch, record.kind, record.content.bytes}));
+    AssuredUser* user = user_of(record.kind);
+    if (is_for_us && user != nullptr)
+      static_cast<void>(user->take_record({record.epoch, record.kind, record.content.bytes}));
     return false;
   }
-  if (is_users && user_ == nullptr) {
+  AssuredUser* user = user_of(record.kind);
+  if (is_users && user == nullptr) {
     received_.follow(record.epoch, record.sequence, arrival.now);
     return counted_.unknown.add(), false;
   }
@@ -277,7 +282,7 @@ bool AssuredStage::admits_record(const Inbound& update, const Arrival& arrival) 
   admitted_ = {record.epoch, record.sequence};
   if (is_pdu) return true;
   conclude(update,
-           is_users && user_->take_record({record.epoch, record.kind, record.content.bytes}));
+           is_users && user->take_record({record.epoch, record.kind, record.content.bytes}));
   return false;
 }
 

@@ -67,6 +67,8 @@ class AssuredStage final : private AssuredReports {
 
   /// @param user outlives the stage, or the next call; nullptr: records of users are skipped.
   void set_user(AssuredUser* user) noexcept { user_ = user; }
+  /// The same for kinds shared_record to record_request.
+  void set_records(AssuredUser* user) noexcept { records_ = user; }
   /// @param watch outlives the stage, or the next call; nullptr: none.
   void set_watch(DeliveryWatch* watch) noexcept { watch_ = watch; }
 
@@ -121,6 +123,7 @@ class AssuredStage final : private AssuredReports {
   static constexpr std::size_t kMostOctets = 1352;  ///< of a PDU
   static constexpr Nanoseconds kActive = std::chrono::seconds(1);
 
+  [[nodiscard]] AssuredUser* user_of(pdu::AssuredKind kind) const noexcept;
   void find_joined() noexcept;
   void settle(const AssuredReport& report) noexcept override;
   void note_undelivered(const Undelivered& undelivered) noexcept;
@@ -158,6 +161,7 @@ class AssuredStage final : private AssuredReports {
   std::vector<Arrival> held_arrivals_;  // by place of held_
   Pass pass_;
   AssuredUser* user_ = nullptr;
+  AssuredUser* records_ = nullptr;
   DeliveryWatch* watch_ = nullptr;
   struct Admitted {
     std::uint32_t epoch = 0, sequence = 0;

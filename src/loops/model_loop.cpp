@@ -56,6 +56,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       assured_(wiring, identity.epoch, aoim_, time_, hooks_, outlet_, watches_.notices()),
       ownership_(wiring, identity,
                  {aoim_, assured_, bodies_, owned_, remote_, touch_, time_, watches_.notices()}),
+      records_(wiring.counters, identity.epoch, aoim_, assured_),
       view_(wiring) {}
 
 // A pass
@@ -129,6 +130,7 @@ void ModelLoop::publish() noexcept {
   bodies_.publish(pass_.utc - pass_.now, remote_);
   touch_.publish_contacts(pass_);
   touch_.publish_felt_sources();
+  records_.step(pass_);
   view_.publish_shown(remote_, pass_.now);
   emit(false);
   if (guest_ != nullptr) guest_->end_pass(*this);

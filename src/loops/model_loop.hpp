@@ -30,6 +30,7 @@
 #include "reckon/peer/loops/ownership_stage.hpp"
 #include "reckon/peer/loops/peer_hooks.hpp"
 #include "reckon/peer/loops/peer_watches.hpp"
+#include "reckon/peer/loops/record_stage.hpp"
 #include "reckon/peer/loops/returned_peers.hpp"
 #include "reckon/peer/loops/subscriber.hpp"
 #include "reckon/peer/loops/touch_stage.hpp"
@@ -93,6 +94,12 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   [[nodiscard]] OwnershipStage& ownership() noexcept { return ownership_; }
   /// Assured messages of this peer, for send() and for users of further kinds of records.
   [[nodiscard]] AssuredStage& assured() noexcept { return assured_; }
+  /// Address of the peer with this epoch; 0:0 if there is none.
+  [[nodiscard]] aoim::PeerId peer_of(std::uint32_t epoch) const noexcept {
+    return aoim_.presence().id_of(epoch).value_or(aoim::PeerId{});
+  }
+  /// The shared records.
+  [[nodiscard]] RecordStage& records() noexcept { return records_; }
   /// @param guest outlives the loop, or the next call; nullptr: none.
   void set_guest(ModelGuest* guest) noexcept { assured_.set_watch(guest_ = guest); }
 
@@ -111,7 +118,8 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), assured_.next_step(), view_.next(), owned_.next_due(),
-                     tracked_.next_due(), bodies_.next_step(), ownership_.next_step()});
+                     tracked_.next_due(), bodies_.next_step(), ownership_.next_step(),
+                     records_.next_step()});
   }
   /// Whether the delay of arriving updates matters: a body is within reach of a hand or a moving
   /// body of ours.
@@ -187,6 +195,7 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   OrderStage orders_;
   AssuredStage assured_;
   OwnershipStage ownership_;
+  RecordStage records_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
   ReturnedPeers returned_;

@@ -121,7 +121,7 @@ class ObjectExchange {
   const Clock& clock_;
   ObjectExchangeOptions options_;
   ObjectServer server_;
-  RequestTimer timer_;
+  RepairTimer timer_;
   std::vector<std::unique_ptr<ObjectFetch>> fetches_;
   GroupAddress messages_, chunks_;
   std::vector<Own> offers_;

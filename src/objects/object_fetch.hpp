@@ -14,7 +14,7 @@
 #include "reckon/peer/objects/chunk_map.hpp"
 #include "reckon/peer/objects/chunk_store.hpp"
 #include "reckon/peer/objects/object_layout.hpp"
-#include "reckon/peer/objects/request_timer.hpp"
+#include "reckon/peer/reliable/repair_timer.hpp"
 
 namespace reckon::peer {
 
@@ -98,7 +98,7 @@ class ObjectFetch {
   std::uint64_t key_;
   ObjectLayout layout_;
   ChunkStore& store_;
-  RequestTimer timer_;
+  RepairTimer timer_;
   FetchState state_ = FetchState::running;
   ChunkMap received_, checked_;  // checked_: of blocks
   std::vector<ObjectHash> list_;

@@ -18,7 +18,7 @@
 #include "reckon/pdu/reckon/object_messages.hpp"
 #include "reckon/peer/objects/chunk_map.hpp"
 #include "reckon/peer/objects/object_source.hpp"
-#include "reckon/peer/objects/request_timer.hpp"
+#include "reckon/peer/reliable/repair_timer.hpp"
 
 namespace reckon::peer {
 
@@ -104,7 +104,7 @@ class ObjectServer {
 
   std::uint32_t epoch_;
   double rate_;
-  RequestTimer timer_;
+  RepairTimer timer_;
   std::vector<Served> served_;
   std::uint32_t serial_ = 0;
   std::size_t turn_ = 0;  // place of the object whose chunk is next

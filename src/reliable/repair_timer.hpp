@@ -12,13 +12,13 @@ namespace reckon::peer {
 
 /// Draws from a truncated exponential distribution: few waits are short and most are near the
 /// longest one, so that the first message suppresses the others (RFC 5740, 3.2.3.2).
-class RequestTimer {
+class RepairTimer {
  public:
   /// Group size for which the distribution is made. In a smaller group the mean wait is longer than
   /// it has to be, in a larger one more peers send.
   static constexpr double kGroup = 64;
 
-  explicit RequestTimer(std::uint64_t seed) : random_(seed) {}
+  explicit RepairTimer(std::uint64_t seed) : random_(seed) {}
 
   /// A wait from 0 to `longest`.
   [[nodiscard]] std::chrono::nanoseconds draw(std::chrono::nanoseconds longest) {

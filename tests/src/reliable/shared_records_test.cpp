@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Shared records of peers that lose datagrams, are cut off, join and leave.
+#include "reckon/peer/reliable/shared_records.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <queue>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/support/soak.hpp"
+
+namespace reckon::test {
+namespace {
+
+using namespace std::chrono_literals;
+using peer::SharedRecords;
+using peer::WriteResult;
+using std::chrono::nanoseconds;
+
+/// Peers on a network that loses, doubles, delays and reorders messages.
+class Peers {
+ public:
+  Peers(std::size_t count, std::uint64_t seed, double loss) : random_(seed), loss_(loss) {
+    for (std::size_t i = 0; i < count; ++i) add();
+  }
+
+  std::size_t add() {
+    peers_.push_back(
+        std::make_unique<SharedRecords>(static_cast<std::uint32_t>(10 + peers_.size()), random_()));
+    for (const auto& one : peers_)
+      if (one) one->meet(now_);
+    cut_.push_back(std::vector<bool>(64, false));
+    return peers_.size() - 1;
+  }
+  [[nodiscard]] SharedRecords& peer(std::size_t index) { return *peers_[index]; }
+  [[nodiscard]] std::size_t size() const { return peers_.size(); }
+  [[nodiscard]] bool lives(std::size_t index) const { return peers_[index] != nullptr; }
+  [[nodiscard]] nanoseconds now() const { return now_; }
+  [[nodiscard]] std::mt19937_64& random() { return random_; }
+  void remove(std::size_t index) { peers_[index].reset(); }
+  /// Nothing passes from one to the other.
+  void cut(std::size_t from, std::size_t to, bool is_cut) { cut_[from][to] = is_cut; }
+  void set_loss(double loss) { loss_ = loss; }
+
+  void write(std::size_t index, const std::string& key, const std::string& value) {
+    ASSERT_EQ(peer(index).write(key, std::as_bytes(std::span(value)), now_), WriteResult::written);
+  }
+  [[nodiscard]] std::string value(std::size_t index, const std::string& key) {
+    const auto record = peer(index).find(key);
+    if (!record) return "";
+    const auto* letters = reinterpret_cast<const char*>(record->value.data());
+    return {letters, record->value.size()};
+  }
+
+  void run(nanoseconds time) {
+    const nanoseconds end = now_ + time;
+    while (now_ < end) {
+      nanoseconds next = end;
+      if (!under_way_.empty()) next = std::min(next, under_way_.top().arrives);
+      for (const auto& one : peers_)
+        if (one) next = std::min(next, one->next_step());
+      now_ = std::max(now_, next);
+      while (!under_way_.empty() && under_way_.top().arrives <= now_) {
+        const Message message = under_way_.top();
+        under_way_.pop();
+        if (peers_[message.to]) peers_[message.to]->take(message.kind, message.octets, now_);
+      }
+      for (std::size_t i = 0; i < peers_.size(); ++i) send_due(i);
+    }
+  }
+  /// All tables have the same keys, values and versions.
+  [[nodiscard]] bool are_equal(const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+      const peer::SharedRecord* first = nullptr;
+      std::optional<peer::SharedRecord> kept;
+      for (const auto& one : peers_) {
+        if (!one) continue;
+        const auto record = one->find(key);
+        if (!first) {
+          kept = record;
+          first = kept ? &*kept : nullptr;
+          is_first_empty_ = !kept;
+          if (is_first_empty_) first = &none_;
+          continue;
+        }
+        if (record.has_value() == is_first_empty_) return false;
+        if (record &&
+            (record->version != first->version || !std::ranges::equal(record->value, first->value)))
+          return false;
+      }
+    }
+    return true;
+  }
+  [[nodiscard]] std::uint64_t octets() const { return octets_; }
+  [[nodiscard]] std::uint64_t sum(std::uint64_t peer::SharedRecordCounts::*count) const {
+    std::uint64_t sum = 0;
+    for (const auto& one : peers_) sum += one ? one->counts().*count : 0;
+    return sum;
+  }
+
+ private:
+  struct Message {
+    nanoseconds arrives;
+    std::uint64_t number;
+    std::size_t to;
+    pdu::AssuredKind kind;
+    std::vector<std::byte> octets;
+    bool operator<(const Message& other) const {
+      return std::tie(other.arrives, other.number) < std::tie(arrives, number);
+    }
+  };
+
+  double draw() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  void send_due(std::size_t from) {
+    if (!peers_[from]) return;
+    std::array<std::byte, SharedRecords::kMostOctets> room;
+    pdu::AssuredKind kind = pdu::AssuredKind::none;
+    while (const std::size_t size = peers_[from]->take_due(now_, kind, room)) {
+      octets_ += size;
+      for (std::size_t to = 0; to < peers_.size(); ++to) {
+        if (to == from || !peers_[to] || cut_[from][to]) continue;
+        for (int copies = draw() < 0.1 ? 2 : 1; copies > 0; --copies)
+          if (draw() >= loss_)
+            under_way_.push({now_ + 200us + nanoseconds(static_cast<std::int64_t>(3e6 * draw())),
+                             ++sent_,
+                             to,
+                             kind,
+                             {room.begin(), room.begin() + size}});
+      }
+    }
+  }
+
+  std::mt19937_64 random_;
+  double loss_;
+  nanoseconds now_{0};
+  std::vector<std::unique_ptr<SharedRecords>> peers_;
+  std::vector<std::vector<bool>> cut_;
+  std::priority_queue<Message> under_way_;
+  std::uint64_t sent_ = 0, octets_ = 0;
+  bool is_first_empty_ = false;
+  peer::SharedRecord none_;
+};
+
+std::vector<std::string> keys_of(std::size_t count) {
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < count; ++i) keys.push_back("key " + std::to_string(i));
+  return keys;
+}
+
+TEST(SharedRecords, ReachEachPeerWithTheLatestValue) {
+  Peers peers(3, 1, 0.0);
+  peers.write(0, "colour", "red");
+  peers.run(50ms);
+  peers.write(1, "colour", "green");
+  peers.run(50ms);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(peers.value(i, "colour"), "green");
+  ASSERT_EQ(peers.peer(2).take_changes().size(), 1u);
+  EXPECT_TRUE(peers.peer(2).take_changes().empty());
+  peers.write(0, "colour", "");
+  peers.run(50ms);
+  EXPECT_EQ(peers.value(2, "colour"), "");
+  EXPECT_TRUE(peers.peer(2).find("colour"));
+  EXPECT_FALSE(peers.peer(2).find("size"));
+}
+
+TEST(SharedRecords, WrittenAtOnceByTwoAreEqual) {
+  Peers peers(4, 1, 0.2);
+  for (std::size_t i = 0; i < 4; ++i) peers.write(i, "colour", std::to_string(i));
+  peers.run(2s);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(peers.value(i, "colour"), "3") << "highest epoch";
+}
+
+// Half of the writes are replaced during the cut: the octets are of the values that are left.
+TEST(SharedRecords, AreEqualSoonAfterACut) {
+  for (const bool one_way : {false, true}) {
+    Peers peers(4, 7, 0.05);
+    const auto keys = keys_of(40);
+    for (const auto& key : keys) peers.write(0, key, std::string(500, 'a'));
+    peers.run(5s);
+    ASSERT_TRUE(peers.are_equal(keys));
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t k = 2; k < 4; ++k) {
+        peers.cut(i, k, true);
+        if (!one_way) peers.cut(k, i, true);
+      }
+    for (int second = 0; second < 60; ++second) {
+      peers.write(second % 4, keys[second % 10], std::string(500, 'b'));
+      peers.run(1s);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 4; ++k) peers.cut(i, k, false);
+    const std::uint64_t before = peers.octets();
+    peers.run(2s);
+    EXPECT_TRUE(peers.are_equal(keys)) << one_way;
+    EXPECT_EQ(peers.sum(&peer::SharedRecordCounts::missed), 0u);
+    EXPECT_LT(peers.octets() - before, 4u * 10 * 600) << "in proportion to the change";
+  }
+}
+
+TEST(SharedRecords, AreEqualSoonAfterASecondWithoutNetwork) {
+  Peers peers(5, 3, 1.0);
+  const auto keys = keys_of(20);
+  for (const auto& key : keys) peers.write(key.size() % 5, key, "a");
+  peers.run(1s);
+  peers.set_loss(0.1);
+  peers.run(2s);
+  EXPECT_TRUE(peers.are_equal(keys));
+  EXPECT_EQ(peers.peer(4).size(), 20u);
+}
+
+TEST(SharedRecords, OutliveTheirWriter) {
+  Peers peers(3, 3, 0.1);
+  const auto keys = keys_of(100);
+  for (const auto& key : keys) peers.write(0, key, key);
+  for (const auto& key : keys) peers.write(0, key, key + " again");
+  peers.run(3s);
+  peers.remove(0);
+  const std::size_t late = peers.add();
+  peers.run(1s);
+  EXPECT_TRUE(peers.are_equal(keys));
+  EXPECT_EQ(peers.value(late, keys[99]), "key 99 again");
+}
+
+TEST(SharedRecords, AtRestCostFewListsASecond) {
+  Peers peers(16, 3, 0.0);
+  peers.write(0, "colour", "red");
+  peers.run(5s);
+  const std::uint64_t before = peers.octets();
+  peers.run(20s);
+  // 16 octets for the one writer; without suppression 16 peers send 640 lists, with it at least
+  // every fourth.
+  EXPECT_LT(peers.octets() - before, 240u * 16);
+}
+
+TEST(SharedRecords, AreRefusedIfTooLongOrTooMany) {
+  SharedRecords records(1, 1);
+  const std::string value(1025, 'a');
+  const auto octets = std::as_bytes(std::span(value));
+  EXPECT_EQ(records.write("", octets.first(1), 0s), WriteResult::too_long);
+  EXPECT_EQ(records.write(std::string(64, 'k'), octets.first(1), 0s), WriteResult::too_long);
+  EXPECT_EQ(records.write("line\nfeed", octets.first(1), 0s), WriteResult::too_long);
+  EXPECT_EQ(records.write("key", octets, 0s), WriteResult::too_long);
+  EXPECT_EQ(records.write(std::string(63, 'k'), octets.first(1024), 0s), WriteResult::written);
+  for (std::size_t i = 1; i < SharedRecords::kMostRecords; ++i)
+    EXPECT_EQ(records.write(std::to_string(i), octets.first(1), 0s), WriteResult::written);
+  EXPECT_EQ(records.write("one more", octets.first(1), 0s), WriteResult::full);
+  EXPECT_EQ(records.write("5", octets.first(1), 0s), WriteResult::written) << "an old key";
+}
+
+TEST(SharedRecords, SurviveHostileMessages) {
+  SharedRecords records(1, 1);
+  records.write("key", {}, 0s);
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 200'000; ++i) {
+    std::array<std::byte, 200> octets;
+    for (std::byte& octet : octets)
+      octet = static_cast<std::byte>(random() % 4 == 0 ? random() : 0);
+    const auto kind = static_cast<pdu::AssuredKind>(23 + random() % 5);
+    records.take(kind, std::span(octets).first(random() % octets.size()), nanoseconds(i));
+    std::array<std::byte, SharedRecords::kMostOctets> room;
+    pdu::AssuredKind sent = pdu::AssuredKind::none;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_LE(records.take_due(nanoseconds(i), sent, room), room.size());
+  }
+  EXPECT_LE(records.size(), SharedRecords::kMostRecords);
+}
+
+TEST(SharedRecords, NobodyHasAreGivenUp) {
+  SharedRecords records(1, 1);
+  const pdu::KnownSerial invented{99, 0xFFFFFFFF, 0xFFFFFFFF, 0};
+  std::array<std::byte, 16> octets;
+  ASSERT_EQ(pdu::store_record(invented, octets), 16u);
+  records.take(pdu::AssuredKind::record_serials, octets, 0s);
+  std::array<std::byte, SharedRecords::kMostOctets> room;
+  std::uint64_t requests = 0;
+  for (nanoseconds now = 0s; now < 60s; now += 1ms) {
+    pdu::AssuredKind kind = pdu::AssuredKind::none;
+    while (records.take_due(now, kind, room) > 0)
+      requests += kind == pdu::AssuredKind::record_request ? 1 : 0;
+  }
+  EXPECT_GT(requests, 10u);
+  EXPECT_LT(requests, 80u);
+  EXPECT_EQ(records.counts().missed, 1u);
+}
+
+// Peers write the same keys, are cut from each other at random, join and leave. Two seconds after
+// the last cut all tables are equal, and what was written last and received is not lost.
+TEST(SharedRecords, AreEqualAfterAnyFaults) {
+  const std::uint64_t seeds = tries(400, 10'000);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](std::uint64_t most) { return random() % most; };
+    Peers peers(2 + draw(6), seed, 0.1 * static_cast<double>(draw(5)));
+    const auto keys = keys_of(1 + draw(30));
+    std::map<std::string, std::size_t> written;
+    for (int event = 0; event < 60; ++event) {
+      const std::size_t one = draw(peers.size()), other = draw(peers.size());
+      const std::uint64_t what = draw(20);
+      if (what < 12 && peers.lives(one)) {
+        peers.write(one, keys[draw(keys.size())],
+                    std::string(draw(100), static_cast<char>('a' + event % 26)));
+      } else if (what < 15) {
+        peers.cut(one, other, draw(2) == 0);
+      } else if (what == 15 && peers.size() < 12) {
+        peers.add();
+      } else if (what == 16 && one > 1 && peers.lives(one)) {
+        peers.remove(one);
+      }
+      peers.run(nanoseconds(static_cast<std::int64_t>(draw(400'000'000))));
+    }
+    for (std::size_t i = 0; i < peers.size(); ++i)
+      for (std::size_t k = 0; k < peers.size(); ++k) peers.cut(i, k, false);
+    peers.set_loss(std::min(0.2, 0.1 * static_cast<double>(draw(5))));
+    peers.run(2s);
+    ASSERT_TRUE(peers.are_equal(keys)) << "seed " << seed;
+    ASSERT_EQ(peers.sum(&peer::SharedRecordCounts::refused), 0u) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace reckon::test
