@@ -28,11 +28,11 @@ TOTAL = {
     "aoim": 12500,
     "deadreckon": 4500,
     "haptics": 41000,
-    "src": 55800,
-    "tools": 41400,
+    "src": 56500,
+    "tools": 41500,
     "python": 2500,
     "bench": 38000,
-    "tests": 146500,
+    "tests": 145500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -47,7 +47,7 @@ LARGE = {
     "haptics/RemoteContact": (348, 30),
     "haptics/SerialSession": (178, 27),
     "haptics/ServoSnapshot": (1, 35),
-    "src/ModelLoop": (310, 25),
+    "src/ModelLoop": (313, 26),
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (191, 27),
     "src/RemoteEntities": (455, 21),

@@ -31,7 +31,8 @@ struct ObjectOffer {
   std::uint64_t scene_hash = 0;
   std::uint64_t size = 0;  ///< of the manifest [octets]
   ObjectHash manifest{};
-  std::uint16_t pool_size = 0;  ///< chunks go to the group behind so many after the base group
+  std::uint16_t pool_size =
+      0;  ///< number of groups after the base group; chunks go to the next one
   std::array<char, 30> name{};  ///< of the scene file, for people, padded with NUL
 };
 static_assert(kFixedSize<ObjectOffer> == 80);
@@ -42,8 +43,8 @@ inline constexpr std::uint8_t kMissingRanges = 1;  ///< pairs of u32: first chun
 /// Bit of ObjectRequest::flags: `seen` is valid.
 inline constexpr std::uint8_t kSeenKnown = 1;
 
-/// Asks for chunks. To all, so that others with the same wish are silent. The missing chunks follow
-/// it.
+/// Asks for chunks. To all, so that peers that lack the same need not ask. The missing chunks
+/// follow it.
 struct ObjectRequest {
   ObjectHash object{};
   std::uint64_t size = 0;    ///< of the object [octets]

@@ -13,8 +13,8 @@ namespace reckon::pdu {
 /// Most octets of a key and of a value.
 inline constexpr std::size_t kMostRecordKey = 63, kMostRecordValue = 1024;
 
-/// One record; its key and its value follow. Without a key it says that no record of the writer is
-/// left between the two serials.
+/// One record; its key and its value follow. Without a key it means that no record of the writer
+/// is left between the two serials.
 struct SharedRecordHead {
   std::uint32_t counter = 0;  ///< of the versions of this key: one more than the version before
   std::uint32_t writer = 0;   ///< epoch; decides between versions of one counter
@@ -33,9 +33,8 @@ struct KnownSerial {
   std::uint32_t writer = 0;
   std::uint32_t serial = 0;  ///< all writes up to it are known
   std::uint32_t last = 0;    ///< the last known write
-  /// Of the serials of its records that are left: the exclusive or of serial * 2654435761 (mod
-  /// 2^32) with its upper half added to its lower. It differs where a record was replaced by one
-  /// that is lost.
+  /// Exclusive or, over the serials s of its records that are left, of p + (p >> 16) mod 2^32, with
+  /// p = 2654435761 s mod 2^32. It differs where a record was replaced by one that is lost.
   std::uint32_t digest = 0;
 };
 static_assert(kFixedSize<KnownSerial> == 16);

@@ -31,6 +31,10 @@ void FederateRecords::call_back(News& news) {
   for (const std::string& key : news.refused_records)
     if (refused_) refused_(key);
   for (News::Record& record : news.records) {
+    if (record.is_removed) {
+      values_.erase(record.key);
+      continue;
+    }
     const auto place = values_.insert_or_assign(record.key, std::move(record.value)).first;
     if (changed_ && !record.is_ours) changed_(place->first, place->second, record.writer);
   }

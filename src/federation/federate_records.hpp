@@ -22,8 +22,9 @@ class LoopSide;
 struct News;
 
 /// A key has one value, and the version that was written last wins, also for federates that join
-/// later, or were cut off. If two write a key at the same time, one of the values wins at all. A
-/// record remains when its writer leaves. Not in an `interop` scene.
+/// later, or were cut off. If two federates write a key at the same time, all keep the same one of
+/// the two values. A record remains when its writer leaves, and cannot be removed. Not in an
+/// `interop` scene.
 ///
 ///   peer::FederateRecords& records = federate.records();
 ///   records.on_changed([&](std::string_view key, std::span<const std::byte> value,
@@ -41,18 +42,21 @@ class FederateRecords {
   /// @param side outlives this
   FederateRecords(LoopSide& side, bool interop) : side_(side), interop_(interop) {}
 
-  /// Writes a record. At most 1,024 records are kept in all; a further one is refused.
+  /// Writes a record. There are at most 1,024 records; a further one is refused. If federates write
+  /// too many at the same time, all keep those with the smallest keys.
   /// @param key 1 to 63 octets, no control characters  @param value at most 1,024 octets, may be
   /// empty  @throws std::invalid_argument for another key, std::length_error for a longer value,
   /// std::logic_error in an interop scene
   void set(std::string_view key, std::span<const std::byte> value);
-  /// Its value, also one of set() after the next step(); nothing if nobody has written it. Valid
-  /// until the next step().
+  /// Its value; nothing if nobody has written it. A value of set() is there once the loops have
+  /// taken it: after the next step(), with threads some steps later. Valid until the next step().
   [[nodiscard]] std::optional<std::span<const std::byte>> find(std::string_view key) const;
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
-  /// Another federate has written a record.
+  /// Receives the latest value of each key that another federate has written since the last step();
+  /// after joining, of all keys.
   void on_changed(Changed callback) { changed_ = std::move(callback); }
-  /// A record of set() was refused, because there are too many.
+  /// A record of set() was refused: there are 1,024 records, or 256 writers. A writer is one run of
+  /// a federate.
   void on_refused(std::function<void(std::string_view)> callback) {
     refused_ = std::move(callback);
   }

@@ -94,11 +94,14 @@ void LoopSide::note_bodies(std::vector<KnownBody>& bodies, const OwnershipStage&
 void LoopSide::note_records(ModelLoop& loop) {
   RecordStage& stage = loop.records();
   for (const std::string& key : stage.records().take_changes()) {
-    const SharedRecord record = *stage.records().find(key);
-    news_.letter().records.push_back({key,
-                                      {record.value.begin(), record.value.end()},
-                                      loop.peer_of(record.version.writer),
-                                      record.version.writer == stage.epoch()});
+    const auto record = stage.records().find(key);
+    News::Record& news = news_.letter().records.emplace_back();
+    news.key = key;
+    news.is_removed = !record;
+    if (!record) continue;
+    news.value.assign(record->value.begin(), record->value.end());
+    news.writer = stage.peer_of(record->version.writer);
+    news.is_ours = record->version.writer == stage.epoch();
   }
 }
 

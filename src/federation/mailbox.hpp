@@ -105,7 +105,8 @@ struct News {
     std::string key;
     std::vector<std::byte> value;
     aoim::PeerId writer;
-    bool is_ours;
+    bool is_ours = false;
+    bool is_removed = false;  ///< there were too many
   };
   std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was sent
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed

@@ -94,10 +94,6 @@ class ModelLoop : private UpdateHandler, private aoim::EventHandler {
   [[nodiscard]] OwnershipStage& ownership() noexcept { return ownership_; }
   /// Assured messages of this peer, for send() and for users of further kinds of records.
   [[nodiscard]] AssuredStage& assured() noexcept { return assured_; }
-  /// Address of the peer with this epoch; 0:0 if there is none.
-  [[nodiscard]] aoim::PeerId peer_of(std::uint32_t epoch) const noexcept {
-    return aoim_.presence().id_of(epoch).value_or(aoim::PeerId{});
-  }
   /// The shared records.
   [[nodiscard]] RecordStage& records() noexcept { return records_; }
   /// @param guest outlives the loop, or the next call; nullptr: none.

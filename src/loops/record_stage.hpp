@@ -32,6 +32,10 @@ class RecordStage final : public AssuredUser {
   }
   [[nodiscard]] SharedRecords& records() noexcept { return records_; }
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
+  /// ID of the peer with this epoch; 0:0 if there is none.
+  [[nodiscard]] aoim::PeerId peer_of(std::uint32_t epoch) const noexcept {
+    return aoim_.presence().id_of(epoch).value_or(aoim::PeerId{});
+  }
 
   /// Sends what is due.
   void step(const Pass& pass);

@@ -20,6 +20,7 @@ class ChunkMap {
   [[nodiscard]] std::uint32_t chunks() const noexcept { return chunks_; }
   /// Number of chunks in the set.
   [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+  /// @param index of these three less than chunks()
   [[nodiscard]] bool has(std::uint32_t index) const noexcept {
     return (words_[index / 64] >> (index % 64) & 1) != 0;
   }

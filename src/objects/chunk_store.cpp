@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -62,30 +63,50 @@ FileStore::FileStore(fs::path folder, const ObjectHash& hash, std::uint64_t size
       size_(size),
       kept_(ObjectLayout(size).chunks()) {
   fs::create_directories(folder_);
-  data_ = ::open(path(".part").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kMode);
-  have_ = ::open(path(".have").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kMode);
-  std::string reason;
-  if (data_ < 0 || have_ < 0) {
-    reason = std::strerror(errno);
-  } else if (::flock(data_, LOCK_EX | LOCK_NB) != 0) {
-    reason = "another process receives this object: wait until it ends";
-  } else if (::ftruncate(data_, static_cast<off_t>(size)) != 0) {
-    reason = std::strerror(errno);
+  if (!lock_files(name_)) {
+    is_private_ = true;
+    open_files(fmt::format("{}.{}", name_, ::getpid()));
   }
-  if (!reason.empty()) {
-    for (const int file : {data_, have_})
-      if (file >= 0) ::close(file);
-    throw std::runtime_error(fmt::format("{}: {}", path(".part").string(), reason));
+  const bool is_open = data_ >= 0 && have_ >= 0;
+  if (!is_open || ::ftruncate(data_, static_cast<off_t>(size)) != 0) {
+    const std::string reason = std::strerror(errno);
+    close_files();
+    throw std::runtime_error(fmt::format("{}: {}", part_.string(), reason));
   }
   load_kept();
 }
 
 FileStore::~FileStore() {
-  ::close(data_);
-  ::close(have_);
+  close_files();
+  std::error_code ignored;
+  if (is_private_) fs::remove(part_, ignored);
+  if (is_private_) fs::remove(have_path_, ignored);
 }
 
-fs::path FileStore::path(const char* end) const { return folder_ / (name_ + end); }
+// False if another process has them. It may finish and rename a file between the two calls.
+bool FileStore::lock_files(const std::string& name) {
+  open_files(name);
+  if (data_ < 0) return true;  // reported by the caller
+  struct stat locked {
+  }, present{};
+  const bool is_ours = ::flock(data_, LOCK_EX | LOCK_NB) == 0 && ::fstat(data_, &locked) == 0 &&
+                       ::stat(part_.c_str(), &present) == 0 && locked.st_ino == present.st_ino;
+  if (!is_ours) close_files();
+  return is_ours;
+}
+
+void FileStore::open_files(const std::string& name) {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
+  part_ = folder_ / (name + ".part");
+  have_path_ = folder_ / (name + ".have");
+  data_ = ::open(part_.c_str(), kFlags, kMode);
+  have_ = ::open(have_path_.c_str(), kFlags, kMode);
+}
+
+void FileStore::close_files() noexcept {
+  for (int* file : {&data_, &have_})
+    if (const int number = std::exchange(*file, -1); number >= 0) ::close(number);
+}
 
 void FileStore::load_kept() {
   std::vector<std::uint64_t> words(kept_.words().size());
@@ -97,9 +118,9 @@ void FileStore::load_kept() {
 
 fs::path FileStore::finish() {
   const fs::path done = folder_ / name_;
-  fs::rename(path(".part"), done);
+  fs::rename(part_, done);
   std::error_code ignored;
-  fs::remove(path(".have"), ignored);
+  fs::remove(have_path_, ignored);
   return done;
 }
 
@@ -109,7 +130,8 @@ bool FileStore::write(std::uint64_t offset, std::span<const std::byte> octets) n
 }
 
 bool FileStore::read(std::uint64_t offset, std::span<std::byte> out) const noexcept {
-  return read_all(data_, offset, out) == 0;
+  error_ = read_all(data_, offset, out);
+  return error_ == 0;
 }
 
 void FileStore::keep(const ChunkMap& received) noexcept {
@@ -117,7 +139,7 @@ void FileStore::keep(const ChunkMap& received) noexcept {
 }
 
 std::string FileStore::problem() const {
-  return fmt::format("{}: {}", path(".part").string(), std::strerror(error_));
+  return fmt::format("{}: {}", part_.string(), std::strerror(error_));
 }
 
 }  // namespace reckon::peer

@@ -20,7 +20,7 @@ namespace reckon::peer {
 class ChunkStore {
  public:
   virtual ~ChunkStore() = default;
-  /// @return false if it cannot be stored; problem() has the reason
+  /// Offsets are within the size. @return false if it fails; problem() has the reason
   [[nodiscard]] virtual bool write(std::uint64_t offset,
                                    std::span<const std::byte> octets) noexcept = 0;
   [[nodiscard]] virtual bool read(std::uint64_t offset,
@@ -45,11 +45,11 @@ class MemoryStore final : public ChunkStore {
 };
 
 /// A file HASH.part of a folder, and HASH.have that lists its chunks. Both remain if the program
-/// ends early, also by a signal, so that the next run fetches only the rest.
+/// ends early, also by a signal, so that the next run fetches only the rest. If another process
+/// uses them, the store has files of its own and removes them at its end.
 class FileStore final : public ChunkStore {
  public:
-  /// Opens or creates the files. @throws std::runtime_error with the file and the reason, also if
-  /// another process uses them
+  /// Opens or creates the files. @throws std::runtime_error with the file and the reason
   FileStore(std::filesystem::path folder, const ObjectHash& hash, std::uint64_t size);
   ~FileStore() override;
   FileStore(const FileStore&) = delete;
@@ -57,7 +57,8 @@ class FileStore final : public ChunkStore {
 
   /// Chunks stored by an earlier run. Their octets are not checked yet.
   [[nodiscard]] const ChunkMap& kept() const noexcept { return kept_; }
-  /// The object is complete and checked: renames it to HASH.  @throws std::runtime_error
+  /// The object is complete and checked: renames it to HASH.
+  /// @throws std::filesystem::filesystem_error
   std::filesystem::path finish();
 
   bool write(std::uint64_t offset, std::span<const std::byte> octets) noexcept override;
@@ -66,14 +67,18 @@ class FileStore final : public ChunkStore {
   std::string problem() const override;
 
  private:
-  [[nodiscard]] std::filesystem::path path(const char* end) const;
+  [[nodiscard]] bool lock_files(const std::string& name);
+  void open_files(const std::string& name);
+  void close_files() noexcept;
   void load_kept();
 
   std::filesystem::path folder_;
   std::string name_;
+  std::filesystem::path part_, have_path_;
+  bool is_private_ = false;
   std::uint64_t size_;
   int data_ = -1, have_ = -1;
-  int error_ = 0;
+  mutable int error_ = 0;  // errno
   ChunkMap kept_;
 };
 

@@ -16,20 +16,25 @@
 namespace reckon::peer {
 
 /// Names the chunks that are not in `received`, from chunk `from` on. Sets first and form.
-/// @param from less than chunks(), or 0  @param end first chunk that it does not speak of
+/// @param from less than chunks(), or 0  @param room at least 8 octets  @param end set to the first
+/// chunk after those that the request covers
 /// @return octets written to `room`; 0 if none is missing from there on
 [[nodiscard]] std::size_t store_missing(const ChunkMap& received, std::uint32_t from,
                                         pdu::ObjectRequest& request, std::span<std::byte> room,
                                         std::uint32_t& end) noexcept;
 
 /// Calls visit(first, count) for each range that a request names, within an object of `chunks`.
+/// Ranges have to ascend; it stops at the first that does not.
 void for_each_missing(const pdu::ObjectRequest& request, std::span<const std::byte> octets,
                       std::uint32_t chunks, auto&& visit) noexcept {
   if (request.form == pdu::kMissingRanges) {
+    std::uint32_t end = 0;
     for (; octets.size() >= 8; octets = octets.subspan(8)) {
       const auto first = pdu::load_big_endian<std::uint32_t>(octets.data());
       const auto count = pdu::load_big_endian<std::uint32_t>(octets.data() + 4);
-      if (first < chunks) visit(first, std::min(count, chunks - first));
+      if (first < end || first >= chunks) return;
+      end = first + std::min(count, chunks - first);
+      visit(first, end - first);
     }
     return;
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 
 #include "reckon/pdu/timestamp.hpp"
 
@@ -17,6 +18,11 @@ using pdu::AssuredKind;
 
 /// One above the exercise's port is that of its sealed datagrams.
 constexpr std::uint16_t kPortsAbove = 2;
+
+void join(Link& link, const GroupAddress& group) {
+  if (const std::error_code error = link.join(group))
+    throw std::system_error(error, advice(error, group));
+}
 
 template <class Head>
 std::span<const std::byte> rest_of(std::span<const std::byte> content) {
@@ -47,12 +53,21 @@ ObjectExchange::ObjectExchange(Link& link, const Clock& clock, const ObjectExcha
       messages_(object_messages_group(options.base)),
       now_(clock.now()) {
   offered_.reserve(kMostOffers);
-  static_cast<void>(link_.join(messages_));
+  join(link_, messages_);
 }
 
 void ObjectExchange::offer(const pdu::ObjectOffer& offer) {
   chunks_ = object_chunks_group(options_.base, offer.pool_size);
   offers_.push_back({offer});
+}
+
+bool ObjectExchange::has_chunks_group(std::size_t pool_size) const noexcept {
+  try {
+    static_cast<void>(object_chunks_group(options_.base, pool_size));
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 void ObjectExchange::ask(std::uint64_t scene_hash) {
@@ -64,7 +79,7 @@ void ObjectExchange::ask(std::uint64_t scene_hash) {
 FetchHandle ObjectExchange::fetch(std::size_t pool_size, const ObjectHash& object,
                                   std::uint64_t size, ChunkStore& store) {
   chunks_ = object_chunks_group(options_.base, pool_size);
-  static_cast<void>(link_.join(chunks_));
+  join(link_, chunks_);
   fetches_.push_back(std::make_unique<ObjectFetch>(object, size, store,
                                                    options_.seed + 2 + fetched_++, clock_.now()));
   return {fetches_.back().get(), {this}};
@@ -103,7 +118,7 @@ std::chrono::nanoseconds ObjectExchange::next_step() const noexcept {
 void ObjectExchange::take(const Datagram& datagram) {
   pdu::AssuredRecord record;
   const bool is_good = pdu::decode(datagram.bytes, record) == pdu::DecodeError::none &&
-                       record.header.exercise_id == options_.exercise && record.epoch != 0;
+                       is_ours(record.header.exercise_id) && record.epoch != 0;
   if (!is_good) {
     ++counts_.refused;
     return;

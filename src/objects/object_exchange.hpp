@@ -30,11 +30,11 @@ namespace reckon::peer {
 [[nodiscard]] GroupAddress object_chunks_group(const GroupAddress& base, std::size_t pool_size);
 
 struct ObjectExchangeOptions {
-  GroupAddress base;  ///< of the exercise; with a key the sealed one
-  std::uint8_t exercise = 1;
+  GroupAddress base;                  ///< of the exercise; with a key the sealed one
+  std::uint8_t exercise = 1;          ///< 0: any, for a peer that does not know it yet
   std::uint32_t epoch = 0;            ///< of this run, not 0, different for each peer
   pdu::SimulationAddress simulation;  ///< named in own messages; 0:0 for a peer without one
-  double rate = 12.5e6;               ///< most octets of chunks sent in a second
+  double rate = 12.5e6;               ///< of chunks without headers [octet/s], above 0
   std::uint64_t seed = 1;             ///< of the random waits
 };
 
@@ -54,25 +54,28 @@ struct ExchangeCounts {
 
 class ObjectExchange;
 
-/// Ends a fetch, so that its store may go.
+/// Ends a fetch; its store may be destroyed then.
 struct FetchEnd {
   ObjectExchange* exchange = nullptr;
   void operator()(ObjectFetch* fetch) const noexcept;
 };
-/// A fetch of an exchange, which must outlive it.
+/// A fetch of an exchange. The exchange must outlive the handle.
 using FetchHandle = std::unique_ptr<ObjectFetch, FetchEnd>;
 
 /// One thread calls all functions and has exclusive use of the link.
 class ObjectExchange {
  public:
-  static constexpr std::size_t kMostOffers = 16;
+  static constexpr std::size_t kMostOffers = 16;  ///< of others that are kept
 
   /// Joins the group of messages.  @param link, clock outlive this
+  /// @throws std::invalid_argument if there is no such group, std::system_error if it cannot be
+  /// joined
   ObjectExchange(Link& link, const Clock& clock, const ObjectExchangeOptions& options);
 
   /// Serves an object from now on.
   void serve(std::shared_ptr<const ObjectSource> source) { server_.add(std::move(source)); }
   /// Offers a served manifest to those who ask. Objects go to the chunks group of this pool.
+  /// @throws std::invalid_argument if there is no such group
   void offer(const pdu::ObjectOffer& offer);
 
   /// Asks for a scene every 100 ms, until stop_asking().  @param scene_hash 0: any
@@ -80,8 +83,12 @@ class ObjectExchange {
   void stop_asking() noexcept { ask_at_ = Nanoseconds::max(); }
   /// What others have offered since ask(), each scene once, at most kMostOffers.
   [[nodiscard]] std::span<const SceneOffer> offered() const noexcept { return offered_; }
-  /// Fetches an object that was offered with this pool, until the handle goes.
+  /// Whether object_chunks_group() exists for this pool.
+  [[nodiscard]] bool has_chunks_group(std::size_t pool_size) const noexcept;
+  /// Fetches an object that was offered with this pool, until the handle is destroyed.
   /// @param size at most kMostObjectOctets  @param store outlives the fetch
+  /// @throws std::invalid_argument unless has_chunks_group(), std::system_error if the group cannot
+  /// be joined
   [[nodiscard]] FetchHandle fetch(std::size_t pool_size, const ObjectHash& object,
                                   std::uint64_t size, ChunkStore& store);
   /// Reads what has arrived and sends what is due.
@@ -103,6 +110,9 @@ class ObjectExchange {
     Nanoseconds due = Nanoseconds::max();
   };
 
+  [[nodiscard]] bool is_ours(std::uint8_t exercise) const noexcept {
+    return exercise == options_.exercise || exercise == 0 || options_.exercise == 0;
+  }
   void finish(const ObjectFetch& fetch) noexcept;
   void take(const Datagram& datagram);
   void take_query(const pdu::AssuredRecord& record);

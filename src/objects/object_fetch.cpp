@@ -17,6 +17,7 @@ ObjectFetch::ObjectFetch(const ObjectHash& object, std::uint64_t size, ChunkStor
       store_(store),
       timer_(seed),
       received_(layout_.chunks()),
+      kept_(layout_.chunks()),
       checked_(layout_.blocks()),
       list_(layout_.blocks()),
       heard_(now - kServerGone),
@@ -29,8 +30,10 @@ ObjectFetch::ObjectFetch(const ObjectHash& object, std::uint64_t size, ChunkStor
 void ObjectFetch::take_kept(const ChunkMap& kept) {
   if (kept.chunks() != received_.chunks()) return;
   for (std::uint32_t i = kept.next(layout_.list_chunks(), true); i < kept.chunks();
-       i = kept.next(i + 1, true))
+       i = kept.next(i + 1, true)) {
     received_.add(i);
+    kept_.add(i);
+  }
 }
 
 void ObjectFetch::hear_server(std::uint32_t epoch, std::uint32_t serial, Nanoseconds now) noexcept {
@@ -84,15 +87,20 @@ void ObjectFetch::check_block(std::uint32_t block) {
   const std::uint32_t last = std::min<std::uint32_t>(first + pdu::kChunksOfBlock, layout_.chunks());
   if (checked_.has(block) || !is_whole(first, last)) return;
   block_.resize(layout_.block_length(block));
-  const bool is_read = store_.read(std::uint64_t{block} * kBlockOctets, block_);
-  if (!is_read || hash_of_block(block_) != list_[block]) return forget(first, last);
+  if (!store_.read(std::uint64_t{block} * kBlockOctets, block_)) return end(FetchState::unwritable);
+  if (hash_of_block(block_) != list_[block]) return forget(first, last);
   checked_.add(block);
   if (checked_.count() == layout_.blocks()) end(FetchState::complete);
 }
 
+// Octets of an earlier run may be wrong without a forger, for example after a power failure.
 void ObjectFetch::forget(std::uint32_t first, std::uint32_t end_of_part) noexcept {
-  for (std::uint32_t i = first; i < end_of_part; ++i) received_.remove(i);
-  if (++counts_.forged >= kMostForged) end(FetchState::forged);
+  const bool is_kept = kept_.next(first, true) < end_of_part;
+  for (std::uint32_t i = first; i < end_of_part; ++i) {
+    received_.remove(i);
+    kept_.remove(i);
+  }
+  if (!is_kept && ++counts_.forged >= kMostForged) end(FetchState::forged);
 }
 
 void ObjectFetch::end(FetchState state) noexcept {

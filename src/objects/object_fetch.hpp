@@ -22,7 +22,7 @@ namespace reckon::peer {
 enum class FetchState : std::uint8_t {
   running,
   complete,    ///< each block has its hash
-  unwritable,  ///< the store refused octets; see ChunkStore::problem()
+  unwritable,  ///< the store fails; see ChunkStore::problem()
   forged,      ///< kMostForged parts had another hash: somebody forges chunks
 };
 
@@ -57,9 +57,11 @@ class ObjectFetch {
   ObjectFetch& operator=(const ObjectFetch&) = delete;
 
   /// Takes chunks of the data that are stored already; wrong ones are found and fetched again.
+  /// Call it before the first chunk.
   void take_kept(const ChunkMap& kept);
 
   [[nodiscard]] const ObjectHash& object() const noexcept { return object_; }
+  /// The first 8 octets of object().
   [[nodiscard]] std::uint64_t key() const noexcept { return key_; }
   [[nodiscard]] FetchState state() const noexcept { return state_; }
   [[nodiscard]] const ChunkMap& received() const noexcept { return received_; }
@@ -67,8 +69,11 @@ class ObjectFetch {
   /// Epoch of the sender of the last chunk or status; 0: none.
   [[nodiscard]] std::uint32_t server() const noexcept { return server_; }
 
+  /// Takes a chunk of any sender; one of a wrong index or length is counted.
+  /// @param epoch, serial of the sender's record  @param octets of the chunk
   void take_chunk(std::uint32_t epoch, std::uint32_t serial, std::uint32_t index,
                   std::span<const std::byte> octets, std::chrono::nanoseconds now);
+  /// Takes the status of a server.  @param pending chunks that it will send
   void take_status(std::uint32_t epoch, std::uint32_t serial, std::uint32_t pending,
                    std::chrono::nanoseconds now);
   /// Takes a request of another peer for the same object: ours is not sent if it asks for no more.
@@ -100,7 +105,7 @@ class ObjectFetch {
   ChunkStore& store_;
   RepairTimer timer_;
   FetchState state_ = FetchState::running;
-  ChunkMap received_, checked_;  // checked_: of blocks
+  ChunkMap received_, kept_, checked_;  // kept_: by an earlier run; checked_: of blocks
   std::vector<ObjectHash> list_;
   bool has_list_ = false;  // complete, and of the right hash
   std::vector<std::byte> block_;

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sends the chunks of objects that others request. One server sends an object at a time: all peers
-// that have it hear the requests, and another one serves if the present server is silent.
+// Serves the chunks that others request. All peers that have an object receive the requests, but
+// one of them sends at a time; if it stops, another one takes over.
 //
-// The requested chunks are sent in the order of their indices, again and again from the first to
-// the last. So what one receiver has lost is sent again together with what a late one never
-// received, after the present round.
+// Chunks are sent in rounds by ascending index. What one receiver has lost is sent in the next
+// round, together with what a late receiver needs.
 #pragma once
 
 #include <chrono>
@@ -47,18 +46,19 @@ class ObjectServer {
   /// Period of the status while chunks are sent.
   static constexpr std::chrono::milliseconds kStatusPeriod{100};
   /// Without chunks to send, the pauses between the status double from the first to the last.
-  static constexpr std::chrono::milliseconds kFirstPause{5}, kLastPause{640};
+  static constexpr std::chrono::milliseconds kFirstPause{5}, kLastPause{320};
   /// Chunks are not sent if nobody has requested any for this time: all receivers have gone.
   static constexpr std::chrono::seconds kUnwanted{1};
   /// A server forgets an object after this time without a request.
   static constexpr std::chrono::seconds kForgets{5};
-  /// Most octets sent at once.
+  /// Longest burst: the octets of this time at the rate, but at least two chunks.
   static constexpr std::chrono::milliseconds kBurst{2};
 
   /// @param epoch of this peer's records  @param rate [octet/s], above 0
   ObjectServer(std::uint32_t epoch, double rate, std::uint64_t seed);
 
-  /// Serves an object from now on. A second one with the same hash is ignored.
+  /// Serves an object from now on. A second one with the same first 8 octets of its hash is
+  /// ignored.
   void add(std::shared_ptr<const ObjectSource> source);
   [[nodiscard]] std::size_t objects() const noexcept { return served_.size(); }
 

@@ -15,7 +15,7 @@
 
 namespace reckon::peer {
 
-/// Serves until its destructor. It sleeps while nobody asks.
+/// Serves until it is destroyed. Its thread `rk-objects` sleeps while nobody asks.
 class ObjectService {
  public:
   /// Reads and hashes the files. @param link, clock outlive this; exclusive use of the link

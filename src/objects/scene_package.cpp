@@ -29,7 +29,7 @@ std::string_view path_problem(std::string_view path) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string_view part = path.substr(begin, end - begin);
     if (part == "..") return "leads out of the folder";
-    if (part.empty() || part == ".") return "has an empty part";
+    if (part.empty() || part == ".") return "has an empty part or '.'";
     begin = end + 1;
   }
   return {};
@@ -39,8 +39,7 @@ std::uint64_t parse_size(std::string_view text) {
   std::uint64_t size = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
   if (error != std::errc() || end != text.data() + text.size() || size > kMostObjectOctets)
-    throw std::invalid_argument(
-        fmt::format("'{}' is no size up to {}", text.substr(0, 24), kMostObjectOctets));
+    throw std::invalid_argument(fmt::format("has no size from 0 to {}", kMostObjectOctets));
   return size;
 }
 
@@ -67,7 +66,7 @@ void check_names(const std::vector<PackageFile>& files) {
          folder = folder.parent_path())
       if (names.contains(folder.generic_string()))
         throw std::invalid_argument(
-            fmt::format("{} is a file and a folder", folder.generic_string()));
+            fmt::format("{} is named as a file and as a folder", folder.generic_string()));
 }
 
 std::string relative_path(const fs::path& file, const fs::path& folder) {
@@ -96,7 +95,7 @@ std::vector<PackageFile> parse_manifest(std::string_view text) {
         throw std::invalid_argument(fmt::format("is not '{}'", kTitle));
       if (number > 1) files.push_back(parse_line(line));
       if (files.size() > kMostPackageFiles)
-        throw std::invalid_argument(fmt::format("is beyond {} files", kMostPackageFiles));
+        throw std::invalid_argument(fmt::format("exceeds {} files", kMostPackageFiles));
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("line {} {}", number, error.what()));
     }
@@ -116,7 +115,7 @@ std::string manifest_text(const std::vector<PackageFile>& files) {
 std::vector<std::shared_ptr<const ObjectSource>> package_of(const SceneFile& scene) {
   if (scene.path.empty()) throw std::runtime_error("the scene was not read from a file");
   if (scene.hash != scene.hash_in_file)
-    throw std::runtime_error("an option changed the scene, so its file is another one");
+    throw std::runtime_error("an option changed the scene, so it differs from its file");
   const fs::path path = fs::absolute(scene.path).lexically_normal();
   std::vector<fs::path> paths{path};
   for (const fs::path& file : scene.files)

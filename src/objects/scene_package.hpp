@@ -36,11 +36,13 @@ struct PackageFile {
 /// @throws std::invalid_argument with the line and the reason, for a text that is no manifest, or
 /// that names a path outside the folder, a path twice, or a file as a folder of another one
 [[nodiscard]] std::vector<PackageFile> parse_manifest(std::string_view text);
+/// The text that parse_manifest() reads.
 [[nodiscard]] std::string manifest_text(const std::vector<PackageFile>& files);
 
 /// The objects of a scene; the first one is the manifest.
 /// @throws std::runtime_error with the file and the reason if a file cannot be read, is outside the
-/// folder of the scene, or if the scene differs from its file
+/// folder of the scene, or if the scene differs from its file; std::invalid_argument beyond the
+/// bounds of a manifest
 [[nodiscard]] std::vector<std::shared_ptr<const ObjectSource>> package_of(const SceneFile& scene);
 
 }  // namespace reckon::peer

@@ -3,6 +3,7 @@
 #include "reckon/peer/objects/scene_receiver.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <set>
@@ -31,7 +32,7 @@ SceneReceiver::SceneReceiver(ObjectExchange& exchange, const Clock& clock, fs::p
     : exchange_(exchange), clock_(clock), cache_(std::move(cache)), hooks_(std::move(hooks)) {}
 
 void SceneReceiver::pump() {
-  if (!hooks_.pump()) throw SceneReceiptError("stopped before the scene was there");
+  if (!hooks_.pump()) throw SceneReceiptError("stopped before the scene was received");
 }
 
 std::vector<SceneOffer> SceneReceiver::find_scenes() {
@@ -59,8 +60,7 @@ void SceneReceiver::check_state(const ObjectFetch& fetch, const ChunkStore& stor
     throw SceneReceiptError(fmt::format("{} cannot be stored: {}", what, store.problem()));
   if (fetch.state() == FetchState::forged)
     throw SceneReceiptError(fmt::format(
-        "{}: {} parts had another content than their hash; a host on the network forges them: "
-        "seal the exercise with a key",
+        "{}: {} parts did not match their hash, so a host sends forged ones: use a key (--key)",
         what, fetch.counts().forged));
 }
 
@@ -68,6 +68,9 @@ std::string SceneReceiver::fetch_manifest(const pdu::ObjectOffer& offer) {
   if (offer.size > kMostManifestOctets)
     throw SceneReceiptError(fmt::format("the manifest has {} octets; at most {} are accepted",
                                         offer.size, kMostManifestOctets));
+  if (!exchange_.has_chunks_group(offer.pool_size))
+    throw SceneReceiptError(fmt::format(
+        "the offer is refused: there are no {} groups after the base group", offer.pool_size));
   MemoryStore store(offer.size);
   const FetchHandle fetch = exchange_.fetch(offer.pool_size, offer.manifest, offer.size, store);
   const nanoseconds end = clock_.now() + kPatience;
@@ -123,30 +126,35 @@ void SceneReceiver::fetch_files(const pdu::ObjectOffer& offer,
       progress = clock_.now();
     if (clock_.now() - progress > kPatience)
       throw SceneReceiptError(
-          fmt::format("no peer has sent {} for 10 s; what has arrived is kept for the next attempt",
+          fmt::format("no part of {} for 10 s: run the command again; received parts are kept",
                       running.front().file->path));
   }
 }
 
-// The scene's folder, of links to the objects.
+// The scene's folder, of links to the objects. Another process may read it at the same time.
 fs::path SceneReceiver::place(const pdu::ObjectOffer& offer,
                               const std::vector<PackageFile>& files) const {
   const fs::path folder = cache_ / "scenes" / text_of(offer.manifest).substr(0, 16);
-  fs::remove_all(folder);
   for (const PackageFile& file : files) {
     const fs::path path = folder / file.path;
-    fs::create_directories(path.parent_path());
+    const fs::path own = path.parent_path() / fmt::format(".new.{}", ::getpid());
     std::error_code error;
-    fs::create_hard_link(object(file.hash), path, error);
-    if (error) fs::copy_file(object(file.hash), path);
+    if (fs::equivalent(path, object(file.hash), error)) continue;
+    fs::create_directories(path.parent_path());
+    fs::remove(own, error);
+    fs::create_hard_link(object(file.hash), own, error);
+    if (error) fs::copy_file(object(file.hash), own);
+    fs::rename(own, path);
+    fs::remove(own, error);  // remains if both were links to one file
   }
   return folder / files.front().path;
 }
 
 ReceivedScene SceneReceiver::receive(const pdu::ObjectOffer& offer) {
   std::vector<PackageFile> files;
+  const std::string manifest = fetch_manifest(offer);
   try {
-    files = parse_manifest(fetch_manifest(offer));
+    files = parse_manifest(manifest);
   } catch (const std::invalid_argument& error) {
     throw SceneReceiptError(fmt::format("the manifest is refused: {}", error.what()));
   }
@@ -160,14 +168,14 @@ ReceivedScene SceneReceiver::receive(const pdu::ObjectOffer& offer) {
   scene.files = files.size();
   scene.fetched = total_of(missing);
   if (!hooks_.approve(scene.fetched))
-    throw SceneReceiptError(fmt::format("{} octets were not approved", scene.fetched));
+    throw SceneReceiptError(fmt::format("the download of {} octets was declined", scene.fetched));
   fetch_files(offer, std::move(missing));
   scene.file = place(offer, files);
   const std::uint64_t hash = load_received_scene(scene.file).hash;
   if (hash != offer.scene_hash)
     throw SceneReceiptError(
         fmt::format("the received scene has the hash {:016x}, but {:016x} was offered: the peer "
-                    "that offered it has another version of Reckon, or lies",
+                    "that offered it runs another version of Reckon, or the offer is forged",
                     hash, offer.scene_hash));
   return scene;
 }

@@ -11,7 +11,7 @@
 namespace reckon::peer {
 
 /// Draws from a truncated exponential distribution: few waits are short and most are near the
-/// longest one, so that the first message suppresses the others (RFC 5740, 3.2.3.2).
+/// longest one, so that the first message suppresses the others, as in NORM.
 class RepairTimer {
  public:
   /// Group size for which the distribution is made. In a smaller group the mean wait is longer than

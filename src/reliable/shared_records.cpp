@@ -22,6 +22,9 @@ constexpr std::chrono::milliseconds kAnswersWithin{20};
 /// receives us may not receive the other.
 constexpr int kMostSuppressed = 3;
 
+/// Counters and serials above do not occur: no peer writes so often.
+constexpr std::uint32_t kMostNumber = std::uint32_t{1} << 31;
+
 constexpr std::size_t kHead = pdu::kFixedSize<SharedRecordHead>;
 
 /// Calls visit(row) for each row of a message; false if it is no whole number of rows.
@@ -73,8 +76,8 @@ bool SharedRecords::merge(const SharedRecord& record, std::uint32_t serial) {
   Record* row = find_record(record.key);
   if (row != nullptr && row->version >= record.version) return true;
   if (row == nullptr) {
-    if (records_.size() == kMostRecords) return false;
-    row = &records_.emplace_back();
+    row = records_.size() < kMostRecords ? &records_.emplace_back() : make_room(record.key);
+    if (row == nullptr) return false;
     row->key = record.key;
   }
   row->value.assign(record.value.begin(), record.value.end());
@@ -85,13 +88,26 @@ bool SharedRecords::merge(const SharedRecord& record, std::uint32_t serial) {
   return true;
 }
 
+// The smallest keys stay, so that all peers keep the same ones. Null if `key` is none of them.
+SharedRecords::Record* SharedRecords::make_room(std::string_view key) {
+  const auto last = std::ranges::max_element(records_, {}, &Record::key);
+  if (key > last->key) return nullptr;
+  ++counts_.refused;
+  if (!last->is_changed) changes_.push_back(last->key);
+  *last = Record();
+  return &*last;
+}
+
 WriteResult SharedRecords::write(std::string_view key, std::span<const std::byte> value,
                                  Nanoseconds now) {
-  if (!is_record_key(key) || value.size() > pdu::kMostRecordValue) return WriteResult::too_long;
+  if (!is_record_key(key) || value.size() > pdu::kMostRecordValue) return WriteResult::invalid;
   Writer* writer = find_or_add(epoch_);
   const Record* before = find_record(key);
+  if (before == nullptr && records_.size() == kMostRecords) return WriteResult::full;
   const RecordVersion version{before == nullptr ? 1 : before->version.counter + 1, epoch_};
-  if (writer == nullptr || !merge({key, value, version}, serial_ + 1)) return WriteResult::full;
+  const bool is_last = version.counter > kMostNumber || serial_ == kMostNumber;
+  if (is_last || writer == nullptr || !merge({key, value, version}, serial_ + 1))
+    return WriteResult::full;
   writer->serials.add(serial_ + 1, serial_ + 1);
   ++serial_;
   Record& record = *find_record(key);
@@ -106,7 +122,8 @@ WriteResult SharedRecords::write(std::string_view key, std::span<const std::byte
 std::span<const std::string> SharedRecords::take_changes() {
   std::swap(changes_, reported_);
   changes_.clear();
-  for (const std::string& key : reported_) find_record(key)->is_changed = false;
+  for (const std::string& key : reported_)
+    if (Record* record = find_record(key)) record->is_changed = false;
   return reported_;
 }
 
@@ -129,6 +146,7 @@ bool SharedRecords::take_record(std::span<const std::byte> octets, Nanoseconds n
   const bool fits = octets.size() == std::size_t{head.key_length} + head.value_length &&
                     head.value_length <= pdu::kMostRecordValue;
   if (!fits || head.writer == 0 || head.prior >= head.serial) return false;
+  if (head.counter > kMostNumber || head.serial > kMostNumber) return false;
   const auto key_octets = octets.first(head.key_length);
   const std::string_view key(reinterpret_cast<const char*>(key_octets.data()), key_octets.size());
   if (!key.empty() && !is_record_key(key)) return false;
@@ -155,12 +173,13 @@ bool SharedRecords::take_serials(std::span<const std::byte> octets, Nanoseconds 
   bool lacks = false;
   const bool is_good = for_each_row<KnownSerial>(octets, [&](const KnownSerial& row) {
     Writer* writer = row.writer == 0 ? nullptr : find_or_add(row.writer);
-    if (writer == nullptr || (row.writer == epoch_ && row.last > serial_)) {
+    const std::uint32_t most = row.writer == epoch_ ? serial_ : kMostNumber;
+    if (writer == nullptr || row.serial > row.last || row.last > most) {
       ++counts_.refused;
       return;
     }
     lacks |= row.serial < writer->serials.known() || row.last < writer->serials.last();
-    writer->serials.note_exists(std::max(row.serial, row.last));
+    writer->serials.note_exists(row.last);
     watch(*writer, now);
     // A peer that has more is within reach.
     if (row.last <= writer->serials.known() || writer->pause <= Nanoseconds(2 * kAgain)) return;
@@ -186,10 +205,9 @@ pdu::KnownSerial SharedRecords::row_of(const Writer& writer) const noexcept {
   return row;
 }
 
-// Whether a list has the same serials of the same writers. If the records that are left differ all
-// the same, a record was replaced by one that is lost: then all of that writer are requested.
+// Whether a list has the same serials as ours. If the records that are left differ all the same, a
+// record was replaced by one that is lost: then all of that writer are requested.
 bool SharedRecords::is_as_ours(std::span<const std::byte> octets, Nanoseconds now) {
-  if (octets.size() != writers_.size() * pdu::kFixedSize<KnownSerial>) return false;
   bool is_same = true;
   std::uint32_t other = 0;  // a writer whose records differ
   static_cast<void>(for_each_row<KnownSerial>(octets, [&](const KnownSerial& row) {
@@ -198,7 +216,8 @@ bool SharedRecords::is_as_ours(std::span<const std::byte> octets, Nanoseconds no
     is_same &= ours.writer == row.writer && ours.serial == row.serial && ours.last == row.last;
     if (ours.digest != row.digest) other = row.writer;
   }));
-  if (!is_same || other == 0) return is_same;
+  const bool is_whole = octets.size() == writers_.size() * pdu::kFixedSize<KnownSerial>;
+  if (!is_same || other == 0) return is_same && is_whole;
   Writer& writer = *find_or_add(other);
   if (writer.ask_at == kNever) writer.ask_at = now + timer_.draw(kLongestWait);
   writer.asks_all = true;
@@ -210,6 +229,10 @@ bool SharedRecords::take_request(std::span<const std::byte> octets, Nanoseconds 
     const auto writer = std::ranges::find(writers_, row.writer, &Writer::epoch);
     if (writer == writers_.end() || row.first == 0 || row.last < row.first) return;
     const WrittenSerials& serials = writer->serials;
+    if (writer->asks_all && row.first == 1 && row.last >= serials.last()) {
+      writer->asks_all = false;
+      watch(*writer, now);
+    }
     if (!serials.has_all() && row.first <= serials.known() + 1 && row.last >= serials.highest())
       writer->ask_at = std::max(writer->ask_at, now + Nanoseconds(kAgain));
     repair(row, now);
@@ -278,13 +301,13 @@ std::size_t SharedRecords::store(const SharedRecordHead& head, std::string_view 
 }
 
 std::size_t SharedRecords::store_record(Record& record, std::span<std::byte> room) {
-  SharedRecordHead head;
-  head.counter = record.version.counter;
-  head.writer = record.version.writer;
-  head.serial = record.serial;
-  head.prior = prior_of(head.writer, record.serial);
-  head.key_length = static_cast<std::uint8_t>(record.key.size());
-  head.value_length = static_cast<std::uint16_t>(record.value.size());
+  const SharedRecordHead head{record.version.counter,
+                              record.version.writer,
+                              record.serial,
+                              prior_of(record.version.writer, record.serial),
+                              static_cast<std::uint8_t>(record.key.size()),
+                              0,
+                              static_cast<std::uint16_t>(record.value.size())};
   if (!record.is_first) ++counts_.repairs;
   record.due = kNever;
   record.is_first = false;
@@ -292,10 +315,8 @@ std::size_t SharedRecords::store_record(Record& record, std::span<std::byte> roo
 }
 
 std::size_t SharedRecords::store_end(Writer& writer, std::span<std::byte> room) {
-  SharedRecordHead head;
-  head.writer = writer.epoch;
-  head.serial = writer.end_of_repair;
-  head.prior = prior_of(writer.epoch, head.serial);
+  const std::uint32_t end = writer.end_of_repair;
+  const SharedRecordHead head{0, writer.epoch, end, prior_of(writer.epoch, end)};
   writer.end_due = kNever;
   writer.end_of_repair = 0;
   return store(head, {}, {}, room);
@@ -309,7 +330,6 @@ std::size_t SharedRecords::store_request(Nanoseconds now, std::span<std::byte> r
     if (std::exchange(writer.asks_all, false)) {
       const MissingSerials all{writer.epoch, 1, writer.serials.last()};
       size += pdu::store_record(all, room.subspan(size));
-      writer.ask_at = kNever;
       watch(writer, now);
       continue;
     }

@@ -44,7 +44,11 @@ struct SharedRecord {
 };
 
 /// Result of a write.
-enum class WriteResult : std::uint8_t { written, too_long, full };
+enum class WriteResult : std::uint8_t {
+  written,
+  invalid,  ///< no key of is_record_key(), or a value of more than pdu::kMostRecordValue octets
+  full,     ///< kMostRecords other keys, or kMostWriters
+};
 
 /// Sums since the start.
 struct SharedRecordCounts {
@@ -52,11 +56,12 @@ struct SharedRecordCounts {
   std::uint64_t requests = 0;  ///< sent
   std::uint64_t repairs = 0;   ///< records sent for a request
   std::uint64_t refused = 0;   ///< damaged messages, and records or writers without room
-  std::uint64_t missed = 0;    ///< writes that nobody could repair within kGivesUp
+  std::uint64_t missed = 0;    ///< writers of which writes were given up after kGivesUp
 };
 
 /// The records of one peer. Pure: time is passed in. One thread. Allocates when a record or a
-/// writer is new, at most 1.2 MB in all.
+/// writer is new and when a longer value arrives, at most 1.2 MB in all. If peers write more than
+/// kMostRecords keys at the same time, all keep the smallest ones.
 class SharedRecords {
  public:
   static constexpr std::size_t kMostRecords = 1024, kMostWriters = 256;
@@ -66,7 +71,7 @@ class SharedRecords {
   static constexpr std::chrono::milliseconds kPeriod{500}, kFirstPause{4};
   /// Requests are repeated after this time, which doubles up to kPeriod.
   static constexpr std::chrono::milliseconds kAgain{20};
-  /// Missing writes are given up after this time: no peer that has them is left.
+  /// Missing writes are given up after this time, as if no peer had them.
   static constexpr std::chrono::seconds kGivesUp{30};
   /// Most octets of a message.
   static constexpr std::size_t kMostOctets = 1200;
@@ -81,9 +86,11 @@ class SharedRecords {
   [[nodiscard]] std::optional<SharedRecord> find(std::string_view key) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return records_.size(); }
   /// The keys whose records have changed since the last call, each once; valid until the next call.
+  /// A key without a record was removed, because there were too many.
   [[nodiscard]] std::span<const std::string> take_changes();
 
-  /// Takes a message of another peer. @return false if it is damaged
+  /// Takes a message of another peer. @return false if it is damaged or there is no room, which
+  /// counts in `refused`
   bool take(pdu::AssuredKind kind, std::span<const std::byte> octets, std::chrono::nanoseconds now);
   /// A peer has joined: it gets our serials soon.
   void meet(std::chrono::nanoseconds now);
@@ -126,6 +133,7 @@ class SharedRecords {
   bool take_serials(std::span<const std::byte> octets, Nanoseconds now);
   bool take_request(std::span<const std::byte> octets, Nanoseconds now);
   bool merge(const SharedRecord& record, std::uint32_t serial);
+  [[nodiscard]] Record* make_room(std::string_view key);
   void watch(Writer& writer, Nanoseconds now);
   void repair(const pdu::MissingSerials& missing, Nanoseconds now);
   [[nodiscard]] std::size_t store(const pdu::SharedRecordHead& head, std::string_view key,

@@ -19,6 +19,7 @@
 #include "reckon/peer/objects/scene_receiver.hpp"
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -53,10 +54,11 @@ std::string sender_of(const peer::SceneOffer& offer) {
 }
 
 peer::GroupAddress group_of(const std::string& where) {
+  constexpr std::uint16_t kMostPort = 65532;  // further ports of the exercise are above
   const peer::GroupAddress base = peer::GroupPool::ipv4_default().base();
   if (where == "true") return base;
   const auto group = peer::IpEndpoint::parse(where, base.port);
-  if (!group || !group->is_multicast() || group->port == 0)
+  if (!group || !group->is_multicast() || group->port == 0 || group->port > kMostPort)
     throw UsageError(fmt::format(
         "--join: '{}' is no multicast group: write the base group of the exercise, for example {}",
         where, base.text()));
@@ -67,9 +69,9 @@ bool approve(std::uint64_t octets, const Console& console) {
   if (octets <= kUnaskedOctets) return true;
   if (console.err != stderr || isatty(STDERR_FILENO) != 1 || isatty(STDIN_FILENO) != 1)
     throw UsageError(fmt::format(
-        "--join: the files of the scene have {}; without a terminal at most {} are fetched",
+        "--join: {} must be fetched; without a terminal at most {} are: start it on a terminal",
         megabytes(octets), megabytes(kUnaskedOctets)));
-  fmt::print(console.err, "the files of the scene have {}: fetch them? [y/N] ", megabytes(octets));
+  fmt::print(console.err, "{} must be fetched for this scene: continue? [y/N] ", megabytes(octets));
   std::fflush(console.err);
   std::array<char, 16> answer{};
   if (std::fgets(answer.data(), answer.size(), stdin) == nullptr) return false;
@@ -78,7 +80,7 @@ bool approve(std::uint64_t octets, const Console& console) {
 
 /// The links and the exchange of a peer that has no scene yet.
 struct JoiningLink {
-  JoiningLink(peer::GroupAddress base, const SceneOptions& options) {
+  JoiningLink(peer::GroupAddress base, std::uint8_t exercise, const SceneOptions& options) {
     peer::LanLinkOptions lan_options;
     lan_options.udp.interface = options.iface;
     lan_options.udp.ipv6 = base.is_v6;
@@ -88,10 +90,12 @@ struct JoiningLink {
       peer::SealedLinkOptions sealing;
       sealing.key = peer::load_group_key(options.key);
       sealing.base = peer::object_messages_group(base);
+      sealing.places.exercise = exercise == 0 ? 1 : exercise;
       sealed = std::make_unique<peer::SealedLink>(lan->link(), std::move(sealing), clock);
     }
     peer::ObjectExchangeOptions exchange_options;
     exchange_options.base = base;
+    exchange_options.exercise = exercise;
     exchange_options.epoch = std::random_device{}() | 1U;
     exchange_options.seed = exchange_options.epoch;
     exchange = std::make_unique<peer::ObjectExchange>(link(), clock, exchange_options);
@@ -103,6 +107,17 @@ struct JoiningLink {
   std::unique_ptr<peer::SealedLink> sealed;
   std::unique_ptr<peer::ObjectExchange> exchange;
 };
+
+// The file is foreign data, and its problems quote it.
+std::string refusal_of_scene(const peer::SceneFileError& error) {
+  constexpr std::size_t kMost = 5;
+  std::string text = "--join: the received scene is refused:";
+  for (std::size_t i = 0; i < std::min(error.problems().size(), kMost); ++i) {
+    const peer::SceneProblem& problem = error.problems()[i];
+    text += fmt::format("\n  line {}: {}", problem.line, printable_text(problem.sentence));
+  }
+  return text;
+}
 
 const peer::SceneOffer& only_one(const std::vector<peer::SceneOffer>& offers,
                                  const peer::GroupAddress& base, bool has_key) {
@@ -122,10 +137,10 @@ const peer::SceneOffer& only_one(const std::vector<peer::SceneOffer>& offers,
 
 }  // namespace
 
-void join_scene(const std::string& where, SceneOptions& options, const Console& console) {
-  const peer::GroupAddress base = group_of(where);
+void join_scene(const JoinPlace& where, SceneOptions& options, const Console& console) {
+  const peer::GroupAddress base = group_of(where.group);
   try {
-    JoiningLink joining(base, options);
+    JoiningLink joining(base, static_cast<std::uint8_t>(where.exercise.value_or(0)), options);
     for (const std::string& sentence : joining.lan->report())
       fmt::print(console.err, "{}\n", sentence);
     const auto pump = [&] {
@@ -154,9 +169,9 @@ void join_scene(const std::string& where, SceneOptions& options, const Console& 
   } catch (const peer::KeyFileError& error) {
     throw UsageError(error.what());
   } catch (const peer::SceneFileError& error) {
-    throw UsageError(fmt::format("--join: the received scene is refused:\n{}", error.what()));
+    throw UsageError(refusal_of_scene(error));
   } catch (const std::runtime_error& error) {
-    throw EnvironmentError(fmt::format("--join: {}", error.what()));
+    throw EnvironmentError(fmt::format("--join: {}", printable_text(error.what())));
   }
 }
 

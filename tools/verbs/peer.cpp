@@ -27,7 +27,6 @@
 #include "reckon/tools/metrics/metrics_server.hpp"
 #include "reckon/tools/metrics/peer_metrics.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/verbs/join_scene.hpp"
 #include "reckon/tools/verbs/page_address.hpp"
 #include "reckon/tools/verbs/peer_lines.hpp"
 #include "reckon/tools/verbs/peer_page.hpp"
@@ -67,9 +66,11 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
       "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
   line.word("SCENE", options.scene.scene, false,
             "scene file, the same for all peers; not with --join");
-  line.flag("--join", options.join,
+  line.flag("--join", options.join.group,
             "get the scene from the peers that play it, instead of SCENE; with a value: their base "
             "group, e.g. --join=239.192.5.0:3000");
+  line.option("--exercise", options.join.exercise,
+              "with --join: number of the exercise, 1 to 255; default: any; with a key: 1");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
   line.option("--name", options.name,
@@ -300,13 +301,18 @@ void check_beacons(const std::string& list) {
 }
 
 void check_join(const PeerVerbOptions& options) {
-  if (options.join.empty() == options.scene.scene.empty())
-    throw UsageError(options.join.empty()
+  const JoinPlace& join = options.join;
+  if (join.group.empty() == options.scene.scene.empty())
+    throw UsageError(join.group.empty()
                          ? "write the scene file, for example scenes/two_hands.toml, or --join to "
                            "get the scene from the peers that play it"
                          : "--join gets the scene from other peers: leave SCENE out");
-  if (!options.join.empty() && !options.to.empty())
+  if (!join.group.empty() && !options.to.empty())
     throw UsageError("--join needs multicast: give SCENE with --to");
+  if (join.exercise && join.group.empty())
+    throw UsageError("--exercise is only for --join: a scene file has [network] exercise");
+  if (join.exercise && (*join.exercise < 1 || *join.exercise > 255))
+    throw UsageError(fmt::format("--exercise: {} is out of range: write 1 to 255", *join.exercise));
 }
 
 int run_peer(Arguments arguments, const Console& console) {
@@ -325,7 +331,7 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.balance && *options.balance < kPeerLookEvery)
     throw UsageError("--balance: write at least 100ms");
   check_join(options);
-  if (!options.join.empty()) join_scene(options.join, options.scene, console);
+  if (!options.join.group.empty()) join_scene(options.join, options.scene, console);
   return run(options, console);
 }
 

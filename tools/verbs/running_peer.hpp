@@ -17,6 +17,7 @@
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/exercise/stop_control.hpp"
+#include "reckon/tools/verbs/join_scene.hpp"
 #include "reckon/tools/verbs/page_address.hpp"
 
 namespace reckon::tools {
@@ -34,7 +35,7 @@ struct PeerVerbOptions {
   std::optional<std::chrono::nanoseconds> balance;
   std::string to;
   std::string follow;
-  std::string join;  ///< base group, or "true"; empty: the scene is given
+  JoinPlace join;  ///< group empty: the scene is given
   ViewSwitch view;
   std::string metrics, log;
 };

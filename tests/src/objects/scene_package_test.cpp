@@ -44,11 +44,11 @@ std::vector<Hostile> hostile_manifests() {
       {manifest(kHash.substr(1) + " 10 a\n"), "does not begin with a hash"},
       {manifest("A" + kHash.substr(1) + " 10 a\n"), "does not begin with a hash"},
       {manifest("../../../../etc/passwd 10 a\n"), "does not begin with a hash"},
-      {manifest(line("a", "-1")), "is no size"},
-      {manifest(line("a", "")), "is no size"},
-      {manifest(line("a", "0x10")), "is no size"},
-      {manifest(line("a", "268435457")), "is no size"},
-      {manifest(line("a", "99999999999999999999999")), "is no size"},
+      {manifest(line("a", "-1")), "has no size"},
+      {manifest(line("a", "")), "has no size"},
+      {manifest(line("a", "0x10")), "has no size"},
+      {manifest(line("a", "268435457")), "has no size"},
+      {manifest(line("a", "99999999999999999999999")), "has no size"},
       {manifest(line("")), "the path is empty"},
       {manifest(line("/etc/passwd")), "is absolute"},
       {manifest(line("..")), "leads out"},
@@ -63,8 +63,8 @@ std::vector<Hostile> hostile_manifests() {
       {manifest(line("a\x1b[2J")), "a control character"},
       {manifest(line(std::string(256, 'a'))), "longer than 255"},
       {manifest(line("a") + line("b") + line("a")), "a is named twice"},
-      {manifest(line("a") + line("a/b")), "a is a file and a folder"},
-      {manifest(many), "beyond 1000 files"},
+      {manifest(line("a") + line("a/b")), "a is named as a file and as a folder"},
+      {manifest(many), "exceeds 1000 files"},
       {manifest(std::string(600'000, 'a')), "has more than 524288 octets"},
   };
 }
@@ -165,10 +165,10 @@ TEST(MissingChunks, AreNamedCompletelyByRequests) {
 
 TEST(MissingChunks, OfHostileRequestsStayWithinTheObject) {
   const std::vector<std::byte> octets(1200, std::byte{0xFF});
-  for (const std::uint8_t form : {0, 1, 2, 255}) {
+  for (const unsigned form : {0u, 1u, 2u, 255u}) {
     for (const std::uint32_t first : {0u, 99u, 100u, 0xFFFFFFFFu}) {
       pdu::ObjectRequest request;
-      request.form = form;
+      request.form = static_cast<std::uint8_t>(form);
       request.first = first;
       for (std::size_t size = 0; size < octets.size(); size += 7)
         peer::for_each_missing(request, std::span(octets).first(size), 100,

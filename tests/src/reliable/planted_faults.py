@@ -30,7 +30,7 @@ PLANTS = [
     ("prior always 0", RECORDS, "reliable/shared_records.cpp", "  std::uint32_t prior = row->serials.before(serial);\n  for", "  std::uint32_t prior = row->serials.before(serial);\n  if (prior == 0) return 0;\n  for"),
     ("unknown serials called replaced", RECORDS, "reliable/written_serials.hpp", "return ranges_[i].first - 1;", "return 0;"),
     ("end of a repair not sent", RECORDS, "reliable/shared_records.cpp", "  if (has_last) return;\n", "  if (true) return;\n"),
-    ("last write not announced", RECORDS, "reliable/shared_records.cpp", "note_exists(std::max(row.serial, row.last))", "note_exists(row.serial)"),
+    ("last write not announced", RECORDS, "reliable/shared_records.cpp", "note_exists(row.last)", "note_exists(row.serial)"),
     ("ranges not joined", RECORDS, "reliable/written_serials.hpp", "ranges_[0].first <= known_ + 1", "ranges_[0].first <= known_"),
     ("only the writer repairs", RECORDS, "reliable/shared_records.cpp", "    repair(row, now);\n", "    if (row.writer == epoch_) repair(row, now);\n"),
     ("digest not compared", RECORDS, "reliable/shared_records.cpp", "if (ours.digest != row.digest) other = row.writer;", "if (false) other = row.writer;"),

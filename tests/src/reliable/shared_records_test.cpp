@@ -245,15 +245,72 @@ TEST(SharedRecords, AreRefusedIfTooLongOrTooMany) {
   SharedRecords records(1, 1);
   const std::string value(1025, 'a');
   const auto octets = std::as_bytes(std::span(value));
-  EXPECT_EQ(records.write("", octets.first(1), 0s), WriteResult::too_long);
-  EXPECT_EQ(records.write(std::string(64, 'k'), octets.first(1), 0s), WriteResult::too_long);
-  EXPECT_EQ(records.write("line\nfeed", octets.first(1), 0s), WriteResult::too_long);
-  EXPECT_EQ(records.write("key", octets, 0s), WriteResult::too_long);
+  EXPECT_EQ(records.write("", octets.first(1), 0s), WriteResult::invalid);
+  EXPECT_EQ(records.write(std::string(64, 'k'), octets.first(1), 0s), WriteResult::invalid);
+  EXPECT_EQ(records.write("line\nfeed", octets.first(1), 0s), WriteResult::invalid);
+  EXPECT_EQ(records.write("key", octets, 0s), WriteResult::invalid);
   EXPECT_EQ(records.write(std::string(63, 'k'), octets.first(1024), 0s), WriteResult::written);
   for (std::size_t i = 1; i < SharedRecords::kMostRecords; ++i)
     EXPECT_EQ(records.write(std::to_string(i), octets.first(1), 0s), WriteResult::written);
   EXPECT_EQ(records.write("one more", octets.first(1), 0s), WriteResult::full);
   EXPECT_EQ(records.write("5", octets.first(1), 0s), WriteResult::written) << "an old key";
+}
+
+// Each writes its last key before it receives the other's.
+TEST(SharedRecords, TooManyKeysAreTheSameEverywhere) {
+  Peers peers(3, 1, 0.1);
+  for (int i = 0; i < 1023; ++i) peers.write(0, "b" + std::to_string(i), "x");
+  peers.run(3s);
+  peers.write(0, "d", "x");
+  peers.write(1, "c", "x");
+  peers.write(2, "a", "x");
+  peers.run(3s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(peers.peer(i).size(), SharedRecords::kMostRecords);
+    EXPECT_TRUE(peers.peer(i).find("a"));
+    EXPECT_FALSE(peers.peer(i).find("c"));
+    EXPECT_FALSE(peers.peer(i).find("d"));
+    static_cast<void>(peers.peer(i).take_changes());
+  }
+  const std::uint64_t before = peers.octets();
+  peers.run(5s);
+  EXPECT_LT(peers.octets() - before, 5000u) << "no repair without end";
+}
+
+// Restarts of a peer are new writers: a list of what is known needs several messages.
+TEST(SharedRecords, OfManyWritersAreEqual) {
+  Peers peers(3, 1, 0.1);
+  std::array<std::byte, SharedRecords::kMostOctets> room;
+  for (std::uint32_t writer = 1000; writer < 1200; ++writer) {
+    SharedRecords gone(writer, writer);
+    const std::string key = "of " + std::to_string(writer);
+    ASSERT_EQ(gone.write(key, std::as_bytes(std::span(key)), peers.now()), WriteResult::written);
+    pdu::AssuredKind kind = pdu::AssuredKind::none;
+    const std::size_t size = gone.take_due(peers.now(), kind, room);
+    EXPECT_TRUE(peers.peer(writer % 3).take(kind, std::span(room).first(size), peers.now()));
+  }
+  for (std::size_t i = 0; i < 3; ++i) peers.peer(i).meet(peers.now());
+  peers.run(3s);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(peers.peer(i).size(), 200u);
+}
+
+TEST(SharedRecords, KeepTheirNumbersInRange) {
+  SharedRecords records(1, 1);
+  pdu::SharedRecordHead head;
+  head.counter = 0xFFFFFFFF;
+  head.writer = 9;
+  head.serial = 1;
+  head.key_length = 1;
+  std::array<std::byte, 21> octets{};
+  octets[20] = std::byte{'k'};
+  ASSERT_EQ(pdu::store_record(head, octets), 20u);
+  EXPECT_FALSE(records.take(pdu::AssuredKind::shared_record, octets, 0s));
+  head.counter = 1;
+  head.serial = 0xFFFFFFFF;
+  ASSERT_EQ(pdu::store_record(head, octets), 20u);
+  EXPECT_FALSE(records.take(pdu::AssuredKind::shared_record, octets, 0s));
+  EXPECT_EQ(records.write("k", {}, 0s), WriteResult::written);
+  EXPECT_EQ(records.find("k")->version.counter, 1u);
 }
 
 TEST(SharedRecords, SurviveHostileMessages) {
@@ -276,7 +333,7 @@ TEST(SharedRecords, SurviveHostileMessages) {
 
 TEST(SharedRecords, NobodyHasAreGivenUp) {
   SharedRecords records(1, 1);
-  const pdu::KnownSerial invented{99, 0xFFFFFFFF, 0xFFFFFFFF, 0};
+  const pdu::KnownSerial invented{99, 1'000'000, 1'000'000, 0};
   std::array<std::byte, 16> octets;
   ASSERT_EQ(pdu::store_record(invented, octets), 16u);
   records.take(pdu::AssuredKind::record_serials, octets, 0s);
