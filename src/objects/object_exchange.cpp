@@ -177,7 +177,7 @@ void ObjectExchange::take_request(const pdu::AssuredRecord& record) {
 void ObjectExchange::take_status(const pdu::AssuredRecord& record) {
   pdu::ObjectStatus status;
   if (!pdu::load_record(record.content.bytes, status)) return;
-  server_.take_status(record.epoch, status.object, now_);
+  server_.take_status(record.epoch, {status.object, record.sequence, status.pending}, now_);
   for (const auto& one : fetches_)
     if (one->key() == status.object)
       one->take_status(record.epoch, record.sequence, status.pending, now_);

@@ -80,9 +80,15 @@ void ObjectServer::stop(Served& served) noexcept {
   served.status_at = kNever;
 }
 
-void ObjectServer::take_status(std::uint32_t epoch, std::uint64_t key, Nanoseconds now) noexcept {
-  const auto served = std::ranges::find(served_, key, &Served::key);
+void ObjectServer::take_status(std::uint32_t epoch, const DueStatus& status,
+                               Nanoseconds now) noexcept {
+  const auto served = std::ranges::find(served_, status.key, &Served::key);
   if (served == served_.end()) return;
+  const bool sends = status.pending > 0 || epoch != served->other ||
+                     status.serial != served->other_serial;
+  served->other = epoch;
+  served->other_serial = status.serial;
+  if (!sends) return;
   served->heard = now;
   served->waiting.until = kNever;
   if (served->serves && epoch < epoch_) stop(*served);

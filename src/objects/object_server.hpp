@@ -65,8 +65,10 @@ class ObjectServer {
   /// Takes a request of another peer.
   void take_request(const pdu::ObjectRequest& request, std::span<const std::byte> missing,
                     std::chrono::nanoseconds now);
-  /// Takes the status of another server. Of two servers, the one with the lower epoch continues.
-  void take_status(std::uint32_t epoch, std::uint64_t key, std::chrono::nanoseconds now) noexcept;
+  /// Takes the status of another server. Of two servers that send, the one with the lower epoch
+  /// continues. One that only repeats its status may not receive the requests.
+  void take_status(std::uint32_t epoch, const DueStatus& status,
+                   std::chrono::nanoseconds now) noexcept;
   /// The next chunk that may be sent at `now`. @return false if there is none
   [[nodiscard]] bool take_chunk(std::chrono::nanoseconds now, DueChunk& due);
   /// The next status that is due. @return false if there is none
@@ -93,7 +95,8 @@ class ObjectServer {
     std::uint32_t cursor = 0;
     Nanoseconds requested{0};
     Nanoseconds status_at = kNever, pause{0};
-    Nanoseconds heard = Nanoseconds::min() / 2;  // the last status of another server
+    Nanoseconds heard = Nanoseconds::min() / 2;  // the last status of another server that sends
+    std::uint32_t other = 0, other_serial = 0;   // of the last status
     Waiting waiting;
   };
 

@@ -105,8 +105,8 @@ TEST(Notice, OfEachKindIsInTheTable) {
   std::ifstream page(test::source_dir() + "/docs/notices.md");
   const std::string text((std::istreambuf_iterator<char>(page)), {});
   EXPECT_NE(text.find(table), std::string::npos) << "docs/notices.md is behind:\n" << table;
-  EXPECT_EQ(facts_of(NoticeKind::undelivered).id, "undelivered") << "the last of both lists";
-  EXPECT_EQ(all_notice_facts().size(), static_cast<std::size_t>(NoticeKind::undelivered) + 1);
+  EXPECT_EQ(facts_of(NoticeKind::scene_not_offered).id, "scene-not-offered") << "the last of both";
+  EXPECT_EQ(all_notice_facts().size(), static_cast<std::size_t>(NoticeKind::scene_not_offered) + 1);
 }
 
 }  // namespace

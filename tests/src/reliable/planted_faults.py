@@ -44,6 +44,7 @@ PLANTS = [
     ("forged for ever", OBJECTS, "objects/object_fetch.cpp", "++counts_.forged >= kMostForged", "++counts_.forged == 0"),
     ("sent again while under way", OBJECTS, "objects/object_server.cpp", "if (!is_under_way) served", "if (true) served"),
     ("every holder serves", OBJECTS, "objects/object_server.cpp", "  served->waiting.until = kNever;\n  if (served->serves && epoch < epoch_) stop(*served);\n", ""),
+    ("deaf server believed", OBJECTS, "objects/object_server.cpp", "  if (!sends) return;\n", ""),
     ("no other server", OBJECTS, "objects/object_server.cpp", "if (served.waiting.until <= now)", "if (served.waiting.until <= now && served.waiting.request.server == 0)"),
     ("server never stops", OBJECTS, "objects/object_server.cpp", "now - served.requested > kUnwanted", "false"),
     ("rate ignored", OBJECTS, "objects/object_server.cpp", "if (credit_ < static_cast<double>(length)) return false;", ""),
