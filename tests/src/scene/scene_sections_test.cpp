@@ -62,6 +62,7 @@ TEST(SceneSections, FillEveryMemberOfASceneExceptThese) {
   const auto& settings = file.convergence.settings;
   std::vector<MemberPlace> unsaid = {
       of(file.path),
+      of(file.files),    // noted as the reader opens them
       of(file.scene),    // its objects, which the file check reads
       of(file.nodes),    // the result of the node tables
       of(file.devices),  // read from their own tables
@@ -75,6 +76,7 @@ TEST(SceneSections, FillEveryMemberOfASceneExceptThese) {
       of(settings.threshold),  // from [dead_reckoning]
       of(settings.threshold_angle),
       of(file.hash),
+      of(file.hash_in_file),
       of(file.network.exercise_named),       // set by which key is present
       of(file.network.management),           // from its text
       of(file.network.touch),                // from its texts
