@@ -60,8 +60,9 @@ def join(setup):
     with setup.testbed(3) as bed:
         refused(setup, bed, 3, "no peer offers a scene on 239.192.1.0:3000 within 3 s", 3)
         alice = bed.peer(1, setup.scene, "ALICE", 1)
+        refused(setup, bed, 3, "no peer offers a scene", 3, ("--exercise", "9"))
         check(alice.wait_line('"event":"notice"', 1) is None, f"a notice: {alice.lines}")
-        bob = joiner(setup, bed, 2, "BOB", 2)
+        bob = joiner(setup, bed, 2, "BOB", 2, ("--exercise", "1"))
         files = received(bob, 5)
         shown = bob.wait_event("appeared", 5, "ALICE")
         check(shown and shown[0] <= IN_WITHIN, f"in the exercise only after {shown} s")

@@ -304,8 +304,8 @@ void check_join(const PeerVerbOptions& options) {
   const JoinPlace& join = options.join;
   if (join.group.empty() == options.scene.scene.empty())
     throw UsageError(join.group.empty()
-                         ? "write the scene file, for example scenes/two_hands.toml, or --join to "
-                           "get the scene from the peers that play it"
+                         ? "SCENE is required: write reckon peer SCENE, or --join to get the scene "
+                           "from the peers that play it"
                          : "--join gets the scene from other peers: leave SCENE out");
   if (!join.group.empty() && !options.to.empty())
     throw UsageError("--join needs multicast: give SCENE with --to");

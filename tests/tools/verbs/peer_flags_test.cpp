@@ -187,11 +187,12 @@ TEST_F(PeerFlags, EachChangeAnObservableFact) {
   EXPECT_THAT(follower, Contains("follows"));
 
   // A flag missing in this list has no known effect. The test two_applications covers
-  // --application, the viewer tests the page's flags, NativeCode --plugin, StepTooDear
-  // --even-if-slow, and Pace --pace.
-  Facts known{"SCENE",  "--help",          "--operator", "--json", "--follow",   "--iface",
-              "--seed", "--application",   "--listen",   "--open", "--firmware", "--even-if-slow",
-              "--tls",  "--behind-tunnel", "--plugin",   "--log",  "--pace"};
+  // --application, namespaces.join --join and --exercise, the viewer tests the page's flags,
+  // NativeCode --plugin, StepTooDear --even-if-slow, and Pace --pace.
+  Facts known{"SCENE",      "--help",         "--operator",    "--json",          "--follow",
+              "--iface",    "--seed",         "--application", "--listen",        "--open",
+              "--firmware", "--even-if-slow", "--tls",         "--behind-tunnel", "--plugin",
+              "--log",      "--pace",         "--join",        "--exercise"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -214,6 +215,8 @@ TEST_F(PeerFlags, AreRefusedByNameWhereUseless) {
       {"--metrics", "crane"},   // no port
       {"--device", "crane"},    // no such driver
       {"--firmware", corner_},  // no firmware of a device
+      {"--join"},               // the scene is given
+      {"--exercise", "5"},      // the scene has it
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};
