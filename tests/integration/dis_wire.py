@@ -30,6 +30,11 @@ def udp_of_frame(frame):
     return sender, group, frame[at + 8:at + length]
 
 
+def udp_port_of_frame(frame):
+    """Destination port of a frame of udp_of_frame()."""
+    return struct.unpack_from(">H", frame, 14 + 4 * (frame[14] & 15) + 2)[0]
+
+
 def igmp_reports_of_frame(frame):
     """Groups that an Ethernet frame with IPv4 and IGMP (2 or 3) requests from a switch."""
     if len(frame) < 34 or frame[12:14] != b"\x08\x00" or frame[23] != 2:

@@ -15,6 +15,7 @@ from sniffer import SO_RCVBUFFORCE, SOL_PACKET, Observer
 
 PACKET_IGNORE_OUTGOING, SO_TIMESTAMPNS = 23, 35
 BASE_GROUP = "239.192.1.0"
+OBJECT_PORTS = (3002, 3003)  # files for those who join without the scene, which no balance contains
 JOINING = 0.2   # [s], longest time until a membership reaches the switch if its report was not recorded
 LEAVING = 0.05  # [s], longest time of a datagram from the switch to a socket
 WAITING = 30.0  # [s], longest time of a host's datagrams in its slow cable; its own copy arrives earlier
@@ -81,7 +82,7 @@ class Wire(Observer):
         for group in dis.igmp_reports_of_frame(frame):
             self.asked_for[host, group].append(when)
         datagram = dis.udp_of_frame(frame)
-        if datagram is None or len(datagram[2]) < 24:
+        if datagram is None or len(datagram[2]) < 24 or dis.udp_port_of_frame(frame) in OBJECT_PORTS:
             return
         place, payload = datagram[1], datagram[2]
         group, before = place, self.datagrams
