@@ -256,6 +256,36 @@ TEST(SharedRecords, AreRefusedIfTooLongOrTooMany) {
   EXPECT_EQ(records.write("5", octets.first(1), 0s), WriteResult::written) << "an old key";
 }
 
+TEST(SharedRecords, ReplacedInACutAreNotRequestedForEver) {
+  Peers peers(3, 1, 0.0);
+  for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
+  peers.write(0, "key", "first");
+  peers.run(1s);
+  peers.write(1, "key", "second");
+  peers.run(1s);
+  for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, false);
+  peers.run(2s);
+  EXPECT_EQ(peers.value(2, "key"), "second");
+  const std::uint64_t before = peers.sum(&peer::SharedRecordCounts::requests);
+  peers.run(5s);
+  EXPECT_EQ(peers.sum(&peer::SharedRecordCounts::requests), before);
+}
+
+// A peer learns that a record was replaced, but the one that replaced it is lost with its writer.
+TEST(SharedRecords, OfALostSuccessorComeBack) {
+  Peers peers(3, 1, 0.0);
+  for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
+  peers.write(0, "key", "first");
+  peers.run(1s);
+  const pdu::SharedRecordHead replaced{0, 10, 1, 0, 0, 0, 0};
+  std::array<std::byte, 20> octets;
+  ASSERT_EQ(pdu::store_record(replaced, octets), 20u);
+  ASSERT_TRUE(peers.peer(2).take(pdu::AssuredKind::shared_record, octets, peers.now()));
+  for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, false);
+  peers.run(2s);
+  EXPECT_EQ(peers.value(2, "key"), "first");
+}
+
 // Each writes its last key before it receives the other's.
 TEST(SharedRecords, TooManyKeysAreTheSameEverywhere) {
   Peers peers(3, 1, 0.1);
