@@ -51,6 +51,7 @@ LARGE = {
     "src/NetworkReadLoop": (102, 31),
     "src/PeerThreads": (191, 27),
     "src/RemoteEntities": (455, 21),
+    "src/SharedRecords": (305, 12),
     "src/RemoteEntity": (21, 31),
     "tools/Exercise": (304, 17),
     "tools/Listener": (327, 12),

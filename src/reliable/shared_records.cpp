@@ -18,9 +18,9 @@ using pdu::SharedRecordHead;
 
 /// A peer that lacks writes of another one's list gets ours within this time.
 constexpr std::chrono::milliseconds kAnswersWithin{20};
-/// A list that equals a received one is not sent, but so many times in a row at most: a peer that
+/// A list that equals a received one is not sent, but one is after so many periods: a peer that
 /// receives us may not receive the other.
-constexpr int kMostSuppressed = 3;
+constexpr int kMostPeriods = 4;
 
 /// Counters and serials above do not occur: no peer writes so often.
 constexpr std::uint32_t kMostNumber = std::uint32_t{1} << 31;
@@ -136,6 +136,10 @@ bool SharedRecords::take(AssuredKind kind, std::span<const std::byte> octets, Na
                        : kind == AssuredKind::record_request ? take_request(octets, now)
                                                              : false;
   if (!is_good) ++counts_.refused;
+  if (serials_at_ == kNever && !writers_.empty()) {
+    pause_ = kPeriod;
+    tell_serials_by(now + kPeriod + timer_.draw(kPeriod / 10));
+  }
   return is_good;
 }
 
@@ -189,8 +193,8 @@ bool SharedRecords::take_serials(std::span<const std::byte> octets, Nanoseconds 
   if (lacks) {
     pause_ = std::min(pause_, Nanoseconds(kAnswersWithin));
     tell_serials_by(now + timer_.draw(kAnswersWithin));
-  } else if (is_as_ours(octets, now) && pause_ >= kPeriod && suppressed_ < kMostSuppressed) {
-    ++suppressed_;
+  } else if (is_as_ours(octets, now) && pause_ >= kPeriod &&
+             now - listed_ < kMostPeriods * Nanoseconds(kPeriod)) {
     serials_at_ = now + kPeriod + timer_.draw(kPeriod / 10);
   }
   return is_good;
@@ -360,8 +364,9 @@ std::size_t SharedRecords::store_serials(Nanoseconds now, std::span<std::byte> r
   }
   if (next_writer_ < writers_.size()) return size;
   next_writer_ = 0;
-  suppressed_ = 0;
-  serials_at_ = now + pause_;
+  listed_ = now;
+  const bool is_at_rest = pause_ >= kPeriod;
+  serials_at_ = now + pause_ + (is_at_rest ? timer_.draw(kPeriod / 5) : Nanoseconds::zero());
   pause_ = std::min<Nanoseconds>(2 * pause_, kPeriod);
   return size;
 }

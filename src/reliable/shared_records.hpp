@@ -156,7 +156,7 @@ class SharedRecords {
   std::vector<std::string> changes_, reported_;
   Nanoseconds serials_at_ = kNever, pause_ = kFirstPause;
   std::size_t next_writer_ = 0;  // of a list of serials that needs several messages
-  int suppressed_ = 0;           // own lists in a row that were not sent
+  Nanoseconds listed_{0};        // the last list was sent
   Nanoseconds next_ = kNever;
   SharedRecordCounts counts_;
 };

@@ -5,159 +5,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <functional>
 #include <map>
-#include <memory>
-#include <queue>
 #include <random>
 #include <string>
-#include <vector>
 
+#include "reckon/tests/src/support/record_peers.hpp"
 #include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test {
 namespace {
 
-using namespace std::chrono_literals;
-using peer::SharedRecords;
-using peer::WriteResult;
-using std::chrono::nanoseconds;
-
-/// Peers on a network that loses, doubles, delays and reorders messages.
-class Peers {
- public:
-  Peers(std::size_t count, std::uint64_t seed, double loss) : random_(seed), loss_(loss) {
-    for (std::size_t i = 0; i < count; ++i) add();
-  }
-
-  std::size_t add() {
-    peers_.push_back(
-        std::make_unique<SharedRecords>(static_cast<std::uint32_t>(10 + peers_.size()), random_()));
-    for (const auto& one : peers_)
-      if (one) one->meet(now_);
-    cut_.push_back(std::vector<bool>(64, false));
-    return peers_.size() - 1;
-  }
-  [[nodiscard]] SharedRecords& peer(std::size_t index) { return *peers_[index]; }
-  [[nodiscard]] std::size_t size() const { return peers_.size(); }
-  [[nodiscard]] bool lives(std::size_t index) const { return peers_[index] != nullptr; }
-  [[nodiscard]] nanoseconds now() const { return now_; }
-  [[nodiscard]] std::mt19937_64& random() { return random_; }
-  void remove(std::size_t index) { peers_[index].reset(); }
-  /// Nothing passes from one to the other.
-  void cut(std::size_t from, std::size_t to, bool is_cut) { cut_[from][to] = is_cut; }
-  void set_loss(double loss) { loss_ = loss; }
-
-  void write(std::size_t index, const std::string& key, const std::string& value) {
-    ASSERT_EQ(peer(index).write(key, std::as_bytes(std::span(value)), now_), WriteResult::written);
-  }
-  [[nodiscard]] std::string value(std::size_t index, const std::string& key) {
-    const auto record = peer(index).find(key);
-    if (!record) return "";
-    const auto* letters = reinterpret_cast<const char*>(record->value.data());
-    return {letters, record->value.size()};
-  }
-
-  void run(nanoseconds time) {
-    const nanoseconds end = now_ + time;
-    while (now_ < end) {
-      nanoseconds next = end;
-      if (!under_way_.empty()) next = std::min(next, under_way_.top().arrives);
-      for (const auto& one : peers_)
-        if (one) next = std::min(next, one->next_step());
-      now_ = std::max(now_, next);
-      while (!under_way_.empty() && under_way_.top().arrives <= now_) {
-        const Message message = under_way_.top();
-        under_way_.pop();
-        if (peers_[message.to]) peers_[message.to]->take(message.kind, message.octets, now_);
-      }
-      for (std::size_t i = 0; i < peers_.size(); ++i) send_due(i);
-    }
-  }
-  /// All tables have the same keys, values and versions.
-  [[nodiscard]] bool are_equal(const std::vector<std::string>& keys) {
-    for (const std::string& key : keys) {
-      const peer::SharedRecord* first = nullptr;
-      std::optional<peer::SharedRecord> kept;
-      for (const auto& one : peers_) {
-        if (!one) continue;
-        const auto record = one->find(key);
-        if (!first) {
-          kept = record;
-          first = kept ? &*kept : nullptr;
-          is_first_empty_ = !kept;
-          if (is_first_empty_) first = &none_;
-          continue;
-        }
-        if (record.has_value() == is_first_empty_) return false;
-        if (record &&
-            (record->version != first->version || !std::ranges::equal(record->value, first->value)))
-          return false;
-      }
-    }
-    return true;
-  }
-  [[nodiscard]] std::uint64_t octets() const { return octets_; }
-  [[nodiscard]] std::uint64_t sum(std::uint64_t peer::SharedRecordCounts::*count) const {
-    std::uint64_t sum = 0;
-    for (const auto& one : peers_) sum += one ? one->counts().*count : 0;
-    return sum;
-  }
-
- private:
-  struct Message {
-    nanoseconds arrives;
-    std::uint64_t number;
-    std::size_t to;
-    pdu::AssuredKind kind;
-    std::vector<std::byte> octets;
-    bool operator<(const Message& other) const {
-      return std::tie(other.arrives, other.number) < std::tie(arrives, number);
-    }
-  };
-
-  double draw() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-
-  void send_due(std::size_t from) {
-    if (!peers_[from]) return;
-    std::array<std::byte, SharedRecords::kMostOctets> room;
-    pdu::AssuredKind kind = pdu::AssuredKind::none;
-    while (const std::size_t size = peers_[from]->take_due(now_, kind, room)) {
-      octets_ += size;
-      for (std::size_t to = 0; to < peers_.size(); ++to) {
-        if (to == from || !peers_[to] || cut_[from][to]) continue;
-        for (int copies = draw() < 0.1 ? 2 : 1; copies > 0; --copies)
-          if (draw() >= loss_)
-            under_way_.push({now_ + 200us + nanoseconds(static_cast<std::int64_t>(3e6 * draw())),
-                             ++sent_,
-                             to,
-                             kind,
-                             {room.begin(), room.begin() + size}});
-      }
-    }
-  }
-
-  std::mt19937_64 random_;
-  double loss_;
-  nanoseconds now_{0};
-  std::vector<std::unique_ptr<SharedRecords>> peers_;
-  std::vector<std::vector<bool>> cut_;
-  std::priority_queue<Message> under_way_;
-  std::uint64_t sent_ = 0, octets_ = 0;
-  bool is_first_empty_ = false;
-  peer::SharedRecord none_;
-};
-
-std::vector<std::string> keys_of(std::size_t count) {
-  std::vector<std::string> keys;
-  for (std::size_t i = 0; i < count; ++i) keys.push_back("key " + std::to_string(i));
-  return keys;
-}
-
 TEST(SharedRecords, ReachEachPeerWithTheLatestValue) {
-  Peers peers(3, 1, 0.0);
+  RecordPeers peers(3, 1, 0.0);
   peers.write(0, "colour", "red");
   peers.run(50ms);
   peers.write(1, "colour", "green");
@@ -173,7 +33,7 @@ TEST(SharedRecords, ReachEachPeerWithTheLatestValue) {
 }
 
 TEST(SharedRecords, WrittenAtOnceByTwoAreEqual) {
-  Peers peers(4, 1, 0.2);
+  RecordPeers peers(4, 1, 0.2);
   for (std::size_t i = 0; i < 4; ++i) peers.write(i, "colour", std::to_string(i));
   peers.run(2s);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(peers.value(i, "colour"), "3") << "highest epoch";
@@ -182,7 +42,7 @@ TEST(SharedRecords, WrittenAtOnceByTwoAreEqual) {
 // Half of the writes are replaced during the cut: the octets are of the values that are left.
 TEST(SharedRecords, AreEqualSoonAfterACut) {
   for (const bool one_way : {false, true}) {
-    Peers peers(4, 7, 0.05);
+    RecordPeers peers(4, 7, 0.05);
     const auto keys = keys_of(40);
     for (const auto& key : keys) peers.write(0, key, std::string(500, 'a'));
     peers.run(5s);
@@ -207,7 +67,7 @@ TEST(SharedRecords, AreEqualSoonAfterACut) {
 }
 
 TEST(SharedRecords, AreEqualSoonAfterASecondWithoutNetwork) {
-  Peers peers(5, 3, 1.0);
+  RecordPeers peers(5, 3, 1.0);
   const auto keys = keys_of(20);
   for (const auto& key : keys) peers.write(key.size() % 5, key, "a");
   peers.run(1s);
@@ -218,7 +78,7 @@ TEST(SharedRecords, AreEqualSoonAfterASecondWithoutNetwork) {
 }
 
 TEST(SharedRecords, OutliveTheirWriter) {
-  Peers peers(3, 3, 0.1);
+  RecordPeers peers(3, 3, 0.1);
   const auto keys = keys_of(100);
   for (const auto& key : keys) peers.write(0, key, key);
   for (const auto& key : keys) peers.write(0, key, key + " again");
@@ -231,7 +91,7 @@ TEST(SharedRecords, OutliveTheirWriter) {
 }
 
 TEST(SharedRecords, AtRestCostFewListsASecond) {
-  Peers peers(16, 3, 0.0);
+  RecordPeers peers(16, 3, 0.0);
   peers.write(0, "colour", "red");
   peers.run(5s);
   const std::uint64_t before = peers.octets();
@@ -256,8 +116,19 @@ TEST(SharedRecords, AreRefusedIfTooLongOrTooMany) {
   EXPECT_EQ(records.write("5", octets.first(1), 0s), WriteResult::written) << "an old key";
 }
 
+TEST(SharedRecords, OutliveTheirWriterBehindACut) {
+  RecordPeers peers(3, 1, 0.0);
+  for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
+  peers.write(0, "key", "first");
+  peers.run(1s);
+  peers.remove(0);
+  peers.cut(1, 2, false);
+  peers.run(2s);
+  EXPECT_EQ(peers.value(2, "key"), "first");
+}
+
 TEST(SharedRecords, ReplacedInACutAreNotRequestedForEver) {
-  Peers peers(3, 1, 0.0);
+  RecordPeers peers(3, 1, 0.0);
   for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
   peers.write(0, "key", "first");
   peers.run(1s);
@@ -273,7 +144,7 @@ TEST(SharedRecords, ReplacedInACutAreNotRequestedForEver) {
 
 // A peer learns that a record was replaced, but the one that replaced it is lost with its writer.
 TEST(SharedRecords, OfALostSuccessorComeBack) {
-  Peers peers(3, 1, 0.0);
+  RecordPeers peers(3, 1, 0.0);
   for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
   peers.write(0, "key", "first");
   peers.run(1s);
@@ -288,7 +159,7 @@ TEST(SharedRecords, OfALostSuccessorComeBack) {
 
 // Each writes its last key before it receives the other's.
 TEST(SharedRecords, TooManyKeysAreTheSameEverywhere) {
-  Peers peers(3, 1, 0.1);
+  RecordPeers peers(3, 1, 0.1);
   for (int i = 0; i < 1023; ++i) peers.write(0, "b" + std::to_string(i), "x");
   peers.run(3s);
   peers.write(0, "d", "x");
@@ -309,7 +180,7 @@ TEST(SharedRecords, TooManyKeysAreTheSameEverywhere) {
 
 // Restarts of a peer are new writers: a list of what is known needs several messages.
 TEST(SharedRecords, OfManyWritersAreEqual) {
-  Peers peers(3, 1, 0.1);
+  RecordPeers peers(3, 1, 0.1);
   std::array<std::byte, SharedRecords::kMostOctets> room;
   for (std::uint32_t writer = 1000; writer < 1200; ++writer) {
     SharedRecords gone(writer, writer);
@@ -386,7 +257,7 @@ TEST(SharedRecords, AreEqualAfterAnyFaults) {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     std::mt19937_64 random(seed);
     const auto draw = [&](std::uint64_t most) { return random() % most; };
-    Peers peers(2 + draw(6), seed, 0.1 * static_cast<double>(draw(5)));
+    RecordPeers peers(2 + draw(6), seed, 0.1 * static_cast<double>(draw(5)));
     const auto keys = keys_of(1 + draw(30));
     std::map<std::string, std::size_t> written;
     for (int event = 0; event < 60; ++event) {
