@@ -127,7 +127,7 @@ TEST(SharedRecords, OutliveTheirWriterBehindACut) {
   EXPECT_EQ(peers.value(2, "key"), "first");
 }
 
-TEST(SharedRecords, ReplacedInACutAreNotRequestedForEver) {
+TEST(SharedRecords, ReplacedInACutAreNotRequestedAgain) {
   RecordPeers peers(3, 1, 0.0);
   for (std::size_t i = 0; i < 2; ++i) peers.cut(i, 2, true);
   peers.write(0, "key", "first");
