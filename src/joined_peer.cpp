@@ -140,6 +140,8 @@ void JoinedPeer::offer_scene() {
     objects_ = std::make_unique<ObjectService>(sealed_ ? *objects_sealed_ : objects_lan_->link(),
                                                steady_, scene, pool_of(scene).size(), exchange);
   } catch (const std::exception& error) {
+    objects_sealed_.reset();
+    objects_lan_.reset();
     static_cast<void>(peer_->notices().push(
         make_notice(NoticeKind::scene_not_offered, "the scene is not offered: {}", error.what())));
   }

@@ -249,9 +249,9 @@ void SharedRecords::watch(Writer& writer, Nanoseconds now) {
   if (writer.serials.has_all()) {
     writer.ask_at = writer.missing_since = kNever;
     writer.pause = kAgain;
-  } else if (writer.ask_at == kNever) {
-    writer.ask_at = now + timer_.draw(kLongestWait);
-    writer.missing_since = now;
+  } else {
+    if (writer.ask_at == kNever) writer.ask_at = now + timer_.draw(kLongestWait);
+    writer.missing_since = std::min(writer.missing_since, now);
   }
 }
 
@@ -331,6 +331,7 @@ std::size_t SharedRecords::store_request(Nanoseconds now, std::span<std::byte> r
   std::size_t size = 0;
   for (Writer& writer : writers_) {
     if (writer.ask_at > now) continue;
+    if (size + kSize * (WrittenSerials::kMostRanges + 1) > room.size()) break;
     if (std::exchange(writer.asks_all, false)) {
       const MissingSerials all{writer.epoch, 1, writer.serials.last()};
       size += pdu::store_record(all, room.subspan(size));
@@ -343,7 +344,6 @@ std::size_t SharedRecords::store_request(Nanoseconds now, std::span<std::byte> r
       watch(writer, now);
       continue;
     }
-    if (size + kSize * (WrittenSerials::kMostRanges + 1) > room.size()) break;
     writer.serials.for_each_missing([&](const WrittenSerials::Range& range) {
       const MissingSerials row{writer.epoch, range.first, range.last};
       size += pdu::store_record(row, room.subspan(size));

@@ -60,8 +60,9 @@ peer::GroupAddress group_of(const std::string& where) {
   const auto group = peer::IpEndpoint::parse(where, base.port);
   if (!group || !group->is_multicast() || group->port == 0 || group->port > kMostPort)
     throw UsageError(fmt::format(
-        "--join: '{}' is no multicast group: write the base group of the exercise, for example {}",
-        where, base.text()));
+        "--join: '{}' is no multicast group with a port up to {}: write the base group of the "
+        "exercise, for example {}",
+        where, kMostPort, base.text()));
   return *group;
 }
 

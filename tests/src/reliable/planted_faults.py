@@ -24,7 +24,7 @@ PLANTS = [
     ("older version wins", RECORDS, "reliable/shared_records.cpp", "row->version >= record.version", "row->version < record.version"),
     ("writer decides nothing", RECORDS, "reliable/shared_records.cpp", "row->version >= record.version", "row->version.counter >= record.version.counter"),
     ("counter stays", RECORDS, "reliable/shared_records.cpp", "before->version.counter + 1, epoch_", "before->version.counter, epoch_"),
-    ("lost write never requested", RECORDS, "reliable/shared_records.cpp", "    writer.ask_at = now + timer_.draw(kLongestWait);\n    writer.missing_since = now;\n", ""),
+    ("lost write never requested", RECORDS, "reliable/shared_records.cpp", "    if (writer.ask_at == kNever) writer.ask_at = now + timer_.draw(kLongestWait);\n    writer.missing_since", "    writer.missing_since"),
     ("request sent once", RECORDS, "reliable/shared_records.cpp", "    writer.ask_at = now + writer.pause;\n", "    writer.ask_at = kNever;\n"),
     ("list never repeated", RECORDS, "reliable/shared_records.cpp", "  serials_at_ = now + pause_ + (is_at_rest", "  serials_at_ = kNever - pause_ - (is_at_rest"),
     ("prior always 0", RECORDS, "reliable/shared_records.cpp", "  std::uint32_t prior = row->serials.before(serial);\n  for", "  std::uint32_t prior = row->serials.before(serial);\n  if (prior == 0) return 0;\n  for"),
